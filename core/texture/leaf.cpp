@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "core/texture/noise.h"
+
 namespace seedmesh::texture {
 namespace {
 
@@ -18,8 +20,6 @@ constexpr int leaves_of_a_twig = 21, blossoms_of_a_spray = 9, narrow_leaves_of_a
 constexpr int rows_a_look = 32;
 // The share of the accent colour in the heart of a blossom, and where on the petals it ends.
 constexpr float heart = 0.85F, heart_end = 0.3F;
-
-float clamp(float x) { return x < 0 ? 0 : x > 1 ? 1 : x; }
 
 /// Pixels [x0, x1) x [y0, y1).
 struct Window {
@@ -189,7 +189,7 @@ class Painter {
         const float cover = covers[static_cast<std::size_t>(x - window.x0)];
         if (cover <= 0) continue;
         const vec2 p = view_.leaf(x, y) - base;
-        const float t = clamp(glm::dot(p, along) * by_length), side = glm::dot(p, across);
+        const float t = clamp_share(glm::dot(p, along) * by_length), side = glm::dot(p, across);
         const float tone = 0.42F + own_tone + 0.05F * (side > 0 ? 1.0F : -1.0F) + 0.1F * t;
         mix(relief_.tone.at(x, y), tone, cover);
         mix(relief_.height.at(x, y), 0.62F - 0.25F * side * side, cover);
@@ -214,12 +214,12 @@ class Painter {
       if (y % rows_a_look == 0) job_.check();
       for (int x = window.x0; x < window.x1; ++x) {
         const vec2 p = view_.leaf(x, y) - from;
-        const float t = clamp(glm::dot(p, along) / squared);
+        const float t = clamp_share(glm::dot(p, along) / squared);
         const vec2 off = p - along * t;
         const float distance = std::sqrt(glm::dot(off, off));
         const auto width = static_cast<float>(line.width + (line.end_width - line.width) * t);
         const float half = std::max(0.5F * width * widen, 0.35F * view_.texel_size());
-        const float cover = clamp((half - distance) * by_texel + 0.5F);
+        const float cover = clamp_share((half - distance) * by_texel + 0.5F);
         if (cover > 0) body(x, y, cover, std::min(1.0F, distance / half));
       }
     }
@@ -310,17 +310,23 @@ const Kind& kind_named(std::string_view name) {
 }
 
 void add_grain(Relief& relief, const LeafPicture& picture, Rng rng, const Job& job) {
-  Field blotches(job, relief.tone.size());
-  add_noise(blotches, {5, 5}, {5, 0.6F}, 0.5F, rng.at("blotches"), job);
+  const int size = relief.tone.size();
+  const Noise blotches(size, {5, 5}, {5, 0.6F}, 0.5F, rng.at("blotches"));
   const bool is_petal = picture.shape == LeafShape::petal && picture.count == 1;
-  const auto size = static_cast<float>(relief.tone.size());
-  relief.tone.each(job, [&](float tone, int x, int y) { return clamp(tone + 0.22F * blotches.row(y)[x]); });
-  relief.height.each(job,
-                     [&](float height, int x, int y) { return clamp(height + 0.05F * blotches.row(y)[x]); });
-  if (is_petal) {
-    relief.accent.each(
-        job, [&](float, int, int y) { return 0.9F * step_between(0.68F, 1, static_cast<float>(y) / size); });
-  }
+  for_rows(job, size, [&](int begin, int end) {
+    NoiseRows rows(blotches);
+    for (int y = begin; y < end; ++y) {
+      const float* blotch = rows.row(y);
+      float *tone = relief.tone.row(y), *height = relief.height.row(y);
+      for (int x = 0; x < size; ++x) {
+        tone[x] = clamp_share(tone[x] + 0.22F * blotch[x]);
+        height[x] = clamp_share(height[x] + 0.05F * blotch[x]);
+      }
+      if (!is_petal) continue;
+      const float eye = 0.9F * step_between(0.68F, 1, static_cast<float>(y) / static_cast<float>(size));
+      std::fill_n(relief.accent.row(y), size, eye);
+    }
+  });
 }
 
 }  // namespace
@@ -373,7 +379,7 @@ float leaf_cutoff(std::string_view kind) {
 Painting paint_leaf(std::string_view kind, int size, std::uint64_t seed, const Tint& tint, const Job& job) {
   const LeafPicture picture = leaf_picture(kind);
   const Rng rng = Rng::of_seed(seed).at(kind);
-  Relief relief{Field(job, size, 0.4F), Field(job, size, 0.45F), Field(job, size), Field(job, size)};
+  Relief relief{Field(job, size, 0.4F), Field(job, size, 0.45F), Field(job, size, 0), Field(job, size, 0)};
   const LeafDrawing drawing = draw_leaf(picture.shape, {}, picture.count);
   const bool is_spray = picture.shape == LeafShape::petal && picture.count > 1;
   Painter painter(drawing, relief, rng, is_spray, job);

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "core/geom/plant/leaf_shape.h"
+#include "core/model/model.h"
 #include "core/texture/bark.h"
 
 namespace seedmesh::texture {

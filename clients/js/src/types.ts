@@ -1314,8 +1314,6 @@ export interface TerrainParameters {
   water_level?: number;
   /** Pixels a side of a colour texture and a normal map of the whole field, instead of vertex colours. 0: none. Not on a sphere. */
   texture?: number;
-  /** Adds a colour texture, a normal map and a roughness map that repeat each three metres, in the second set of texture coordinates. They show soil, sand, snow or rock by the palette, and multiply the vertex colours. Not with texture, and not on a sphere. */
-  detail?: boolean;
   /** Applies the heights to the surface of another model instead of a plane. They keep their metres and continue mirrored beyond their edges, so that there is no seam. The model keeps its materials. */
   onto?: TerrainParametersOnto;
   /** The contents of the formats png16, png8, rgb24, rgba32 and r16. */
@@ -2297,6 +2295,72 @@ export interface TreeDerivation {
 }
 
 export type CityDerivation = { [key: string]: unknown };
+
+/** Levels, extent and origin of the world, and the height of its sea. */
+export interface WorldDerivation {
+  levels: number;
+  extent: number;
+  origin: number[];
+  sea_level: number | null;
+  warnings: WarningsItem[];
+}
+
+/** Rows from the south, columns from the west, both borders included. */
+export interface WorldMapHeights {
+  columns?: number;
+  rows?: number;
+  values?: number[];
+}
+
+export interface WorldMapSettlementsItem {
+  id?: string;
+  position?: [number, number, number];
+  radius?: number;
+}
+
+export interface WorldMapRiversItem {
+  id?: string;
+  into?: string;
+  points?: ([number, number, number])[];
+  widths?: number[];
+}
+
+export interface WorldMapLakesItem {
+  id?: string;
+  level?: number;
+  outline?: number[][];
+}
+
+export interface WorldMapRoadsItem {
+  id?: string;
+  width?: number;
+  points?: ([number, number, number])[];
+}
+
+export interface WorldMapPlantsItem {
+  class?: string;
+  spacing?: number;
+  count?: number;
+  places?: ([number, number, number])[];
+}
+
+/** What touches a box of a world. Positions are [east, north, height] in metres from the middle of the world; sea_level is null where there is no sea. */
+export interface WorldMap {
+  /** west, south, east, north */
+  box: [number, number, number, number];
+  sea_level: number | null;
+  /** Rows from the south, columns from the west, both borders included. */
+  heights?: WorldMapHeights;
+  settlements: WorldMapSettlementsItem[];
+  /** From source to mouth, whole; `into` is `sea` or the id of a lake or river. A width for each point. */
+  rivers: WorldMapRiversItem[];
+  lakes: WorldMapLakesItem[];
+  roads: WorldMapRoadsItem[];
+  /** By class; `places` for boxes of at most 2,048 m a side. `spacing` is the least distance within the class. */
+  plants: WorldMapPlantsItem[];
+}
+
+export type WorldPosition = [number, number, number];
 
 /** In the frame of the unit element. Values that do not apply, are unknown, or are too large for a number are null. */
 export interface FractalDerivation {

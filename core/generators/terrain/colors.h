@@ -28,8 +28,6 @@ class GroundColors {
   GroundColors(PaletteName palette, const Range& range, float level);
   Cover cover(const Site& site) const;
   glm::vec3 color(const Site& site) const;  ///< linear
-  /// Makes all colours lighter by a factor, for surfaces whose texture darkens them.
-  void lighten(float factor) { lighter_ = factor; }
 
  private:
   struct Shares {
@@ -39,7 +37,7 @@ class GroundColors {
 
   PaletteName palette_;
   Range range_;
-  float level_, span_, lighter_ = 1;
+  float level_, span_;
   bool water_;
 };
 

@@ -12,8 +12,6 @@
 #include "core/generators/terrain/plan.h"
 #include "core/generators/terrain/scan.h"
 #include "core/generators/terrain/surface.h"
-#include "core/texture/ground.h"
-#include "core/texture/wall.h"
 #include "generated/params/terrain.h"
 
 namespace seedmesh::terrain {
@@ -36,29 +34,6 @@ Material wall_material() {
   material.name = "earth";
   material.base_color = {linear_of_srgb(104), linear_of_srgb(88), linear_of_srgb(72), 1};
   material.roughness = 1;
-  return material;
-}
-
-/// The image of the ground by the palette, and its set of texture coordinates.
-Material detailed_material(const TerrainParams& params) {
-  Material material = ground_material();
-  switch (params.palette) {
-    case TerrainPalette::desert:
-      material.recipe.kind = "sand_ground";
-      break;
-    case TerrainPalette::arctic:
-      material.recipe.kind = "snow_ground";
-      break;
-    case TerrainPalette::volcanic:
-    case TerrainPalette::moon:
-      material.recipe.kind = "rock_ground";
-      break;
-    default:
-      material.recipe.kind = "soil_ground";
-  }
-  for (TextureUse* use : {&material.base_color_texture, &material.normal_texture,
-                          &material.metallic_roughness_texture, &material.occlusion_texture})
-    use->uv_set = 1;
   return material;
 }
 
@@ -90,8 +65,7 @@ class Dressing {
     Node root;
     root.name = "terrain";
     model.nodes.push_back(std::move(root));
-    const int ground = add_material(model, has_detail() ? detailed_material(params_) : ground_material());
-    if (has_detail()) ground_colors_.lighten(1 / texture::wall_grey().x);
+    const int ground = add_material(model, ground_material());
     if (params_.texture > 0) {
       add_pictures(model, ground);
     } else if (params_.palette != TerrainPalette::none &&
@@ -104,18 +78,6 @@ class Dressing {
   }
 
  private:
-  bool has_detail() const { return params_.detail && params_.texture == 0 && demand_.textures > 0; }
-
-  /// With texture coordinates of the detail in set 1: the image repeats on the plane.
-  Mesh detailed(Mesh mesh) const {
-    if (!has_detail()) return mesh;
-    mesh.uv[1] = Array<glm::vec2>(job_, mesh.position.size());
-    constexpr auto by_tile = static_cast<float>(1 / texture::ground_tile);
-    for (std::size_t i = 0; i < mesh.position.size(); ++i)
-      mesh.uv[1][i] = glm::vec2(mesh.position[i].x, mesh.position[i].z) * by_tile;
-    return mesh;
-  }
-
   Sites sites() const { return {field_, window_of(params_), job_.rng().at("terrain"), job_}; }
 
   /// Returns the function that gives the colour of a sample of a coarse mesh; empty without colours. The sites
@@ -159,7 +121,7 @@ class Dressing {
       Ground made = whole_ground(level, model);
       if (level > 0 && made.mesh.elements() >= coarsest_) break;
       coarsest_ = made.mesh.elements();
-      const int mesh = add_mesh(model, level_name("ground", level), detailed(std::move(made.mesh)), ground);
+      const int mesh = add_mesh(model, level_name("ground", level), std::move(made.mesh), ground);
       if (walled) {
         if (earth < 0) earth = add_material(model, wall_material());
         model.meshes[static_cast<std::size_t>(mesh)].primitives.push_back(
@@ -233,14 +195,14 @@ class Dressing {
   /// Borders keep all their samples, so that adjacent pieces fit together at any levels.
   Piece made_piece(const Window& part) {
     Piece made;
-    made.meshes.push_back(detailed(grid_mesh(field_, part, colors_, shading_, job_)));
+    made.meshes.push_back(grid_mesh(field_, part, colors_, shading_, job_));
     made.notes.resize(1);
     for (int level = 1; level < demand_.lods; ++level) {
       Triangulation plan = decimated(field_, part, 1 << level, Border::whole, job_);
       made.notes.push_back(note_of(plan));
       if (plan.index.size() / 3 >= made.meshes.back().elements()) continue;
       const Coarse coarse{shading_, 1 << level, part, true};
-      made.meshes.push_back(detailed(reduced_mesh(field_, std::move(plan), color_of(), coarse, job_)));
+      made.meshes.push_back(reduced_mesh(field_, std::move(plan), color_of(), coarse, job_));
     }
     return made;
   }

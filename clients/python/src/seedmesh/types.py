@@ -843,7 +843,6 @@ class TerrainParameters(TypedDict, total=False):
     palette: Literal['alpine', 'desert', 'tropical', 'arctic', 'volcanic', 'moon', 'grey', 'none']
     water_level: float
     texture: int
-    detail: bool
     onto: "TerrainParametersOnto"
     heightmap: "TerrainParametersHeightmap"
 
@@ -1414,6 +1413,69 @@ class TreeDerivation(TypedDict):
 
 
 CityDerivation = Dict[str, Any]
+
+class WorldDerivation(TypedDict):
+    levels: int
+    extent: float
+    origin: List[int]
+    sea_level: Union[float, None]
+    warnings: List["WarningsItem"]
+
+
+class WorldMapHeights(TypedDict, total=False):
+    columns: int
+    rows: int
+    values: List[float]
+
+
+class WorldMapSettlementsItem(TypedDict, total=False):
+    id: str
+    position: List[float]
+    radius: float
+
+
+class WorldMapRiversItem(TypedDict, total=False):
+    id: str
+    into: str
+    points: List[List[float]]
+    widths: List[float]
+
+
+class WorldMapLakesItem(TypedDict, total=False):
+    id: str
+    level: float
+    outline: List[List[float]]
+
+
+class WorldMapRoadsItem(TypedDict, total=False):
+    id: str
+    width: float
+    points: List[List[float]]
+
+
+WorldMapPlantsItem = TypedDict("WorldMapPlantsItem", {
+    'class': str,
+    'spacing': float,
+    'count': int,
+    'places': List[List[float]],
+}, total=False)
+
+
+class _WorldMapRequired(TypedDict):
+    box: List[float]
+    sea_level: Union[float, None]
+    settlements: List["WorldMapSettlementsItem"]
+    rivers: List["WorldMapRiversItem"]
+    lakes: List["WorldMapLakesItem"]
+    roads: List["WorldMapRoadsItem"]
+    plants: List["WorldMapPlantsItem"]
+
+
+class WorldMap(_WorldMapRequired, total=False):
+    heights: "WorldMapHeights"
+
+
+WorldPosition = List[float]
 
 class FractalDerivation(TypedDict):
     pieces: Union[float, None]
