@@ -147,8 +147,8 @@ Json attributes_of(const Blueprint& blueprint) {
       row["maximum"] = attribute.high;
     }
     for (const lang::TaggedValue& value : attribute.choices) {
-      const std::string* const text = grammar.texts.find(value.text);
-      row["values"].push_back(text != nullptr ? Json(*text) : Json(value.number));
+      const std::string* const word = grammar.texts.find(value.text);
+      row["values"].push_back(word != nullptr ? Json(*word) : Json(value.number));
     }
     rows.push_back(std::move(row));
   }
