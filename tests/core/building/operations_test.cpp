@@ -2,11 +2,6 @@
 
 #include <gmock/gmock.h>
 
-#include <map>
-#include <regex>
-#include <set>
-
-#include "core/generators/building/blueprints/blueprints.h"
 #include "core/generators/building/inner_rectangle.h"
 #include "core/generators/building/spatial_queries.h"
 #include "tests/core/building/rules.h"
@@ -233,31 +228,6 @@ TEST(Queries, FindWhetherAStreetIsVisible) {
   EXPECT_EQ(seen("[ T(-5, 0, 10) S(12, 12, 1) R(0, 0, 0) i(\"triangular_prism\") Wall. ]"),
             "Street Wall blind");
   EXPECT_EQ(leaves("A ~> F  F : Shape.visible(\"Street\") ~> sees.  F ~> blind."), "blind");
-}
-
-// The annotations, read from the text of the rules by a pattern.
-TEST(Vocabulary, HasTheRangesOfEveryBlueprint) {
-  const Json all = vocabulary();
-  ASSERT_EQ(all["building_blueprints"].size(), blueprints().size());
-  const std::regex range(R"(@Range\(\s*([-0-9.]+)\s*,\s*([-0-9.]+)[^)]*\)\s*attr\s+(\w+))");
-  const std::regex choice(R"(@Enum\(([^)]*)\)\s*attr\s+(\w+))");
-  for (const Json& row : all["building_blueprints"]) {
-    const std::string rules(blueprint_named(row["name"].get<std::string>())->rules);
-    std::map<std::string, std::pair<double, double>> ranges, found;
-    std::set<std::string> choices, found_choices;
-    for (std::sregex_iterator each(rules.begin(), rules.end(), range), end; each != end; ++each)
-      ranges[(*each)[3]] = {std::stod((*each)[1]), std::stod((*each)[2])};
-    for (std::sregex_iterator each(rules.begin(), rules.end(), choice), end; each != end; ++each)
-      choices.insert((*each)[2]);
-    for (const Json& attribute : row["attributes"]) {
-      const std::string name = attribute["name"];
-      if (attribute.contains("minimum")) found[name] = {attribute["minimum"], attribute["maximum"]};
-      if (attribute.contains("values")) found_choices.insert(name);
-    }
-    EXPECT_GT(ranges.size(), 2U) << row["name"];
-    EXPECT_EQ(found, ranges) << row["name"];
-    EXPECT_EQ(found_choices, choices) << row["name"];
-  }
 }
 
 TEST(Vocabulary, HasExamplesThatRun) {
