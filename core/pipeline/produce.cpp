@@ -6,7 +6,6 @@
 #include "core/geom/mesh/tangents.h"
 #include "core/gltf/content_names.h"
 #include "core/gltf/write/write.h"
-#include "core/lang/expression.h"
 #include "core/model/row.h"
 #include "core/pipeline/body.h"
 #include "core/pipeline/fit.h"
@@ -384,20 +383,6 @@ Result<std::string> validate(const Request& request, const Job::Options& options
     }
     return canonical_text(answer);
   });
-}
-
-std::string vocabulary_json() {
-  Json vocabulary = Json::object();
-  for (const Generator& generator : generators()) vocabulary.update(generator.vocabulary());
-  Json functions = Json::array();
-  for (const lang::Function& function : lang::functions()) {
-    functions.push_back({{"name", function.name},
-                         {"arity", function.arity},
-                         {"text", function.text},
-                         {"example", function.example}});
-  }
-  vocabulary["functions"] = std::move(functions);
-  return canonical_text(vocabulary);
 }
 
 }  // namespace seedmesh

@@ -1862,6 +1862,28 @@ export interface WorldParametersColors {
   water?: string;
 }
 
+/** Villages where the ground is level, mild and near water. */
+export interface WorldParametersSettlements {
+  /** The share of suitable locations that have a village. There is at most one in 6 km. */
+  density?: number;
+  /** The radius of the widest village. */
+  radius?: number;
+  /** The colour of walls. */
+  wall?: string;
+  /** The colour of roofs. */
+  roof?: string;
+}
+
+/** Roads between villages, with a grade of at most 10 %. */
+export interface WorldParametersRoads {
+  /** The width of the carriageway. */
+  width?: number;
+  /** The greatest distance of two villages that a road joins. */
+  longest?: number;
+  /** The colour of roads. */
+  color?: string;
+}
+
 /** Class */
 export interface WorldParametersPlantsItem {
   /** The name of the class in the map. */
@@ -1902,6 +1924,10 @@ export interface WorldParameters {
   climate?: WorldParametersClimate;
   /** The colours of the ground and of water. */
   colors?: WorldParametersColors;
+  /** Villages where the ground is level, mild and near water. */
+  settlements?: WorldParametersSettlements;
+  /** Roads between villages, with a grade of at most 10 %. */
+  roads?: WorldParametersRoads;
   /** Classes of plants. Copies of one class keep their spacing, also across the borders of tiles. */
   plants?: WorldParametersPlantsItem[];
 }
@@ -2289,6 +2315,72 @@ export interface TreeDerivation {
 }
 
 export type CityDerivation = { [key: string]: unknown };
+
+/** Levels, extent and origin of the world, and the height of its sea. */
+export interface WorldDerivation {
+  levels: number;
+  extent: number;
+  origin: number[];
+  sea_level: number | null;
+  warnings: WarningsItem[];
+}
+
+/** Rows from the south, columns from the west, both borders included. */
+export interface WorldMapHeights {
+  columns?: number;
+  rows?: number;
+  values?: number[];
+}
+
+export interface WorldMapSettlementsItem {
+  id?: string;
+  position?: [number, number, number];
+  radius?: number;
+}
+
+export interface WorldMapRiversItem {
+  id?: string;
+  into?: string;
+  points?: ([number, number, number])[];
+  widths?: number[];
+}
+
+export interface WorldMapLakesItem {
+  id?: string;
+  level?: number;
+  outline?: number[][];
+}
+
+export interface WorldMapRoadsItem {
+  id?: string;
+  width?: number;
+  points?: ([number, number, number])[];
+}
+
+export interface WorldMapPlantsItem {
+  class?: string;
+  spacing?: number;
+  count?: number;
+  places?: ([number, number, number])[];
+}
+
+/** What touches a box of a world. Positions are [east, north, height] in metres from the middle of the world; sea_level is null where there is no sea. */
+export interface WorldMap {
+  /** west, south, east, north */
+  box: [number, number, number, number];
+  sea_level: number | null;
+  /** Rows from the south, columns from the west, both borders included. */
+  heights?: WorldMapHeights;
+  settlements: WorldMapSettlementsItem[];
+  /** From source to mouth, whole; `into` is `sea` or the id of a lake or river. A width for each point. */
+  rivers: WorldMapRiversItem[];
+  lakes: WorldMapLakesItem[];
+  roads: WorldMapRoadsItem[];
+  /** By class; `places` for boxes of at most 2,048 m a side. `spacing` is the least distance within the class. */
+  plants: WorldMapPlantsItem[];
+}
+
+export type WorldPosition = [number, number, number];
 
 /** In the frame of the unit element. Values that do not apply, are unknown, or are too large for a number are null. */
 export interface FractalDerivation {

@@ -1134,6 +1134,19 @@ class WorldParametersColors(TypedDict, total=False):
     water: str
 
 
+class WorldParametersSettlements(TypedDict, total=False):
+    density: float
+    radius: float
+    wall: str
+    roof: str
+
+
+class WorldParametersRoads(TypedDict, total=False):
+    width: float
+    longest: float
+    color: str
+
+
 _WorldParametersPlantsItemRequired = TypedDict("_WorldParametersPlantsItemRequired", {
     'class': str,
 })
@@ -1159,6 +1172,8 @@ class WorldParameters(TypedDict, total=False):
     water: "WorldParametersWater"
     climate: "WorldParametersClimate"
     colors: "WorldParametersColors"
+    settlements: "WorldParametersSettlements"
+    roads: "WorldParametersRoads"
     plants: List["WorldParametersPlantsItem"]
 
 
@@ -1410,6 +1425,69 @@ class TreeDerivation(TypedDict):
 
 
 CityDerivation = Dict[str, Any]
+
+class WorldDerivation(TypedDict):
+    levels: int
+    extent: float
+    origin: List[int]
+    sea_level: Union[float, None]
+    warnings: List["WarningsItem"]
+
+
+class WorldMapHeights(TypedDict, total=False):
+    columns: int
+    rows: int
+    values: List[float]
+
+
+class WorldMapSettlementsItem(TypedDict, total=False):
+    id: str
+    position: List[float]
+    radius: float
+
+
+class WorldMapRiversItem(TypedDict, total=False):
+    id: str
+    into: str
+    points: List[List[float]]
+    widths: List[float]
+
+
+class WorldMapLakesItem(TypedDict, total=False):
+    id: str
+    level: float
+    outline: List[List[float]]
+
+
+class WorldMapRoadsItem(TypedDict, total=False):
+    id: str
+    width: float
+    points: List[List[float]]
+
+
+WorldMapPlantsItem = TypedDict("WorldMapPlantsItem", {
+    'class': str,
+    'spacing': float,
+    'count': int,
+    'places': List[List[float]],
+}, total=False)
+
+
+class _WorldMapRequired(TypedDict):
+    box: List[float]
+    sea_level: Union[float, None]
+    settlements: List["WorldMapSettlementsItem"]
+    rivers: List["WorldMapRiversItem"]
+    lakes: List["WorldMapLakesItem"]
+    roads: List["WorldMapRoadsItem"]
+    plants: List["WorldMapPlantsItem"]
+
+
+class WorldMap(_WorldMapRequired, total=False):
+    heights: "WorldMapHeights"
+
+
+WorldPosition = List[float]
 
 class FractalDerivation(TypedDict):
     pieces: Union[float, None]
