@@ -1868,6 +1868,28 @@ export interface WorldParametersColors {
   water?: string;
 }
 
+/** Villages where the ground is level, mild and near water. */
+export interface WorldParametersSettlements {
+  /** The share of suitable locations that have a village. There is at most one in 6 km. */
+  density?: number;
+  /** The radius of the widest village. */
+  radius?: number;
+  /** The colour of walls. */
+  wall?: string;
+  /** The colour of roofs. */
+  roof?: string;
+}
+
+/** Roads between villages, with a grade of at most 10 %. */
+export interface WorldParametersRoads {
+  /** The width of the carriageway. */
+  width?: number;
+  /** The greatest distance of two villages that a road joins. */
+  longest?: number;
+  /** The colour of roads. */
+  color?: string;
+}
+
 /** Class */
 export interface WorldParametersPlantsItem {
   /** The name of the class in the map. */
@@ -1908,6 +1930,10 @@ export interface WorldParameters {
   climate?: WorldParametersClimate;
   /** The colours of the ground and of water. */
   colors?: WorldParametersColors;
+  /** Villages where the ground is level, mild and near water. */
+  settlements?: WorldParametersSettlements;
+  /** Roads between villages, with a grade of at most 10 %. */
+  roads?: WorldParametersRoads;
   /** Classes of plants. Copies of one class keep their spacing, also across the borders of tiles. */
   plants?: WorldParametersPlantsItem[];
 }

@@ -1137,6 +1137,19 @@ class WorldParametersColors(TypedDict, total=False):
     water: str
 
 
+class WorldParametersSettlements(TypedDict, total=False):
+    density: float
+    radius: float
+    wall: str
+    roof: str
+
+
+class WorldParametersRoads(TypedDict, total=False):
+    width: float
+    longest: float
+    color: str
+
+
 _WorldParametersPlantsItemRequired = TypedDict("_WorldParametersPlantsItemRequired", {
     'class': str,
 })
@@ -1162,6 +1175,8 @@ class WorldParameters(TypedDict, total=False):
     water: "WorldParametersWater"
     climate: "WorldParametersClimate"
     colors: "WorldParametersColors"
+    settlements: "WorldParametersSettlements"
+    roads: "WorldParametersRoads"
     plants: List["WorldParametersPlantsItem"]
 
 
