@@ -1398,10 +1398,16 @@ export interface TreeParametersLeaf {
   density?: number;
   /** Factor for the length and width that the model gives. */
   size?: number;
+  /** outward: both sides of a leaf are faces with one normal, which points out of the crown, so that its upper side is as bright as the lower ones are dark. Such leaves have no generated normal map. two_sided: one face that is visible from both sides; renderers turn its normal around at the back, and crowns seen from below the leaves are dark. auto: outward, or two_sided in the profiles unity and unreal, whose foliage materials have a light of their own. Leaves that share a mesh (output.instancing) are two_sided. */
+  faces?: "auto" | "two_sided" | "outward";
   /** 0 gives every leaf its own normals. 1 gives it the normals of the surface of the crown, so that distant crowns look smoother. */
   crown_normals?: number;
   /** Largest random difference in brightness between leaves. */
   tint?: number;
+  /** Standard deviation of the hue between leaves, as vertex colours. Leaves of a limb, and leaves of a twig, resemble each other. If it is above 0, one leaf in fifty is withered. */
+  hue?: number;
+  /** Largest share of the light of the sky that leaves take from the leaves below them, as vertex colours. */
+  occlusion?: number;
   /** Colour in summer. Petals have it in spring as well. */
   color?: string;
   /** Colour in autumn. If left out, leaves are yellow, and petals keep their colour. */
@@ -1898,6 +1904,28 @@ export interface WorldParametersColors {
   water?: string;
 }
 
+/** Villages where the ground is level, mild and near water. */
+export interface WorldParametersSettlements {
+  /** The share of suitable locations that have a village. There is at most one in 6 km. */
+  density?: number;
+  /** The radius of the widest village. */
+  radius?: number;
+  /** The colour of walls. */
+  wall?: string;
+  /** The colour of roofs. */
+  roof?: string;
+}
+
+/** Roads between villages, with a grade of at most 10 %. */
+export interface WorldParametersRoads {
+  /** The width of the carriageway. */
+  width?: number;
+  /** The greatest distance of two villages that a road joins. */
+  longest?: number;
+  /** The colour of roads. */
+  color?: string;
+}
+
 /** Class */
 export interface WorldParametersPlantsItem {
   /** The name of the class in the map. */
@@ -1938,6 +1966,10 @@ export interface WorldParameters {
   climate?: WorldParametersClimate;
   /** The colours of the ground and of water. */
   colors?: WorldParametersColors;
+  /** Villages where the ground is level, mild and near water. */
+  settlements?: WorldParametersSettlements;
+  /** Roads between villages, with a grade of at most 10 %. */
+  roads?: WorldParametersRoads;
   /** Classes of plants. Copies of one class keep their spacing, also across the borders of tiles. */
   plants?: WorldParametersPlantsItem[];
 }

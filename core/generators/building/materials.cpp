@@ -22,8 +22,8 @@ constexpr MaterialPreset presets[] = {
     {"facade", {214, 203, 184}, 0.95, 0, 1},   {"brick", {150, 82, 64}, 0.95, 0, 1},
     {"stone", {176, 170, 158}, 0.9, 0, 1},     {"concrete", {158, 157, 152}, 0.9, 0, 1},
     {"marble", {228, 226, 220}, 0.5, 0, 1},    {"wood", {122, 84, 54}, 0.8, 0, 1},
-    {"door", {94, 62, 42}, 0.7, 0, 1},         {"glass", {74, 96, 112}, 0.1, 0, 1},
-    {"window", {74, 96, 112}, 0.1, 0, 1},      {"frame", {238, 236, 230}, 0.7, 0, 1},
+    {"door", {94, 62, 42}, 0.7, 0, 1},         {"glass", {44, 50, 54}, 0.06, 0, 1},
+    {"window", {44, 50, 54}, 0.06, 0, 1},      {"frame", {222, 219, 210}, 0.7, 0, 1},
     {"metal", {134, 138, 142}, 0.4, 1, 1},     {"steel", {134, 138, 142}, 0.4, 1, 1},
     {"copper", {104, 152, 132}, 0.6, 0, 1},    {"gold", {212, 168, 74}, 0.35, 1, 1},
     {"roof", {142, 74, 58}, 0.9, 0, 1},        {"roof_tile", {142, 74, 58}, 0.9, 0, 1},
@@ -45,6 +45,20 @@ constexpr Surface surfaces[] = {
     {"slate", "slate"},      {"roof_tile", "roof_tile"}, {"cladding", "sheet"}, {"chimney", "brick"},
     {"building", "plaster"},
 };
+
+// Parts of blueprints: what the request can paint is wood, what has a colour of its own is stone.
+constexpr Surface part_surfaces[] = {
+    {"door", "planks"},  {"color", "ashlar"},   {"stone", "ashlar"},      {"brick", "brick"},
+    {"wall", "plaster"}, {"roof", "roof_tile"}, {"concrete", "concrete"}, {"wood", "planks"},
+};
+// Flat bodies of blueprints with a colour alone.
+constexpr std::string_view painted_surface = "plaster";
+
+const texture::WallKind* surface_of_part(std::string_view role) {
+  const auto* const found =
+      std::ranges::find(part_surfaces, role.substr(0, role.find('_')), &Surface::material);
+  return found == std::end(part_surfaces) ? nullptr : texture::wall_kind(found->kind);
+}
 
 const texture::WallKind* surface_named(std::string_view material) {
   const auto* const found = std::ranges::find(surfaces, material, &Surface::material);
@@ -179,8 +193,13 @@ std::optional<Warning> MaterialTable::unused_facade_image() const {
 
 int MaterialTable::material_of_part(std::string_view role, const Style& style) {
   const std::string* const color = shapes_->texts.find(style.color);
-  if (color != nullptr && role == "stone" && !params_.materials.contains(std::string(role)))
-    return make({name_of_color(*color), color, true});
+  if (params_.materials.contains(std::string(role))) return make({std::string(role), nullptr, true});
+  if (color != nullptr && role == "stone") return make({name_of_color(*color), color, true});
+  // The frames and leaves of parts in the material "painted" have the colour in force.
+  const std::string* const material = shapes_->texts.find(style.material);
+  const bool is_painted = material != nullptr && *material == "painted";
+  if (color != nullptr && is_painted && (role == "frame" || role == "door"))
+    return make({std::string(role) + "_" + lower(color->substr(1)), color, true});
   return make({std::string(role), nullptr, true});
 }
 
@@ -193,8 +212,10 @@ const texture::WallKind* MaterialTable::surface_of(const MaterialRequest& reques
     if (own.images || own.texture == BuildingTexture::none) return nullptr;
     if (own.texture != BuildingTexture::auto_) return texture::wall_kind(text_of(own.texture));
   }
+  if (request.is_role) return params_.blueprint ? surface_of_part(request.name) : nullptr;
+  if (params_.blueprint && request.name.starts_with("color_")) return texture::wall_kind(painted_surface);
   const bool by_name = params_.textures == BuildingTextures::made || params_.blueprint.has_value();
-  return by_name && !request.is_role ? surface_named(request.name) : nullptr;
+  return by_name ? surface_named(request.name) : nullptr;
 }
 
 int MaterialTable::make(const MaterialRequest& request) {
@@ -211,10 +232,12 @@ int MaterialTable::make(const MaterialRequest& request) {
   const auto [found, is_new] = by_name_.try_emplace(key, static_cast<int>(model_.materials.size()));
   if (!is_new) return found->second;
   Material material;
-  material.name = is_tinted && takes_color ? name + "_" + lower(color->substr(1)) : name;
+  const bool is_named = color != nullptr && name.ends_with(lower(color->substr(1)));
+  material.name = is_tinted && takes_color && !is_named ? name + "_" + lower(color->substr(1)) : name;
   MaterialPreset preset = known != nullptr ? *known : presets[0];
   for (const PartMaterial& part : part_materials()) {
-    if (known == nullptr && part.role == name)
+    const bool is_painted = is_role && name.starts_with(std::string(part.role) + "_");
+    if (known == nullptr && (part.role == name || is_painted))
       preset = {part.role, *color_of(part.color), static_cast<double>(part.roughness),
                 static_cast<double>(part.metallic), 1};
   }

@@ -31,8 +31,8 @@ class MaterialTable {
     made_.clear();
   }
   int material_of(const Shape& shape);
-  /// The material of a role of a built-in part. Stone has the colour in force, unless `materials` of the
-  /// request have a stone.
+  /// The material of a role of a built-in part. Stone has the colour in force, and so have frames and
+  /// doors in the material "painted", unless `materials` of the request have the role.
   int material_of_part(std::string_view role, const Style& style);
   /// The size of one tile in metres if the material has textures, and so needs texture coordinates; else
   /// null.

@@ -890,8 +890,11 @@ class TreeParametersLeaf(TypedDict, total=False):
     coarseness: int
     density: float
     size: float
+    faces: Literal['auto', 'two_sided', 'outward']
     crown_normals: float
     tint: float
+    hue: float
+    occlusion: float
     color: str
     autumn: str
     evergreen: bool
@@ -1153,6 +1156,19 @@ class WorldParametersColors(TypedDict, total=False):
     water: str
 
 
+class WorldParametersSettlements(TypedDict, total=False):
+    density: float
+    radius: float
+    wall: str
+    roof: str
+
+
+class WorldParametersRoads(TypedDict, total=False):
+    width: float
+    longest: float
+    color: str
+
+
 _WorldParametersPlantsItemRequired = TypedDict("_WorldParametersPlantsItemRequired", {
     'class': str,
 })
@@ -1178,6 +1194,8 @@ class WorldParameters(TypedDict, total=False):
     water: "WorldParametersWater"
     climate: "WorldParametersClimate"
     colors: "WorldParametersColors"
+    settlements: "WorldParametersSettlements"
+    roads: "WorldParametersRoads"
     plants: List["WorldParametersPlantsItem"]
 
 
