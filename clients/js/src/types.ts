@@ -239,6 +239,10 @@ export interface BuildingParameters {
   restrict?: "none" | "non_erasing" | "unimarker" | "split";
   /** The materials that rules name. They replace built-in materials of the same name. */
   materials?: { [key: string]: BuildingParametersMaterialsValue };
+  /** A picture for the walls, whatever their style: a PNG or JPEG file as a data URI. It repeats over all upright faces whose material is a wall (brick, plaster, wall, facade, building, stone, concrete, wood, cladding). */
+  facade_image?: string;
+  /** The width and height of one copy of the facade picture. */
+  facade_tile?: [number, number];
   /** Whether materials get textures made by seed, by their names (brick, plaster, wall, facade, building, stone, concrete, wood, roof, roof_tile, slate, cladding, chimney). auto: in blueprints; made: in your own rules too; none: only materials with images have textures. Built-in parts, such as windows, have none. */
   textures?: "auto" | "made" | "none";
   /** Models that rules insert by name, as in i("statue"): a nested request, or a GLB file as data URI. */
@@ -1121,6 +1125,34 @@ export interface SceneParameters {
   chunks?: number;
 }
 
+/** One layer. */
+export interface TerrainParametersLayersItem {
+  /** A name by which expressions of later layers use the heights of this one. */
+  name?: string;
+  /** Where the heights of the layer come from. */
+  algorithm?: "expression" | "fault_formation" | "poisson_faulting" | "fbm";
+  /** As that of the terrain. It can also use height and slope, the height in metres and the slope in degrees so far, and the names of earlier layers. A sphere has no slope. */
+  expression?: string;
+  /** The operation on the height so far and that of the layer. replace takes the layer. none only gives it a name. */
+  combine?: "add" | "subtract" | "multiply" | "max" | "min" | "replace" | "none";
+  /** Where the layer has an effect: an expression from 0 (nowhere) to 1, with the same names, such as slope < 30, or height / 100. */
+  mask?: string;
+  /** The number of faults, or the octaves of noise. Default: 64 faults, 8 octaves. */
+  iterations?: number;
+  /** As that of the terrain, for fbm. */
+  amplitude?: number;
+  /** As that of the terrain, for fbm. */
+  hurst?: number;
+  /** As that of the terrain, for fbm. */
+  noise?: "rolling" | "ridged" | "billow";
+  /** As that of the terrain, for fbm. */
+  wavelength?: number;
+  /** As that of the terrain, for faults. */
+  fault_max?: number;
+  /** As that of the terrain, for faults. */
+  fault_min?: number;
+}
+
 /** Heights as an image, for the algorithm image. */
 export interface TerrainParametersImage {
   /** A PNG, JPEG, WebP or TIFF file, raw 16-bit samples or an .hgt file, in base64. A data: URL is accepted, too. The first row is the northern one. */
@@ -1242,17 +1274,21 @@ export interface TerrainParametersHeightmap {
 
 /** A height field by one of the classic algorithms, filtered, meshed and coloured, or as a height map for an engine; or a planetoid. */
 export interface TerrainParameters {
-  /** The algorithm. fault_formation and poisson_faulting lift one side of random lines. triangular_edge, diamond_square and square_square refine a few heights repeatedly. fbm sums octaves of noise. image takes heights from an image.. */
-  algorithm?: "fault_formation" | "poisson_faulting" | "triangular_edge" | "diamond_square" | "square_square" | "fbm" | "image";
-  /** Rounds of a subdivision (n rounds give 2^n + 1 samples a side, square_square 2^n + 2), the number of faults, or the octaves of noise. Default: 8 rounds, 64 faults, 8 octaves. Not for image. */
+  /** The algorithm. fault_formation and poisson_faulting lift one side of random lines. triangular_edge, diamond_square and square_square refine a few heights repeatedly. fbm sums octaves of noise. image takes heights from an image. expression computes each height. */
+  algorithm?: "fault_formation" | "poisson_faulting" | "triangular_edge" | "diamond_square" | "square_square" | "fbm" | "image" | "expression";
+  /** The height of a sample, for the algorithm expression: x and y are metres to the east and north of the centre, on a sphere x, y and z its position, and latitude and longitude in degrees. size is the size. noise(x, y) is gradient noise; fbm, ridged and billow(x, y, octaves) are sums of it; all take a z as well. ran draws anew at each sample. */
+  expression?: string;
+  /** Further heights that are combined with those of the algorithm, one after the other, before the filters. */
+  layers?: TerrainParametersLayersItem[];
+  /** Rounds of a subdivision (n rounds give 2^n + 1 samples a side, square_square 2^n + 2), the number of faults, or the octaves of noise. Default: 8 rounds, 64 faults, 8 octaves. Not for image and expression. */
   iterations?: number;
   /** Additional iterations after the planned ones. A subdivision or noise becomes finer by that many rounds and keeps its old heights. Faults are added without the falling bound. */
   extra_iterations?: number;
-  /** Samples a side for algorithms that do not determine it: faults and fbm. On a sphere, samples along an edge of its cube. Default: 257, on a sphere 65. */
+  /** Samples a side for algorithms that do not determine it: faults, fbm and expression. On a sphere, samples along an edge of its cube. Default: 257, on a sphere 65. */
   resolution?: number;
   /** Length of the terrain from west to east, or the diameter of a sphere. */
   size?: number;
-  /** A plane, or a planetoid (fault_formation, poisson_faulting and fbm). */
+  /** A plane, or a planetoid (fault_formation, poisson_faulting, fbm and expression). */
   shape?: "plane" | "sphere";
   /** Greatest random deviation of the first round of a subdivision, or the weight of the first octave of noise. Default: a tenth of the size, on a sphere a twentieth of the diameter. */
   amplitude?: number;
@@ -1362,10 +1398,16 @@ export interface TreeParametersLeaf {
   density?: number;
   /** Factor for the length and width that the model gives. */
   size?: number;
+  /** outward: both sides of a leaf are faces with one normal, which points out of the crown, so that its upper side is as bright as the lower ones are dark. Such leaves have no generated normal map. two_sided: one face that is visible from both sides; renderers turn its normal around at the back, and crowns seen from below the leaves are dark. auto: outward, or two_sided in the profiles unity and unreal, whose foliage materials have a light of their own. Leaves that share a mesh (output.instancing) are two_sided. */
+  faces?: "auto" | "two_sided" | "outward";
   /** 0 gives every leaf its own normals. 1 gives it the normals of the surface of the crown, so that distant crowns look smoother. */
   crown_normals?: number;
   /** Largest random difference in brightness between leaves. */
   tint?: number;
+  /** Standard deviation of the hue between leaves, as vertex colours. Leaves of a limb, and leaves of a twig, resemble each other. If it is above 0, one leaf in fifty is withered. */
+  hue?: number;
+  /** Largest share of the light of the sky that leaves take from the leaves below them, as vertex colours. */
+  occlusion?: number;
   /** Colour in summer. Petals have it in spring as well. */
   color?: string;
   /** Colour in autumn. If left out, leaves are yellow, and petals keep their colour. */
@@ -1862,6 +1904,28 @@ export interface WorldParametersColors {
   water?: string;
 }
 
+/** Villages where the ground is level, mild and near water. */
+export interface WorldParametersSettlements {
+  /** The share of suitable locations that have a village. There is at most one in 6 km. */
+  density?: number;
+  /** The radius of the widest village. */
+  radius?: number;
+  /** The colour of walls. */
+  wall?: string;
+  /** The colour of roofs. */
+  roof?: string;
+}
+
+/** Roads between villages, with a grade of at most 10 %. */
+export interface WorldParametersRoads {
+  /** The width of the carriageway. */
+  width?: number;
+  /** The greatest distance of two villages that a road joins. */
+  longest?: number;
+  /** The colour of roads. */
+  color?: string;
+}
+
 /** Class */
 export interface WorldParametersPlantsItem {
   /** The name of the class in the map. */
@@ -1902,6 +1966,10 @@ export interface WorldParameters {
   climate?: WorldParametersClimate;
   /** The colours of the ground and of water. */
   colors?: WorldParametersColors;
+  /** Villages where the ground is level, mild and near water. */
+  settlements?: WorldParametersSettlements;
+  /** Roads between villages, with a grade of at most 10 %. */
+  roads?: WorldParametersRoads;
   /** Classes of plants. Copies of one class keep their spacing, also across the borders of tiles. */
   plants?: WorldParametersPlantsItem[];
 }
@@ -2289,6 +2357,72 @@ export interface TreeDerivation {
 }
 
 export type CityDerivation = { [key: string]: unknown };
+
+/** Levels, extent and origin of the world, and the height of its sea. */
+export interface WorldDerivation {
+  levels: number;
+  extent: number;
+  origin: number[];
+  sea_level: number | null;
+  warnings: WarningsItem[];
+}
+
+/** Rows from the south, columns from the west, both borders included. */
+export interface WorldMapHeights {
+  columns?: number;
+  rows?: number;
+  values?: number[];
+}
+
+export interface WorldMapSettlementsItem {
+  id?: string;
+  position?: [number, number, number];
+  radius?: number;
+}
+
+export interface WorldMapRiversItem {
+  id?: string;
+  into?: string;
+  points?: ([number, number, number])[];
+  widths?: number[];
+}
+
+export interface WorldMapLakesItem {
+  id?: string;
+  level?: number;
+  outline?: number[][];
+}
+
+export interface WorldMapRoadsItem {
+  id?: string;
+  width?: number;
+  points?: ([number, number, number])[];
+}
+
+export interface WorldMapPlantsItem {
+  class?: string;
+  spacing?: number;
+  count?: number;
+  places?: ([number, number, number])[];
+}
+
+/** What touches a box of a world. Positions are [east, north, height] in metres from the middle of the world; sea_level is null where there is no sea. */
+export interface WorldMap {
+  /** west, south, east, north */
+  box: [number, number, number, number];
+  sea_level: number | null;
+  /** Rows from the south, columns from the west, both borders included. */
+  heights?: WorldMapHeights;
+  settlements: WorldMapSettlementsItem[];
+  /** From source to mouth, whole; `into` is `sea` or the id of a lake or river. A width for each point. */
+  rivers: WorldMapRiversItem[];
+  lakes: WorldMapLakesItem[];
+  roads: WorldMapRoadsItem[];
+  /** By class; `places` for boxes of at most 2,048 m a side. `spacing` is the least distance within the class. */
+  plants: WorldMapPlantsItem[];
+}
+
+export type WorldPosition = [number, number, number];
 
 /** In the frame of the unit element. Values that do not apply, are unknown, or are too large for a number are null. */
 export interface FractalDerivation {

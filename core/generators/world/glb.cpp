@@ -124,6 +124,11 @@ void Glb::add_mesh(std::string_view name, const TileMesh& mesh, int material, do
 }
 
 std::string Glb::text() && {
+  for (const char* name : {"bufferViews", "accessors", "meshes", "materials"}) {
+    if (json_[name].empty()) json_.erase(name);
+  }
+  if (json_["nodes"][0]["children"].empty()) json_["nodes"][0].erase("children");
+  if (bytes_.empty()) bytes_.resize(4);
   bytes_.resize((bytes_.size() + 3) & ~std::size_t{3});
   json_["buffers"][0]["byteLength"] = bytes_.size();
   std::string text = canonical_text(json_);

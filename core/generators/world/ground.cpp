@@ -20,6 +20,11 @@ Slope valley_side(double away, double half_width, double ruggedness) {
   return {rise / left, 0.02 + (beyond > 0 ? slope : 0), 0};
 }
 
+Reach reach_of(const RiverPoint& a, const RiverPoint& b) {
+  const double x = b.east - a.east, y = b.north - a.north;
+  return {a, b, a.east + x / 2, a.north + y / 2, valley_reach + 1 + std::sqrt(x * x + y * y) / 2};
+}
+
 struct Nearest {
   double away = 0, share = 0, east = 0, north = 0;
 };
@@ -103,7 +108,7 @@ Ground::Ground(const World& world, const Rectangle& box, Job& job, double reach)
                      std::max(a.north, b.north))) {
           continue;
         }
-        reaches_.push_back({a, b});
+        reaches_.push_back(reach_of(a, b));
       }
     }
     for (const Lake& lake : region->lakes) {
@@ -120,6 +125,8 @@ GroundSample Ground::at(double east, double north) const {
   land = land_at(*world_, east, north);
   Waters waters;
   for (const Reach& reach : reaches_) {
+    const double x = east - reach.middle_east, y = north - reach.middle_north;
+    if (x * x + y * y > reach.far * reach.far) continue;
     const Nearest near = nearest_on(reach, east, north);
     if (near.away < valley_reach) add_reach(waters, reach, near, land.ruggedness);
   }
@@ -144,6 +151,7 @@ GroundSample Ground::at(double east, double north) const {
   }
   sample.height = with_river(height, waters);
   sample.shore = waters.bank;
+  if (!pieces_.empty() || !houses_.empty()) add_works(sample, east, north);
   return sample;
 }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/generators/world/gullies.h"
+
 namespace seedmesh::world {
 namespace {
 
@@ -15,7 +17,7 @@ constexpr int detail_octaves = 7;
 constexpr double detail_slope = 0.035;             ///< amplitude of an octave by its wavelength
 constexpr double land_rise = 170, sea_fall = 520;  ///< metres at a coast value of 1
 
-enum class Noise : std::uint64_t { coast = 1, belts, ranges, hills, detail, moisture, temperature };
+enum class Noise : std::uint64_t { coast = 1, belts, ranges, hills, detail, gullies, moisture, temperature };
 
 std::uint64_t key_of(const World& world, Noise noise, int octave) {
   return key_at(key_at(world.key, static_cast<std::uint64_t>(noise)), static_cast<std::uint64_t>(octave));
@@ -96,7 +98,9 @@ double detail_at(const World& world, const Land& land, double east, double north
   for (int n = 0; n < detail_octaves; ++n, wavelength *= 0.5) {
     sum += octave(key_of(world, Noise::detail, n), east, north, wavelength).value * wavelength;
   }
-  return sum * strength;
+  const double gullies =
+      relief.gullies <= 0 ? 0 : gullies_at(key_of(world, Noise::gullies, 0), land.height, east, north);
+  return sum * strength + 1.4 * relief.gullies * gullies;
 }
 
 Climate climate_at(const World& world, double east, double north, double height) {

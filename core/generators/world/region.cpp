@@ -164,6 +164,7 @@ class Drainage {
       Node& sink = at(lowest);
       sink.is_reached = true;
       sink.floor = sink.ground - shallow;
+      if (world_.params.relief.sea) sink.floor = std::max(sink.floor, world_.params.relief.sea_level);
       Queue queue;
       queue.emplace(sink.ground, lowest);
       flood(queue);
@@ -291,8 +292,9 @@ class Drainage {
 
   bool is_head(int n) const {
     const Node& node = at(n);
-    return node.lake >= 0 || node.main_up < 0 ||
-           !courses_[static_cast<std::size_t>(node.main_up)].into.empty();
+    if (node.lake >= 0 || node.main_up < 0) return true;
+    const Course& above = courses_[static_cast<std::size_t>(node.main_up)];
+    return !above.into.empty() || above.points.size() < 2;
   }
 
   void join_rivers() {

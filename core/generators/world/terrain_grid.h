@@ -18,9 +18,8 @@ struct TerrainGrid {
     return samples[static_cast<std::size_t>((row + halo) * wide + column + halo)];
   }
 };
-TerrainGrid sample_grid(const World& world, const TileFrame& frame, int cells, int halo, Job& job);
-
-/// The height of the skirt of a tile: deep enough for neighbours three levels apart.
-double skirt_depth(const World& world, const TileFrame& frame);
+enum class Works { none, roads };
+TerrainGrid sample_grid(const World& world, const TileFrame& frame, int cells, int halo, Job& job,
+                        Works works = Works::roads);
 
 }  // namespace seedmesh::world

@@ -156,6 +156,8 @@ class BuildingParameters(TypedDict, total=False):
     weights: Literal['normalize', 'strict']
     restrict: Literal['none', 'non_erasing', 'unimarker', 'split']
     materials: Dict[str, "BuildingParametersMaterialsValue"]
+    facade_image: str
+    facade_tile: List[float]
     textures: Literal['auto', 'made', 'none']
     assets: Dict[str, "BuildingParametersAssetsValue"]
 
@@ -729,6 +731,21 @@ class SceneParameters(TypedDict, total=False):
     chunks: int
 
 
+class TerrainParametersLayersItem(TypedDict, total=False):
+    name: str
+    algorithm: Literal['expression', 'fault_formation', 'poisson_faulting', 'fbm']
+    expression: str
+    combine: Literal['add', 'subtract', 'multiply', 'max', 'min', 'replace', 'none']
+    mask: str
+    iterations: int
+    amplitude: float
+    hurst: float
+    noise: Literal['rolling', 'ridged', 'billow']
+    wavelength: float
+    fault_max: float
+    fault_min: float
+
+
 class _TerrainParametersImageRequired(TypedDict):
     data: str
 
@@ -807,7 +824,9 @@ class TerrainParametersHeightmap(TypedDict, total=False):
 
 
 class TerrainParameters(TypedDict, total=False):
-    algorithm: Literal['fault_formation', 'poisson_faulting', 'triangular_edge', 'diamond_square', 'square_square', 'fbm', 'image']
+    algorithm: Literal['fault_formation', 'poisson_faulting', 'triangular_edge', 'diamond_square', 'square_square', 'fbm', 'image', 'expression']
+    expression: str
+    layers: List["TerrainParametersLayersItem"]
     iterations: int
     extra_iterations: int
     resolution: int
@@ -871,8 +890,11 @@ class TreeParametersLeaf(TypedDict, total=False):
     coarseness: int
     density: float
     size: float
+    faces: Literal['auto', 'two_sided', 'outward']
     crown_normals: float
     tint: float
+    hue: float
+    occlusion: float
     color: str
     autumn: str
     evergreen: bool
@@ -1134,6 +1156,19 @@ class WorldParametersColors(TypedDict, total=False):
     water: str
 
 
+class WorldParametersSettlements(TypedDict, total=False):
+    density: float
+    radius: float
+    wall: str
+    roof: str
+
+
+class WorldParametersRoads(TypedDict, total=False):
+    width: float
+    longest: float
+    color: str
+
+
 _WorldParametersPlantsItemRequired = TypedDict("_WorldParametersPlantsItemRequired", {
     'class': str,
 })
@@ -1159,6 +1194,8 @@ class WorldParameters(TypedDict, total=False):
     water: "WorldParametersWater"
     climate: "WorldParametersClimate"
     colors: "WorldParametersColors"
+    settlements: "WorldParametersSettlements"
+    roads: "WorldParametersRoads"
     plants: List["WorldParametersPlantsItem"]
 
 
@@ -1410,6 +1447,69 @@ class TreeDerivation(TypedDict):
 
 
 CityDerivation = Dict[str, Any]
+
+class WorldDerivation(TypedDict):
+    levels: int
+    extent: float
+    origin: List[int]
+    sea_level: Union[float, None]
+    warnings: List["WarningsItem"]
+
+
+class WorldMapHeights(TypedDict, total=False):
+    columns: int
+    rows: int
+    values: List[float]
+
+
+class WorldMapSettlementsItem(TypedDict, total=False):
+    id: str
+    position: List[float]
+    radius: float
+
+
+class WorldMapRiversItem(TypedDict, total=False):
+    id: str
+    into: str
+    points: List[List[float]]
+    widths: List[float]
+
+
+class WorldMapLakesItem(TypedDict, total=False):
+    id: str
+    level: float
+    outline: List[List[float]]
+
+
+class WorldMapRoadsItem(TypedDict, total=False):
+    id: str
+    width: float
+    points: List[List[float]]
+
+
+WorldMapPlantsItem = TypedDict("WorldMapPlantsItem", {
+    'class': str,
+    'spacing': float,
+    'count': int,
+    'places': List[List[float]],
+}, total=False)
+
+
+class _WorldMapRequired(TypedDict):
+    box: List[float]
+    sea_level: Union[float, None]
+    settlements: List["WorldMapSettlementsItem"]
+    rivers: List["WorldMapRiversItem"]
+    lakes: List["WorldMapLakesItem"]
+    roads: List["WorldMapRoadsItem"]
+    plants: List["WorldMapPlantsItem"]
+
+
+class WorldMap(_WorldMapRequired, total=False):
+    heights: "WorldMapHeights"
+
+
+WorldPosition = List[float]
 
 class FractalDerivation(TypedDict):
     pieces: Union[float, None]
