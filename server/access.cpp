@@ -46,6 +46,8 @@ std::optional<std::string> find_forbidden(const Json& value, const Allowed& allo
   return std::nullopt;
 }
 
+std::string world_prefix(std::string_view world) { return "/v1/worlds/" + std::string(world); }
+
 Denial denied(int status, std::string detail, std::string_view reason) {
   return {problem(status, std::move(detail)), reason};
 }
@@ -109,6 +111,10 @@ std::variant<Grant, Denial> Access::admit(const http::Request& request) {
     signature = check_signature(request.target, signing_keys_, std::time(nullptr));
   grant.target_size = signature.target_size;
   if (const auto key = given_key(request)) return admit_key(*key, std::move(grant));
+  return admit_signature(signature, std::move(grant), !signing_keys_.empty() && reads);
+}
+
+std::variant<Grant, Denial> Access::admit_signature(SignatureCheck signature, Grant grant, bool may_sign) {
   switch (signature.state) {
     case SignatureState::good:
       grant.by = Grant::By::signature;
@@ -121,10 +127,31 @@ std::variant<Grant, Denial> Access::admit(const http::Request& request) {
     case SignatureState::absent:
       break;
   }
-  return denied(
-      401,
-      signing_keys_.empty() || !reads ? "An API key is required." : "An API key or a signed URL is required.",
-      "key_missing");
+  return denied(401, may_sign ? "An API key or a signed URL is required." : "An API key is required.",
+                "key_missing");
+}
+
+std::variant<Grant, Denial> Access::admit_world(const http::Request& request, std::string_view world,
+                                                std::string_view segment) {
+  if (!closed() || segment.empty()) return admit(request);
+  Grant grant;
+  grant.target_size = request.target.size();
+  if (const auto key = given_key(request)) return admit_key(*key, std::move(grant));
+  const std::string signed_prefix = world_prefix(world) + "?" + std::string(segment);
+  return admit_signature(check_signature(signed_prefix, signing_keys_, std::time(nullptr)), std::move(grant),
+                         true);
+}
+
+std::string Access::world_segment(const Grant& grant, std::string_view world) const {
+  if (signing_keys_.empty()) return {};
+  const std::string prefix = world_prefix(world);
+  std::string target;
+  if (grant.by == Grant::By::signature) {
+    target = sign_target(prefix, signing_keys_.front(), grant.expires);
+  } else {
+    target = signed_for(grant, prefix);
+  }
+  return target.substr(prefix.size() + 1) + "/";
 }
 
 std::variant<Grant, Denial> Access::admit_key(const std::string& key, Grant grant) {

@@ -16,6 +16,7 @@
 #include "server/config.h"
 #include "server/http/message.h"
 #include "server/problem.h"
+#include "server/signature.h"
 
 namespace seedmesh {
 
@@ -63,6 +64,15 @@ class Access {
   /// Denies with 401 without a credential, 403 with one that is not valid, 429 beyond a limit of the key.
   std::variant<Grant, Denial> admit(const http::Request& request);
 
+  /// The same for a file of a world. `segment` is the part of the path after the name of the world that holds a
+  /// signature: the query of a signed "/v1/worlds/<world>", which covers all files of that world; empty: none.
+  std::variant<Grant, Denial> admit_world(const http::Request& request, std::string_view world,
+                                          std::string_view segment);
+
+  /// The segment that gives the holder of `grant` all files of a world, followed by "/"; empty where the world
+  /// needs none. It expires with the signature of the grant, or after the lifetime of links.
+  std::string world_segment(const Grant& grant, std::string_view world) const;
+
   /// Denies with 403 where the request, or one nested in it, uses a generator that is not allowed; and where only
   /// presets are allowed and it is not a preset. Seed and output do not matter.
   std::optional<Denial> forbid(const Request& request) const;
@@ -80,6 +90,7 @@ class Access {
  private:
   struct Usage;
 
+  static std::variant<Grant, Denial> admit_signature(SignatureCheck signature, Grant grant, bool may_sign);
   std::variant<Grant, Denial> admit_key(const std::string& key, Grant grant);
 
   const std::vector<ApiKey> api_keys_;

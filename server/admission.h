@@ -3,11 +3,16 @@
 ///
 /// As in imgproxy, the queue is bounded: a request that would wait too long is refused at once, so that an
 /// overload does not slow down the requests that are accepted.
+///
+/// Tiles of worlds have a class of their own: clients never ask again for a tile that failed, so a tile is not refused.
+/// Their number is bounded by that of the connections. Coarser levels go first, as clients need them first; while
+/// requests of both classes wait, each class gets every second worker that becomes free.
 #include <chrono>
 #include <condition_variable>
 #include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <map>
 #include <mutex>
 #include <stop_token>
 #include <utility>
@@ -44,7 +49,11 @@ class Admission {
   /// Waits for a worker until `deadline` or until `gone` is set, which means that the client has left.
   std::variant<Ticket, Refused> enter(Clock::time_point deadline, const std::stop_token& gone);
 
-  /// Refuses all further requests. Requests that wait already are served.
+  /// The same for a tile of a level. It is not refused for a full queue or while the service drains.
+  std::variant<Ticket, Refused> enter_tile(int level, Clock::time_point deadline,
+                                           const std::stop_token& gone);
+
+  /// Refuses all further requests but tiles. Requests that wait already are served.
   void drain();
 
   int workers() const { return workers_; }
@@ -55,6 +64,10 @@ class Admission {
   struct Waiter {
     bool admitted = false;
   };
+  /// Tiles by level and arrival.
+  using Tiles = std::map<std::pair<int, std::uint64_t>, Waiter*>;
+
+  bool has_no_waiters() const { return waiting_.empty() && waiting_tiles_.empty(); }
   void leave();
   int share() const;
 
@@ -63,6 +76,9 @@ class Admission {
   mutable std::mutex mutex_;
   std::condition_variable_any changed_;
   std::deque<Waiter*> waiting_;
+  Tiles waiting_tiles_;
+  std::uint64_t tiles_seen_ = 0;
+  bool tile_is_next_ = false;
   int busy_ = 0;
   bool draining_ = false;
 };

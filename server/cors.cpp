@@ -34,7 +34,8 @@ void allow_origin(const std::vector<std::string>& origins, const http::Request& 
   const std::string origin = request.header("Origin");
   if (origin.empty()) return;
   if (!any && std::find(origins.begin(), origins.end(), origin) == origins.end()) return;
-  response.set("Access-Control-Allow-Origin", any ? "*" : origin);
+  if (http::field_count(response.headers, "Access-Control-Allow-Origin") == 0)
+    response.set("Access-Control-Allow-Origin", any ? "*" : origin);
   if (request.method == "OPTIONS" && request.has_header("Access-Control-Request-Method")) {
     const std::string allowed = http::field_value(response.headers, "Allow");
     response.set("Access-Control-Allow-Methods", allowed.empty() ? "GET, HEAD, POST, OPTIONS" : allowed);

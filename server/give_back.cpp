@@ -14,7 +14,7 @@ namespace seedmesh {
 namespace {
 
 constexpr std::chrono::seconds pause{1};
-constexpr std::int64_t worth = 8 << 20;  ///< bytes of growth
+constexpr std::int64_t worth = 4 << 20;  ///< bytes of growth
 constexpr int longest_wait = 10;         ///< looks, where requests never pause
 // Blocks from this size on come from the kernel by themselves and go back at once. What the end of an arena
 // keeps for the next request until GiveBack looks: to clear its pages anew would take a fifth of the time of

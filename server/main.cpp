@@ -1,5 +1,5 @@
-/// The command line: seedmesh serve | generate | validate | derive | import | presets | manifest | mcp | sign |
-/// key | healthcheck.
+/// The command line: seedmesh serve | generate | validate | derive | import | presets | manifest | tiles | mcp |
+/// sign | key | healthcheck.
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
@@ -14,6 +14,7 @@
 #include "server/manifest.h"
 #include "server/mcp.h"
 #include "server/serve.h"
+#include "server/tiles_command.h"
 
 namespace {
 
@@ -81,10 +82,28 @@ struct Arguments {
   std::string in, out = "-", preset, target, key_name;
   double valid_for = 0;
   ManifestOptions manifest;
+  TilesOptions tiles;
   ImportFiles files{"", "-", "", ""};
   bool print_config = false;
   std::string models = ".";
 };
+
+/// Declares the arguments and settings of the command tiles.
+void add_tiles(CLI::App& command, TilesOptions& tiles, Texts& texts) {
+  command
+      .add_option("world", tiles.world,
+                  "File with the request of a world, or preset.seed; - means standard input.")
+      ->required();
+  command.add_option("-o,--out", tiles.folder, "Folder for tileset.json and the tiles.")->required();
+  command.add_option(
+      "--levels", tiles.levels,
+      "first-last: 0 is the whole world, each level halves the side of tiles; all if omitted.");
+  command.add_option("--box", tiles.box,
+                     "west,south,east,north in metres from the middle of the world; all of it if omitted.");
+  command.add_option("--part", tiles.part, "index/count: one share of the files (0 to count - 1).");
+  command.add_flag("--quiet", tiles.quiet, "Do not print progress.");
+  add_settings(command, texts, limits);
+}
 
 /// Declares the commands with their arguments and settings.
 void add_commands(CLI::App& app, Arguments& arguments, Texts& texts) {
@@ -124,6 +143,8 @@ void add_commands(CLI::App& app, Arguments& arguments, Texts& texts) {
                    "index/count: only every count-th line, starting at index (0 to count - 1).");
   many->add_flag("--times", arguments.manifest.times, "Add the time of each model to its result.");
   many->add_flag("--quiet", arguments.manifest.quiet, "Do not print progress.");
+  add_tiles(*command("tiles", "Write a part of a world as a static tileset, on all cores; can be resumed."),
+            arguments.tiles, texts);
   CLI::App* agents = command("mcp", "Answer an agent program on standard input and output (MCP).");
   agents->add_option("-o,--out", arguments.models, "Folder for the models.");
   CLI::App* signing = command("sign", "Sign a URL with the first of the signing keys.");
@@ -159,6 +180,7 @@ int run(const std::string& command, Arguments& arguments, const ConfigResult& lo
   }
   if (command == "import") return import_command(config, arguments.files);
   if (command == "manifest") return manifest_command(config, arguments.manifest);
+  if (command == "tiles") return tiles_command(config, arguments.tiles);
   if (command == "mcp") return mcp::serve_stdio(config, arguments.models);
   if (command == "sign") return sign_command(config, arguments.target, arguments.valid_for);
   if (command == "key") return key_command(arguments.key_name);

@@ -16,7 +16,7 @@ enum class Query { refused, read, ignored };
 
 struct Route {
   std::string_view method;   ///< GET includes HEAD
-  std::string_view pattern;  ///< "/{...}" at the end matches any one segment
+  std::string_view pattern;  ///< "/{...}" at the end matches any one segment, "/{...*}" all that follows
   http::Response (*answer)(Call&);
   Guard guard = Guard::open;
   Query query = Query::refused;
@@ -26,10 +26,11 @@ constexpr Route table[] = {
     {"POST", "/v1/generate", post_generate, Guard::closed},
     {"GET", "/v1/models/{token}", get_model, Guard::closed, Query::read},
     {"GET", "/v1/textures/{name}", get_texture, Guard::closed},
+    {"GET", "/v1/worlds/{file*}", get_world, Guard::open, Query::read},
     {"GET", "/v1/presets", get_presets},
     {"GET", "/v1/presets/{name}", get_preset, Guard::closed, Query::read},
     {"POST", "/v1/validate", post_validate, Guard::closed},
-    {"POST", "/v1/derive", post_derive, Guard::closed},
+    {"POST", "/v1/derive", post_derive, Guard::closed, Query::read},
     {"POST", "/v1/import", post_import, Guard::closed, Query::read},
     {"POST", "/mcp", post_mcp, Guard::closed},
     {"GET", "/v1/schemas/{name}", get_schema},
@@ -54,10 +55,9 @@ std::optional<std::string> match(std::string_view pattern, std::string_view path
     return std::string();
   }
   const std::string_view segment = path.substr(std::min(brace, path.size()));
-  if (path.substr(0, brace) != pattern.substr(0, brace) || segment.empty() ||
-      segment.find('/') != std::string_view::npos) {
-    return std::nullopt;
-  }
+  if (path.substr(0, brace) != pattern.substr(0, brace) || segment.empty()) return std::nullopt;
+  if (pattern.ends_with("*}")) return std::string(segment);  // undecoded: the route splits it
+  if (segment.find('/') != std::string_view::npos) return std::nullopt;
   return http::percent_decode(segment);
 }
 
@@ -103,7 +103,7 @@ http::Response admit_and_answer(const Route& row, Call& call) {
 
 http::Response run(const Route& row, Call& call) {
   http::Response response = row.guard == Guard::closed ? admit_and_answer(row, call) : answer(row, call);
-  response.route = row.pattern;
+  if (response.route.empty()) response.route = row.pattern;
   return response;
 }
 
@@ -131,7 +131,9 @@ http::Response route(Service& service, const http::Request& request) {
     std::optional<std::string> name = match(row.pattern, request.path);
     if (!name) continue;
     call.name = std::move(*name);
-    return allows(row, request.method) ? run(row, call) : other_method(row, call);
+    http::Response response = allows(row, request.method) ? run(row, call) : other_method(row, call);
+    if (row.answer == get_world) open_to_pages(service, response);
+    return response;
   }
   if (service.pages.find(request.path)) {
     return allows(asset_route, request.method) ? run(asset_route, call) : other_method(asset_route, call);

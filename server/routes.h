@@ -14,6 +14,14 @@ http::Response get_preset(Call& call);
 
 http::Response get_texture(Call& call);  // routes_textures.cpp
 
+http::Response get_world(Call& call);  // routes_worlds.cpp
+/// The tileset of a posted world.
+http::Response post_world(Call& call, const Request& request);
+/// The map of a posted world and the box of the query; 422 for another generator.
+http::Response derive_world(Call& call, const Request& request);
+/// Lets pages of all origins read a response, unless the settings name some origins.
+void open_to_pages(const Service& service, http::Response& response);
+
 http::Response post_validate(Call& call);  // routes_json.cpp
 http::Response post_derive(Call& call);
 http::Response post_import(Call& call);

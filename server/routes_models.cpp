@@ -2,8 +2,9 @@
 /// /v1/presets/{name}[.{ext}].
 #include <algorithm>
 #include <cstdio>
-#include <ctime>
 
+#include "core/pipeline/world.h"
+#include "server/caching.h"
 #include "server/coded_body.h"
 #include "server/negotiate.h"
 #include "server/permalink.h"
@@ -14,7 +15,6 @@ namespace {
 
 constexpr std::size_t longest_location = 2'048;
 constexpr std::uint64_t largest_token_text = 1U << 20U;  ///< bytes of a decompressed token
-constexpr std::int64_t year = 31'536'000;
 constexpr std::string_view proctree_end = ".proctree";
 
 std::string milliseconds(std::string_view name, double duration) {
@@ -90,24 +90,6 @@ void add_location(const Call& call, http::Response& response, const std::string&
 void name_file(http::Response& response, const Request& request, std::string_view extension) {
   response.set("Content-Disposition",
                "inline; filename=\"" + request.name() + '.' + std::string(extension) + '"');
-}
-
-/// How caches may use a response: as immutable, or after revalidation.
-enum class Caching { immutable, revalidate };
-
-/// The Cache-Control field. A response to an API key is private, because caches do not check keys.
-std::string cache_control(const Call& call, Caching caching) {
-  const Grant& grant = call.grant;
-  const char* owner = grant.by == Grant::By::key ? "private" : "public";
-  if (caching == Caching::revalidate) return grant.by == Grant::By::key ? "private, no-cache" : "no-cache";
-  const std::int64_t left = grant.expires ? *grant.expires - std::time(nullptr) : year;
-  return std::string(owner) + ", max-age=" + std::to_string(std::clamp<std::int64_t>(left, 0, year)) +
-         ", immutable";
-}
-
-/// The Vary field of models; with the credentials on a closed service.
-std::string varies(const Call& call, const char* fields) {
-  return call.service.access.closed() ? std::string(fields) + ", Authorization, X-Api-Key" : fields;
 }
 
 /// Replaces pointers into the parameters by pointers to the keys of the query that set them.
@@ -214,6 +196,7 @@ http::Response redirect_to_own(const Call& call, const Request& request, const s
 http::Response post_generate(Call& call) {
   auto body = read_body(call);
   if (auto* refusal = std::get_if<http::Response>(&body)) return std::move(*refusal);
+  if (is_world(std::get<Request>(body))) return post_world(call, std::get<Request>(body));
   const TaggedRequest wanted = tagged(std::get<Request>(std::move(body)));
   // HTTP/1.0 has no chunked bodies.
   if (call.request.minor == 1 && wants_events(call.request.header("Accept")))

@@ -112,11 +112,15 @@ Job::Options options_without_worker(const Call& call) {
   return options;
 }
 
-std::optional<Problem> with_worker(const Call& call, const std::stop_token& stop,
-                                   const std::function<void(Job::Options)>& work) {
+using Entered = std::variant<Admission::Ticket, Admission::Refused>;
+
+/// Calls `work` with the worker of a ticket.
+static std::optional<Problem> with_ticket(const Call& call, const std::stop_token& stop,
+                                          const std::function<Entered()>& enter,
+                                          const std::function<void(Job::Options)>& work) {
   Service& service = call.service;
   const auto before = Clock::now();
-  auto entered = service.admission.enter(deadline_of(call), stop);
+  const Entered entered = enter();
   if (const auto* why = std::get_if<Admission::Refused>(&entered)) return not_admitted(service, *why);
   const auto& ticket = std::get<Admission::Ticket>(entered);
   service.metrics.spent("queue", std::chrono::duration<double>(Clock::now() - before).count());
@@ -128,6 +132,18 @@ std::optional<Problem> with_worker(const Call& call, const std::stop_token& stop
   options.deadline = deadline_of(call);
   work(std::move(options));
   return std::nullopt;
+}
+
+std::optional<Problem> with_worker(const Call& call, const std::stop_token& stop,
+                                   const std::function<void(Job::Options)>& work) {
+  return with_ticket(
+      call, stop, [&] { return call.service.admission.enter(deadline_of(call), stop); }, work);
+}
+
+std::optional<Problem> with_tile_worker(const Call& call, int level, const std::stop_token& stop,
+                                        const std::function<void(Job::Options)>& work) {
+  return with_ticket(
+      call, stop, [&] { return call.service.admission.enter_tile(level, deadline_of(call), stop); }, work);
 }
 
 bool wait_for_memory(const Call& call) {

@@ -25,6 +25,7 @@
 #include "server/problem.h"
 #include "server/shared_cache.h"
 #include "server/texture_cache.h"
+#include "server/worlds.h"
 
 namespace seedmesh {
 
@@ -81,6 +82,7 @@ struct Service {
         compressors(given.threads),
         cache(given.cache_bytes),
         textures(given.texture_bytes),
+        worlds(given.world_bytes),
         access(given),
         shared(given, given_log) {}
 
@@ -91,6 +93,7 @@ struct Service {
   std::counting_semaphore<> compressors;
   Cache cache;
   TextureCache textures;
+  Worlds worlds;
   const std::shared_ptr<Reserve> reserve = std::make_shared<Reserve>();
   Access access;
   SharedCache shared;
@@ -125,6 +128,10 @@ Job::Options options_without_worker(const Call& call);
 /// worker became free; errors of the work itself are handled by `work`.
 std::optional<Problem> with_worker(const Call& call, const std::stop_token& stop,
                                    const std::function<void(Job::Options)>& work);
+
+/// The same for a file of a world, whose level decides the order: waits as tiles do (admission.h), on one thread.
+std::optional<Problem> with_tile_worker(const Call& call, int level, const std::stop_token& stop,
+                                        const std::function<void(Job::Options)>& work);
 
 /// The model of a request, from a cache or generated now.
 Cache::Answer model_of(const Call& call, const TaggedRequest& wanted, const Job::Progress& progress);

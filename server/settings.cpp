@@ -170,6 +170,7 @@ const std::vector<Setting>& setting_rows() {
                 &Config::plain_for_private),
       bytes("cache-bytes", "Bytes of finished models in memory; 0 keeps none.", &Config::cache_bytes, 0),
       bytes("texture-bytes", "Bytes of textures in memory; 0 keeps none.", &Config::texture_bytes, 0),
+      bytes("world-bytes", "Bytes of what the tiles of worlds share in memory.", &Config::world_bytes, 0),
       {"log-level", "Log level: debug, info, warn, error or off.", set_log_level,
        [](const Config& c) { return Json(c.log_level); }},
       text("api-keys", "API keys as name:SHA-256[:rate[:concurrency]], ...; @path reads them from a file.",

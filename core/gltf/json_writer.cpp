@@ -22,6 +22,13 @@ void append_number(std::string& out, float value) {
   out.append(text, end.ptr);
 }
 
+void append_number(std::string& out, double value) {
+  assert(std::isfinite(value));
+  char text[longest_number];
+  const auto end = std::to_chars(text, text + sizeof text, value + 0.0);
+  out.append(text, end.ptr);
+}
+
 void append_decimal(std::string& out, float value) {
   assert(std::isfinite(value));
   char text[longest_number];

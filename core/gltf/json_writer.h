@@ -13,6 +13,9 @@ namespace seedmesh::gltf {
 /// finite; -0 becomes 0. Does not depend on the locale.
 void append_number(std::string& out, float value);
 
+/// The same for a double: 22.521484375 and not 22.521484.
+void append_number(std::string& out, double value);
+
 /// The same with at least one digit after a point, and without an exponent from 0.0001 to 1e15: the form in
 /// which nlohmann/json prints a double.
 void append_decimal(std::string& out, float value);

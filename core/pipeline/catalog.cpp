@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "core/lang/expression.h"
 #include "core/pipeline.h"
 #include "core/registry/registry.h"
 #include "core/schema/embedded.h"
@@ -61,6 +62,20 @@ std::vector<std::string_view> generator_names() {
   std::vector<std::string_view> names;
   for (const Generator& generator : generators()) names.push_back(generator.name);
   return names;
+}
+
+std::string vocabulary_json() {
+  Json vocabulary = Json::object();
+  for (const Generator& generator : generators()) vocabulary.update(generator.vocabulary());
+  Json functions = Json::array();
+  for (const lang::Function& function : lang::functions()) {
+    functions.push_back({{"name", function.name},
+                         {"arity", function.arity},
+                         {"text", function.text},
+                         {"example", function.example}});
+  }
+  vocabulary["functions"] = std::move(functions);
+  return canonical_text(vocabulary);
 }
 
 }  // namespace seedmesh

@@ -6,13 +6,13 @@
 #include "core/geom/mesh/tangents.h"
 #include "core/gltf/content_names.h"
 #include "core/gltf/write/write.h"
-#include "core/lang/expression.h"
 #include "core/model/row.h"
 #include "core/pipeline/body.h"
 #include "core/pipeline/fit.h"
 #include "core/pipeline/guarded.h"
 #include "core/pipeline/names.h"
 #include "core/pipeline/profiles.h"
+#include "core/registry/tile_extent.h"
 #include "core/schema/warning_list.h"
 #include "core/texture/impostor.h"
 #include "core/texture/paint.h"
@@ -63,12 +63,12 @@ Json seed_json(std::uint64_t seed) {
 /// Names the model and its parts for the profile.
 void name_model(Model& model, const Request& request, const Job& job) {
   const OutputProfile profile = request.body().output.profile;
-  // Compressed meshes share grids, so their stored form depends on the whole request.
-  const bool is_compressed = profile_of(profile).compressed;
+  // Quantized meshes share grids, so their stored form depends on the whole request.
+  const bool is_quantized = profile_of(profile).quantized;
   gltf::name_by_content(model,
                         {.stem = name_stem(request.body()),
                          .root = request.name(),
-                         .form = is_compressed ? std::string_view(request.canonical()) : std::string_view()},
+                         .form = is_quantized ? std::string_view(request.canonical()) : std::string_view()},
                         job);
   name_for(model, profile);
 }
@@ -139,23 +139,24 @@ static_assert(static_cast<int>(OutputInstancing::merge) == static_cast<int>(Copy
 Demand demand_of(const OutputParams& output, const Generator& generator) {
   const bool budget_here =
       output.max_triangles && !generator.keeps_budget && (output.lods > 1 || !generator.joins_triangles);
-  return {.lods = budget_here ? levels_to_choose_from : output.lods,
-          .share_organs =
-              output.instancing == OutputInstancing::nodes || output.instancing == OutputInstancing::gpu,
-          .growth = output.animation == OutputParams::Animation::growth,
-          .wind = output.wind == OutputWind::weights,
-          .collision = static_cast<CollisionNames>(output.collision),
-          .textures = texture_size(output),
-          // Otherwise a later stage changes or merges the meshes first.
-          .tangents = output.tangents == OutputTangents::auto_ && !output.max_triangles &&
-                      output.variants == 1 && output.lods == 1 && !output.impostor &&
-                      output.instancing != OutputInstancing::merge,
-          .impostor = output.impostor,
-          .copies = static_cast<CopyForm>(output.instancing),
-          .most_triangles = static_cast<std::uint64_t>(output.max_triangles.value_or(0)),
-          // Otherwise fit(), row_of() or merge_copies() read the meshes again.
-          .packs = profile_of(output.profile).compressed && !output.max_triangles && output.variants == 1 &&
-                   output.instancing != OutputInstancing::merge};
+  return {
+      .lods = budget_here ? levels_to_choose_from : output.lods,
+      .two_sided_leaves = output.profile == OutputProfile::unreal || output.profile == OutputProfile::unity,
+      .share_organs =
+          output.instancing == OutputInstancing::nodes || output.instancing == OutputInstancing::gpu,
+      .growth = output.animation == OutputParams::Animation::growth,
+      .wind = output.wind == OutputWind::weights,
+      .collision = static_cast<CollisionNames>(output.collision),
+      .textures = texture_size(output),
+      // Otherwise a later stage changes or merges the meshes first.
+      .tangents = output.tangents == OutputTangents::auto_ && !output.max_triangles && output.variants == 1 &&
+                  output.lods == 1 && !output.impostor && output.instancing != OutputInstancing::merge,
+      .impostor = output.impostor,
+      .copies = static_cast<CopyForm>(output.instancing),
+      .most_triangles = static_cast<std::uint64_t>(output.max_triangles.value_or(0)),
+      // Otherwise fit(), row_of() or merge_copies() read the meshes again.
+      .packs = profile_of(output.profile).compressed && !output.max_triangles && output.variants == 1 &&
+               output.instancing != OutputInstancing::merge};
 }
 
 /// The model of one seed.
@@ -274,8 +275,10 @@ WriteOptions write_options(const Request& request) {
           .generator = "Seedmesh " + std::string(program_version()),
           .dialect = {.compressed = profile.compressed,
                       .gpu_instances = profile_default || output.instancing == OutputInstancing::gpu,
-                      .lods_inside = profile.lods_inside},
-          .image_stem = name_stem(request.body())};
+                      .lods_inside = profile.lods_inside,
+                      .quantized = profile.quantized},
+          .image_stem = name_stem(request.body()),
+          .least_extent = tile_extent(*request.body().generator, request.body().params)};
 }
 
 }  // namespace
@@ -332,7 +335,7 @@ Result<std::string> derive(const Request& request, const Job::Options& options) 
 
 /// Does the output hold exactly the triangles of the generator?
 static bool leaves_meshes(const OutputParams& output) {
-  return !profile_of(output.profile).compressed && output.lods == 1 && !output.impostor;
+  return !profile_of(output.profile).quantized && output.lods == 1 && !output.impostor;
 }
 
 /// A warning where simplification to the budget takes seconds.
@@ -381,20 +384,6 @@ Result<std::string> validate(const Request& request, const Job::Options& options
     }
     return canonical_text(answer);
   });
-}
-
-std::string vocabulary_json() {
-  Json vocabulary = Json::object();
-  for (const Generator& generator : generators()) vocabulary.update(generator.vocabulary());
-  Json functions = Json::array();
-  for (const lang::Function& function : lang::functions()) {
-    functions.push_back({{"name", function.name},
-                         {"arity", function.arity},
-                         {"text", function.text},
-                         {"example", function.example}});
-  }
-  vocabulary["functions"] = std::move(functions);
-  return canonical_text(vocabulary);
 }
 
 }  // namespace seedmesh

@@ -11,12 +11,13 @@
 namespace seedmesh {
 namespace {
 
-constexpr std::array<Profile, 6> profiles = {{{OutputProfile::core, false, false, false, false},
-                                              {OutputProfile::web, true, true, true, true},
-                                              {OutputProfile::unity, false, true, false, true},
-                                              {OutputProfile::unreal, false, false, false, false},
-                                              {OutputProfile::godot, false, false, false, false},
-                                              {OutputProfile::blender, false, true, false, false}}};
+constexpr std::array<Profile, 7> profiles = {{{OutputProfile::core, false, false, false, false, false},
+                                              {OutputProfile::web, true, true, true, true, true},
+                                              {OutputProfile::tiles, true, false, true, true, false},
+                                              {OutputProfile::unity, false, false, true, false, true},
+                                              {OutputProfile::unreal, false, false, false, false, false},
+                                              {OutputProfile::godot, false, false, false, false, false},
+                                              {OutputProfile::blender, false, false, true, false, false}}};
 
 constexpr std::size_t longest_in_blender = 63;
 

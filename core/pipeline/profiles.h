@@ -12,7 +12,8 @@ namespace seedmesh {
 
 struct Profile {
   OutputProfile name;
-  bool compressed;     ///< files use KHR_mesh_quantization and EXT_meshopt_compression
+  bool quantized;      ///< files use KHR_mesh_quantization
+  bool compressed;     ///< and EXT_meshopt_compression
   bool gpu_instances;  ///< reads EXT_mesh_gpu_instancing
   bool prefers_gpu;    ///< gets it where output.instancing is auto
   bool lods_inside;    ///< reads MSFT_lod

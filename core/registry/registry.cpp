@@ -11,6 +11,7 @@
 #include "core/generators/scene/scene.h"
 #include "core/generators/terrain/terrain.h"
 #include "core/generators/tree/tree.h"
+#include "core/generators/world/world.h"
 #include "generated/params/building.h"
 #include "generated/params/city.h"
 #include "generated/params/fractal.h"
@@ -18,6 +19,7 @@
 #include "generated/params/scene.h"
 #include "generated/params/terrain.h"
 #include "generated/params/tree.h"
+#include "generated/params/world.h"
 
 namespace seedmesh {
 namespace {
@@ -156,6 +158,8 @@ constexpr Generator rows[] = {
         fractal::appraise,
         fractal::vocabulary>::row<fractal::encode, fractal::check_format>({.name = "fractal",
                                                                            .formats = fractal_formats}),
+    Row<WorldParams, read_world, write_world, world::check, world::generate, world::derive, world::appraise,
+        world::vocabulary>::row({.name = "world"}),
 };
 
 }  // namespace

@@ -4,30 +4,17 @@
 #include <cassert>
 #include <cmath>
 
-#include "core/base/math.h"
+#include "core/texture/cells.h"
+#include "core/texture/noise.h"
 
 namespace seedmesh::texture {
 namespace {
 
-Relief bare(int size, const Job& job) {
-  return {Field(job, size), Field(job, size, 0.5F), Field(job, size), Field(job, 1, 1)};
-}
-
-float clamp(float x) { return x < 0 ? 0 : x > 1 ? 1 : x; }
-
 /// The fine grain of every bark, coarser along the limb than around it.
-Field grain(int size, Rng rng, const Job& job) {
-  Field field(job, size);
-  add_noise(field, {24, 10}, {3, 0.6F}, 0.55F, rng.at("grain"), job);
-  return field;
-}
+Noise grain(int size, Rng rng) { return {size, {24, 10}, {3, 0.6F}, 0.55F, rng.at("grain")}; }
 
 /// Large patches of another tone.
-Field patches(int size, Rng rng, const Job& job) {
-  Field field(job, size);
-  add_noise(field, {3, 3}, {3, 0.5F}, 0.6F, rng.at("patches"), job);
-  return field;
-}
+Noise patches(int size, Rng rng) { return {size, {3, 3}, {3, 0.5F}, 0.6F, rng.at("patches")}; }
 
 /// Plates between cracks, as of oak, pine and spruce.
 struct Plates {
@@ -40,23 +27,28 @@ struct Plates {
 };
 
 Relief plated(const Plates& plates, int size, Rng rng, const Job& job) {
-  Field wobble(job, size);
-  add_noise(wobble, plates.wobble, {4, 0.55F}, 1, rng.at("wobble"), job);
-  const Cells cell = cells(size, plates.lattice, rng.at("plates"), &wobble, plates.strength, job);
-  const Field fine = grain(size, rng, job), large = patches(size, rng, job);
-  Relief relief = bare(size, job);
-  relief.height.each(job, [&](float, int x, int y) {
-    const float flat = step_between(0.01F, plates.crack, cell.border.row(y)[x]);
-    const float own = 1 - plates.differ * cell.shade.row(y)[x];
-    return clamp(flat * own * (1 - plates.roughen) +
-                 plates.roughen * (0.5F + fine.row(y)[x]) * (0.35F + 0.65F * flat));
+  const Field wobble = field_of({size, plates.wobble, {4, 0.55F}, 1, rng.at("wobble")}, size, job);
+  const Cells cells(size, plates.lattice, rng.at("plates"));
+  const Noise grain_noise = grain(size, rng), patch_noise = patches(size, rng);
+  return paint_rows(size, Accent::none, job, [&](int begin, int end, const auto& row_at) {
+    CellRows cell_rows(cells, wobble, plates.strength);
+    NoiseRows grain_rows(grain_noise), patch_rows(patch_noise);
+    for (int y = begin; y < end; ++y) {
+      const auto [border, shade] = cell_rows.row(y);
+      const float *fine = grain_rows.row(y), *large = patch_rows.row(y);
+      const ReliefRow out = row_at(y);
+      for (int x = 0; x < size; ++x) {
+        const float flat = step_between(0.01F, plates.crack, border[x]);
+        const float own = 1 - plates.differ * shade[x];
+        out.height[x] = clamp_share(flat * own * (1 - plates.roughen) +
+                                    plates.roughen * (0.5F + fine[x]) * (0.35F + 0.65F * flat));
+      }
+      for (int x = 0; x < size; ++x) {
+        out.tone[x] = clamp_share(0.08F + 0.62F * out.height[x] + 0.25F * fine[x] + 0.22F * large[x] +
+                                  0.3F * plates.differ * (shade[x] - 0.5F));
+      }
+    }
   });
-  relief.tone.each(job, [&](float, int x, int y) {
-    const float height = relief.height.row(y)[x];
-    return clamp(0.08F + 0.62F * height + 0.25F * fine.row(y)[x] + 0.22F * large.row(y)[x] +
-                 0.3F * plates.differ * (cell.shade.row(y)[x] - 0.5F));
-  });
-  return relief;
 }
 
 Relief oak(int size, Rng rng, const Job& job) {
@@ -65,26 +57,31 @@ Relief oak(int size, Rng rng, const Job& job) {
 
 /// Long plates of many sizes between deep furrows, each with overlapping thin flakes.
 Relief pine(int size, Rng rng, const Job& job) {
-  Field wobble(job, size), gap(job, size);
-  add_noise(wobble, {6, 3}, {5, 0.6F}, 1, rng.at("wobble"), job);
-  add_noise(gap, {5, 3}, {3, 0.6F}, 1, rng.at("gap"), job);
-  const Cells plate = cells(size, {7, 3}, rng.at("plates"), &wobble, 0.4F, job);
-  const Cells flake = cells(size, {16, 9}, rng.at("flakes"), &wobble, 0.75F, job);
-  const Field fine = grain(size, rng, job), large = patches(size, rng, job);
-  Relief relief = bare(size, job);
-  relief.height.each(job, [&](float, int x, int y) {
-    // Furrows are partly narrow, so that plates stay connected.
-    const float width = 0.12F + 0.2F * (0.5F + gap.row(y)[x]);
-    const float flat = step_between(0.02F, std::max(0.08F, width), plate.border.row(y)[x]);
-    const float layer = 0.62F + 0.3F * flake.shade.row(y)[x] + 0.08F * plate.shade.row(y)[x];
-    return clamp(flat * layer * 0.86F + 0.14F * (0.5F + fine.row(y)[x]) * (0.3F + 0.7F * flat));
+  const Field wobble = field_of({size, {6, 3}, {5, 0.6F}, 1, rng.at("wobble")}, size, job);
+  const Noise gap_noise(size, {5, 3}, {3, 0.6F}, 1, rng.at("gap"));
+  const Cells plates(size, {7, 3}, rng.at("plates")), flakes(size, {16, 9}, rng.at("flakes"));
+  const Noise grain_noise = grain(size, rng), patch_noise = patches(size, rng);
+  return paint_rows(size, Accent::none, job, [&](int begin, int end, const auto& row_at) {
+    CellRows plate_rows(plates, wobble, 0.4F), flake_rows(flakes, wobble, 0.75F);
+    NoiseRows gap_rows(gap_noise), grain_rows(grain_noise), patch_rows(patch_noise);
+    for (int y = begin; y < end; ++y) {
+      const CellRows::Row plate = plate_rows.row(y), flake = flake_rows.row(y);
+      const float *gap = gap_rows.row(y), *fine = grain_rows.row(y), *large = patch_rows.row(y);
+      const ReliefRow out = row_at(y);
+      for (int x = 0; x < size; ++x) {
+        // Furrows are partly narrow, so that plates stay connected.
+        const float width = 0.12F + 0.2F * (0.5F + gap[x]);
+        const float flat = step_between(0.02F, width < 0.08F ? 0.08F : width, plate.border[x]);
+        const float layer = 0.62F + 0.3F * flake.shade[x] + 0.08F * plate.shade[x];
+        out.height[x] = clamp_share(flat * layer * 0.86F + 0.14F * (0.5F + fine[x]) * (0.3F + 0.7F * flat));
+      }
+      for (int x = 0; x < size; ++x) {
+        const float edge = step_between(0.0F, 0.14F, flake.border[x]);
+        out.tone[x] = clamp_share(0.05F + 0.55F * out.height[x] + 0.07F * edge + 0.22F * fine[x] +
+                                  0.3F * large[x] + 0.16F * (flake.shade[x] - 0.5F));
+      }
+    }
   });
-  relief.tone.each(job, [&](float, int x, int y) {
-    const float edge = step_between(0.0F, 0.14F, flake.border.row(y)[x]);
-    return clamp(0.05F + 0.55F * relief.height.row(y)[x] + 0.07F * edge + 0.22F * fine.row(y)[x] +
-                 0.3F * large.row(y)[x] + 0.16F * (flake.shade.row(y)[x] - 0.5F));
-  });
-  return relief;
 }
 
 Relief spruce(int size, Rng rng, const Job& job) {
@@ -93,121 +90,131 @@ Relief spruce(int size, Rng rng, const Job& job) {
 
 /// A net of ridges around long furrows, as of old willows and ashes: raised borders of cells.
 Relief willow(int size, Rng rng, const Job& job) {
-  Field wobble(job, size);
-  add_noise(wobble, {8, 4}, {4, 0.55F}, 1, rng.at("wobble"), job);
-  const Cells cell = cells(size, {10, 3}, rng.at("furrows"), &wobble, 0.3F, job);
-  const Field fine = grain(size, rng, job), large = patches(size, rng, job);
-  Relief relief = bare(size, job);
-  relief.height.each(job, [&](float, int x, int y) {
-    const float depth =
-        step_between(0.06F, 0.36F, cell.border.row(y)[x] * (0.8F + 0.4F * cell.shade.row(y)[x]));
-    return clamp((1 - depth) * 0.78F + 0.22F * (0.5F + fine.row(y)[x]));
+  const Field wobble = field_of({size, {8, 4}, {4, 0.55F}, 1, rng.at("wobble")}, size, job);
+  const Cells cells(size, {10, 3}, rng.at("furrows"));
+  const Noise grain_noise = grain(size, rng), patch_noise = patches(size, rng);
+  return paint_rows(size, Accent::none, job, [&](int begin, int end, const auto& row_at) {
+    CellRows cell_rows(cells, wobble, 0.3F);
+    NoiseRows grain_rows(grain_noise), patch_rows(patch_noise);
+    for (int y = begin; y < end; ++y) {
+      const auto [border, shade] = cell_rows.row(y);
+      const float *fine = grain_rows.row(y), *large = patch_rows.row(y);
+      const ReliefRow out = row_at(y);
+      for (int x = 0; x < size; ++x) {
+        const float depth = step_between(0.06F, 0.36F, border[x] * (0.8F + 0.4F * shade[x]));
+        out.height[x] = clamp_share((1 - depth) * 0.78F + 0.22F * (0.5F + fine[x]));
+        out.tone[x] = clamp_share(0.08F + 0.62F * out.height[x] + 0.25F * fine[x] + 0.2F * large[x]);
+      }
+    }
   });
-  relief.tone.each(job, [&](float, int x, int y) {
-    return clamp(0.08F + 0.62F * relief.height.row(y)[x] + 0.25F * fine.row(y)[x] + 0.2F * large.row(y)[x]);
-  });
-  return relief;
-}
-
-/// Long thin marks around the limb, where the noise is above `from`.
-Field dashes(int size, Lattice lattice, float from, float to, Rng rng, const Job& job) {
-  Field field(job, size);
-  add_noise(field, lattice, 1, rng, job);
-  field.each(job, [&](float n, int, int) { return step_between(from, to, n); });
-  return field;
 }
 
 Relief birch(int size, Rng rng, const Job& job) {
-  const Field lenticels = dashes(size, {8, 56}, 0.38F, 0.52F, rng.at("lenticels"), job);
-  Field scars(job, size);
-  add_noise(scars, {3, 6}, {4, 0.6F}, 0.75F, rng.at("scars"), job);
-  Field bands(job, size);
-  add_noise(bands, {2, 18}, {3, 0.6F}, 0.5F, rng.at("bands"), job);
-  const Field fine = grain(size, rng, job);
-  Relief relief = bare(size, job);
-  relief.accent.each(job, [&](float, int x, int y) {
-    const float scar = step_between(0.42F, 0.62F, scars.row(y)[x] + 0.15F * fine.row(y)[x]);
-    return clamp(std::max(scar, 0.8F * lenticels.row(y)[x]));
+  const Noise dash_noise(size, {8, 56}, {1, 1}, 1, rng.at("lenticels"));
+  const Noise scar_noise(size, {3, 6}, {4, 0.6F}, 0.75F, rng.at("scars"));
+  const Noise band_noise(size, {2, 18}, {3, 0.6F}, 0.5F, rng.at("bands"));
+  const Noise grain_noise = grain(size, rng);
+  return paint_rows(size, Accent::painted, job, [&](int begin, int end, const auto& row_at) {
+    NoiseRows dash_rows(dash_noise), scar_rows(scar_noise), band_rows(band_noise), grain_rows(grain_noise);
+    for (int y = begin; y < end; ++y) {
+      const float *dashes = dash_rows.row(y), *scars = scar_rows.row(y);
+      const float *bands = band_rows.row(y), *fine = grain_rows.row(y);
+      const ReliefRow out = row_at(y);
+      for (int x = 0; x < size; ++x) {
+        const float scar = step_between(0.42F, 0.62F, scars[x] + 0.15F * fine[x]);
+        const float lenticel = 0.8F * step_between(0.38F, 0.52F, dashes[x]);
+        out.accent[x] = scar > lenticel ? scar : lenticel;
+      }
+      for (int x = 0; x < size; ++x) {
+        out.height[x] = clamp_share(0.72F + 0.22F * bands[x] + 0.06F * fine[x] - 0.45F * out.accent[x]);
+        out.tone[x] = clamp_share(0.55F + 0.5F * bands[x] + 0.25F * fine[x]);
+      }
+    }
   });
-  relief.height.each(job, [&](float, int x, int y) {
-    return clamp(0.72F + 0.22F * bands.row(y)[x] + 0.06F * fine.row(y)[x] - 0.45F * relief.accent.row(y)[x]);
-  });
-  relief.tone.each(job, [&](float, int x, int y) {
-    return clamp(0.55F + 0.5F * bands.row(y)[x] + 0.25F * fine.row(y)[x]);
-  });
-  return relief;
 }
 
 Relief beech(int size, Rng rng, const Job& job) {
-  Field wrinkles(job, size);
-  add_noise(wrinkles, {4, 22}, {3, 0.55F}, 0.5F, rng.at("wrinkles"), job);
-  Field lichen(job, size);
-  add_noise(lichen, {5, 5}, {5, 0.6F}, 0.7F, rng.at("lichen"), job);
-  const Field fine = grain(size, rng, job), large = patches(size, rng, job);
-  Relief relief = bare(size, job);
-  relief.accent.each(job,
-                     [&](float, int x, int y) { return 0.55F * step_between(0.3F, 0.6F, lichen.row(y)[x]); });
-  relief.height.each(job, [&](float, int x, int y) {
-    return clamp(0.6F + 0.3F * wrinkles.row(y)[x] + 0.1F * fine.row(y)[x] + 0.1F * relief.accent.row(y)[x]);
+  const Noise wrinkle_noise(size, {4, 22}, {3, 0.55F}, 0.5F, rng.at("wrinkles"));
+  const Noise lichen_noise(size, {5, 5}, {5, 0.6F}, 0.7F, rng.at("lichen"));
+  const Noise grain_noise = grain(size, rng), patch_noise = patches(size, rng);
+  return paint_rows(size, Accent::painted, job, [&](int begin, int end, const auto& row_at) {
+    NoiseRows wrinkle_rows(wrinkle_noise), lichen_rows(lichen_noise), grain_rows(grain_noise),
+        patch_rows(patch_noise);
+    for (int y = begin; y < end; ++y) {
+      const float *wrinkles = wrinkle_rows.row(y), *lichen = lichen_rows.row(y);
+      const float *fine = grain_rows.row(y), *large = patch_rows.row(y);
+      const ReliefRow out = row_at(y);
+      for (int x = 0; x < size; ++x) {
+        out.accent[x] = 0.55F * step_between(0.3F, 0.6F, lichen[x]);
+        out.height[x] = clamp_share(0.6F + 0.3F * wrinkles[x] + 0.1F * fine[x] + 0.1F * out.accent[x]);
+        out.tone[x] = clamp_share(0.5F + 0.45F * large[x] + 0.25F * wrinkles[x] + 0.15F * fine[x]);
+      }
+    }
   });
-  relief.tone.each(job, [&](float, int x, int y) {
-    return clamp(0.5F + 0.45F * large.row(y)[x] + 0.25F * wrinkles.row(y)[x] + 0.15F * fine.row(y)[x]);
-  });
-  return relief;
 }
 
 Relief cherry(int size, Rng rng, const Job& job) {
-  const Field lenticels = dashes(size, {7, 34}, 0.32F, 0.5F, rng.at("lenticels"), job);
-  Field bands(job, size);
-  add_noise(bands, {2, 26}, {3, 0.55F}, 0.6F, rng.at("bands"), job);
-  const Field fine = grain(size, rng, job), large = patches(size, rng, job);
-  Relief relief = bare(size, job);
-  relief.accent.each(job, [&](float, int x, int y) { return 0.75F * lenticels.row(y)[x]; });
-  relief.height.each(job, [&](float, int x, int y) {
-    return clamp(0.45F + 0.25F * bands.row(y)[x] + 0.05F * fine.row(y)[x] + 0.35F * lenticels.row(y)[x]);
+  const Noise dash_noise(size, {7, 34}, {1, 1}, 1, rng.at("lenticels"));
+  const Noise band_noise(size, {2, 26}, {3, 0.55F}, 0.6F, rng.at("bands"));
+  const Noise grain_noise = grain(size, rng), patch_noise = patches(size, rng);
+  return paint_rows(size, Accent::painted, job, [&](int begin, int end, const auto& row_at) {
+    NoiseRows dash_rows(dash_noise), band_rows(band_noise), grain_rows(grain_noise), patch_rows(patch_noise);
+    for (int y = begin; y < end; ++y) {
+      const float *dashes = dash_rows.row(y), *bands = band_rows.row(y);
+      const float *fine = grain_rows.row(y), *large = patch_rows.row(y);
+      const ReliefRow out = row_at(y);
+      for (int x = 0; x < size; ++x) {
+        const float lenticel = step_between(0.32F, 0.5F, dashes[x]);
+        out.accent[x] = 0.75F * lenticel;
+        out.height[x] = clamp_share(0.45F + 0.25F * bands[x] + 0.05F * fine[x] + 0.35F * lenticel);
+        out.tone[x] = clamp_share(0.45F + 0.4F * bands[x] + 0.3F * large[x] + 0.12F * fine[x]);
+      }
+    }
   });
-  relief.tone.each(job, [&](float, int x, int y) {
-    return clamp(0.45F + 0.4F * bands.row(y)[x] + 0.3F * large.row(y)[x] + 0.12F * fine.row(y)[x]);
-  });
-  return relief;
 }
 
 /// Rings of leaf scars, each a step, with fibres.
 Relief palm(int size, Rng rng, const Job& job) {
   constexpr float rings = 11;
-  Field sway(job, size);
-  add_noise(sway, {4, 8}, {3, 0.5F}, 0.35F, rng.at("sway"), job);
-  Field fibres(job, size);
-  add_noise(fibres, {64, 4}, {2, 0.6F}, 0.6F, rng.at("fibres"), job);
-  const Field large = patches(size, rng, job);
-  Relief relief = bare(size, job);
-  relief.height.each(job, [&](float, int x, int y) {
-    const float phase = static_cast<float>(y) * rings / static_cast<float>(size) + sway.row(y)[x];
-    const float within = phase - std::floor(phase);
-    const float ring =
-        within < 0.82F ? 0.35F + 0.65F * within / 0.82F : 1 - step_between(0.82F, 1, within) * 0.65F;
-    return clamp(0.85F * ring + 0.15F * (0.5F + fibres.row(y)[x]));
+  const Noise sway_noise(size, {4, 8}, {3, 0.5F}, 0.35F, rng.at("sway"));
+  const Noise fibre_noise(size, {64, 4}, {2, 0.6F}, 0.6F, rng.at("fibres"));
+  const Noise patch_noise = patches(size, rng);
+  return paint_rows(size, Accent::none, job, [&](int begin, int end, const auto& row_at) {
+    NoiseRows sway_rows(sway_noise), fibre_rows(fibre_noise), patch_rows(patch_noise);
+    for (int y = begin; y < end; ++y) {
+      const float *sway = sway_rows.row(y), *fibres = fibre_rows.row(y), *large = patch_rows.row(y);
+      const float at = static_cast<float>(y) * rings / static_cast<float>(size);
+      const ReliefRow out = row_at(y);
+      for (int x = 0; x < size; ++x) {
+        const float phase = at + sway[x], within = phase - std::floor(phase);
+        const float rising = 0.35F + 0.65F * within / 0.82F;
+        const float falling = 1 - step_between(0.82F, 1, within) * 0.65F;
+        out.height[x] = clamp_share(0.85F * (within < 0.82F ? rising : falling) + 0.15F * (0.5F + fibres[x]));
+        out.tone[x] = clamp_share(0.12F + 0.55F * out.height[x] + 0.3F * fibres[x] + 0.2F * large[x]);
+      }
+    }
   });
-  relief.tone.each(job, [&](float, int x, int y) {
-    return clamp(0.12F + 0.55F * relief.height.row(y)[x] + 0.3F * fibres.row(y)[x] + 0.2F * large.row(y)[x]);
-  });
-  return relief;
 }
 
 /// Long loose strips, as of cedars.
 Relief cedar(int size, Rng rng, const Job& job) {
-  Field strips(job, size);
-  add_noise(strips, {22, 2}, 0.7F, rng.at("strips"), job, Fold::ridge);
-  add_noise(strips, {44, 4}, 0.3F, rng.at("threads"), job, Fold::ridge);
-  const Field fine = grain(size, rng, job), large = patches(size, rng, job);
-  Relief relief = bare(size, job);
-  relief.height.each(job, [&](float, int x, int y) {
-    return clamp(step_between(0.4F, 1, strips.row(y)[x]) * 0.85F + 0.15F * (0.5F + fine.row(y)[x]));
+  const Noise strip_noise(size, {22, 2}, {1, 1}, 0.7F, rng.at("strips"), Fold::ridge);
+  const Noise thread_noise(size, {44, 4}, {1, 1}, 0.3F, rng.at("threads"), Fold::ridge);
+  const Noise grain_noise = grain(size, rng), patch_noise = patches(size, rng);
+  return paint_rows(size, Accent::none, job, [&](int begin, int end, const auto& row_at) {
+    NoiseRows strip_rows(strip_noise), thread_rows(thread_noise), grain_rows(grain_noise),
+        patch_rows(patch_noise);
+    for (int y = begin; y < end; ++y) {
+      const float *strips = strip_rows.row(y), *threads = thread_rows.row(y);
+      const float *fine = grain_rows.row(y), *large = patch_rows.row(y);
+      const ReliefRow out = row_at(y);
+      for (int x = 0; x < size; ++x) {
+        out.height[x] =
+            clamp_share(step_between(0.4F, 1, strips[x] + threads[x]) * 0.85F + 0.15F * (0.5F + fine[x]));
+        out.tone[x] = clamp_share(0.15F + 0.55F * out.height[x] + 0.2F * fine[x] + 0.3F * large[x]);
+      }
+    }
   });
-  relief.tone.each(job, [&](float, int x, int y) {
-    return clamp(0.15F + 0.55F * relief.height.row(y)[x] + 0.2F * fine.row(y)[x] + 0.3F * large.row(y)[x]);
-  });
-  return relief;
 }
 
 struct Kind {

@@ -13,6 +13,8 @@
 #include <string>
 #include <vector>
 
+#include "core/texture/run_deflate.h"
+
 // libpng leaves a call by longjmp. Every function here that calls it is a frame of plain data: what has a
 // destructor belongs to its caller, and no callback lets an exception pass through the library.
 // NOLINTBEGIN(cert-err52-cpp, modernize-avoid-setjmp-longjmp)
@@ -143,7 +145,8 @@ std::array<std::uint8_t, 13> header_bytes(const PictureView& picture) {
   put_big_endian(made.data(), picture.width);
   put_big_endian(made.data() + 4, picture.height);
   made[8] = static_cast<std::uint8_t>(picture.bits);
-  made[9] = static_cast<std::uint8_t>(color_type(picture.channels));
+  const int type = picture.palette.empty() ? color_type(picture.channels) : PNG_COLOR_TYPE_PALETTE;
+  made[9] = static_cast<std::uint8_t>(type);
   return made;  // deflate, adaptive filters, no interlacing: three zeros
 }
 
@@ -178,16 +181,12 @@ std::size_t row_size(const PictureView& picture) {
          static_cast<std::size_t>(picture.bits / 8);
 }
 
-/// The whole file in memory at once with libdeflate.
-Array<std::uint8_t> encode_at_once(const PictureView& picture, PngEffort effort, const Job& job) {
-  const Array<std::uint8_t> rows = filtered_up(picture, row_size(picture), job);
+/// Appends the chunk of image data.
+void append_small(Array<std::uint8_t>& out, const Array<std::uint8_t>& rows) {
+  constexpr int level = 4;
   const std::unique_ptr<libdeflate_compressor, decltype(&libdeflate_free_compressor)> compressor(
-      libdeflate_alloc_compressor(effort == PngEffort::small ? 4 : 1), &libdeflate_free_compressor);
+      libdeflate_alloc_compressor(level), &libdeflate_free_compressor);
   if (!compressor) throw std::bad_alloc();
-
-  Array<std::uint8_t> out(job);
-  out.append(signature);
-  out.append(chunk("IHDR", header_bytes(picture)));
   const std::size_t start = out.size();
   const std::size_t bound = libdeflate_zlib_compress_bound(compressor.get(), rows.size());
   out.resize(start + chunk_head + bound + chunk_foot);
@@ -196,6 +195,33 @@ Array<std::uint8_t> encode_at_once(const PictureView& picture, PngEffort effort,
   assert(length > 0);
   seal_chunk(out.data() + start, "IDAT", length);
   out.resize(start + chunk_head + length + chunk_foot);
+}
+
+void append_quick(Array<std::uint8_t>& out, const Array<std::uint8_t>& rows, std::size_t pixel_bytes) {
+  const std::size_t period = pixel_bytes <= 4 ? pixel_bytes : 1;
+  const std::size_t start = out.size();
+  out.resize(start + chunk_head + run_deflate_bound(rows.size()) + chunk_foot);
+  const std::size_t length = run_deflate(rows.span(), period, out.data() + start + chunk_head);
+  seal_chunk(out.data() + start, "IDAT", length);
+  out.resize(start + chunk_head + length + chunk_foot);
+}
+
+/// The whole file in memory at once.
+Array<std::uint8_t> encode_at_once(const PictureView& picture, PngEffort effort, const Job& job) {
+  const Array<std::uint8_t> rows = filtered_up(picture, row_size(picture), job);
+  Array<std::uint8_t> out(job);
+  out.append(signature);
+  out.append(chunk("IHDR", header_bytes(picture)));
+  if (!picture.palette.empty()) {
+    std::vector<std::uint8_t> colors;
+    for (const glm::u8vec3& color : picture.palette) colors.insert(colors.end(), {color.x, color.y, color.z});
+    out.append(chunk("PLTE", colors));
+  }
+  if (effort == PngEffort::small) {
+    append_small(out, rows);
+  } else {
+    append_quick(out, rows, row_size(picture) / picture.width);
+  }
   out.append(chunk("IEND", {}));
   out.shrink_to_fit();
   job.check();
@@ -314,6 +340,8 @@ Array<std::uint8_t> encode_png(const PictureView& picture, PngEffort effort, con
   assert(picture.width > 0 && picture.height > 0 && (picture.bits == 8 || picture.bits == 16));
   assert(picture.channels >= 1 && picture.channels <= 4);
   assert(picture.bytes.size() == row_size(picture) * picture.height);
+  assert(picture.palette.empty() || (picture.channels == 1 && picture.bits == 8 &&
+                                     picture.palette.size() <= 256 && effort != PngEffort::streamed));
   return effort == PngEffort::streamed ? encode_in_rows(picture, job) : encode_at_once(picture, effort, job);
 }
 

@@ -1,204 +1,269 @@
 #include "core/texture/relief.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <optional>
 #include <vector>
 
 #include "core/base/parallel.h"
+#include "core/base/wide.h"
 #include "core/texture/png.h"
 
 namespace seedmesh::texture {
 namespace {
 
-/// Values from 0 to 1 as bytes. A plain loop over arrays, so that the compiler handles many texels at once.
-void write_bytes(const float* values, std::uint8_t* out, int count) {
-  for (int i = 0; i < count; ++i) {
-    const float clamped = values[i] < 0 ? 0 : values[i] > 1 ? 1 : values[i];
-    out[i] = static_cast<std::uint8_t>(clamped * 255 + 0.5F);
-  }
-}
-
-/// For each byte the nearest of the steps that include the middle of the range.
-using Steps = std::array<std::uint8_t, 256>;
-
-Steps steps_of(int step) {
-  Steps made{};
-  for (int byte = 0; byte < 256; ++byte) {
-    const int from_middle = byte - 128 + 128 * step;  // positive, so that it is rounded down
-    const int rounded = step == 1 ? byte : (from_middle + step / 2) / step * step - 128 * step + 128;
-    made[static_cast<std::size_t>(byte)] = static_cast<std::uint8_t>(std::clamp(rounded, 0, 255));
-  }
-  return made;
-}
-
-/// One row of an image: a row of values for each channel, and the same as bytes.
-struct Row {
-  explicit Row(int size) {
-    for (std::vector<float>& each : values) each.resize(static_cast<std::size_t>(size));
-    for (std::vector<std::uint8_t>& each : bytes) each.resize(static_cast<std::size_t>(size));
-  }
-  std::array<std::vector<float>, 4> values;
-  std::array<std::vector<std::uint8_t>, 4> bytes;
+/// Bytes are rounded to multiples of a power of two, so that files are smaller: the middle of the range is one.
+struct Levels {
+  explicit Levels(std::uint32_t step) : half(step / 2), mask(~(step - 1)) {}
+  std::uint32_t half, mask;
 };
 
-void apply_steps(std::vector<std::uint8_t>& bytes, const Steps& steps) {
-  for (std::uint8_t& byte : bytes) byte = steps[byte];
+inline std::uint32_t byte_of(float share, const Levels& levels) {
+  const auto byte = static_cast<std::uint32_t>(static_cast<std::int32_t>(clamp_share(share) * 255 + 0.5F));
+  const std::uint32_t rounded = (byte + levels.half) & levels.mask;
+  return rounded > 255 ? 255 : rounded;
 }
 
-/// The third channel of unit normals, from the bytes of the other two.
-void level_up(Row& row, int size) {
-  const std::uint8_t *first = row.bytes[0].data(), *second = row.bytes[1].data();
-  float* out = row.values[2].data();
-  for (int i = 0; i < size; ++i) {
-    const float x = static_cast<float>(first[i]) / 127.5F - 1, y = static_cast<float>(second[i]) / 127.5F - 1;
-    const float rest = 1 - x * x - y * y;
-    out[i] = 0.5F + 0.5F * std::sqrt(rest < 0 ? 0 : rest);
+inline float color_of(float tone, float dark, float main, float light) {
+  const float t = 2 * tone;
+  return t < 1 ? dark + (main - dark) * t : main + (light - main) * (t - 1);
+}
+
+// The functions that follow write one row of pixels, each with its first channel in the lowest byte.
+
+/// A palette of `tones` colours for each of `accents` shares of the accent.
+struct Palette {
+  int tones = 256, accents = 1;
+};
+
+SEEDMESH_WIDE void pack_palette(const float* __restrict tone, const float* __restrict accent,
+                                const Palette& palette, int size, std::uint32_t* __restrict out) {
+  const auto last_tone = static_cast<float>(palette.tones - 1),
+             last_accent = static_cast<float>(palette.accents - 1);
+  for (int x = 0; x < size; ++x) {
+    const auto first = static_cast<std::int32_t>(clamp_share(tone[x]) * last_tone + 0.5F);
+    const auto second = static_cast<std::int32_t>(clamp_share(accent[x]) * last_accent + 0.5F);
+    out[x] = static_cast<std::uint32_t>(second * palette.tones + first);
   }
-  write_bytes(out, row.bytes[2].data(), size);
 }
 
-template <std::size_t channels>
-void interleave(const Row& row, std::uint8_t* out, int size) {
-  std::array<const std::uint8_t*, channels> in{};
-  for (std::size_t c = 0; c < channels; ++c) in[c] = row.bytes[c].data();
-  for (int i = 0; i < size; ++i, out += channels) {
-    for (std::size_t c = 0; c < channels; ++c) out[c] = in[c][i];
+SEEDMESH_WIDE void pack_grey(const float* __restrict tone, const float* __restrict accent, const Ramp& ramp,
+                             const Levels& levels, int size, std::uint32_t* __restrict out) {
+  for (int x = 0; x < size; ++x) {
+    const float base = color_of(tone[x], ramp.dark.x, ramp.main.x, ramp.light.x);
+    out[x] = byte_of(base + (ramp.accent.x - base) * accent[x], levels);
   }
 }
 
-void interleave(const Row& row, int channels, std::uint8_t* out, int size) {
-  if (channels == 1) interleave<1>(row, out, size);
-  if (channels == 3) interleave<3>(row, out, size);
-  if (channels == 4) interleave<4>(row, out, size);
+SEEDMESH_WIDE void pack_color(const float* __restrict tone, const float* __restrict accent, const Ramp& ramp,
+                              int size, std::uint32_t* __restrict out) {
+  const Levels levels(1);
+  for (int x = 0; x < size; ++x) {
+    const float red = color_of(tone[x], ramp.dark.x, ramp.main.x, ramp.light.x);
+    const float green = color_of(tone[x], ramp.dark.y, ramp.main.y, ramp.light.y);
+    const float blue = color_of(tone[x], ramp.dark.z, ramp.main.z, ramp.light.z);
+    out[x] = byte_of(red + (ramp.accent.x - red) * accent[x], levels) |
+             byte_of(green + (ramp.accent.y - green) * accent[x], levels) << 8U |
+             byte_of(blue + (ramp.accent.z - blue) * accent[x], levels) << 16U;
+  }
 }
 
-/// A PNG file. `fill(row, y)` writes the values of a row, and `settle(row)` changes its bytes.
-template <class Fill, class Settle>
-std::shared_ptr<const Image> picture(int size, int channels, std::string name, const Job& job, Fill&& fill,
-                                     Settle&& settle) {
-  const auto side = static_cast<std::size_t>(size), pixel = static_cast<std::size_t>(channels);
+SEEDMESH_WIDE void add_alpha(const float* __restrict cover, int size, std::uint32_t* __restrict out) {
+  const Levels all(1);
+  for (int x = 0; x < size; ++x) out[x] |= byte_of(cover[x], all) << 24U;
+}
+
+/// `here` begins one texel before the row and ends one after it. `steep` is half the height of the relief in texels.
+/// The third channel follows from the bytes of the other two.
+SEEDMESH_WIDE void pack_normals(const float* __restrict above, const float* __restrict here,
+                                const float* __restrict below, float steep, bool is_small, int size,
+                                std::uint32_t* __restrict out) {
+  const Levels levels(is_small ? 4 : 1), last(is_small ? 2 : 1);
+  for (int x = 0; x < size; ++x) {
+    const float dx = (here[x] - here[x + 2]) * steep, dy = (below[x] - above[x]) * steep;
+    const float by_length = 0.5F / std::sqrt(dx * dx + dy * dy + 1);
+    const std::uint32_t first = byte_of(0.5F + dx * by_length, levels);
+    const std::uint32_t second = byte_of(0.5F + dy * by_length, levels);
+    const float u = static_cast<float>(static_cast<std::int32_t>(first)) * (1 / 127.5F) - 1;
+    const float v = static_cast<float>(static_cast<std::int32_t>(second)) * (1 / 127.5F) - 1;
+    const float rest = 1 - u * u - v * v;
+    out[x] = first | second << 8U | byte_of(0.5F + 0.5F * std::sqrt(rest < 0 ? 0 : rest), last) << 16U;
+  }
+}
+
+/// The means of two texels each way.
+SEEDMESH_WIDE void write_means(const float* __restrict upper, const float* __restrict lower, int size,
+                               float* __restrict out) {
+  for (int x = 0; x < size; ++x)
+    out[x] = 0.25F * ((upper[2 * x] + upper[2 * x + 1]) + (lower[2 * x] + lower[2 * x + 1]));
+}
+
+SEEDMESH_WIDE void pack_surface(const float* __restrict height, const float* __restrict accent,
+                                const Finish& finish, const Levels& levels, int size,
+                                std::uint32_t* __restrict out) {
+  for (int x = 0; x < size; ++x) {
+    const float deep = 1 - height[x];
+    const float rough = finish.rough_low + (finish.rough_high - finish.rough_low) * height[x];
+    out[x] = byte_of(1 - finish.shade * deep * deep, levels) |
+             byte_of(rough + (finish.rough_accent - rough) * accent[x], levels) << 8U;
+  }
+}
+
+void write_channels(const std::vector<std::uint32_t>& row, std::size_t channels, std::uint8_t* out) {
+  for (const std::uint32_t pixel : row) {
+    for (std::size_t c = 0; c < channels; ++c) *out++ = static_cast<std::uint8_t>(pixel >> (8 * c));
+  }
+}
+
+/// A row of means of a field, or of its values where `step` is 1.
+void fill_means(const Field& field, int step, int y, std::vector<float>& out) {
+  const auto size = static_cast<int>(out.size());
+  if (step == 2) {
+    write_means(field.row(2 * y), field.row(2 * y + 1), size, out.data());
+  } else {
+    std::copy_n(field.row(y), size, out.data());
+  }
+}
+
+struct Format {
+  int size, channels;
+  std::vector<glm::u8vec3> palette = {};
+};
+
+/// A PNG file. `fill(row, y)` writes the pixels of a row.
+template <class Fill>
+std::shared_ptr<const Image> picture(const Format& format, std::string name, const Job& job, Fill&& fill) {
+  const auto side = static_cast<std::size_t>(format.size), pixel = static_cast<std::size_t>(format.channels);
   Array<std::uint8_t> pixels(job, side * side * pixel);
-  Row row(size);
-  for (int y = 0; y < size; ++y) {
+  std::vector<std::uint32_t> row(side);
+  for (int y = 0; y < format.size; ++y) {
     if (y % 64 == 0) job.check();
     fill(row, y);
-    for (std::size_t c = 0; c < pixel; ++c) write_bytes(row.values[c].data(), row.bytes[c].data(), size);
-    settle(row);
-    interleave(row, channels, pixels.data() + static_cast<std::size_t>(y) * side * pixel, size);
+    write_channels(row, pixel, pixels.data() + static_cast<std::size_t>(y) * side * pixel);
   }
-  const auto extent = static_cast<std::uint32_t>(size);
+  const auto extent = static_cast<std::uint32_t>(format.size);
   const Array<std::uint8_t> file = encode_png(
-      {extent, extent, channels, 8, std::as_bytes(std::as_const(pixels).span())}, PngEffort::quick, job);
+      {extent, extent, format.channels, 8, std::as_bytes(std::as_const(pixels).span()), format.palette},
+      PngEffort::quick, job);
   auto image = std::make_shared<Image>();
   image->name = std::move(name);
   image->bytes.assign(file.begin(), file.end());
   return image;
 }
 
-void fill_color(const Relief& relief, const Ramp& ramp, int channels, Row& row, int y) {
-  const int size = relief.height.size();
-  const float *tone = relief.tone.row(y), *accent = relief.accent.row(y);
-  for (int c = 0; c < std::min(channels, 3); ++c) {
-    const float dark = ramp.dark[c], main = ramp.main[c], light = ramp.light[c], other = ramp.accent[c];
-    float* out = row.values[static_cast<std::size_t>(c)].data();
-    for (int x = 0; x < size; ++x) {
-      const float t = 2 * tone[x];
-      const float base = t < 1 ? dark + (main - dark) * t : main + (light - main) * (t - 1);
-      out[x] = base + (other - base) * accent[x];
+std::vector<glm::u8vec3> colors_of(const Palette& palette, const Ramp& ramp) {
+  const Levels all(1);
+  std::vector<glm::u8vec3> colors;
+  for (int a = 0; a < palette.accents; ++a) {
+    const float accent = a == 0 ? 0 : static_cast<float>(a) / static_cast<float>(palette.accents - 1);
+    for (int i = 0; i < palette.tones; ++i) {
+      const float tone = static_cast<float>(i) / static_cast<float>(palette.tones - 1);
+      glm::u8vec3 color;
+      for (int c = 0; c < 3; ++c) {
+        const float base = color_of(tone, ramp.dark[c], ramp.main[c], ramp.light[c]);
+        color[c] = static_cast<std::uint8_t>(byte_of(base + (ramp.accent[c] - base) * accent, all));
+      }
+      colors.push_back(color);
     }
   }
-  if (channels == 4) std::copy_n(relief.cover.row(y), size, row.values[3].data());
+  return colors;
 }
 
-/// `steep` is half the height of the relief in texels.
-void fill_normal(const Field& height, float steep, Row& row, int y) {
-  const int size = height.size(), last = size - 1;
-  const float *here = height.row(y), *above = height.row((y - 1) & last), *below = height.row((y + 1) & last);
-  float *out_x = row.values[0].data(), *out_y = row.values[1].data(), *out_z = row.values[2].data();
-  const auto write = [&](int x, int before, int after) {
-    const float dx = (here[before] - here[after]) * steep, dy = (below[x] - above[x]) * steep;
-    const float by_length = 1 / std::sqrt(dx * dx + dy * dy + 1);
-    out_x[x] = 0.5F + 0.5F * dx * by_length;
-    out_y[x] = 0.5F + 0.5F * dy * by_length;
-    out_z[x] = 0.5F + 0.5F * by_length;
-  };
-  write(0, last, 1);
-  for (int x = 1; x < last; ++x) write(x, x - 1, x + 1);
-  write(last, last - 1, 0);
+/// The input of the three images.
+struct Source {
+  const Relief& relief;
+  const Finish& finish;
+  const std::string& name;
+  const Job& job;
+  std::vector<float> no_accent;  ///< a row of zeros
+
+  int size() const { return relief.height.size(); }
+  bool has_accent() const { return relief.accent.size() == size(); }
+  const float* accent(int y) const { return has_accent() ? relief.accent.row(y) : no_accent.data(); }
+};
+
+/// Tones without an accent need no more than a palette. With an accent, it is fine enough for a wall.
+std::optional<Palette> palette_of(const Source& source) {
+  if (source.finish.is_grey || source.relief.cover.size() == source.size()) return std::nullopt;
+  if (!source.has_accent()) return Palette{256, 1};
+  return source.finish.is_small ? std::optional(Palette{36, 7}) : std::nullopt;
 }
 
-/// The means of `step` texels in both directions, from row `y` on.
-void fill_means(const Field& field, int step, int y, std::vector<float>& out) {
-  const auto size = static_cast<std::size_t>(field.size() / step);
-  const float by_count = 1 / static_cast<float>(step * step);
-  std::fill_n(out.begin(), size, 0.0F);
-  for (int k = 0; k < step; ++k) {
-    const float* values = field.row(y + k);
-    for (std::size_t x = 0; x < size; ++x) {
-      for (int i = 0; i < step; ++i) out[x] += *values++;
-    }
+std::shared_ptr<const Image> color_image(const Source& source) {
+  const Relief& relief = source.relief;
+  const Ramp& ramp = source.finish.ramp;
+  const int size = source.size();
+  const std::string name = source.name + "_color";
+  if (const std::optional<Palette> palette = palette_of(source)) {
+    return picture({size, 1, colors_of(*palette, ramp)}, name, source.job,
+                   [&](std::vector<std::uint32_t>& row, int y) {
+                     pack_palette(relief.tone.row(y), source.accent(y), *palette, size, row.data());
+                   });
   }
-  for (std::size_t x = 0; x < size; ++x) out[x] *= by_count;
+  if (source.finish.is_grey) {
+    // 6 bits: smooth enough for a wall, with a third of the bytes.
+    const Levels levels(source.finish.is_small ? 4 : 1);
+    return picture({size, 1, {}}, name, source.job, [&](std::vector<std::uint32_t>& row, int y) {
+      pack_grey(relief.tone.row(y), source.accent(y), ramp, levels, size, row.data());
+    });
+  }
+  const bool has_cover = relief.cover.size() == size;
+  return picture({size, has_cover ? 4 : 3, {}}, name, source.job,
+                 [&](std::vector<std::uint32_t>& row, int y) {
+                   pack_color(relief.tone.row(y), source.accent(y), ramp, size, row.data());
+                   if (has_cover) add_alpha(relief.cover.row(y), size, row.data());
+                 });
 }
 
-void fill_surface(const Relief& relief, const Finish& finish, int step, Row& row, int y) {
-  const int size = relief.height.size() / step;
-  fill_means(relief.height, step, y * step, row.values[0]);
-  fill_means(relief.accent, step, y * step, row.values[1]);
-  float *occlusion = row.values[0].data(), *roughness = row.values[1].data();
-  const float low = finish.rough_low, span = finish.rough_high - finish.rough_low,
-              other = finish.rough_accent;
-  for (int x = 0; x < size; ++x) {
-    const float height = occlusion[x], accent = roughness[x], rough = low + span * height;
-    occlusion[x] = 1 - finish.shade * (1 - height) * (1 - height);
-    roughness[x] = rough + (other - rough) * accent;
-  }
+std::shared_ptr<const Image> normal_image(const Source& source) {
+  const Field& height = source.relief.height;
+  const int size = source.size(), last = size - 1;
+  const float steep = 0.5F * source.finish.depth * static_cast<float>(size);
+  std::vector<float> around(static_cast<std::size_t>(size) + 2);
+  return picture({size, 3, {}}, source.name + "_normal", source.job,
+                 [&](std::vector<std::uint32_t>& row, int y) {
+                   const float* here = height.row(y);
+                   around.front() = here[last];
+                   std::copy_n(here, size, around.begin() + 1);
+                   around.back() = here[0];
+                   pack_normals(height.row((y - 1) & last), around.data(), height.row((y + 1) & last), steep,
+                                source.finish.is_small, size, row.data());
+                 });
+}
+
+std::shared_ptr<const Image> surface_image(const Source& source) {
+  const int size = surface_size(source.size()), step = source.size() / size;
+  const Levels levels(source.finish.is_small ? 8 : 1);
+  std::vector<float> height(static_cast<std::size_t>(size)), accent(height.size(), 0.0F);
+  return picture({size, 3, {}}, source.name + "_surface", source.job,
+                 [&](std::vector<std::uint32_t>& row, int y) {
+                   fill_means(source.relief.height, step, y, height);
+                   if (source.has_accent()) fill_means(source.relief.accent, step, y, accent);
+                   pack_surface(height.data(), accent.data(), source.finish, levels, size, row.data());
+                 });
 }
 
 }  // namespace
 
+Relief paint_rows(int size, Accent accent, const Job& job, const PaintRows& paint) {
+  const bool has_accent = accent == Accent::painted;
+  Relief relief{Field(job, size), Field(job, size), has_accent ? Field(job, size) : Field(job, 1, 0),
+                Field(job, 1, 1)};
+  const auto row_at = [&](int y) {
+    return ReliefRow{relief.height.row(y), relief.tone.row(y), has_accent ? relief.accent.row(y) : nullptr};
+  };
+  for_rows(job, size, [&](int begin, int end) { paint(begin, end, row_at); });
+  return relief;
+}
+
 Maps make_maps(const Relief& relief, const Finish& finish, const std::string& name, const Job& job) {
-  const int size = relief.height.size();
-  const bool has_cover = relief.cover.size() == size;
-  // Colours of 6 bits and other channels of 5: smooth enough for a wall, with a third of the bytes.
-  const Steps tones = steps_of(finish.is_small ? 4 : 1), lights = steps_of(finish.is_small ? 8 : 1);
-  const int channels = finish.is_grey ? 1 : has_cover ? 4 : 3;
-  const float steep = 0.5F * finish.depth * static_cast<float>(size);
+  const Source source{relief, finish, name, job,
+                      std::vector<float>(static_cast<std::size_t>(relief.height.size()), 0.0F)};
   Maps maps;
-  const auto make_color = [&] {
-    maps.color = picture(
-        size, channels, name + "_color", job,
-        [&](Row& row, int y) { fill_color(relief, finish.ramp, channels, row, y); },
-        [&](Row& row) {
-          for (int c = 0; c < std::min(channels, 3); ++c)
-            apply_steps(row.bytes[static_cast<std::size_t>(c)], tones);
-        });
-  };
-  const auto make_normal = [&] {
-    maps.normal = picture(
-        size, 3, name + "_normal", job, [&](Row& row, int y) { fill_normal(relief.height, steep, row, y); },
-        [&](Row& row) {
-          if (!finish.is_small) return;
-          apply_steps(row.bytes[0], tones);
-          apply_steps(row.bytes[1], tones);
-          level_up(row, size);
-        });
-  };
-  const auto make_surface = [&] {
-    const int step = size / surface_size(size);
-    maps.surface = picture(
-        size / step, 3, name + "_surface", job,
-        [&](Row& row, int y) { fill_surface(relief, finish, step, row, y); },
-        [&](Row& row) {
-          apply_steps(row.bytes[0], lights);
-          apply_steps(row.bytes[1], lights);
-        });
-  };
   parallel_for(job, 3, 1, [&](std::size_t begin, std::size_t, std::size_t) {
-    if (begin == 0) make_color();
-    if (begin == 1) make_normal();
-    if (begin == 2) make_surface();
+    if (begin == 0) maps.color = color_image(source);
+    if (begin == 1) maps.normal = normal_image(source);
+    if (begin == 2) maps.surface = surface_image(source);
   });
   return maps;
 }

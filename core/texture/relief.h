@@ -1,5 +1,6 @@
 #pragma once
 /// The relief that painters make, and the images that are made of it.
+#include <functional>
 #include <glm/vec3.hpp>
 #include <memory>
 #include <string>
@@ -13,9 +14,24 @@ namespace seedmesh::texture {
 struct Relief {
   Field height;  ///< 0 lowest
   Field tone;    ///< 0 the dark colour, 0.5 the main one, 1 the light one
-  Field accent;  ///< the share of the accent colour
+  Field accent;  ///< the share of the accent colour; a field of size 1 if there is none
   Field cover;   ///< alpha; a field of size 1 if the image has no gaps
 };
+
+/// A row of a relief that a painter writes; `accent` is null where there is none.
+struct ReliefRow {
+  float *height, *tone, *accent;
+};
+
+enum class Accent { none, painted };
+
+/// A relief without gaps. `paint(begin, end, row_at)` writes the rows [begin, end), which row_at(y) returns; ranges run
+/// in parallel.
+using PaintRows = std::function<void(int begin, int end, const std::function<ReliefRow(int y)>& row_at)>;
+Relief paint_rows(int size, Accent accent, const Job& job, const PaintRows& paint);
+
+/// The nearest number from 0 to 1.
+inline float clamp_share(float x) { return x < 0 ? 0 : x > 1 ? 1 : x; }
 
 /// Colours in sRGB, 0 .. 1.
 struct Ramp {

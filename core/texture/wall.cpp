@@ -5,62 +5,16 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <vector>
 
 #include "core/model/model.h"
+#include "core/texture/bond.h"
+#include "core/texture/noise.h"
 
 namespace seedmesh::texture {
 namespace {
 
 constexpr std::uint8_t grey_byte = 214;
-
-Relief bare(int size, const Job& job) {
-  return {Field(job, size), Field(job, size, 0.5F), Field(job, size), Field(job, 1, 1)};
-}
-
-float clamp(float x) { return x < 0 ? 0 : x > 1 ? 1 : x; }
-
-/// A position in a pattern of pieces: the piece, the position in it, and its random numbers.
-struct Course {
-  int row = 0, column = 0;
-  float x = 0, y = 0;             ///< within, 0 .. 1; y down
-  float to_side = 0, to_bed = 0;  ///< metres to the nearest upright and level border
-};
-
-/// Rows and columns of equal pieces; every other row is shifted by `shift` of a piece.
-struct Bond {
-  int columns = 8, rows = 24;
-  float shift = 0.5F;
-  glm::dvec2 tile{1};
-
-  Course at(int x, int y, int size) const {
-    const auto extent = static_cast<float>(size);
-    const float v = (static_cast<float>(y) + 0.5F) * static_cast<float>(rows) / extent;
-    Course course;
-    course.row = static_cast<int>(v);
-    const float moved = course.row % 2 == 1 ? shift : 0;
-    const float u = (static_cast<float>(x) + 0.5F) * static_cast<float>(columns) / extent + moved;
-    course.column = static_cast<int>(u) % columns;
-    course.x = u - std::floor(u);
-    course.y = v - std::floor(v);
-    const auto width = static_cast<float>(tile.x / columns), height = static_cast<float>(tile.y / rows);
-    course.to_side = std::min(course.x, 1 - course.x) * width;
-    course.to_bed = std::min(course.y, 1 - course.y) * height;
-    return course;
-  }
-};
-
-/// A random number of each piece, by its position.
-float chance(Rng rng, const Course& course) {
-  return static_cast<float>(
-      Rng(rng.at(static_cast<std::uint64_t>(course.row)).at(static_cast<std::uint64_t>(course.column)).key())
-          .unit());
-}
-
-Field noise(int size, Lattice lattice, Octaves octaves, float amplitude, Rng rng, const Job& job) {
-  Field field(job, size);
-  add_noise(field, lattice, octaves, amplitude, rng, job);
-  return field;
-}
 
 /// Stones or bricks with joints between them. `joint` is half the width of a joint and `round` the radius of
 /// worn edges, in metres.
@@ -72,27 +26,31 @@ struct Masonry {
 };
 
 Relief laid(const Masonry& masonry, int size, Rng rng, const Job& job) {
-  const Field fine = noise(size, {48, 48}, {2, 0.6F}, 0.6F, rng.at("grain"), job);
-  const Field large = noise(size, {3, 3}, {3, 0.5F}, 0.6F, rng.at("patches"), job);
-  const Rng shade = rng.at("shade"), level = rng.at("level");
-  Relief relief = bare(size, job);
-  relief.accent.each(job, [&](float, int x, int y) {
-    const Course c = masonry.bond.at(x, y, size);
-    const float edge = std::min(c.to_side, c.to_bed) + 0.0015F * fine.row(y)[x];
-    return 1 - step_between(masonry.joint, masonry.joint + 0.4F * masonry.round, edge);
+  const Noise grain_noise(size, {48, 48}, {2, 0.6F}, 0.6F, rng.at("grain"));
+  const Noise patch_noise(size, {3, 3}, {3, 0.5F}, 0.6F, rng.at("patches"));
+  const Courses courses(masonry.bond, size);
+  const PieceNumbers shades(masonry.bond, rng.at("shade")), levels(masonry.bond, rng.at("level"));
+  return paint_rows(size, Accent::painted, job, [&](int begin, int end, const auto& row_at) {
+    NoiseRows grain_rows(grain_noise), patch_rows(patch_noise);
+    for (int y = begin; y < end; ++y) {
+      const Courses::Row course = courses.row(y);
+      const float *fine = grain_rows.row(y), *large = patch_rows.row(y);
+      const ReliefRow out = row_at(y);
+      for (int x = 0; x < size; ++x) {
+        const float shade = shades.at(course, course.column[x]), level = levels.at(course, course.column[x]);
+        out.tone[x] =
+            clamp_share(0.5F + masonry.differ * (shade - 0.5F) + 0.12F * fine[x] + 0.14F * large[x]);
+        out.height[x] = 0.82F + 0.12F * level;
+      }
+      for (int x = 0; x < size; ++x) {
+        const float edge = course.to_side[x] < course.to_bed ? course.to_side[x] : course.to_bed;
+        const float up = step_between(0.6F * masonry.joint, masonry.joint + masonry.round, edge);
+        out.height[x] = clamp_share(up * out.height[x] + masonry.rough * fine[x]);
+        out.accent[x] =
+            1 - step_between(masonry.joint, masonry.joint + 0.4F * masonry.round, edge + 0.0015F * fine[x]);
+      }
+    }
   });
-  relief.height.each(job, [&](float, int x, int y) {
-    const Course c = masonry.bond.at(x, y, size);
-    const float edge = std::min(c.to_side, c.to_bed);
-    const float up = step_between(0.6F * masonry.joint, masonry.joint + masonry.round, edge);
-    return clamp(up * (0.82F + 0.12F * chance(level, c)) + masonry.rough * fine.row(y)[x]);
-  });
-  relief.tone.each(job, [&](float, int x, int y) {
-    const Course c = masonry.bond.at(x, y, size);
-    return clamp(0.5F + masonry.differ * (chance(shade, c) - 0.5F) + 0.12F * fine.row(y)[x] +
-                 0.14F * large.row(y)[x]);
-  });
-  return relief;
 }
 
 constexpr glm::dvec2 brick_tile{2, 1.8}, plaster_tile{2, 2}, roof_tile_tile{2, 2.4}, slate_tile{2, 2},
@@ -107,126 +65,144 @@ Relief ashlar(int size, Rng rng, const Job& job) {
 }
 
 Relief plaster(int size, Rng rng, const Job& job) {
-  const Field fine = noise(size, {40, 40}, {2, 0.6F}, 0.7F, rng.at("grain"), job);
-  const Field large = noise(size, {3, 3}, {4, 0.55F}, 0.7F, rng.at("patches"), job);
-  Relief relief = bare(size, job);
-  relief.height.each(job, [&](float, int x, int y) {
-    return clamp(0.6F + 0.35F * fine.row(y)[x] + 0.15F * large.row(y)[x]);
+  const Noise grain_noise(size, {40, 40}, {2, 0.6F}, 0.7F, rng.at("grain"));
+  const Noise patch_noise(size, {3, 3}, {4, 0.55F}, 0.7F, rng.at("patches"));
+  return paint_rows(size, Accent::none, job, [&](int begin, int end, const auto& row_at) {
+    NoiseRows grain_rows(grain_noise), patch_rows(patch_noise);
+    for (int y = begin; y < end; ++y) {
+      const float *fine = grain_rows.row(y), *large = patch_rows.row(y);
+      const ReliefRow out = row_at(y);
+      for (int x = 0; x < size; ++x) {
+        out.height[x] = clamp_share(0.6F + 0.35F * fine[x] + 0.15F * large[x]);
+        out.tone[x] = clamp_share(0.5F + 0.3F * large[x] + 0.14F * fine[x]);
+      }
+    }
   });
-  relief.tone.each(job, [&](float, int x, int y) {
-    return clamp(0.5F + 0.3F * large.row(y)[x] + 0.14F * fine.row(y)[x]);
-  });
-  return relief;
 }
 
 /// Panels with the marks of their boards and pores.
 Relief concrete(int size, Rng rng, const Job& job) {
-  const Bond panels{2, 2, 0, concrete_tile};
-  const Field fine = noise(size, {64, 64}, {2, 0.6F}, 0.6F, rng.at("grain"), job);
-  const Field large = noise(size, {4, 3}, {4, 0.55F}, 0.8F, rng.at("patches"), job);
-  Field pores(job, size);
-  add_noise(pores, {56, 56}, 1, rng.at("pores"), job);
-  const Rng shade = rng.at("shade");
-  Relief relief = bare(size, job);
-  relief.height.each(job, [&](float, int x, int y) {
-    const Course c = panels.at(x, y, size);
-    const float seam = step_between(0.004F, 0.012F, std::min(c.to_side, c.to_bed));
-    const float pore = step_between(0.5F, 0.7F, pores.row(y)[x]);
-    return clamp(0.9F * seam - 0.3F * pore + 0.06F * fine.row(y)[x]);
+  const Courses panels({2, 2, 0, concrete_tile}, size);
+  const Noise grain_noise(size, {64, 64}, {2, 0.6F}, 0.6F, rng.at("grain"));
+  const Noise patch_noise(size, {4, 3}, {4, 0.55F}, 0.8F, rng.at("patches"));
+  const Noise pore_noise(size, {56, 56}, {1, 1}, 1, rng.at("pores"));
+  const PieceNumbers shades(panels.bond(), rng.at("shade"));
+  return paint_rows(size, Accent::none, job, [&](int begin, int end, const auto& row_at) {
+    NoiseRows grain_rows(grain_noise), patch_rows(patch_noise), pore_rows(pore_noise);
+    for (int y = begin; y < end; ++y) {
+      const Courses::Row course = panels.row(y);
+      const float *fine = grain_rows.row(y), *large = patch_rows.row(y), *pores = pore_rows.row(y);
+      const ReliefRow out = row_at(y);
+      for (int x = 0; x < size; ++x) out.tone[x] = 0.16F * (shades.at(course, course.column[x]) - 0.5F);
+      for (int x = 0; x < size; ++x) {
+        const float edge = course.to_side[x] < course.to_bed ? course.to_side[x] : course.to_bed;
+        const float panel = step_between(0.004F, 0.012F, edge), pore = step_between(0.5F, 0.7F, pores[x]);
+        out.height[x] = clamp_share(0.9F * panel - 0.3F * pore + 0.06F * fine[x]);
+        out.tone[x] = clamp_share(0.5F + 0.34F * large[x] + out.tone[x] + 0.08F * fine[x] -
+                                  0.35F * (1 - panel) - 0.15F * pore);
+      }
+    }
   });
-  relief.tone.each(job, [&](float, int x, int y) {
-    const Course c = panels.at(x, y, size);
-    const float seam = 1 - step_between(0.004F, 0.012F, std::min(c.to_side, c.to_bed));
-    return clamp(0.5F + 0.34F * large.row(y)[x] + 0.16F * (chance(shade, c) - 0.5F) + 0.08F * fine.row(y)[x] -
-                 0.35F * seam - 0.15F * step_between(0.5F, 0.7F, pores.row(y)[x]));
-  });
-  return relief;
 }
 
 /// Pantiles: a wave across, rising down the slope to the overlap with the next tile.
 Relief roof_tile(int size, Rng rng, const Job& job) {
-  const Bond bond{8, 8, 0, roof_tile_tile};
-  const Field fine = noise(size, {32, 32}, {2, 0.6F}, 0.6F, rng.at("grain"), job);
-  const Field moss = noise(size, {4, 4}, {4, 0.6F}, 0.7F, rng.at("moss"), job);
-  const Rng shade = rng.at("shade");
-  Relief relief = bare(size, job);
-  relief.height.each(job, [&](float, int x, int y) {
-    const Course c = bond.at(x, y, size);
-    // A trough of two thirds and a roll of one third of the width, both parabolas.
-    const float trough = (c.x / 0.66F - 0.5F) * 2, roll = ((c.x - 0.66F) / 0.34F - 0.5F) * 2;
-    const float wave = c.x < 0.66F ? 0.3F * trough * trough : 0.3F + 0.5F * (1 - roll * roll);
-    return clamp(0.8F * wave + 0.2F * step_between(0, 0.05F, c.y) * (0.3F + 0.7F * c.y) +
-                 0.03F * fine.row(y)[x]);
+  const Courses courses({8, 8, 0, roof_tile_tile}, size);
+  const Noise grain_noise(size, {32, 32}, {2, 0.6F}, 0.6F, rng.at("grain"));
+  const Noise moss_noise(size, {4, 4}, {4, 0.6F}, 0.7F, rng.at("moss"));
+  const PieceNumbers shades(courses.bond(), rng.at("shade"));
+  return paint_rows(size, Accent::none, job, [&](int begin, int end, const auto& row_at) {
+    NoiseRows grain_rows(grain_noise), moss_rows(moss_noise);
+    for (int y = begin; y < end; ++y) {
+      const Courses::Row course = courses.row(y);
+      const float *fine = grain_rows.row(y), *moss = moss_rows.row(y);
+      const ReliefRow out = row_at(y);
+      const float rise = 0.2F * step_between(0, 0.05F, course.y) * (0.3F + 0.7F * course.y);
+      const float under = 0.42F * (1 - step_between(0, 0.1F, course.y));  // in the shade of the tile above
+      for (int x = 0; x < size; ++x) out.tone[x] = 0.5F * (shades.at(course, course.column[x]) - 0.5F);
+      for (int x = 0; x < size; ++x) {
+        // A trough of two thirds and a roll of one third of the width, both parabolas.
+        const float across = course.x[x];
+        const float trough = (across / 0.66F - 0.5F) * 2, roll = ((across - 0.66F) / 0.34F - 0.5F) * 2;
+        const float low = 0.3F * trough * trough, high = 0.3F + 0.5F * (1 - roll * roll);
+        out.height[x] = clamp_share(0.8F * (across < 0.66F ? low : high) + rise + 0.03F * fine[x]);
+        const float side = 0.22F * (1 - step_between(0, 0.07F, std::abs(across - 0.63F)));
+        out.tone[x] = clamp_share(0.52F + out.tone[x] + 0.16F * moss[x] + 0.1F * fine[x] - under - side);
+      }
+    }
   });
-  relief.tone.each(job, [&](float, int x, int y) {
-    const Course c = bond.at(x, y, size);
-    const float under = 0.42F * (1 - step_between(0, 0.1F, c.y));  // in the shade of the tile above
-    const float side = 0.22F * (1 - step_between(0, 0.07F, std::abs(c.x - 0.63F)));
-    return clamp(0.52F + 0.5F * (chance(shade, c) - 0.5F) + 0.16F * moss.row(y)[x] + 0.1F * fine.row(y)[x] -
-                 under - side);
-  });
-  return relief;
 }
 
 Relief slate(int size, Rng rng, const Job& job) {
-  const Bond bond{8, 10, 0.5F, slate_tile};
-  const Field fine = noise(size, {24, 48}, {2, 0.6F}, 0.6F, rng.at("grain"), job);
-  const Field large = noise(size, {3, 3}, {3, 0.5F}, 0.6F, rng.at("patches"), job);
-  const Rng shade = rng.at("shade");
-  Relief relief = bare(size, job);
-  const auto gap = [](const Course& c) { return 1 - step_between(0.002F, 0.006F, c.to_side); };
-  relief.height.each(job, [&](float, int x, int y) {
-    const Course c = bond.at(x, y, size);
-    const float butt = step_between(0, 0.05F, c.y);
-    return clamp(butt * (0.4F + 0.5F * c.y) * (1 - 0.6F * gap(c)) + 0.06F * fine.row(y)[x]);
+  const Courses courses({8, 10, 0.5F, slate_tile}, size);
+  const Noise grain_noise(size, {24, 48}, {2, 0.6F}, 0.6F, rng.at("grain"));
+  const Noise patch_noise(size, {3, 3}, {3, 0.5F}, 0.6F, rng.at("patches"));
+  const PieceNumbers shades(courses.bond(), rng.at("shade"));
+  return paint_rows(size, Accent::none, job, [&](int begin, int end, const auto& row_at) {
+    NoiseRows grain_rows(grain_noise), patch_rows(patch_noise);
+    for (int y = begin; y < end; ++y) {
+      const Courses::Row course = courses.row(y);
+      const float *fine = grain_rows.row(y), *large = patch_rows.row(y);
+      const ReliefRow out = row_at(y);
+      const float butt = step_between(0, 0.05F, course.y) * (0.4F + 0.5F * course.y);
+      const float under = 0.4F * (1 - step_between(0, 0.08F, course.y));
+      for (int x = 0; x < size; ++x) out.tone[x] = 0.6F * (shades.at(course, course.column[x]) - 0.5F);
+      for (int x = 0; x < size; ++x) {
+        const float gap = 1 - step_between(0.002F, 0.006F, course.to_side[x]);
+        out.height[x] = clamp_share(butt * (1 - 0.6F * gap) + 0.06F * fine[x]);
+        out.tone[x] =
+            clamp_share(0.5F + out.tone[x] + 0.12F * fine[x] + 0.1F * large[x] - under - 0.35F * gap);
+      }
+    }
   });
-  relief.tone.each(job, [&](float, int x, int y) {
-    const Course c = bond.at(x, y, size);
-    const float under = 1 - step_between(0, 0.08F, c.y);
-    return clamp(0.5F + 0.6F * (chance(shade, c) - 0.5F) + 0.12F * fine.row(y)[x] + 0.1F * large.row(y)[x] -
-                 0.4F * under - 0.35F * gap(c));
-  });
-  return relief;
 }
 
 /// Overlapping horizontal boards with grain.
 Relief planks(int size, Rng rng, const Job& job) {
-  const Bond bond{1, 16, 0.37F, planks_tile};
-  Field grain(job, size);
-  add_noise(grain, {4, 128}, {1, 0.6F}, 0.6F, rng.at("grain"), job);
-  add_noise(grain, {10, 64}, {2, 0.6F}, 0.4F, rng.at("fibres"), job);
-  const Rng shade = rng.at("shade");
-  Relief relief = bare(size, job);
-  relief.height.each(job, [&](float, int x, int y) {
-    const Course c = bond.at(x, y, size);
-    const float butt = step_between(0.001F, 0.003F, c.to_side) * step_between(0, 0.06F, c.y);
-    return clamp(butt * (0.25F + 0.65F * c.y) + 0.08F * grain.row(y)[x]);
+  const Courses courses({1, 16, 0.37F, planks_tile}, size);
+  const Noise line_noise(size, {4, 128}, {1, 1}, 0.6F, rng.at("grain"));
+  const Noise fibre_noise(size, {10, 64}, {2, 0.6F}, 0.4F, rng.at("fibres"));
+  const PieceNumbers shades(courses.bond(), rng.at("shade"));
+  return paint_rows(size, Accent::none, job, [&](int begin, int end, const auto& row_at) {
+    NoiseRows line_rows(line_noise), fibre_rows(fibre_noise);
+    for (int y = begin; y < end; ++y) {
+      const Courses::Row course = courses.row(y);
+      const float *lines = line_rows.row(y), *fibres = fibre_rows.row(y);
+      const ReliefRow out = row_at(y);
+      const float butt = step_between(0, 0.06F, course.y) * (0.25F + 0.65F * course.y);
+      const float under = 0.45F * (1 - step_between(0, 0.12F, course.y));
+      const float own = 0.54F + 0.4F * (shades.at(course, 0) - 0.5F) - under;
+      for (int x = 0; x < size; ++x) {
+        const float grain = lines[x] + fibres[x];
+        const float end_of_board = 1 - step_between(0.001F, 0.004F, course.to_side[x]);
+        out.height[x] = clamp_share(butt * step_between(0.001F, 0.003F, course.to_side[x]) + 0.08F * grain);
+        out.tone[x] = clamp_share(own + 0.2F * grain - 0.4F * end_of_board);
+      }
+    }
   });
-  relief.tone.each(job, [&](float, int x, int y) {
-    const Course c = bond.at(x, y, size);
-    const float under = 1 - step_between(0, 0.12F, c.y), end = 1 - step_between(0.001F, 0.004F, c.to_side);
-    return clamp(0.54F + 0.4F * (chance(shade, c) - 0.5F) + 0.2F * grain.row(y)[x] - 0.45F * under -
-                 0.4F * end);
-  });
-  return relief;
 }
 
 /// Vertical ribs.
 Relief sheet(int size, Rng rng, const Job& job) {
   constexpr int ribs = 10;
-  const Field large = noise(size, {3, 2}, {4, 0.55F}, 0.6F, rng.at("patches"), job);
-  const Field fine = noise(size, {64, 8}, {2, 0.6F}, 0.5F, rng.at("streaks"), job);
-  Relief relief = bare(size, job);
-  const auto rib = [size](int x) {
+  const Noise patch_noise(size, {3, 2}, {4, 0.55F}, 0.6F, rng.at("patches"));
+  const Noise streak_noise(size, {64, 8}, {2, 0.6F}, 0.5F, rng.at("streaks"));
+  std::vector<float> rib;
+  for (int x = 0; x < size; ++x) {
     const float u = (static_cast<float>(x) + 0.5F) * ribs / static_cast<float>(size);
-    const float side = std::abs(u - std::floor(u) - 0.5F);
-    return 1 - step_between(0.18F, 0.28F, side);
-  };
-  relief.height.each(job, [&](float, int x, int) { return rib(x); });
-  relief.tone.each(job, [&](float, int x, int y) {
-    return clamp(0.46F + 0.1F * rib(x) + 0.14F * large.row(y)[x] + 0.1F * fine.row(y)[x]);
+    rib.push_back(1 - step_between(0.18F, 0.28F, std::abs(u - std::floor(u) - 0.5F)));
+  }
+  return paint_rows(size, Accent::none, job, [&](int begin, int end, const auto& row_at) {
+    NoiseRows patch_rows(patch_noise), streak_rows(streak_noise);
+    for (int y = begin; y < end; ++y) {
+      const float *large = patch_rows.row(y), *fine = streak_rows.row(y);
+      const ReliefRow out = row_at(y);
+      for (int x = 0; x < size; ++x) {
+        out.height[x] = rib[static_cast<std::size_t>(x)];
+        out.tone[x] = clamp_share(0.46F + 0.1F * out.height[x] + 0.14F * large[x] + 0.1F * fine[x]);
+      }
+    }
   });
-  return relief;
 }
 
 struct Painter {

@@ -12,7 +12,7 @@ import { ask, rehearsal, run, serve, until } from '../http/support.mjs';
 const root = path.resolve(path.dirname(new URL(import.meta.url).pathname), '../..');
 const deploy = path.join(root, 'deploy');
 const read = (name) => fs.readFileSync(path.join(deploy, name), 'utf8');
-const folders = ['kubernetes/service', 'kubernetes/batch'];
+const folders = ['kubernetes/service', 'kubernetes/batch', 'kubernetes/tiles'];
 const manifests = (folder) => fs.readdirSync(path.join(deploy, folder)).filter((name) => name.endsWith('.yaml') && name !== 'kustomization.yaml').map((name) => ({ name: `${folder}/${name}`, object: yaml.parse(read(`${folder}/${name}`)) }));
 const every = folders.flatMap(manifests);
 const of_kind = (kind) => every.find(({ object }) => object.kind === kind).object;
@@ -83,10 +83,19 @@ test('no balancer gives a request that has timed out to another replica', () => 
   assert.doesNotMatch(/^\s*retry-on (.*)$/m.exec(haproxy)[1], /response-timeout|all-retryable-errors/);
 });
 
-test('the shares of the batch are as many as its pods', () => {
-  const { spec } = of_kind('Job');
-  const { args } = spec.template.spec.containers[0];
-  assert.equal(args[args.indexOf('--part') + 1], `$(JOB_COMPLETION_INDEX)/${spec.completions}`);
+test('the shares of a batch are as many as its pods', () => {
+  const jobs = every.filter(({ object }) => object.kind === 'Job');
+  assert.equal(jobs.length, 2);
+  for (const { object: { spec } } of jobs) {
+    const { args } = spec.template.spec.containers[0];
+    assert.equal(args[args.indexOf('--part') + 1], `$(JOB_COMPLETION_INDEX)/${spec.completions}`);
+  }
+});
+
+test('nginx refuses no tile for its number', () => {
+  const tiles = /location \/v1\/worlds\/ \{([^}]*)\}/.exec(read('nginx/nginx.conf'))[1];
+  assert.match(tiles, /proxy_cache models;/);
+  assert.doesNotMatch(tiles, /limit_/);
 });
 
 const mebibytes = (text) => Number(/^(\d+)/.exec(text)[1]) * { MiB: 1, GiB: 1024, Mi: 1, Gi: 1024, m: 1, g: 1024 }[/[A-Za-z]+$/.exec(text)[0]];
@@ -95,7 +104,7 @@ const mebibytes = (text) => Number(/^(\d+)/.exec(text)[1]) * { MiB: 1, GiB: 1024
 async function memory_of(variables, threads) {
   const { out } = await run(rehearsal, ['serve', '--print-config'], { env: { ...variables, SEEDMESH_THREADS: String(threads) } });
   const of = (name) => JSON.parse(out)[name] / 2 ** 20;
-  return threads * of('max-memory') + Math.max(of('memory-in-flight'), of('max-output')) + of('body-memory') + of('cache-bytes') + of('texture-bytes') + 64;
+  return threads * of('max-memory') + Math.max(of('memory-in-flight'), of('max-output')) + of('body-memory') + of('cache-bytes') + of('texture-bytes') + of('world-bytes') + 64;
 }
 
 test('both pages give one formula of memory, its example is right, and every deployment has that memory', async () => {

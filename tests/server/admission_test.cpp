@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <functional>
+#include <mutex>
 #include <optional>
 #include <thread>
 #include <vector>
@@ -94,6 +96,57 @@ TEST(Admission, SharesThreadsAmongThosePresent) {
   EXPECT_EQ(std::get<Admission::Ticket>(alone).threads(), 8);
   const auto second = admission.enter(in(1s), {});
   EXPECT_EQ(std::get<Admission::Ticket>(second).threads(), 4);
+}
+
+/// Holds the only worker while requests queue, and returns the order in which they are served.
+std::vector<int> order_of(
+    Admission& admission,
+    const std::vector<std::function<std::variant<Admission::Ticket, Refused>()>>& queue) {
+  std::optional<std::variant<Admission::Ticket, Refused>> held(admission.enter(in(1s), {}));
+  std::vector<int> order;
+  std::mutex mutex;
+  std::vector<std::thread> threads;
+  for (std::size_t i = 0; i < queue.size(); ++i) {
+    threads.emplace_back([&, i] {
+      const auto entered = queue[i]();
+      ASSERT_EQ(refusal(entered), std::nullopt);
+      const std::lock_guard lock(mutex);
+      order.push_back(static_cast<int>(i));
+    });
+    wait_for_queue(admission, i + 1);
+  }
+  held.reset();
+  for (std::thread& thread : threads) thread.join();
+  return order;
+}
+
+TEST(Admission, ServesCoarserTilesFirstAndEqualOnesInOrder) {
+  Admission admission(1, 0);
+  const auto tile = [&](int level) { return [&, level] { return admission.enter_tile(level, in(5s), {}); }; };
+  EXPECT_EQ(order_of(admission, {tile(9), tile(3), tile(9), tile(0), tile(3)}), (std::vector{3, 1, 4, 0, 2}));
+  EXPECT_EQ(admission.busy(), 0);
+}
+
+TEST(Admission, GivesTilesAndOtherRequestsTurns) {
+  Admission admission(1, 8);
+  const auto tile = [&] { return admission.enter_tile(5, in(5s), {}); };
+  const auto other = [&] { return admission.enter(in(5s), {}); };
+  EXPECT_EQ(order_of(admission, {tile, tile, other, tile, other}), (std::vector{2, 0, 4, 1, 3}));
+}
+
+TEST(Admission, RefusesNoTileForAFullQueueOrWhileItDrains) {
+  Admission admission(1, 0);
+  {
+    const auto held = admission.enter(in(1s), {});
+    EXPECT_EQ(refusal(admission.enter(in(20ms), {})), Refused::queue_full);
+    EXPECT_EQ(refusal(admission.enter_tile(2, in(20ms), {})), Refused::deadline_passed);
+    std::stop_source left;
+    left.request_stop();
+    EXPECT_EQ(refusal(admission.enter_tile(2, in(5s), left.get_token())), Refused::client_gone);
+    EXPECT_EQ(admission.waiting(), 0U);
+  }
+  admission.drain();
+  EXPECT_EQ(refusal(admission.enter_tile(2, in(20ms), {})), std::nullopt);
 }
 
 TEST(Admission, NeverHasMoreThanItsWorkersInside) {

@@ -11,6 +11,7 @@
 #include <thread>
 
 #include "core/pipeline.h"
+#include "core/pipeline/world.h"
 
 namespace seedmesh {
 
@@ -173,6 +174,39 @@ std::vector<ImportFormatInfo> import_format_list() { return {}; }
 std::string_view likely_import_format(std::string_view) { return {}; }
 Result<ExportedFile> export_request(const Request&, std::string_view, const Job::Options&) {
   return invalid("/parameters/model", "Letters are no trees.");
+}
+
+// No request is a world.
+class WorldMemory {};
+struct OpenWorld::Body {};
+static Error no_world() {
+  return {Code::invalid, {{IssueKind::not_available, "/generator", "There are no worlds."}}};
+}
+std::shared_ptr<WorldMemory> make_world_memory(std::uint64_t) { return nullptr; }
+int OpenWorld::levels() const { return 0; }
+double OpenWorld::extent() const { return 0; }
+bool is_world(const Request&) { return false; }
+Result<OpenWorld> open_world(const Request&, std::shared_ptr<WorldMemory>) { return no_world(); }
+TileRange tiles_in(const OpenWorld&, int, const WorldBox&) { return {}; }
+Result<std::string> world_tileset(const OpenWorld&, const TileAddress&, std::string_view, const Job::Options&,
+                                  const WorldPart*) {
+  return no_world();
+}
+Result<std::string> world_implicit(const OpenWorld&, std::string_view, const Job::Options&) {
+  return no_world();
+}
+Result<std::string> world_subtree(const OpenWorld&, const TileAddress&, const Job::Options&) {
+  return no_world();
+}
+Result<std::string> world_tile(const OpenWorld&, const TileAddress&, const Job::Options&) {
+  return no_world();
+}
+Result<std::optional<WorldFile>> world_file(const OpenWorld&, std::string_view, const Job::Options&) {
+  return no_world();
+}
+Result<WorldBox> read_world_box(const OpenWorld&, std::string_view, double) { return no_world(); }
+Result<std::string> world_map(const OpenWorld&, const WorldBox&, WorldHeights, const Job::Options&) {
+  return no_world();
 }
 
 const std::vector<PresetInfo>& presets() {

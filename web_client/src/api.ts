@@ -216,9 +216,17 @@ async function whole_body(response: Response, signal?: AbortSignal): Promise<Arr
   }
 }
 
-/** Throws Heavy before the download if the model has `most` triangles or more. */
+/** The tile of a posted world that shows all of it. Its tileset has been answered; `Content-Location` is its address. */
+async function root_tile(tileset: Response, signal?: AbortSignal): Promise<Response> {
+  void tileset.body?.cancel();
+  const address = (tileset.headers.get('Content-Location') ?? '').replace(/^\//, '').replace(/tileset\.json$/, 'c/0/0/0.glb');
+  return call(address, { signal: signal ?? null });
+}
+
+/** Throws Heavy before the download if the model has `most` triangles or more. Of a world, the model is the root tile. */
 export async function generate(request: Request, signal?: AbortSignal, most = Infinity): Promise<Made> {
-  const response = await post(request, '*/*', signal);
+  const posted = await post(request, '*/*', signal);
+  const response = posted.headers.get('Content-Type')?.startsWith('application/json') ? await root_tile(posted, signal) : posted;
   const number = (name: string): number => Number(response.headers.get(name) ?? 0);
   if (number('Seedmesh-Triangles') >= most) {
     void response.body?.cancel();

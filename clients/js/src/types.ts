@@ -4,8 +4,8 @@
 export interface Output {
   /** The file format of the answer. glb is one binary glTF 2.0 file. gltf is glTF 2.0 as JSON with embedded buffers. zip contains a .gltf, its .bin and its images as separate files, stored uncompressed. Terrain also has height maps: png16 and png8 are grey, rgb24 and rgba32 pack a height into the channels of a PNG, and r16 has raw samples of 16 bits. Fractals also have ply (the points of frcm), png16 and png8 (escape times, grey or in colours). Scenes also have placements, a zip of placements.json and every model as a file of its own. Cities also have geojson, the plan. */
   format?: "glb" | "gltf" | "zip" | "png16" | "png8" | "rgb24" | "rgba32" | "r16" | "ply" | "placements" | "geojson";
-  /** The program that reads the model. core: any reader of glTF 2.0, without required extensions. web: three.js, Babylon and other viewers, with quantized and compressed data and instances on the GPU. unity, unreal, godot, blender: what the importer of that program supports, with names that it accepts. For height maps as r16 or png16, unity and unreal select the conventions of these engines for sizes, rows and scales. */
-  profile?: "core" | "web" | "unity" | "unreal" | "godot" | "blender";
+  /** The program that reads the model. core: any reader of glTF 2.0, without required extensions. web: three.js, Babylon and other viewers, with quantized and compressed data and instances on the GPU. tiles: clients of 3D Tiles, with quantized data and instances on the GPU, without a compression that needs a decoder. unity, unreal, godot, blender: what the importer of that program supports, with names that it accepts. For height maps as r16 or png16, unity and unreal select the conventions of these engines for sizes, rows and scales. */
+  profile?: "core" | "web" | "tiles" | "unity" | "unreal" | "godot" | "blender";
   /** The name of the model: of its root node, its scene and its files, and the first part of the names of its meshes, materials and images. Without it, the name is that of the preset, with the seed if it is not the preset's, or with a hash if anything else differs. A request without a preset has the generator's name and a hash. */
   name?: string;
   /** What the model says of its origin. full writes the engine, generator, seed, preset, canonical request and permalink into the extras of the asset, the scene and the root node. none leaves all of it out. */
@@ -22,7 +22,7 @@ export interface Output {
   wind?: "none" | "weights";
   /** Adds convex bodies around the trunk and the thick limbs of a tree or an L-system, or around the masses of a building. The value selects the names that an engine recognises as collision: plain (collision_01), unreal (UCX_bark_01, after the visible mesh), godot (collision_01-convcolonly). */
   collision?: "none" | "plain" | "unreal" | "godot";
-  /** How repeated parts are written. merge makes one mesh of all organs of a kind, and of all copies with one material. nodes gives each copy a node, and all share one mesh. gpu writes the transforms of copies as arrays (EXT_mesh_gpu_instancing), for the profiles web, unity and blender. auto merges the organs of a plant, merges parts of a building except large parts that occur often, and gives other copies nodes, or arrays in the profile web. */
+  /** How repeated parts are written. merge makes one mesh of all organs of a kind, and of all copies with one material. nodes gives each copy a node, and all share one mesh. gpu writes the transforms of copies as arrays (EXT_mesh_gpu_instancing), for the profiles web, tiles, unity and blender. auto merges the organs of a plant, merges parts of a building except large parts that occur often, and gives other copies nodes, or arrays in the profiles web and tiles. */
   instancing?: "auto" | "nodes" | "gpu" | "merge";
   /** The number of models side by side in one file, generated from this seed and the seeds that follow it. They share materials and textures. */
   variants?: number;
@@ -164,6 +164,13 @@ export interface BuildingParametersDerivation {
   mode?: "parallel" | "sequential";
 }
 
+/** Light that the surface sends out. It is added to the light that it reflects, and does not light other surfaces. */
+export interface Emission {
+  color: string;
+  /** The factor of the colour. Light beyond 1 is written as KHR_materials_emissive_strength, which some readers ignore. */
+  strength?: number;
+}
+
 /** Your own textures, each a PNG or JPEG file as a data URI. They replace a generated texture. */
 export interface Images {
   /** The colour, and with an alpha channel the shape that is cut out. */
@@ -185,6 +192,7 @@ export interface BuildingParametersMaterialsValue {
   metallic?: number;
   /** Values below 1 are transparent. */
   opacity?: number;
+  emission?: Emission;
   /** The width and height of one tile of the images on the wall. */
   tile?: [number, number];
   images?: Images;
@@ -227,10 +235,14 @@ export interface BuildingParameters {
   repeat?: "nearest" | "ceil";
   /** normalize: probabilities that do not sum to 1 count as shares of their sum, with a warning. strict: they are an error. */
   weights?: "normalize" | "strict";
-  /** A restricted kind of shape grammar. non_erasing: no rule removes a shape (NIL). unimarker: in addition, each successor has at most one symbol with a rule, the marker. */
-  restrict?: "none" | "non_erasing" | "unimarker";
+  /** A restricted kind of shape grammar. non_erasing: no rule removes a shape (NIL). unimarker: in addition, each successor has at most one symbol with a rule, the marker. split: every shape of a successor stays within the scope of its predecessor. */
+  restrict?: "none" | "non_erasing" | "unimarker" | "split";
   /** The materials that rules name. They replace built-in materials of the same name. */
   materials?: { [key: string]: BuildingParametersMaterialsValue };
+  /** A picture for the walls, whatever their style: a PNG or JPEG file as a data URI. It repeats over all upright faces whose material is a wall (brick, plaster, wall, facade, building, stone, concrete, wood, cladding). */
+  facade_image?: string;
+  /** The width and height of one copy of the facade picture. */
+  facade_tile?: [number, number];
   /** Whether materials get textures made by seed, by their names (brick, plaster, wall, facade, building, stone, concrete, wood, roof, roof_tile, slate, cladding, chimney). auto: in blueprints; made: in your own rules too; none: only materials with images have textures. Built-in parts, such as windows, have none. */
   textures?: "auto" | "made" | "none";
   /** Models that rules insert by name, as in i("statue"): a nested request, or a GLB file as data URI. */
@@ -761,6 +773,7 @@ export interface LsystemParametersMaterialsItem {
   metallic?: number;
   /** Values below 1 are transparent, as for the leaves of Kogovšek's trees. */
   opacity?: number;
+  emission?: Emission;
   texture?: Texture;
   /** Another seed gives another texture of the same kind. Models with the same texture, seed and colour share it. */
   texture_seed?: number;
@@ -851,6 +864,10 @@ export interface LsystemParameters {
   sides?: number;
   /** The number of rings of faces of a segment along its axis if its width changes; a segment with constant width has one. */
   stacks?: number;
+  /** How the diameter changes between segments. linear: along each segment, from the diameter of the one before it to its own. none: each segment is a cylinder of its own diameter, as gluCylinder draws it with two equal radii. A new tube begins where the diameter changes. */
+  taper?: "linear" | "none";
+  /** What the tubes of coarser levels of detail have less of (`output.lods`). outline: fewer limbs and joints, those that change the outline least. slices: all limbs, with the sides and stacks of level 0 divided by the root of the level plus 1: 32 sides become 22, 18, 16 and 14. */
+  levels?: "outline" | "slices";
   /** Whether thinner limbs have fewer sides and shorter segments fewer stacks. Coarser levels of detail always do. */
   adapt?: boolean;
   /** Joins the limbs of brackets to one surface, as for trees: limbs of similar thickness in a fork, thin limbs in a collar. Limbs without space, and limbs with a contour, stay closed tubes that begin inside their parent. Thin welded limbs have fewer sides, and rings where they bend, whatever stacks and adapt say. */
@@ -1152,6 +1169,34 @@ export interface SceneParameters {
   chunks?: number;
 }
 
+/** One layer. */
+export interface TerrainParametersLayersItem {
+  /** A name by which expressions of later layers use the heights of this one. */
+  name?: string;
+  /** Where the heights of the layer come from. */
+  algorithm?: "expression" | "fault_formation" | "poisson_faulting" | "fbm";
+  /** As that of the terrain. It can also use height and slope, the height in metres and the slope in degrees so far, and the names of earlier layers. A sphere has no slope. */
+  expression?: string;
+  /** The operation on the height so far and that of the layer. replace takes the layer. none only gives it a name. */
+  combine?: "add" | "subtract" | "multiply" | "max" | "min" | "replace" | "none";
+  /** Where the layer has an effect: an expression from 0 (nowhere) to 1, with the same names, such as slope < 30, or height / 100. */
+  mask?: string;
+  /** The number of faults, or the octaves of noise. Default: 64 faults, 8 octaves. */
+  iterations?: number;
+  /** As that of the terrain, for fbm. */
+  amplitude?: number;
+  /** As that of the terrain, for fbm. */
+  hurst?: number;
+  /** As that of the terrain, for fbm. */
+  noise?: "rolling" | "ridged" | "billow";
+  /** As that of the terrain, for fbm. */
+  wavelength?: number;
+  /** As that of the terrain, for faults. */
+  fault_max?: number;
+  /** As that of the terrain, for faults. */
+  fault_min?: number;
+}
+
 /** Heights as an image, for the algorithm image. */
 export interface TerrainParametersImage {
   /** A PNG, JPEG, WebP or TIFF file, raw 16-bit samples or an .hgt file, in base64. A data: URL is accepted, too. The first row is the northern one. */
@@ -1273,17 +1318,21 @@ export interface TerrainParametersHeightmap {
 
 /** A height field by one of the classic algorithms, filtered, meshed and coloured, or as a height map for an engine; or a planetoid. */
 export interface TerrainParameters {
-  /** The algorithm. fault_formation and poisson_faulting lift one side of random lines. triangular_edge, diamond_square and square_square refine a few heights repeatedly. fbm sums octaves of noise. image takes heights from an image.. */
-  algorithm?: "fault_formation" | "poisson_faulting" | "triangular_edge" | "diamond_square" | "square_square" | "fbm" | "image";
-  /** Rounds of a subdivision (n rounds give 2^n + 1 samples a side, square_square 2^n + 2), the number of faults, or the octaves of noise. Default: 8 rounds, 64 faults, 8 octaves. Not for image. */
+  /** The algorithm. fault_formation and poisson_faulting lift one side of random lines. triangular_edge, diamond_square and square_square refine a few heights repeatedly. fbm sums octaves of noise. image takes heights from an image. expression computes each height. */
+  algorithm?: "fault_formation" | "poisson_faulting" | "triangular_edge" | "diamond_square" | "square_square" | "fbm" | "image" | "expression";
+  /** The height of a sample, for the algorithm expression: x and y are metres to the east and north of the centre, on a sphere x, y and z its position, and latitude and longitude in degrees. size is the size. noise(x, y) is gradient noise; fbm, ridged and billow(x, y, octaves) are sums of it; all take a z as well. ran draws anew at each sample. */
+  expression?: string;
+  /** Further heights that are combined with those of the algorithm, one after the other, before the filters. */
+  layers?: TerrainParametersLayersItem[];
+  /** Rounds of a subdivision (n rounds give 2^n + 1 samples a side, square_square 2^n + 2), the number of faults, or the octaves of noise. Default: 8 rounds, 64 faults, 8 octaves. Not for image and expression. */
   iterations?: number;
   /** Additional iterations after the planned ones. A subdivision or noise becomes finer by that many rounds and keeps its old heights. Faults are added without the falling bound. */
   extra_iterations?: number;
-  /** Samples a side for algorithms that do not determine it: faults and fbm. On a sphere, samples along an edge of its cube. Default: 257, on a sphere 65. */
+  /** Samples a side for algorithms that do not determine it: faults, fbm and expression. On a sphere, samples along an edge of its cube. Default: 257, on a sphere 65. */
   resolution?: number;
   /** Length of the terrain from west to east, or the diameter of a sphere. */
   size?: number;
-  /** A plane, or a planetoid (poisson_faulting and fbm). */
+  /** A plane, or a planetoid (fault_formation, poisson_faulting, fbm and expression). */
   shape?: "plane" | "sphere";
   /** Greatest random deviation of the first round of a subdivision, or the weight of the first octave of noise. Default: a tenth of the size, on a sphere a twentieth of the diameter. */
   amplitude?: number;
@@ -1393,10 +1442,16 @@ export interface TreeParametersLeaf {
   density?: number;
   /** Factor for the length and width that the model gives. */
   size?: number;
+  /** outward: both sides of a leaf are faces with one normal, which points out of the crown, so that its upper side is as bright as the lower ones are dark. Such leaves have no generated normal map. two_sided: one face that is visible from both sides; renderers turn its normal around at the back, and crowns seen from below the leaves are dark. auto: outward, or two_sided in the profiles unity and unreal, whose foliage materials have a light of their own. Leaves that share a mesh (output.instancing) are two_sided. */
+  faces?: "auto" | "two_sided" | "outward";
   /** 0 gives every leaf its own normals. 1 gives it the normals of the surface of the crown, so that distant crowns look smoother. */
   crown_normals?: number;
   /** Largest random difference in brightness between leaves. */
   tint?: number;
+  /** Standard deviation of the hue between leaves, as vertex colours. Leaves of a limb, and leaves of a twig, resemble each other. If it is above 0, one leaf in fifty is withered. */
+  hue?: number;
+  /** Largest share of the light of the sky that leaves take from the leaves below them, as vertex colours. */
+  occlusion?: number;
   /** Colour in summer. Petals have it in spring as well. */
   color?: string;
   /** Colour in autumn. If left out, leaves are yellow, and petals keep their colour. */
@@ -1835,6 +1890,134 @@ export interface TreeParameters {
   sculpt?: TreeParametersSculpt;
 }
 
+/** The shape of the ground. */
+export interface WorldParametersRelief {
+  /** Whether ground below the sea level is covered by the sea. Without it, rivers end in lakes. */
+  sea?: boolean;
+  /** The height of the sea. A region without a coast has its lake at its lowest point. */
+  sea_level?: number;
+  /** The share of land: 0 is nearly all sea, 1 nearly all land. */
+  land?: number;
+  /** The wavelength of land and sea. */
+  continents?: number;
+  /** The height of the greatest mountain ranges. */
+  mountains?: number;
+  /** The height of hills. */
+  hills?: number;
+  /** How sharp the crests of mountains are: 0 is round, 1 sharp. */
+  ridges?: number;
+  /** The strength of gullies along slopes. */
+  gullies?: number;
+  /** How much of the slopes forms steps, as in layered rock. */
+  terraces?: number;
+}
+
+/** Rivers and lakes. The water of each region of about 32 km drains to the sea or to a lake inside it. */
+export interface WorldParametersWater {
+  /** The amount of rivers: 0 is none, 1 many. */
+  rivers?: number;
+  /** The width of a river that drains 100 km². */
+  width?: number;
+}
+
+/** Temperature and moisture, which determine colours and plants. */
+export interface WorldParametersClimate {
+  /** The mean temperature at the sea level. */
+  temperature?: number;
+  /** The mean moisture: 0 is desert, 1 rain forest. */
+  moisture?: number;
+  /** How much moisture and temperature vary from location to location. */
+  variation?: number;
+}
+
+/** The colours of the ground and of water. */
+export interface WorldParametersColors {
+  /** The colour of grass. */
+  grass?: string;
+  /** The colour of the ground of woods. */
+  forest?: string;
+  /** The colour of dry ground. */
+  dry?: string;
+  /** The colour of rock. */
+  rock?: string;
+  /** The colour of sand. */
+  sand?: string;
+  /** The colour of snow. */
+  snow?: string;
+  /** The colour of water. */
+  water?: string;
+}
+
+/** Villages where the ground is level, mild and near water. */
+export interface WorldParametersSettlements {
+  /** The share of suitable locations that have a village. There is at most one in 6 km. */
+  density?: number;
+  /** The radius of the widest village. */
+  radius?: number;
+  /** The colour of walls. */
+  wall?: string;
+  /** The colour of roofs. */
+  roof?: string;
+}
+
+/** Roads between villages, with a grade of at most 10 %. */
+export interface WorldParametersRoads {
+  /** The width of the carriageway. */
+  width?: number;
+  /** The greatest distance of two villages that a road joins. */
+  longest?: number;
+  /** The colour of roads. */
+  color?: string;
+}
+
+/** Class */
+export interface WorldParametersPlantsItem {
+  /** The name of the class in the map. */
+  class: string;
+  /** The form of the plant. */
+  form?: "conifer" | "broadleaf" | "palm" | "shrub" | "cactus" | "fungus";
+  /** The mean height. Copies have 0.7 to 1.3 times this height. */
+  height?: number;
+  /** The least distance between two plants of the class. */
+  spacing?: number;
+  /** The share of suitable ground that the class covers. */
+  density?: number;
+  /** The least and the greatest moisture at which the class grows. */
+  moisture?: [number, number];
+  /** The least and the greatest temperature at which the class grows. */
+  temperature?: [number, number];
+  /** The steepest ground that the class grows on. */
+  slope?: number;
+  /** The colour of leaves. */
+  color?: string;
+  /** The colour of stems. */
+  stem?: string;
+}
+
+/** An endless plane of land and sea by a seed, streamed as OGC 3D Tiles 1.1. A tile depends on the request and its address alone. */
+export interface WorldParameters {
+  /** The side of the square that is streamed: a power of two from 2^15. Leaves have a side of 64 m. */
+  extent?: number;
+  /** The position of the plane at the middle of the world, east and north, in regions of 32,768 m. */
+  origin?: [number, number];
+  /** The layers that tiles contain. */
+  layers?: ("terrain" | "water" | "roads" | "buildings" | "plants")[];
+  /** The shape of the ground. */
+  relief?: WorldParametersRelief;
+  /** Rivers and lakes. The water of each region of about 32 km drains to the sea or to a lake inside it. */
+  water?: WorldParametersWater;
+  /** Temperature and moisture, which determine colours and plants. */
+  climate?: WorldParametersClimate;
+  /** The colours of the ground and of water. */
+  colors?: WorldParametersColors;
+  /** Villages where the ground is level, mild and near water. */
+  settlements?: WorldParametersSettlements;
+  /** Roads between villages, with a grade of at most 10 %. */
+  roads?: WorldParametersRoads;
+  /** Classes of plants. Copies of one class keep their spacing, also across the borders of tiles. */
+  plants?: WorldParametersPlantsItem[];
+}
+
 /** A request with this generator. */
 export interface BuildingChild {
   /** The kind of model. Required unless a preset is given, which then determines it. */
@@ -1919,6 +2102,18 @@ export interface TreeChild {
   parameters?: TreeParameters;
 }
 
+/** A request with this generator. */
+export interface WorldChild {
+  /** The kind of model. Required unless a preset is given, which then determines it. */
+  generator: "world";
+  /** The name of a shipped request. The rest of this request is merged over it as a JSON Merge Patch (RFC 7396): objects member by member, null removes a member, anything else replaces. */
+  preset?: string;
+  /** The seed: the same request with the same seed gives the same bytes. */
+  seed?: Seed;
+  /** The parameters of the generator, by the generator's own schema. */
+  parameters?: WorldParameters;
+}
+
 /** A preset, and the changes to it as a JSON Merge Patch (RFC 7396). */
 export interface PresetChild {
   generator?: undefined;
@@ -1930,7 +2125,7 @@ export interface PresetChild {
   parameters?: { [key: string]: unknown };
 }
 
-export type Child = BuildingChild | CityChild | FractalChild | LsystemChild | SceneChild | TerrainChild | TreeChild | PresetChild;
+export type Child = BuildingChild | CityChild | FractalChild | LsystemChild | SceneChild | TerrainChild | TreeChild | WorldChild | PresetChild;
 
 /** A request with this generator. */
 export interface BuildingRequest {
@@ -2030,6 +2225,20 @@ export interface TreeRequest {
   output?: Output;
 }
 
+/** A request with this generator. */
+export interface WorldRequest {
+  /** The kind of model. Required unless a preset is given, which then determines it. */
+  generator: "world";
+  /** The name of a shipped request. The rest of this request is merged over it as a JSON Merge Patch (RFC 7396): objects member by member, null removes a member, anything else replaces. */
+  preset?: string;
+  /** The seed: the same request with the same seed gives the same bytes. */
+  seed?: Seed;
+  /** The parameters of the generator, by the generator's own schema. */
+  parameters?: WorldParameters;
+  /** The form of the answer. */
+  output?: Output;
+}
+
 /** A preset, and the changes to it as a JSON Merge Patch (RFC 7396). */
 export interface PresetRequest {
   generator?: undefined;
@@ -2043,7 +2252,7 @@ export interface PresetRequest {
   output?: Output;
 }
 
-export type Request = BuildingRequest | CityRequest | FractalRequest | LsystemRequest | SceneRequest | TerrainRequest | TreeRequest | PresetRequest;
+export type Request = BuildingRequest | CityRequest | FractalRequest | LsystemRequest | SceneRequest | TerrainRequest | TreeRequest | WorldRequest | PresetRequest;
 
 export interface PresetListGeneratorsItem {
   name: string;
@@ -2193,6 +2402,72 @@ export interface TreeDerivation {
 
 export type CityDerivation = { [key: string]: unknown };
 
+/** Levels, extent and origin of the world, and the height of its sea. */
+export interface WorldDerivation {
+  levels: number;
+  extent: number;
+  origin: number[];
+  sea_level: number | null;
+  warnings: WarningsItem[];
+}
+
+/** Rows from the south, columns from the west, both borders included. */
+export interface WorldMapHeights {
+  columns?: number;
+  rows?: number;
+  values?: number[];
+}
+
+export interface WorldMapSettlementsItem {
+  id?: string;
+  position?: [number, number, number];
+  radius?: number;
+}
+
+export interface WorldMapRiversItem {
+  id?: string;
+  into?: string;
+  points?: ([number, number, number])[];
+  widths?: number[];
+}
+
+export interface WorldMapLakesItem {
+  id?: string;
+  level?: number;
+  outline?: number[][];
+}
+
+export interface WorldMapRoadsItem {
+  id?: string;
+  width?: number;
+  points?: ([number, number, number])[];
+}
+
+export interface WorldMapPlantsItem {
+  class?: string;
+  spacing?: number;
+  count?: number;
+  places?: ([number, number, number])[];
+}
+
+/** What touches a box of a world. Positions are [east, north, height] in metres from the middle of the world; sea_level is null where there is no sea. */
+export interface WorldMap {
+  /** west, south, east, north */
+  box: [number, number, number, number];
+  sea_level: number | null;
+  /** Rows from the south, columns from the west, both borders included. */
+  heights?: WorldMapHeights;
+  settlements: WorldMapSettlementsItem[];
+  /** From source to mouth, whole; `into` is `sea` or the id of a lake or river. A width for each point. */
+  rivers: WorldMapRiversItem[];
+  lakes: WorldMapLakesItem[];
+  roads: WorldMapRoadsItem[];
+  /** By class; `places` for boxes of at most 2,048 m a side. `spacing` is the least distance within the class. */
+  plants: WorldMapPlantsItem[];
+}
+
+export type WorldPosition = [number, number, number];
+
 /** In the frame of the unit element. Values that do not apply, are unknown, or are too large for a number are null. */
 export interface FractalDerivation {
   pieces: number | null;
@@ -2202,6 +2477,12 @@ export interface FractalDerivation {
   volume: number | null;
   genus: number | null;
   non_manifold_edges: number | null;
+  /** Of all copies of a segment, or of the outline of a plate. */
+  length: number | null;
+  /** Of one side of a plate. */
+  area: number | null;
+  /** The same values for each of the stages, with its iterations or points. */
+  stages: { [key: string]: unknown }[];
   bounds: Box | null;
   warnings: WarningsItem[];
 }

@@ -146,7 +146,9 @@ Grammar read(const BuildingParams& params, std::vector<Issue>& issues) {
     std::vector<lang::TextError> all = faults;
     lang::add_issues("/rules", rules.text, all, issues);
   }
-  if (faults.empty() && params.restrict != BuildingRestrict::none)
+  const bool has_text_restriction =
+      params.restrict == BuildingRestrict::non_erasing || params.restrict == BuildingRestrict::unimarker;
+  if (faults.empty() && has_text_restriction)
     add_refused(params, rules, "/restrict",
                 errors_of_restriction(grammar, params.restrict == BuildingRestrict::unimarker), issues);
   if (faults.empty() && params.weights == BuildingWeights::strict)
@@ -212,6 +214,10 @@ void check_alone(const BuildingParams& params, std::vector<Issue>& issues) {
   refuse(params.repeat.has_value(), "repeat");
   refuse(!params.assets.empty(), "assets");
   refuse(params.derivation.order != plain.derivation.order, "derivation/order");
+  if (params.restrict == BuildingRestrict::split)
+    issues.push_back({IssueKind::conflict, "/restrict",
+                      "found split, which restricts rules; expected none, non_erasing or unimarker for a "
+                      "shape grammar"});
 }
 
 PictureRestriction restriction_of(BuildingRestrict restrict) {

@@ -44,6 +44,7 @@ struct Task {
   const std::map<std::string, std::string>* tables = nullptr;
   std::vector<std::string> files;  ///< names of assets, materials and tables of the request, sorted
   bool keeps_masses = false;       ///< for collision bodies
+  bool stays_inside = false;       ///< a shape that leaves the scope of its predecessor is an error
   bool keeps_choices = false;      ///< for lists of shapes
   std::uint64_t most_shapes = ~std::uint64_t{0};  ///< the derivation stops when there are more
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/generators/building/containment.h"
 #include "core/generators/building/evaluate.h"
 #include "core/generators/building/operators.h"
 
@@ -33,6 +34,7 @@ std::uint32_t add_shape(Derivation& d, const ShapeState& state, const Frame& fra
 
 /// Adds a shape of the step's symbol, with the values of its arguments.
 void call_symbol(Derivation& d, const Step& step, ShapeState& state, const Site& site) {
+  check_containment(d, site.frame.shape, state, step.offset);
   const std::uint32_t index = add_shape(d, state, site.frame, site.key, step.symbol);
   if (step.is_leaf || (step.stays_whole && d.is_finishing)) d.out.shapes[index].is_leaf = true;
   if (step.argument_count == 0) return;
@@ -271,6 +273,12 @@ void run_choice(Derivation& d, const Choice& choice, const ShapeState& given, co
   std::vector<Bracket> brackets;
   bool is_pending = true;
   const std::uint32_t symbol = d.out.shapes[frame.shape].symbol;
+  std::uint32_t last = 0;  // the latest operation, which made what is pending
+  const auto add_pending = [&](std::uint64_t key) {
+    if (!is_pending) return;
+    check_containment(d, frame.shape, state, last);
+    add_leaf(d, state, own, key, symbol);
+  };
   for (std::uint32_t i = 0; i < choice.step_count; ++i) {
     const Step& step = d.grammar.steps[choice.first_step + i];
     const std::uint64_t key = key_at(frame.key, i);
@@ -279,7 +287,7 @@ void run_choice(Derivation& d, const Choice& choice, const ShapeState& given, co
       own.before = state;
       is_pending = false;
     } else if (step.op == Op::pop) {
-      if (is_pending) add_leaf(d, state, own, key, symbol);
+      add_pending(key);
       state = brackets.back().state;
       own.before = brackets.back().before;
       is_pending = false;
@@ -290,9 +298,10 @@ void run_choice(Derivation& d, const Choice& choice, const ShapeState& given, co
       d.random = Rng(key);
       if (row.rest != Rest::same) is_pending = row.rest == Rest::open;
       run_step(d, row, step, state, {own, key});
+      last = step.offset;
     }
   }
-  if (is_pending) add_leaf(d, state, own, key_at(frame.key, choice.step_count), symbol);
+  add_pending(key_at(frame.key, choice.step_count));
 }
 
 }  // namespace

@@ -166,6 +166,44 @@ Result<Model> generate_by_method(const FractalParams& params, const GenerateCont
 
 Json vector(const glm::vec3& v) { return Json::array({v.x + 0.0F, v.y + 0.0F, v.z + 0.0F}); }
 
+/// Figures of one stage: after a number of rounds, or of points.
+Measure measure_stage(const FractalParams& params, std::int64_t amount, Job& job) {
+  Measure result;
+  if (params.method == FractalMethod::escape) {
+    const auto side = static_cast<double>(params.escape.resolution);
+    result.pieces = side * side;
+    return result;
+  }
+  const Instructions instructions = instructions_of(params);
+  const bool is_copied = params.method == FractalMethod::mrcm;
+  result = measure(params, instructions, is_copied ? static_cast<int>(amount) : 0, job);
+  if (is_copied) return result;
+  const Cloud cloud =
+      play(instructions, static_cast<std::uint64_t>(amount), static_cast<std::uint32_t>(params.drop), job);
+  const std::optional<double> dimension = result.dimension;
+  result = {};
+  result.pieces = static_cast<double>(amount);
+  result.dimension = dimension;
+  result.bounds = bounds_of(cloud.position.span());
+  return result;
+}
+
+Json json_of(const Measure& measured) {
+  Json bounds = nullptr;
+  if (measured.bounds)
+    bounds = {{"min", vector(measured.bounds->min)}, {"max", vector(measured.bounds->max)}};
+  return Json{{"pieces", number_or_null(measured.pieces)},
+              {"dimension", number_or_null(measured.dimension)},
+              {"exposed_quads", number_or_null(measured.exposed_quads)},
+              {"surface_area", number_or_null(measured.surface_area)},
+              {"volume", number_or_null(measured.volume)},
+              {"genus", number_or_null(measured.genus)},
+              {"non_manifold_edges", number_or_null(measured.non_manifold_edges)},
+              {"length", number_or_null(measured.length)},
+              {"area", number_or_null(measured.area)},
+              {"bounds", std::move(bounds)}};
+}
+
 std::vector<std::int64_t> stages_of(const FractalParams& params, std::int64_t otherwise) {
   if (params.stages.empty()) return {otherwise};
   return {params.stages.begin(), params.stages.end()};
@@ -299,34 +337,17 @@ Result<Model> generate(const FractalParams& params, const GenerateContext& conte
 
 Result<Json> derive(const FractalParams& params, const GenerateContext& context) {
   Job& job = context.job;
-  Measure result;
-  if (params.method == FractalMethod::escape) {
-    const auto side = static_cast<double>(params.escape.resolution);
-    result.pieces = side * side;
-  } else {
-    result = measure(params, instructions_of(params),
-                     params.method == FractalMethod::mrcm ? params.iterations : 0, job);
+  const bool is_copied = params.method == FractalMethod::mrcm;
+  Json answer = json_of(measure_stage(params, is_copied ? params.iterations : params.points, job));
+  Json stages = Json::array();
+  for (const std::int64_t amount : params.stages) {
+    Json stage = json_of(measure_stage(params, amount, job));
+    stage[is_copied ? "iterations" : "points"] = amount;
+    stages.push_back(std::move(stage));
   }
-  if (params.method == FractalMethod::frcm) {
-    const Cloud cloud = play(instructions_of(params), static_cast<std::uint64_t>(params.points),
-                             static_cast<std::uint32_t>(params.drop), job);
-    const std::optional<double> dimension = result.dimension;
-    result = {};
-    result.pieces = static_cast<double>(params.points);
-    result.dimension = dimension;
-    result.bounds = bounds_of(cloud.position.span());
-  }
-  Json bounds = nullptr;
-  if (result.bounds) bounds = {{"min", vector(result.bounds->min)}, {"max", vector(result.bounds->max)}};
-  return Json{{"pieces", number_or_null(result.pieces)},
-              {"dimension", number_or_null(result.dimension)},
-              {"exposed_quads", number_or_null(result.exposed_quads)},
-              {"surface_area", number_or_null(result.surface_area)},
-              {"volume", number_or_null(result.volume)},
-              {"genus", number_or_null(result.genus)},
-              {"non_manifold_edges", number_or_null(result.non_manifold_edges)},
-              {"bounds", std::move(bounds)},
-              {"warnings", warning_list(warnings_of(params))}};
+  answer["stages"] = std::move(stages);
+  answer["warnings"] = warning_list(warnings_of(params));
+  return answer;
 }
 
 Result<Appraisal> appraise(const FractalParams& params, const GenerateContext& context) {

@@ -113,6 +113,29 @@ std::optional<Box> straight_bounds(const Instructions& instructions, int rounds)
   return Box{glm::vec3(low), glm::vec3(high)};
 }
 
+/// Lengths of copies of a segment add up. The snowflake's plate has the outline of these segments; a triangle is added
+/// to each of them in every round, with a ninth of the area of those of the round before.
+void measure_curve(const FractalParams& params, const Instructions& instructions, int rounds, Measure& out) {
+  if (!is_named(params, FractalElement::segment) && !is_named(params, FractalElement::plate)) return;
+  const auto sum_of_scales = [](const std::vector<Affine>& maps) -> std::optional<double> {
+    double sum = 0;
+    for (const Affine& map : maps) {
+      const std::optional<double> scale = similarity(map);
+      if (!scale) return std::nullopt;
+      sum += *scale;
+    }
+    return sum;
+  };
+  const std::optional<double> factor = sum_of_scales(instructions.maps);
+  const std::optional<double> first =
+      instructions.arrangement.empty() ? 1.0 : sum_of_scales(instructions.arrangement);
+  if (!factor || !first || instructions.keeps) return;
+  out.length = *first * power(*factor, rounds);
+  if (!is_named(params, FractalElement::plate)) return;
+  const double side = *first / 3, triangle = std::sqrt(3.0) / 4 * side * side;
+  out.area = triangle * (1 + 0.6 * (1 - power(4.0 / 9, rounds)));
+}
+
 /// Does the element fill its frame?
 bool fills_frame(const FractalParams& params) {
   if (params.element.index() != 0) return false;
@@ -155,6 +178,7 @@ Measure measure(const FractalParams& params, const Instructions& instructions, i
   const std::optional<Lattice> lattice = lattice_of(instructions);
   if (is_cube(params) && lattice) measure_lattice(*lattice, rounds, job, out);
   if (!instructions.separate.empty()) measure_separate(params, instructions, rounds, out);
+  measure_curve(params, instructions, rounds, out);
   if (fills_frame(params)) out.bounds = straight_bounds(instructions, rounds);
   return out;
 }

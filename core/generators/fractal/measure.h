@@ -18,6 +18,8 @@ struct Measure {
   std::optional<double>
       dimension;  ///< similarity dimension: the solution of Moran's equation, sum of scale^D = 1
   std::optional<double> exposed_quads, surface_area, volume, genus, non_manifold_edges;
+  std::optional<double> length;  ///< of all segments, or of the outline of a plate
+  std::optional<double> area;    ///< of one side of a plate
   std::optional<Box> bounds;
 };
 

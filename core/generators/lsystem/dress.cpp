@@ -178,6 +178,19 @@ void add_level(Model& model, int level, std::vector<Bark> parts, MaterialSet& ma
   model.meshes.push_back(std::move(group));
 }
 
+/// Adds levels with all limbs, and with the sides and stacks of Tunnel's table 8.
+void add_sliced_levels(Model& model, const Limbs& limbs, const SkinOptions& finest, MaterialSet& material_set,
+                       const GenerateContext& context) {
+  for (int level = 1; level < context.demand.lods; ++level) {
+    const Detail detail(level);
+    SkinOptions options = finest;
+    options.sides = std::max(detail.sides(finest.sides), least_sides_of(finest));
+    options.stacks = detail.stacks(finest.stacks);
+    if (options.sides == finest.sides && options.stacks == finest.stacks) return;
+    add_level(model, level, skin(limbs, options, context.job), material_set);
+  }
+}
+
 struct BarkUse {
   std::span<const std::uint16_t> bones;  ///< bone of each joint; empty without growth animation
   bool carries_organs = false;
@@ -216,6 +229,10 @@ void add_bark(Model& model, Limbs limbs, const BarkUse& use, const LsystemParams
     add_meshes(model, "bark", skin(limbs, options, job), Sides::one, material_set);
   }
   if (static_cast<int>(model.nodes.size()) == finest) return;
+  if (params.levels == LsystemParams::Levels::slices) {
+    options.bones = bones;
+    return add_sliced_levels(model, limbs, options, material_set, context);
+  }
   const std::uint64_t triangles = triangles_of(model.meshes.back().primitives);
   std::uint64_t before = triangles;
   Array<std::uint16_t> own_bones(job);

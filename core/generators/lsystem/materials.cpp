@@ -120,6 +120,12 @@ Material MaterialSet::make(std::size_t index) const {
     material.base_color.w = static_cast<float>(given.opacity);
     material.alpha_mode = AlphaMode::blend;
   }
+  if (given.emission) {
+    const Color& glow = given.emission->color;
+    material.emissive =
+        glm::vec3(linear_of_srgb(glow.red), linear_of_srgb(glow.green), linear_of_srgb(glow.blue)) *
+        static_cast<float>(given.emission->strength);
+  }
   if (has_texture(given)) {
     material.recipe = {std::string(text_of(given.texture)), static_cast<std::uint64_t>(given.texture_seed),
                        main_color(given.color)};

@@ -159,22 +159,23 @@ Planet sphere_of(std::int32_t side, double radius, const Job& job) {
 void fault_sphere(Planet& planet, const FaultPlan& plan, Rng rng, const Job& job) {
   struct Fault {
     glm::vec3 axis;
-    float height;
+    float above, below;  ///< added on the side of the axis, and on the other side
   };
   std::vector<Fault> faults(static_cast<std::size_t>(plan.planned + plan.extra));
   for (std::size_t i = 0; i < faults.size(); ++i) {
     Rng draw = rng.at("plane").at(i);
     const double y = draw.uniform(-1, 1), flat = std::sqrt(1 - y * y);
     const math::SinCos turn = math::sincos(draw.uniform(0, 2 * math::pi));
-    faults[i] = {glm::vec3(flat * turn.cos, y, flat * turn.sin),
-                 static_cast<float>(fault_height(plan, static_cast<int>(i), rng))};
+    const auto height = static_cast<float>(fault_height(plan, static_cast<int>(i), rng));
+    faults[i] = {glm::vec3(flat * turn.cos, y, flat * turn.sin), height,
+                 plan.kind == FaultKind::normal ? -height : 0.0F};
   }
   each_chunk(planet, job, [&](std::size_t begin, std::size_t end) {
     for (const Fault& fault : faults) {
       for (std::size_t i = begin; i < end; ++i) {
         const glm::vec3& d = planet.direction[i];
         const float side = (d.x * fault.axis.x + d.y * fault.axis.y) + d.z * fault.axis.z;
-        planet.height[i] += side > 0 ? fault.height : -fault.height;
+        planet.height[i] += side > 0 ? fault.above : fault.below;
       }
     }
   });

@@ -22,8 +22,8 @@ struct Planet {
 /// Returns a sphere with 6 (side - 1)^2 + 2 points.
 Planet sphere_of(std::int32_t side, double radius, const Job& job);
 
-/// Applies Poisson faulting on the sphere: a plane through the centre raises one half and lowers the other,
-/// so the mean stays 0. Cost: about 0.7 ns for each point and fault.
+/// Applies faults on the sphere, each a plane through the centre (Kogovšek 2014, section 5.2.1). Poisson faulting
+/// raises one half and lowers the other, so the mean stays 0. Fault formation raises one half. Cost: about 0.7 ns for each point and fault.
 void fault_sphere(Planet& planet, const FaultPlan& plan, Rng rng, const Job& job);
 
 /// Applies noise at the points of the sphere. Cost: about 20 ns for each point and octave.

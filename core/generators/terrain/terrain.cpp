@@ -230,4 +230,13 @@ std::vector<Issue> check_format(const TerrainParams& params, const WantedFormat&
   return format_errors(params, form);
 }
 
+float tile_extent(const TerrainParams& params) {
+  if (!params.tile) return 0;
+  // A field may leave the nominal range, which is that of its colours.
+  constexpr float spare = 2;
+  const Range range = nominal_range(params);
+  const float heights = spare * (range.high - range.low) + static_cast<float>(params.skirt);
+  return std::max(static_cast<float>(params.size), heights);
+}
+
 }  // namespace seedmesh::terrain

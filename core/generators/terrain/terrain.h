@@ -52,4 +52,8 @@ Result<Array<std::uint8_t>> encode(const TerrainParams& params, const WantedForm
 /// Returns why such a format cannot represent the parameters.
 std::vector<Issue> check_format(const TerrainParams& params, const WantedFormat& form);
 
+/// Returns the extent in metres for which quantized files choose the step of their grid: that of a tile with
+/// the greatest usual range of heights, the same for all tiles of a world; 0 without a tile.
+float tile_extent(const TerrainParams& params);
+
 }  // namespace seedmesh::terrain

@@ -55,10 +55,10 @@ DisjointSets shared(const Model& model) {
   return sets;
 }
 
-Grid grid_of(const Box& box) {
+Grid grid_of(const Box& box, float least_extent) {
   if (box.min.x > box.max.x) return {};
   const glm::vec3 extent = box.max - box.min;
-  const float longest = std::max({extent.x, extent.y, extent.z});
+  const float longest = std::max({extent.x, extent.y, extent.z, least_extent});
   int exponent = -20;
   if (longest > 0) {
     std::frexp(longest / most_steps, &exponent);  // longest / most_steps < 2^exponent
@@ -115,7 +115,7 @@ void add_child(Model& model, std::size_t number, const Grid& grid, std::set<std:
 
 }  // namespace
 
-std::vector<Grid> grids_of(const Model& model) {
+std::vector<Grid> grids_of(const Model& model, const GridOptions& options) {
   constexpr float far = std::numeric_limits<float>::max();
   DisjointSets sets = shared(model);
   std::vector<Box> boxes(model.meshes.size(), Box{glm::vec3(far), glm::vec3(-far)});
@@ -128,12 +128,23 @@ std::vector<Grid> grids_of(const Model& model) {
     }
   }
   std::vector<Grid> grids;
-  for (std::size_t i = 0; i < model.meshes.size(); ++i) grids.push_back(grid_of(boxes[sets.of(i)]));
+  for (std::size_t i = 0; i < model.meshes.size(); ++i)
+    grids.push_back(grid_of(boxes[sets.of(i)], options.least_extent));
+  if (!options.keeps_copies) return grids;
+  std::vector<bool> is_copied(model.meshes.size(), false);
+  for (const Node& node : model.nodes) {
+    const std::vector<int> meshes = shown_by(node);
+    if (!meshes.empty() && !node.instances.transforms.empty())
+      is_copied[sets.of(static_cast<std::size_t>(meshes.front()))] = true;
+  }
+  for (std::size_t i = 0; i < grids.size(); ++i) {
+    if (is_copied[sets.of(i)]) grids[i] = {.is_exact = true};
+  }
   return grids;
 }
 
-std::vector<Grid> apply_grids(Model& model) {
-  const std::vector<Grid> grids = grids_of(model);
+std::vector<Grid> apply_grids(Model& model, const GridOptions& options) {
+  const std::vector<Grid> grids = grids_of(model, options);
   std::vector<bool> skin_done(model.skins.size(), false);
   const std::vector<bool> is_shared = shared_transforms(model);
   std::set<std::string> names;
@@ -144,6 +155,7 @@ std::vector<Grid> apply_grids(Model& model) {
     const std::vector<int> meshes = shown_by(node);
     if (meshes.empty()) continue;
     const Grid& grid = grids[static_cast<std::size_t>(meshes.front())];
+    if (grid.is_exact) continue;
     if (node.skin >= 0) {
       const auto skin = static_cast<std::size_t>(node.skin);
       if (!skin_done[skin]) move_into(model.skins[skin], grid);

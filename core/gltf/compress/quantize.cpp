@@ -69,6 +69,22 @@ void quantize_directions(Column& column, Job& job) {
   column.filter = Filter::octahedral;
 }
 
+/// The same with 16 bits for each lane, which readers need no filter for.
+void quantize_lanes(Column& column, Job& job) {
+  constexpr int bits = 16;
+  Array<glm::i16vec4> packed(job, column.count);
+  const bool has_sign = column.lanes == Lanes::vec4;
+  for (std::size_t i = 0; i < column.count; ++i) {
+    if (i % check_interval == 0) job.check();
+    const glm::dvec4 n = has_sign ? glm::dvec4(load<glm::vec4>(column.slice, i))
+                                  : glm::dvec4(glm::dvec3(load<glm::vec3>(column.slice, i)), 0);
+    for (int lane = 0; lane < 4; ++lane) packed[i][lane] = signed_of(n[lane], bits);
+  }
+  column.slice = keep(std::move(packed));
+  column.component = Component::i16;
+  column.normalized = true;
+}
+
 float farthest_of(const Column& column, bool& inside) {
   float farthest = 0;
   inside = true;
@@ -80,7 +96,7 @@ float farthest_of(const Column& column, bool& inside) {
   return farthest;
 }
 
-void quantize_uv(Column& column, Job& job) {
+void quantize_uv(Column& column, Job& job, Encoding encoding) {
   bool inside = true;
   const float farthest = farthest_of(column, inside);
   if (inside) {
@@ -95,6 +111,7 @@ void quantize_uv(Column& column, Job& job) {
     column.normalized = true;
     return;
   }
+  if (encoding == Encoding::plain) return;
   // All lanes of the column share one exponent, so that equal coordinates stay equal.
   int exponent = 0;
   std::frexp(farthest, &exponent);
@@ -111,17 +128,20 @@ void quantize_uv(Column& column, Job& job) {
 }
 
 /// Quantizes the positions last: the others need them exact.
-void quantize_columns(Part& part, const Grid& grid, Job& job) {
+void quantize_columns(Part& part, const Grid& grid, Job& job, Encoding encoding) {
   for (const Attribute& attribute : part.attributes) {
     Column& column = part.columns[attribute.column];
     if (column.component != Component::f32 || column.filter != Filter::none) continue;
     if (attribute.semantic == "NORMAL" || attribute.semantic == "TANGENT") {
-      quantize_directions(column, job);
+      if (encoding == Encoding::filtered)
+        quantize_directions(column, job);
+      else
+        quantize_lanes(column, job);
     } else if (attribute.semantic.starts_with("TEXCOORD")) {
-      quantize_uv(column, job);
+      quantize_uv(column, job, encoding);
     }
   }
-  quantize_positions(part.columns.front(), grid, job);
+  if (!grid.is_exact) quantize_positions(part.columns.front(), grid, job);
 }
 
 /// The indices as 32-bit numbers; `buffer` holds them where they are 16 bits wide.
@@ -211,20 +231,25 @@ void clean(Part& part, Job& job) {
   if (kept == vertices && !has_flat_triangle(part.columns.front(), given)) return;
   if (corners.empty()) corners.append(given);
   part.index->slice = {};  // rewrite() stores another
+  Array<std::uint32_t> pairs = taken_pairs(corners, job);
   if (!first.empty()) {
     for (std::uint32_t& corner : corners) corner = first[corner];
+    for (std::uint32_t& corner : pairs) corner = first[corner];
   }
   drop_flat_triangles(part.columns.front(), corners);
-  if (corners.size() < before) drop_doubled_triangles(part.columns.front(), corners, job);
+  drop_flat_triangles(part.columns.front(), pairs);
+  if (corners.size() + pairs.size() < before) drop_doubled_triangles(part.columns.front(), corners, job);
+  corners.append(pairs.span());
   rewrite(part, corners, job);
 }
 
 }  // namespace
 
-void quantize(Part& part, const Grid& grid, Job& job) {
+void quantize(Part& part, const Grid& grid, Job& job, Encoding encoding) {
+  if (grid.is_exact) return quantize_columns(part, grid, job, encoding);
   const std::vector<std::size_t> inward = inward_corners(part, job);
   Slice exact = part.columns.front().slice;
-  quantize_columns(part, grid, job);
+  quantize_columns(part, grid, job, encoding);
   const bool is_closed = part_merged_points(part, exact, job);
   if (!is_closed) keep_positions(part.columns.front(), exact, grid, job);
   exact = {};
@@ -232,10 +257,10 @@ void quantize(Part& part, const Grid& grid, Job& job) {
   if (is_closed) clean(part, job);
 }
 
-void quantize(Columns& columns, const std::vector<Grid>& grids, Job& job) {
+void quantize(Columns& columns, const std::vector<Grid>& grids, Job& job, Encoding encoding) {
   for (std::size_t i = 0; i < columns.meshes.size(); ++i) {
     for (Part& part : columns.meshes[i]) {
-      if (!part.is_packed) quantize(part, grids[i], job);
+      if (!part.is_packed) quantize(part, grids[i], job, encoding);
     }
     std::erase_if(columns.meshes[i], [](const Part& part) { return part.index && part.index->count == 0; });
   }

@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 #include <deque>
+#include <optional>
 #include <string_view>
 #include <utility>
 
@@ -37,6 +38,7 @@ class Describer {
   /// Finds what each node shows at this level, and numbers meshes and skins.
   Shown show_nodes() {
     Shown shown;
+    shown.exact = options_.dialect.compressed || options_.dialect.quantized;
     for (std::size_t i = 0; i < model_.nodes.size(); ++i) {
       const Node& node = model_.nodes[i];
       const int mesh = mesh_of(node);
@@ -84,7 +86,7 @@ class Describer {
   }
 
   void add_materials() {
-    bool any_unlit = false;
+    bool any_unlit = false, any_strength = false, any_transmission = false, any_specular = false;
     const TextureNumber texture_number = [this](const TextureUse& use) {
       return textures_.number(use, images_);
     };
@@ -92,7 +94,13 @@ class Describer {
       const Material& material = model_.materials[used];
       append_material(material_list_, material, texture_number);
       any_unlit = any_unlit || material.unlit;
+      any_strength = any_strength || emissive_strength(material) != 1;
+      any_transmission = any_transmission || material.transmission > 0;
+      any_specular = any_specular || material.specular < 1;
     }
+    if (any_transmission) extensions_used_.emplace_back("KHR_materials_diffuse_transmission");
+    if (any_strength) extensions_used_.emplace_back("KHR_materials_emissive_strength");
+    if (any_specular) extensions_used_.emplace_back("KHR_materials_specular");
     if (any_unlit) extensions_used_.emplace_back("KHR_materials_unlit");
     if (materials_.any_variants) extensions_used_.emplace_back("KHR_materials_variants");
   }
@@ -138,7 +146,8 @@ class Describer {
                           std::to_string(bin.place(item).view));
     }
     if (options_.dialect.compressed) return compress_views();
-    append_views(view_list_, bin);
+    if (options_.dialect.quantized && !mesh_list_.empty()) require("KHR_mesh_quantization");
+    append_views(view_list_, bin, options_.dialect.quantized);
   }
 
   /// Appends the members that need no node list. Ordered by name, but for views and the lists that may be
@@ -257,17 +266,18 @@ class Describer {
   }
 
   template <class T>
-  int add_column(Array<T> values, Component component, Lanes lanes) {
+  int add_column(Array<T> values, Component component, Lanes lanes, std::optional<Box> range = {}) {
     const std::size_t count = values.size();
     const bool is_share = component == Component::i16;
     copy_columns_.push_back({keep(std::move(values)), component, lanes, count, is_share});
     Column& column = copy_columns_.back();
+    column.range = range;
     const int number = accessors_.add(vertex_pool(column), column);
     column.slice = {};
     return number;
   }
 
-  /// Rotations have 16 bits in quantized files; all readers of both extensions support them.
+  /// Translations have their range, by which some clients cull. Rotations have 16 bits in compressed files; all readers of both extensions support them.
   CopyAccessors copies_of(const std::vector<Transform>& copies) {
     Array<glm::vec3> translation(job_, copies.size()), scale(job_, copies.size());
     bool turned = false, scaled = false;
@@ -278,7 +288,8 @@ class Describer {
       turned = turned || copies[i].rotation != glm::quat(1, 0, 0, 0);
     }
     CopyAccessors accessors;
-    accessors.translation = add_column(std::move(translation), Component::f32, Lanes::vec3);
+    const Box range = bounds_of(translation.span());
+    accessors.translation = add_column(std::move(translation), Component::f32, Lanes::vec3, range);
     if (turned && options_.dialect.compressed) {
       Array<glm::i16vec4> rotation(job_, copies.size());
       for (std::size_t i = 0; i < copies.size(); ++i) {

@@ -24,7 +24,7 @@ struct DocumentOptions {
       {};  ///< parallel to Model::textures; empty: the images go into the buffer
   std::vector<std::string> image_names = {};  ///< parallel to Model::textures; empty: their own
   std::vector<Extra> scene_extras = {};
-  Dialect dialect = {};  ///< `compressed`: `columns` are quantized
+  Dialect dialect = {};  ///< `compressed` or `quantized`: `columns` are quantized
   bool last = false;     ///< no other document follows: arrays are released once they are stored
 };
 

@@ -232,14 +232,16 @@ int TextureList::number(const TextureUse& use, Numbering& images) {
   return place->second;
 }
 
-void append_views(std::string& out, const Bin& bin) {
+void append_views(std::string& out, const Bin& bin, bool has_strides) {
   JsonWriter json(out);
   for (const Bin::View& view : bin.views()) {
     json.object([&] {
       json.member("buffer", 0);
       json.member("byteLength", view.length);
       if (view.offset > 0) json.member("byteOffset", view.offset);
-      if (view.stride > 0) json.member("byteStride", view.stride);
+      const bool is_array = target_of(view.pool) != 0 && view.pool < Pool::sequence2;
+      const std::uint32_t stride = has_strides && is_array ? stride_of(view.pool) : view.stride;
+      if (stride > 0) json.member("byteStride", stride);
       if (const int target = target_of(view.pool); target > 0) json.member("target", target);
     });
   }

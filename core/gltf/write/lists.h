@@ -87,7 +87,8 @@ class TextureList {
   std::string sampler_list_, texture_list_;
 };
 
-/// Appends the views of a buffer that has been arranged: a list without brackets.
-void append_views(std::string& out, const Bin& bin);
+/// Appends the views of a buffer that has been arranged: a list without brackets. `has_strides`: every view of vertices
+/// states its stride, as elements with padding need.
+void append_views(std::string& out, const Bin& bin, bool has_strides = false);
 
 }  // namespace seedmesh::gltf

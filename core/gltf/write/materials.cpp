@@ -59,7 +59,36 @@ std::string surface_members(const Material& material, int base, int surface) {
   return text;
 }
 
+/// The members of `extensions`; empty where the material has none. `base`: its colour texture, or -1.
+std::string extension_members(const Material& material, int base) {
+  std::string text;
+  Members members(text);
+  if (material.transmission > 0) {
+    members.json.object("KHR_materials_diffuse_transmission", [&] {
+      const glm::vec3 color = glm::vec3(material.base_color) * material.transmission_color;
+      members.factors("diffuseTransmissionColorFactor", std::array{color.x, color.y, color.z}, 1);
+      members.texture("diffuseTransmissionColorTexture", base, material.base_color_texture.uv_set);
+      members.factor("diffuseTransmissionFactor", material.transmission, 0);
+    });
+  }
+  if (const float strength = emissive_strength(material); strength != 1) {
+    members.json.object("KHR_materials_emissive_strength",
+                        [&] { members.factor("emissiveStrength", strength, 1); });
+  }
+  if (material.specular < 1) {
+    members.json.object("KHR_materials_specular",
+                        [&] { members.factor("specularFactor", material.specular, 1); });
+  }
+  if (material.unlit) members.json.object("KHR_materials_unlit", [] {});
+  return text;
+}
+
 }  // namespace
+
+float emissive_strength(const Material& material) {
+  const glm::vec3& glow = material.emissive;
+  return std::max({glow.x, glow.y, glow.z, 1.0F});
+}
 
 void append_material(std::string& out, const Material& material, const TextureNumber& texture_number) {
   // The textures get their numbers in this order.
@@ -75,12 +104,12 @@ void append_material(std::string& out, const Material& material, const TextureNu
     if (material.alpha_mode != AlphaMode::opaque)
       json.member("alphaMode", material.alpha_mode == AlphaMode::mask ? "MASK" : "BLEND");
     if (material.double_sided) json.member("doubleSided", true);
-    const glm::vec3& glow = material.emissive;
+    const glm::vec3 glow = material.emissive / emissive_strength(material);
     members.factors("emissiveFactor", std::array{glow.x, glow.y, glow.z}, 0);
     members.texture("emissiveTexture", emissive, material.emissive_texture.uv_set);
-    if (material.unlit) {
+    if (const std::string inner = extension_members(material, base); !inner.empty()) {
       json.key("extensions");
-      json.json("{\"KHR_materials_unlit\":{}}");
+      json.json('{' + inner + '}');
     }
     if (!material.name.empty()) json.member("name", material.name);
     members.texture("normalTexture", normal, material.normal_texture.uv_set);

@@ -11,11 +11,23 @@
 namespace seedmesh::gltf {
 namespace {
 
-void append_transform(JsonWriter& json, const Transform& t) {
-  if (t.translation != glm::vec3(0)) json.values("translation", std::span(&t.translation.x, 3));
+/// Three numbers: the shortest text that reads back as the same floats, or as the same doubles.
+void append_vector(JsonWriter& json, std::string_view name, const glm::vec3& v, bool exact) {
+  if (!exact) return json.values(name, std::span(&v.x, 3));
+  json.array(name, [&] {
+    for (int axis = 0; axis < 3; ++axis) {
+      std::string text;
+      append_number(text, static_cast<double>(v[axis]));
+      json.json(text);
+    }
+  });
+}
+
+void append_transform(JsonWriter& json, const Transform& t, bool exact) {
+  if (t.translation != glm::vec3(0)) append_vector(json, "translation", t.translation, exact);
   const glm::vec4 rotation(t.rotation.x, t.rotation.y, t.rotation.z, t.rotation.w);
   if (rotation != glm::vec4(0, 0, 0, 1)) json.values("rotation", std::span(&rotation.x, 4));
-  if (t.scale != glm::vec3(1)) json.values("scale", std::span(&t.scale.x, 3));
+  if (t.scale != glm::vec3(1)) append_vector(json, "scale", t.scale, exact);
 }
 
 std::string_view name_of(CollisionShape shape) {
@@ -103,7 +115,7 @@ class NodeWriter {
     const std::size_t coarser = shows ? levels(number) : 0;
     json_.object([&] {
       json_.member("name", node.name);
-      append_transform(json_, node.transform);
+      append_transform(json_, node.transform, shown_.exact);
       if (shows) append_shown(number, shown_.meshes[number]);
       append_children(number);
       append_extensions(number, shows, coarser);
@@ -118,7 +130,7 @@ class NodeWriter {
     for (std::size_t i = 0; i < copies(number); ++i) {
       json_.object([&] {
         json_.member("name", copy_name(node.name, i));
-        append_transform(json_, node.instances.transforms[i]);
+        append_transform(json_, node.instances.transforms[i], shown_.exact);
         append_shown(number, shown_.meshes[number]);
         append_extensions(number, false, levels(number));
         append_extras(json_, extras, 1 + levels(number));
@@ -160,7 +172,7 @@ class NodeWriter {
       for (std::size_t level = 0; level < levels(number); ++level) {
         json_.object([&] {
           json_.member("name", level_name(itself ? node.name : copy_name(node.name, i), level + 1));
-          append_transform(json_, itself ? node.transform : node.instances.transforms[i]);
+          append_transform(json_, itself ? node.transform : node.instances.transforms[i], shown_.exact);
           append_shown(number, shown_.lods[number][level]);
           append_extensions(number, itself && shown_.lods[number][level] >= 0, 0);
         });

@@ -20,10 +20,15 @@ struct Dialect {
   /// power of two, so that meshes of similar size share grid points on common edges. Normals and tangents
   /// have 10 bits for each octahedral axis, texture coordinates 16 bits, or steps of 2^-14 outside 0..1.
   /// Vertices that become equal are joined, and triangles that lose their area are dropped. The compression
-  /// itself is lossless.
+  /// itself is lossless. Translations and scales of nodes are written as doubles, so that readers with doubles
+  /// get the points of the grid exactly.
   bool compressed = false;
   bool gpu_instances = false;  ///< EXT_mesh_gpu_instancing instead of a node for each copy
   bool lods_inside = false;    ///< MSFT_lod; ignored in a zip, which has a file for each level
+  /// KHR_mesh_quantization alone, for readers without a decoder: positions on the same grid, normals and tangents
+  /// with 16 bits for each axis, texture coordinates with 16 bits, or floats outside 0..1. Meshes with copies
+  /// keep float positions, so that the translation of a copy is the position of its origin.
+  bool quantized = false;
 };
 
 struct WriteOptions {
@@ -35,6 +40,9 @@ struct WriteOptions {
   std::vector<Extra> scene_extras = {};  ///< of the scene of each file
   /// Null, or count() of the model; updated where the dialect drops vertices or triangles.
   ModelCounts* counts = nullptr;
+  /// In metres. The steps of quantized meshes are chosen for an extent of at least this. Tiles of one world give
+  /// one value, which is at least the extent of each, so that their borders are equal to the bit.
+  float least_extent = 0;
 };
 
 /// Writes a model and takes it over: the payload points into its arrays. Accessors have min and max where

@@ -211,6 +211,36 @@ TEST(BuildingRestrictions, RejectRulesOfOtherKinds) {
   EXPECT_EQ(check(params, Limits{}).front().column, 7);
 }
 
+/// Kogovšek 2014, section 4.2: successors stay within the volume of their predecessor.
+TEST(BuildingRestrictions, RejectShapesThatLeaveTheirPredecessor) {
+  BuildingParams params = with("Lot --> s(30,20,30) Roof.", {4, 3, 5});
+  const Json free = derived(params);
+  ASSERT_EQ(free["warnings"].size(), 1U);
+  EXPECT_EQ(free["warnings"][0]["column"], 21);
+  EXPECT_THAT(free["warnings"][0]["message"].get<std::string>(),
+              HasSubstr("leaves the scope of `Lot` by 26 m along x, where the scope has 4 m"));
+  params.restrict = BuildingRestrict::split;
+  EXPECT_THAT(refusal(params), HasSubstr("1:21 this shape leaves the scope of `Lot` by 26 m along x"));
+  // A protruding sill of 0.2 m, a turn, and a leaf without a symbol.
+  params.rules = "Lot --> [ t(0, 0, -0.2) Sill. ] Wall.";
+  EXPECT_THAT(refusal(params), HasSubstr("1:25 this shape leaves the scope of `Lot` by 0.2 m along z"));
+  params.rules = "Lot --> R(0, 90, 0) Wall.";
+  EXPECT_THAT(refusal(params), HasSubstr("leaves the scope of `Lot` by"));
+  params.rules = "Lot --> t(1, 0, 0)";
+  EXPECT_THAT(refusal(params), HasSubstr("1:9 this shape leaves the scope of `Lot` by 1 m along x"));
+}
+
+TEST(BuildingRestrictions, AcceptSplitsRepeatsComponentsAndFittingBodies) {
+  BuildingParams params = with(
+      "Lot --> split(y){ 1: Floor | ~1: Floor } Floor --> comp(f){ side: Facade | top: Cap. } "
+      "Facade --> split(x){ ~0.7: Tile }* Tile --> s('0.5, '0.5, 0) center(xy) Window.",
+      {4, 3, 5});
+  params.restrict = BuildingRestrict::split;
+  EXPECT_EQ(refusal(params), "none");
+  params.rules = "Lot --> s(2, 3, 2) R(0, 45, 0, scopeCenter) i(\"cylinder\")";  // within, unlike its scope
+  EXPECT_EQ(refusal(params), "none");
+}
+
 /// Gips: a square with a marker becomes a square with half as large a one in it, turned by 45 degrees.
 TEST(BuildingRestrictions, EmbedSquares) {
   BuildingParams params =

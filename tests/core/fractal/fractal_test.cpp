@@ -39,6 +39,48 @@ TEST(Fractal, AddsUpTheMeasuresOfCopiesThatTouchAlongEdges) {
   EXPECT_TRUE(derived(R"({"instructions": "sierpinski_pyramid", "element": "sphere"})")["volume"].is_null());
 }
 
+/// Koch 1904: the perimeter grows by 4/3 each round, and the area tends to 8/5 of the triangle.
+TEST(Fractal, MeasuresTheKochCurveAndTheSnowflake) {
+  const Json curve = derived(R"({"instructions": "koch_curve", "element": "segment", "stages": [0, 1, 5]})");
+  ASSERT_EQ(curve["stages"].size(), 3U);
+  for (const Json& stage : curve["stages"]) {
+    const int rounds = stage["iterations"];
+    EXPECT_EQ(stage["pieces"], std::pow(4, rounds));
+    EXPECT_NEAR(stage["length"].get<double>(), std::pow(4.0 / 3, rounds), 1e-12);
+    EXPECT_TRUE(stage["area"].is_null());
+  }
+  constexpr double side = 0.75;
+  const double triangle = std::sqrt(3.0) / 4 * side * side;
+  const auto plate = [](int rounds) {
+    return derived(R"({"instructions": "koch_snowflake", "element": "plate", "iterations": )" +
+                   std::to_string(rounds) + "}");
+  };
+  EXPECT_NEAR(plate(0)["area"].get<double>(), triangle, 1e-12);
+  EXPECT_NEAR(plate(1)["area"].get<double>(), triangle * 4 / 3, 1e-12);
+  EXPECT_NEAR(plate(200)["area"].get<double>(), triangle * 8 / 5, 1e-12);
+  EXPECT_NEAR(plate(3)["length"].get<double>(), 3 * side * std::pow(4.0 / 3, 3), 1e-12);
+  // The mesh of the plate has the same area: half of its faces that look along Z show one side.
+  const Result<Model> model =
+      fractal_of(R"({"instructions": "koch_snowflake", "element": "plate", "iterations": 3})");
+  ASSERT_TRUE(model);
+  const Mesh& mesh = model->meshes[0].primitives[0].mesh;
+  double twice = 0;
+  for (std::size_t i = 0; i < mesh.index.size(); i += 3) {
+    const glm::vec3 a = mesh.position[mesh.index.at(i)], b = mesh.position[mesh.index.at(i + 1)],
+                    c = mesh.position[mesh.index.at(i + 2)];
+    const glm::vec3 normal = glm::cross(b - a, c - a);
+    if (normal.z > 0) twice += static_cast<double>(normal.z);
+  }
+  EXPECT_NEAR(twice / 2, plate(3)["area"].get<double>(), 1e-6);
+}
+
+TEST(Fractal, DerivesEveryStageOfTheChaosGame) {
+  const Json answer = derived(R"({"method": "frcm", "stages": [100, 500]})");
+  ASSERT_EQ(answer["stages"].size(), 2U);
+  EXPECT_EQ(answer["stages"][1]["points"], 500);
+  EXPECT_EQ(answer["stages"][1]["pieces"], 500);
+}
+
 TEST(Fractal, SolvesMoransEquationWhereScalesDiffer) {
   const double dimension = derived(R"({"instructions": "jerusalem_cube"})")["dimension"];
   const double r = std::sqrt(2.0) - 1;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string>
@@ -15,6 +16,7 @@
 namespace seedmesh::lsystem {
 namespace {
 
+using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::SizeIs;
@@ -136,6 +138,14 @@ TEST(Materials, AreTransparentByTheirOpacity) {
   EXPECT_EQ(model.materials.front().base_color.w, 0.5F);
 }
 
+TEST(Materials, SendOutLight) {
+  const Model model = model_of(
+      R"({"axiom":"F","materials":[{"color":"#000000","emission":{"color":"#ff00ff","strength":4}}]})");
+  EXPECT_EQ(model.materials.front().emissive, glm::vec3(4, 0, 4));
+  EXPECT_EQ(model_of(R"({"axiom":"F","materials":[{"color":"#000000"}]})").materials.front().emissive,
+            glm::vec3(0));
+}
+
 TEST(Sweep, PassesThroughItsControlPointsAndChangesWidthSmoothly) {
   Job job(1, Job::Options{});
   const Result<Json> derived =
@@ -204,6 +214,41 @@ TEST(Levels, FallInTriangles) {
       before = now;
     }
   }
+}
+
+/// Tunnel 2012, table 8. A tube of n sides and m stacks has 2 n m triangles, and 2 n at its two ends.
+TEST(Levels, HaveTheSlicesAndStacksOfTunnel) {
+  const Model model = model_of(
+      R"({"axiom":"F","width_rule":"longest_chain","tip_width":0.05,"sides":32,"stacks":6,"levels":"slices"})",
+      {.lods = 5});
+  const Node& bark = *node_named(model, "bark");
+  std::vector<std::size_t> triangles{first_mesh(model, bark).elements()};
+  for (const int lod : bark.lods)
+    triangles.push_back(model.meshes[static_cast<std::size_t>(lod)].primitives.front().mesh.elements());
+  EXPECT_THAT(triangles, ElementsAre(2 * 32 * 6 + 64, 2 * 22 * 4 + 44, 2 * 18 * 3 + 36, 2 * 16 * 3 + 32,
+                                     2 * 14 * 2 + 28));
+}
+
+/// Tajić 2009, section 4.3: gluCylinder with equal radii, which decrease by 0.015 a step.
+TEST(Tubes, AreCylindersWithoutTaper) {
+  const auto rings = [](const char* taper) {
+    const Model model =
+        model_of((R"({"axiom":"A","productions":["A -> FA"],"iterations":3,"step":1,"width":0.4,)"
+                  R"("width_rule":"decrement","width_decrement":0.03,"taper":")" +
+                  std::string(taper) + R"("})")
+                     .c_str());
+    std::map<double, std::set<double>> heights;  // by radius
+    for (const glm::vec3& p : first_mesh(model, *node_named(model, "bark")).position) {
+      const double radius = std::sqrt(static_cast<double>(p.x * p.x + p.z * p.z));
+      const double height = std::round(static_cast<double>(p.y) * 1e4) / 1e4;
+      if (radius > 0.05) heights[std::round(radius * 1e4) / 1e4].insert(height);
+    }
+    return heights;
+  };
+  const auto cylinders = rings("none");
+  ASSERT_EQ(cylinders.size(), 3U);
+  for (const double radius : {0.185, 0.17, 0.155}) EXPECT_EQ(cylinders.at(radius).size(), 2U) << radius;
+  EXPECT_EQ(rings("linear").at(0.17), std::set<double>{2.0});
 }
 
 constexpr const char* guest_tree =

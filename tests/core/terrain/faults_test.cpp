@@ -106,6 +106,29 @@ TEST(PoissonFaulting, LiftsOneHalfOfASphereAndSinksTheOther) {
   EXPECT_NEAR(sum / (30 * 1538), 0, 0.1);
 }
 
+TEST(FaultFormation, LiftsOneHalfOfASphere) {
+  const Job job = any_job();
+  const FaultPlan one{.kind = FaultKind::one_sided, .planned = 1, .greatest = 4, .least = 4};
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    Planet planet = sphere_of(17, 100, job);
+    fault_sphere(planet, one, Rng(seed), job);
+    const auto height = static_cast<float>(fault_height(one, 0, Rng(seed)));
+    const auto raised = std::count(planet.height.begin(), planet.height.end(), height);
+    EXPECT_EQ(raised + std::count(planet.height.begin(), planet.height.end(), 0.0F), 1538);
+    EXPECT_NEAR(static_cast<double>(raised) / 1538, 0.5, 0.03);
+  }
+  // Half of the sum of all faults is the mean: every fault raises half of the sphere.
+  FaultPlan many = one;
+  many.planned = 200;
+  Planet planet = sphere_of(33, 100, job);
+  fault_sphere(planet, many, Rng(1), job);
+  double sum = 0, mean = 0;
+  for (int i = 0; i < many.planned; ++i) sum += fault_height(many, i, Rng(1));
+  for (const float h : planet.height)
+    mean += static_cast<double>(h) / static_cast<double>(planet.height.size());
+  EXPECT_NEAR(mean, sum / 2, 0.02 * sum);
+}
+
 TEST(Planet, HasEveryPointOfTheCubeExactlyOnce) {
   const Planet planet = sphere_of(9, 1, any_job());
   EXPECT_EQ(planet.direction.size(), 6U * 8 * 8 + 2);

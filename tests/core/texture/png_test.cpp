@@ -93,6 +93,19 @@ TEST(Png, PreservesEveryPixelOfEveryKind) {
   }
 }
 
+TEST(Png, ReadsAPaletteAsItsColours) {
+  const Job job = any_job();
+  const std::vector<std::uint8_t> numbers = {0, 1, 2, 2, 1, 0};
+  const std::vector<glm::u8vec3> colors = {{1, 2, 3}, {40, 50, 60}, {255, 0, 128}};
+  const Array<std::uint8_t> file =
+      encode_png({3, 2, 1, 8, std::as_bytes(std::span(numbers)), colors}, PngEffort::quick, job);
+  const Result<Picture> picture = decode_png(std::as_bytes(file.span()), {}, job);
+  ASSERT_TRUE(picture);
+  EXPECT_EQ(picture->channels, 3);
+  EXPECT_THAT(picture->bytes.span(), testing::ElementsAre(1, 2, 3, 40, 50, 60, 255, 0, 128,  //
+                                                          255, 0, 128, 40, 50, 60, 1, 2, 3));
+}
+
 TEST(Png, Stores16BitsWithTheHighByteFirst) {
   const Job job = any_job();
   const std::vector<std::uint16_t> pixel = {0x1234};

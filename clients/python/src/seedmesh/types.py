@@ -4,7 +4,7 @@ from typing import Any, Dict, List, Literal, TypedDict, Union
 
 class Output(TypedDict, total=False):
     format: Literal['glb', 'gltf', 'zip', 'png16', 'png8', 'rgb24', 'rgba32', 'r16', 'ply', 'placements', 'geojson']
-    profile: Literal['core', 'web', 'unity', 'unreal', 'godot', 'blender']
+    profile: Literal['core', 'web', 'tiles', 'unity', 'unreal', 'godot', 'blender']
     name: str
     provenance: Literal['full', 'none']
     animation: Literal['none', 'growth']
@@ -109,6 +109,14 @@ class BuildingParametersDerivation(TypedDict, total=False):
     mode: Literal['parallel', 'sequential']
 
 
+class _EmissionRequired(TypedDict):
+    color: str
+
+
+class Emission(_EmissionRequired, total=False):
+    strength: float
+
+
 class Images(TypedDict, total=False):
     color: str
     normal: str
@@ -121,6 +129,7 @@ class BuildingParametersMaterialsValue(TypedDict, total=False):
     roughness: float
     metallic: float
     opacity: float
+    emission: "Emission"
     tile: List[float]
     images: "Images"
     texture: Literal['auto', 'none', 'brick', 'plaster', 'roof_tile', 'slate', 'planks', 'ashlar', 'concrete', 'sheet']
@@ -145,8 +154,10 @@ class BuildingParameters(TypedDict, total=False):
     derivation: "BuildingParametersDerivation"
     repeat: Literal['nearest', 'ceil']
     weights: Literal['normalize', 'strict']
-    restrict: Literal['none', 'non_erasing', 'unimarker']
+    restrict: Literal['none', 'non_erasing', 'unimarker', 'split']
     materials: Dict[str, "BuildingParametersMaterialsValue"]
+    facade_image: str
+    facade_tile: List[float]
     textures: Literal['auto', 'made', 'none']
     assets: Dict[str, "BuildingParametersAssetsValue"]
 
@@ -477,6 +488,7 @@ class LsystemParametersMaterialsItem(TypedDict, total=False):
     roughness: float
     metallic: float
     opacity: float
+    emission: "Emission"
     texture: "Texture"
     texture_seed: int
     images: "Images"
@@ -527,6 +539,8 @@ class LsystemParameters(_LsystemParametersRequired, total=False):
     style: Literal['tubes', 'lines']
     sides: int
     stacks: int
+    taper: Literal['linear', 'none']
+    levels: Literal['outline', 'slices']
     adapt: bool
     weld: bool
     materials: List["LsystemParametersMaterialsItem"]
@@ -742,6 +756,21 @@ class SceneParameters(TypedDict, total=False):
     chunks: int
 
 
+class TerrainParametersLayersItem(TypedDict, total=False):
+    name: str
+    algorithm: Literal['expression', 'fault_formation', 'poisson_faulting', 'fbm']
+    expression: str
+    combine: Literal['add', 'subtract', 'multiply', 'max', 'min', 'replace', 'none']
+    mask: str
+    iterations: int
+    amplitude: float
+    hurst: float
+    noise: Literal['rolling', 'ridged', 'billow']
+    wavelength: float
+    fault_max: float
+    fault_min: float
+
+
 class _TerrainParametersImageRequired(TypedDict):
     data: str
 
@@ -820,7 +849,9 @@ class TerrainParametersHeightmap(TypedDict, total=False):
 
 
 class TerrainParameters(TypedDict, total=False):
-    algorithm: Literal['fault_formation', 'poisson_faulting', 'triangular_edge', 'diamond_square', 'square_square', 'fbm', 'image']
+    algorithm: Literal['fault_formation', 'poisson_faulting', 'triangular_edge', 'diamond_square', 'square_square', 'fbm', 'image', 'expression']
+    expression: str
+    layers: List["TerrainParametersLayersItem"]
     iterations: int
     extra_iterations: int
     resolution: int
@@ -884,8 +915,11 @@ class TreeParametersLeaf(TypedDict, total=False):
     coarseness: int
     density: float
     size: float
+    faces: Literal['auto', 'two_sided', 'outward']
     crown_normals: float
     tint: float
+    hue: float
+    occlusion: float
     color: str
     autumn: str
     evergreen: bool
@@ -1114,6 +1148,82 @@ TreeParameters = TypedDict("TreeParameters", {
 }, total=False)
 
 
+class WorldParametersRelief(TypedDict, total=False):
+    sea: bool
+    sea_level: float
+    land: float
+    continents: float
+    mountains: float
+    hills: float
+    ridges: float
+    gullies: float
+    terraces: float
+
+
+class WorldParametersWater(TypedDict, total=False):
+    rivers: float
+    width: float
+
+
+class WorldParametersClimate(TypedDict, total=False):
+    temperature: float
+    moisture: float
+    variation: float
+
+
+class WorldParametersColors(TypedDict, total=False):
+    grass: str
+    forest: str
+    dry: str
+    rock: str
+    sand: str
+    snow: str
+    water: str
+
+
+class WorldParametersSettlements(TypedDict, total=False):
+    density: float
+    radius: float
+    wall: str
+    roof: str
+
+
+class WorldParametersRoads(TypedDict, total=False):
+    width: float
+    longest: float
+    color: str
+
+
+_WorldParametersPlantsItemRequired = TypedDict("_WorldParametersPlantsItemRequired", {
+    'class': str,
+})
+
+
+class WorldParametersPlantsItem(_WorldParametersPlantsItemRequired, total=False):
+    form: Literal['conifer', 'broadleaf', 'palm', 'shrub', 'cactus', 'fungus']
+    height: float
+    spacing: float
+    density: float
+    moisture: List[float]
+    temperature: List[float]
+    slope: float
+    color: str
+    stem: str
+
+
+class WorldParameters(TypedDict, total=False):
+    extent: int
+    origin: List[int]
+    layers: List[Literal['terrain', 'water', 'roads', 'buildings', 'plants']]
+    relief: "WorldParametersRelief"
+    water: "WorldParametersWater"
+    climate: "WorldParametersClimate"
+    colors: "WorldParametersColors"
+    settlements: "WorldParametersSettlements"
+    roads: "WorldParametersRoads"
+    plants: List["WorldParametersPlantsItem"]
+
+
 class Child(TypedDict, total=False):
     generator: str
     preset: str
@@ -1198,6 +1308,17 @@ class TreeRequest(_TreeRequestRequired, total=False):
     output: "Output"
 
 
+class _WorldRequestRequired(TypedDict):
+    generator: Literal['world']
+
+
+class WorldRequest(_WorldRequestRequired, total=False):
+    preset: str
+    seed: "Seed"
+    parameters: "WorldParameters"
+    output: "Output"
+
+
 class _PresetRequestRequired(TypedDict):
     preset: str
 
@@ -1208,7 +1329,7 @@ class PresetRequest(_PresetRequestRequired, total=False):
     output: "Output"
 
 
-Request = Union["BuildingRequest", "CityRequest", "FractalRequest", "LsystemRequest", "SceneRequest", "TerrainRequest", "TreeRequest", "PresetRequest"]
+Request = Union["BuildingRequest", "CityRequest", "FractalRequest", "LsystemRequest", "SceneRequest", "TerrainRequest", "TreeRequest", "WorldRequest", "PresetRequest"]
 
 class PresetListGeneratorsItem(TypedDict):
     name: str
@@ -1352,6 +1473,69 @@ class TreeDerivation(TypedDict):
 
 CityDerivation = Dict[str, Any]
 
+class WorldDerivation(TypedDict):
+    levels: int
+    extent: float
+    origin: List[int]
+    sea_level: Union[float, None]
+    warnings: List["WarningsItem"]
+
+
+class WorldMapHeights(TypedDict, total=False):
+    columns: int
+    rows: int
+    values: List[float]
+
+
+class WorldMapSettlementsItem(TypedDict, total=False):
+    id: str
+    position: List[float]
+    radius: float
+
+
+class WorldMapRiversItem(TypedDict, total=False):
+    id: str
+    into: str
+    points: List[List[float]]
+    widths: List[float]
+
+
+class WorldMapLakesItem(TypedDict, total=False):
+    id: str
+    level: float
+    outline: List[List[float]]
+
+
+class WorldMapRoadsItem(TypedDict, total=False):
+    id: str
+    width: float
+    points: List[List[float]]
+
+
+WorldMapPlantsItem = TypedDict("WorldMapPlantsItem", {
+    'class': str,
+    'spacing': float,
+    'count': int,
+    'places': List[List[float]],
+}, total=False)
+
+
+class _WorldMapRequired(TypedDict):
+    box: List[float]
+    sea_level: Union[float, None]
+    settlements: List["WorldMapSettlementsItem"]
+    rivers: List["WorldMapRiversItem"]
+    lakes: List["WorldMapLakesItem"]
+    roads: List["WorldMapRoadsItem"]
+    plants: List["WorldMapPlantsItem"]
+
+
+class WorldMap(_WorldMapRequired, total=False):
+    heights: "WorldMapHeights"
+
+
+WorldPosition = List[float]
+
 class FractalDerivation(TypedDict):
     pieces: Union[float, None]
     dimension: Union[float, None]
@@ -1360,6 +1544,9 @@ class FractalDerivation(TypedDict):
     volume: Union[float, None]
     genus: Union[float, None]
     non_manifold_edges: Union[float, None]
+    length: Union[float, None]
+    area: Union[float, None]
+    stages: List[Dict[str, Any]]
     bounds: Union["Box", None]
     warnings: List["WarningsItem"]
 

@@ -21,6 +21,7 @@ Payload written(Model model, Dialect dialect, Container container = Container::g
 }
 
 constexpr Dialect compressed = {.compressed = true};
+constexpr Dialect quantized = {.quantized = true};
 constexpr Dialect gpu = {.gpu_instances = true};
 constexpr Dialect lods = {.lods_inside = true};
 
@@ -215,6 +216,65 @@ TEST(Compressed, IsTheSameInAllContainers) {
     const std::string text = written(textured(job()), compressed, container).text();
     EXPECT_NE(text.find("EXT_meshopt_compression"), std::string::npos);
   }
+}
+
+TEST(Compressed, ChoosesTheStepForTheLeastExtent) {
+  Job fresh = job();
+  WriteOptions options{Container::glb, "seedmesh test", compressed};
+  options.least_extent = 1'000;
+  const Decoded read(write(model_of(ball(fresh, 3, {0, 0, 0})), options, fresh));
+  EXPECT_EQ(read.document()["nodes"][0]["scale"][0].get<double>(), std::exp2(-6));  // 1,000 m in 65,534 steps
+}
+
+TEST(Compressed, WritesTheGridOfANodeAsDoubles) {
+  const json document = json_of(written(model_of(ball(job(), 3, {10, -5, 2})), compressed));
+  const json& node = document["nodes"][0];
+  const auto step = node["scale"][0].get<double>();
+  EXPECT_EQ(step, std::exp2(-13));
+  for (const json& number : node["translation"]) {
+    const double steps = number.get<double>() / step;
+    EXPECT_EQ(steps, std::round(steps));
+  }
+}
+
+TEST(Quantized, NeedsNoDecoder) {
+  const json document = json_of(written(model_of(ball(job(), 1, {0, 0, 0})), quantized));
+  EXPECT_THAT(document["extensionsRequired"], ElementsAre("KHR_mesh_quantization"));
+  EXPECT_EQ(document["buffers"].size(), 1U);
+  const json& attributes = document["meshes"][0]["primitives"][0]["attributes"];
+  const auto accessor = [&](const char* name) { return document["accessors"][attributes[name].get<int>()]; };
+  EXPECT_EQ(accessor("POSITION")["componentType"], 5123);
+  EXPECT_EQ(accessor("NORMAL")["componentType"], 5122);
+  EXPECT_EQ(accessor("NORMAL")["normalized"], true);
+  EXPECT_EQ(accessor("TEXCOORD_0")["componentType"], 5126);  // beyond 0..1
+  // glTF 2.0, 3.7.2.1: elements of vertices start at multiples of four bytes.
+  for (const char* name : {"POSITION", "NORMAL"})
+    EXPECT_EQ(document["bufferViews"][accessor(name)["bufferView"].get<int>()]["byteStride"], 8) << name;
+}
+
+TEST(Quantized, LeavesCopiesWhereTheyStand) {
+  Dialect dialect = quantized;
+  dialect.gpu_instances = true;
+  const Payload glb = written(scattered(job()), dialect);
+  const json document = json_of(glb);
+  const json& copies = document["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"];
+  const tinygltf::Model model = read_glb(glb);
+  const std::vector<Transform> given = scattered(job()).nodes[0].instances.transforms;
+  const auto translation = elements<glm::vec3>(model, copies["TRANSLATION"].get<int>());
+  ASSERT_EQ(translation.size(), given.size());
+  glm::vec3 low(1e9F), high(-1e9F);
+  for (std::size_t i = 0; i < given.size(); ++i) {
+    EXPECT_EQ(translation[i], given[i].translation);
+    low = glm::min(low, given[i].translation);
+    high = glm::max(high, given[i].translation);
+  }
+  const json& row = document["accessors"][copies["TRANSLATION"].get<int>()];
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    EXPECT_EQ(row["min"][axis].get<float>(), low[static_cast<int>(axis)]);
+    EXPECT_EQ(row["max"][axis].get<float>(), high[static_cast<int>(axis)]);
+  }
+  const json& attributes = document["meshes"][0]["primitives"][0]["attributes"];
+  EXPECT_EQ(document["accessors"][attributes["POSITION"].get<int>()]["componentType"], 5126);
 }
 
 TEST(Instances, BecomeArraysWhereTheReaderTakesThem) {

@@ -203,6 +203,21 @@ TEST(Glb, WritesMaterialsWithShortNumbersAndWithoutDefaults) {
   EXPECT_FALSE(document.contains("extensionsRequired"));
 }
 
+TEST(Glb, WritesTheStrengthOfEmissionAboveOne) {
+  Model model = model_of(square(job()));
+  model.materials[0].emissive = {4, 2, 0};
+  const json bright = json_of(glb_of(std::move(model)));
+  EXPECT_EQ(bright["materials"][0]["emissiveFactor"], json({1.0, 0.5, 0.0}));
+  EXPECT_EQ(bright["materials"][0]["extensions"].dump(),
+            R"({"KHR_materials_emissive_strength":{"emissiveStrength":4.0}})");
+  EXPECT_EQ(bright["extensionsUsed"], json({"KHR_materials_emissive_strength"}));
+  model = model_of(square(job()));
+  model.materials[0].emissive = {1, 0.5F, 0};
+  const json dim = json_of(glb_of(std::move(model)));
+  EXPECT_EQ(dim["materials"][0]["emissiveFactor"], json({1.0, 0.5, 0.0}));
+  EXPECT_FALSE(dim.contains("extensionsUsed"));
+}
+
 TEST(Glb, WritesTexturesOnceForEachWrapMode) {
   const Payload glb = glb_of(textured(job()));
   const json document = json_of(glb);

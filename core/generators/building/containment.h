@@ -1,0 +1,15 @@
+#pragma once
+/// Split grammars: every shape of a successor stays within the scope of its predecessor (Wonka, Wimmer, Sillion and
+/// Ribarsky, "Instant architecture", 2003; Kogovšek 2014, 4.2).
+#include "core/generators/building/derivation.h"
+
+namespace seedmesh::building {
+
+/// Checks a new shape against the scope of the shape that it replaces. `offset` is the step that makes it, a byte in
+/// the rules. A shape that leaves the scope is an error if the task restricts the rules to splits. Otherwise there is
+/// a warning if the predecessor is a volume, and the shape leaves it by more than twice its largest side.
+/// Blueprints and rule files of CityEngine get no warning. The points of a solid count, and the scope of all others.
+void check_containment(Derivation& d, std::uint32_t predecessor, const ShapeState& shape,
+                       std::uint32_t offset);
+
+}  // namespace seedmesh::building

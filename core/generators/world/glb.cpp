@@ -1,0 +1,148 @@
+#include "core/generators/world/glb.h"
+
+#include <algorithm>
+#include <cstring>
+
+namespace seedmesh::world {
+namespace {
+
+constexpr int array_buffer = 34962, element_buffer = 34963;
+constexpr int type_byte = 5120, type_unsigned_byte = 5121, type_short = 5122, type_unsigned_short = 5123,
+              type_unsigned = 5125;
+
+int append(Json& list, Json value) {
+  list.push_back(std::move(value));
+  return static_cast<int>(list.size()) - 1;
+}
+
+void append_word(std::string& out, std::uint32_t word) {
+  for (unsigned shift = 0; shift < 32; shift += 8) out += static_cast<char>((word >> shift) & 255U);
+}
+
+}  // namespace
+
+Glb::Glb(const std::array<double, 3>& translation) {
+  json_["asset"] = {{"version", "2.0"}, {"generator", "seedmesh"}};
+  json_["scene"] = 0;
+  json_["scenes"] = Json::array({{{"nodes", {0}}}});
+  json_["nodes"] =
+      Json::array({{{"name", "tile"}, {"translation", translation}, {"children", Json::array()}}});
+  json_["buffers"] = Json::array({Json::object()});
+  for (const char* name : {"bufferViews", "accessors", "meshes", "materials"}) json_[name] = Json::array();
+  use_extension("KHR_mesh_quantization");
+}
+
+void Glb::use_extension(std::string_view name) {
+  for (const char* list : {"extensionsUsed", "extensionsRequired"}) {
+    Json& names = json_[list];
+    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+  }
+}
+
+int Glb::add_material(std::string_view name, double roughness, bool two_sided) {
+  Json material = {{"name", name},
+                   {"pbrMetallicRoughness", {{"metallicFactor", 0}, {"roughnessFactor", roughness}}}};
+  if (two_sided) material["doubleSided"] = true;
+  return append(json_["materials"], std::move(material));
+}
+
+int Glb::add_shared_buffer(std::string uri, std::size_t bytes) {
+  return append(json_["buffers"], {{"uri", std::move(uri)}, {"byteLength", bytes}});
+}
+
+int Glb::add_view(int buffer, std::size_t offset, std::size_t bytes, std::size_t stride, int target) {
+  Json view = {{"buffer", buffer}, {"byteLength", bytes}};
+  if (offset > 0) view["byteOffset"] = offset;
+  if (stride > 0) view["byteStride"] = stride;
+  if (target > 0) view["target"] = target;
+  return append(json_["bufferViews"], std::move(view));
+}
+
+int Glb::add_bytes(const void* data, std::size_t bytes, std::size_t stride, int target) {
+  bytes_.resize((bytes_.size() + 3) & ~std::size_t{3});
+  const std::size_t offset = bytes_.size();
+  bytes_.append(static_cast<const char*>(data), bytes);
+  return add_view(0, offset, bytes, stride, target);
+}
+
+int Glb::add_accessor(Json accessor) { return append(json_["accessors"], std::move(accessor)); }
+int Glb::add_gltf_mesh(Json mesh) { return append(json_["meshes"], std::move(mesh)); }
+int Glb::add_node(Json node) {
+  const int index = append(json_["nodes"], std::move(node));
+  json_["nodes"][0]["children"].push_back(index);
+  return index;
+}
+
+void Glb::add_mesh(std::string_view name, const TileMesh& mesh, int material, double step, double height) {
+  const std::vector<TileVertex>& vertices = mesh.vertices;
+  int low[3] = {32767, 32767, 32767}, high[3] = {-32768, -32768, -32768};
+  for (const TileVertex& v : vertices) {
+    const int values[3] = {v.x, v.y, v.z};
+    for (int k = 0; k < 3; ++k) {
+      low[k] = std::min(low[k], values[k]);
+      high[k] = std::max(high[k], values[k]);
+    }
+  }
+  const int view =
+      add_bytes(vertices.data(), vertices.size() * sizeof(TileVertex), sizeof(TileVertex), array_buffer);
+  const std::size_t count = vertices.size();
+  Json attributes;
+  attributes["POSITION"] = add_accessor({{"bufferView", view},
+                                         {"componentType", type_short},
+                                         {"count", count},
+                                         {"type", "VEC3"},
+                                         {"min", low},
+                                         {"max", high}});
+  attributes["NORMAL"] = add_accessor({{"bufferView", view},
+                                       {"byteOffset", 8},
+                                       {"componentType", type_byte},
+                                       {"normalized", true},
+                                       {"count", count},
+                                       {"type", "VEC3"}});
+  attributes["COLOR_0"] = add_accessor({{"bufferView", view},
+                                        {"byteOffset", 12},
+                                        {"componentType", type_unsigned_byte},
+                                        {"normalized", true},
+                                        {"count", count},
+                                        {"type", "VEC4"}});
+  int indices = 0;
+  if (count <= 65535) {
+    const std::vector<std::uint16_t> small(mesh.indices.begin(), mesh.indices.end());
+    indices = add_bytes(small.data(), small.size() * 2, 0, element_buffer);
+  } else {
+    indices = add_bytes(mesh.indices.data(), mesh.indices.size() * 4, 0, element_buffer);
+  }
+  const int order = add_accessor({{"bufferView", indices},
+                                  {"componentType", count <= 65535 ? type_unsigned_short : type_unsigned},
+                                  {"count", mesh.indices.size()},
+                                  {"type", "SCALAR"}});
+  const int made = add_gltf_mesh(
+      {{"name", name},
+       {"primitives",
+        Json::array({{{"attributes", attributes}, {"indices", order}, {"material", material}}})}});
+  add_node({{"name", name}, {"mesh", made}, {"translation", {0, height, 0}}, {"scale", {step, step, step}}});
+}
+
+std::string Glb::text() && {
+  for (const char* name : {"bufferViews", "accessors", "meshes", "materials"}) {
+    if (json_[name].empty()) json_.erase(name);
+  }
+  if (json_["nodes"][0]["children"].empty()) json_["nodes"][0].erase("children");
+  if (bytes_.empty()) bytes_.resize(4);
+  bytes_.resize((bytes_.size() + 3) & ~std::size_t{3});
+  json_["buffers"][0]["byteLength"] = bytes_.size();
+  std::string text = canonical_text(json_);
+  text.resize((text.size() + 3) & ~std::size_t{3}, ' ');
+  std::string out = "glTF";
+  append_word(out, 2);
+  append_word(out, static_cast<std::uint32_t>(28 + text.size() + bytes_.size()));
+  append_word(out, static_cast<std::uint32_t>(text.size()));
+  out += "JSON";
+  out += text;
+  append_word(out, static_cast<std::uint32_t>(bytes_.size()));
+  out.append("BIN\0", 4);
+  out += bytes_;
+  return out;
+}
+
+}  // namespace seedmesh::world

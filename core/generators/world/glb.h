@@ -1,0 +1,53 @@
+#pragma once
+/// A small writer of binary glTF for tiles. Tiles have double translations and quantized attributes by a step that
+/// the level fixes, which the writer of models does not offer.
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/schema/json.h"
+
+namespace seedmesh::world {
+
+struct TileVertex {
+  std::int16_t x = 0, y = 0, z = 0;  ///< in steps; +Y up
+  std::int16_t unused = 0;
+  std::int8_t normal[4] = {0, 127, 0, 0};
+  std::uint8_t color[4] = {255, 255, 255, 255};  ///< linear
+};
+static_assert(sizeof(TileVertex) == 16);
+
+struct TileMesh {
+  std::vector<TileVertex> vertices;
+  std::vector<std::uint32_t> indices;  ///< triangles, counter-clockwise from outside
+};
+
+class Glb {
+ public:
+  /// `translation`: of the root node.
+  explicit Glb(const std::array<double, 3>& translation);
+
+  /// The index of a material.
+  int add_material(std::string_view name, double roughness, bool two_sided = false);
+  /// A node with one mesh of quantized vertices: metres = height * up + step * position.
+  void add_mesh(std::string_view name, const TileMesh& mesh, int material, double step, double height);
+  /// A buffer in a file of its own, which tiles share.
+  int add_shared_buffer(std::string uri, std::size_t bytes);
+  int add_view(int buffer, std::size_t offset, std::size_t bytes, std::size_t stride, int target);
+  /// Appends bytes to the file's own buffer; the index of their view. Aligned to 4 bytes.
+  int add_bytes(const void* data, std::size_t bytes, std::size_t stride, int target);
+  int add_accessor(Json accessor);
+  int add_node(Json node);  ///< below the root
+  int add_gltf_mesh(Json mesh);
+  void use_extension(std::string_view name);
+
+  std::string text() &&;
+
+ private:
+  Json json_;
+  std::string bytes_;
+};
+
+}  // namespace seedmesh::world

@@ -1,0 +1,158 @@
+#include "core/generators/world/ground.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace seedmesh::world {
+namespace {
+
+constexpr double channel_reach = 260;  ///< metres; of the exact banks of a river
+constexpr double blend = 24;           ///< metres of height over which a valley meets the land
+
+/// The side of a valley at a distance from its water, and its slope. Infinite at the reach, so that water beyond it
+/// never counts.
+Slope valley_side(double away, double half_width, double ruggedness) {
+  const double flat = 40 + 8 * half_width, slope = 0.16 + 0.36 * ruggedness;
+  const double beyond = std::max(0.0, away - flat);
+  const double rise = 1 + 0.02 * away + slope * beyond;
+  const double t = away / valley_reach, left = 1 - t * t;
+  if (left <= 1e-6) return {1e12, 0, 0};
+  return {rise / left, 0.02 + (beyond > 0 ? slope : 0), 0};
+}
+
+Reach reach_of(const RiverPoint& a, const RiverPoint& b) {
+  const double x = b.east - a.east, y = b.north - a.north;
+  return {a, b, a.east + x / 2, a.north + y / 2, valley_reach + 1 + std::sqrt(x * x + y * y) / 2};
+}
+
+struct Nearest {
+  double away = 0, share = 0, east = 0, north = 0;
+};
+Nearest nearest_on(const Reach& reach, double east, double north) {
+  const double x = reach.to.east - reach.from.east, y = reach.to.north - reach.from.north;
+  const double px = east - reach.from.east, py = north - reach.from.north;
+  const double square = x * x + y * y;
+  const double share = square > 0 ? std::clamp((px * x + py * y) / square, 0.0, 1.0) : 0;
+  const double dx = px - share * x, dy = py - share * y;
+  return {std::sqrt(dx * dx + dy * dy), share, dx, dy};
+}
+
+/// The lesser of two heights with a rounded transition.
+Slope lesser(const Slope& a, const Slope& b) {
+  const double overlap = blend - std::abs(a.value - b.value);
+  const Slope& low = a.value < b.value ? a : b;
+  if (overlap <= 0) return low;
+  const double share = (b.value - a.value) / (2 * blend) + 0.5;
+  Slope mixed = a * share + b * (1 - share);
+  mixed.value = low.value - overlap * overlap / (4 * blend);
+  return mixed;
+}
+
+/// What the water near a position does to it.
+struct Waters {
+  Slope valley{1e12, 0, 0};
+  double weight = 0, water = 0, half_width = 0;  ///< weighted sums over near rivers
+  double away = 1e12;                            ///< from the nearest middle of a river
+  double bank = 1e12;                            ///< from the nearest bank
+};
+
+void add_reach(Waters& waters, const Reach& reach, const Nearest& near, double ruggedness) {
+  const double water = reach.from.water + near.share * (reach.to.water - reach.from.water);
+  const double half = (reach.from.width + near.share * (reach.to.width - reach.from.width)) / 2;
+  Slope side = valley_side(near.away, half, ruggedness);
+  if (const double height = water + side.value; height < waters.valley.value) {
+    const double along = near.away > 1e-9 ? side.east / near.away : 0;
+    waters.valley = {height, along * near.east, along * near.north};
+  }
+  waters.bank = std::min(waters.bank, near.away - half);
+  if (near.away >= channel_reach) return;
+  waters.away = std::min(waters.away, near.away);
+  const double left = 1 - near.away / channel_reach, square = near.away * near.away + 9;
+  const double weight = left * left / (square * square);
+  waters.weight += weight;
+  waters.water += weight * water;
+  waters.half_width += weight * half;
+}
+
+double mixed(double a, double b, double t) { return a + t * (b - a); }
+
+/// The bed of a lake inside its shore, a beach outside.
+double with_lake(double height, const Lake& lake, double away, double shore) {
+  const double t = away / shore;
+  const double bed = t < 1 ? lake.level - lake.depth * (1 - t * t) : lake.level + 0.05 * (away - shore);
+  return mixed(bed, height, smooth_step(away, shore, 1.4 * shore + 60));
+}
+
+/// The bed of a river, its banks, and a transition to the land.
+double with_river(double height, const Waters& waters) {
+  if (waters.weight <= 0) return height;
+  const double water = waters.water / waters.weight, half = waters.half_width / waters.weight;
+  const double t = waters.away / half;
+  const double depth = 0.5 + 0.09 * half;
+  const double bed = t < 1 ? water - depth * (1 - t * t) : water + 0.1 * (waters.away - half);
+  return mixed(bed, height, smooth_step(waters.away, half + 1, std::min(channel_reach - 10, 3 * half + 70)));
+}
+
+}  // namespace
+
+Ground::Ground(const World& world, const Rectangle& box, Job& job, double reach) : world_(&world) {
+  const auto is_near = [&](double w, double s, double e, double n) {
+    return w <= box.east + reach && e >= box.west - reach && s <= box.north + reach && n >= box.south - reach;
+  };
+  for (const CellKey& key : regions_near(world, box.west, box.south, box.east, box.north, reach)) {
+    const auto region = region_at(world, key, job);
+    for (const River& river : region->rivers) {
+      for (std::size_t k = 1; k < river.points.size(); ++k) {
+        const RiverPoint &a = river.points[k - 1], &b = river.points[k];
+        if (!is_near(std::min(a.east, b.east), std::min(a.north, b.north), std::max(a.east, b.east),
+                     std::max(a.north, b.north))) {
+          continue;
+        }
+        reaches_.push_back(reach_of(a, b));
+      }
+    }
+    for (const Lake& lake : region->lakes) {
+      const double far = 1.3 * lake.radius;
+      if (is_near(lake.east - far, lake.north - far, lake.east + far, lake.north + far))
+        lakes_.push_back(lake);
+    }
+  }
+}
+
+GroundSample Ground::at(double east, double north) const {
+  GroundSample sample;
+  Land& land = sample.land;
+  land = land_at(*world_, east, north);
+  Waters waters;
+  for (const Reach& reach : reaches_) {
+    const double x = east - reach.middle_east, y = north - reach.middle_north;
+    if (x * x + y * y > reach.far * reach.far) continue;
+    const Nearest near = nearest_on(reach, east, north);
+    if (near.away < valley_reach) add_reach(waters, reach, near, land.ruggedness);
+  }
+  for (const Lake& lake : lakes_) {
+    const double x = east - lake.east, y = north - lake.north, away = std::sqrt(x * x + y * y);
+    const double beyond = away - shore_distance(lake, east, north, away);
+    if (beyond >= valley_reach) continue;
+    const Slope side = valley_side(std::max(0.0, beyond), 5, land.ruggedness);
+    if (const double height = lake.level + side.value; height < waters.valley.value) {
+      const double along = away > 1e-9 ? side.east / away : 0;
+      waters.valley = {height, along * x, along * y};
+    }
+    waters.bank = std::min(waters.bank, beyond);
+  }
+  land.height = lesser(land.height, waters.valley);
+  const double dry = smooth_step(waters.bank, 6, 160);
+  double height = land.height.value + dry * detail_at(*world_, land, east, north);
+  for (const Lake& lake : lakes_) {
+    const double x = east - lake.east, y = north - lake.north, away = std::sqrt(x * x + y * y);
+    if (away > 3 * lake.radius + 100) continue;
+    height = with_lake(height, lake, away, shore_distance(lake, east, north, away));
+  }
+  sample.height = with_river(height, waters);
+  sample.shore = waters.bank;
+  if (!pieces_.empty() || !houses_.empty()) add_works(sample, east, north);
+  return sample;
+}
+
+}  // namespace seedmesh::world

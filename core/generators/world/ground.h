@@ -1,0 +1,74 @@
+#pragma once
+/// The ground around some positions: land, cut by rivers and lakes. A Ground holds the water within reach of a
+/// rectangle; the height of a position is the same from each Ground whose rectangle contains it.
+#include <limits>
+
+#include "core/generators/world/land.h"
+#include "core/generators/world/region.h"
+#include "core/generators/world/world.h"
+
+namespace seedmesh::world {
+
+/// Metres. Water that is farther away does not change the ground.
+constexpr double valley_reach = 1400;
+
+/// In absolute metres.
+struct Rectangle {
+  double west = 0, south = 0, east = 0, north = 0;
+};
+
+struct GroundSample {
+  double height = 0;
+  Land land;
+  double shore =
+      std::numeric_limits<double>::infinity();  ///< metres to the nearest bank of a river or lake; below
+                                                ///< 0 in its water
+  double road = std::numeric_limits<double>::infinity();   ///< metres to the edge of the nearest road
+  double house = std::numeric_limits<double>::infinity();  ///< metres to the nearest house
+};
+
+/// A piece of a road.
+struct RoadPiece {
+  double from_east = 0, from_north = 0, from_height = 0, to_east = 0, to_north = 0, to_height = 0;
+  double width = 0;
+  bool is_bridge = false;
+};
+
+/// Where a house stands, as a disc.
+struct HouseMark {
+  double east = 0, north = 0, radius = 0;
+};
+
+/// A piece of a river.
+struct Reach {
+  RiverPoint from, to;
+  double middle_east = 0, middle_north = 0, far = 0;  ///< a position farther from the middle is out of reach
+};
+
+class Ground {
+ public:
+  /// Without rivers and lakes.
+  explicit Ground(const World& world) : world_(&world) {}
+  Ground(const World& world, const Rectangle& rectangle, Job& job, double reach = valley_reach);
+  /// With the earthworks of roads, which reach 56 m.
+  static Ground with_roads(const World& world, const Rectangle& rectangle, Job& job);
+  /// With roads and houses.
+  static Ground with_works(const World& world, const Rectangle& rectangle, Job& job);
+  GroundSample at(double east, double north) const;
+  double height(double east, double north) const { return at(east, north).height; }
+
+  const std::vector<Reach>& reaches() const { return reaches_; }
+  const std::vector<Lake>& lakes() const { return lakes_; }
+  const std::vector<RoadPiece>& road_pieces() const { return pieces_; }
+
+ private:
+  void add_works(GroundSample& sample, double east, double north) const;
+
+  const World* world_;
+  std::vector<Reach> reaches_;
+  std::vector<Lake> lakes_;
+  std::vector<RoadPiece> pieces_;
+  std::vector<HouseMark> houses_;
+};
+
+}  // namespace seedmesh::world

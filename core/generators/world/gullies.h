@@ -1,0 +1,14 @@
+#pragma once
+/// Gullies along slopes as a function of one position: stripes across the slope, blended between jittered cells.
+///
+/// After the description of Rune Skovbo Johansen ("Fast and Gorgeous Erosion Filter", 2026), which continues work of
+/// Clay John (2018) and Fewes (2023). The code is our own.
+#include "core/generators/world/noise.h"
+
+namespace seedmesh::world {
+
+/// Metres to add to the ground, mostly negative. `slope`: the ground with its derivative. Discontinuous only where
+/// the slope is.
+double gullies_at(std::uint64_t key, const Slope& slope, double east, double north);
+
+}  // namespace seedmesh::world

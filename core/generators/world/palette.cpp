@@ -1,0 +1,58 @@
+#include "core/generators/world/palette.h"
+
+#include <algorithm>
+
+#include "core/base/math.h"
+#include "core/model/model.h"
+
+namespace seedmesh::world {
+namespace {
+
+struct Shade {
+  double red = 0, green = 0, blue = 0;
+};
+
+Shade shade_of(const Color& color) {
+  return {static_cast<double>(linear_of_srgb(color.red)), static_cast<double>(linear_of_srgb(color.green)),
+          static_cast<double>(linear_of_srgb(color.blue))};
+}
+
+Shade mixed(const Shade& a, const Shade& b, double t) {
+  return {a.red + t * (b.red - a.red), a.green + t * (b.green - a.green), a.blue + t * (b.blue - a.blue)};
+}
+
+std::uint8_t byte_of(double value) {
+  return static_cast<std::uint8_t>(math::to_int32(std::clamp(value, 0.0, 1.0) * 255 + 0.5));
+}
+
+}  // namespace
+
+std::array<std::uint8_t, 4> linear_color(const Color& color) {
+  const Shade shade = shade_of(color);
+  return {byte_of(shade.red), byte_of(shade.green), byte_of(shade.blue), 255};
+}
+
+std::array<std::uint8_t, 4> ground_color(const World& world, const GroundSample& sample, double east,
+                                         double north, double steepness) {
+  const WorldColors& colors = world.params.colors;
+  const Climate climate = climate_at(world, east, north, sample.height);
+  const double patch = noise(world.key ^ 0xC0105U, east / 140, north / 140).value +
+                       0.5 * noise(world.key ^ 0xC0106U, east / 37, north / 37).value;
+  const double moisture = climate.moisture + 0.05 * patch;
+  Shade shade = mixed(shade_of(colors.dry), shade_of(colors.grass), smooth_step(moisture, 0.22, 0.48));
+  shade = mixed(shade, shade_of(colors.forest), smooth_step(moisture, 0.5, 0.8));
+  shade = mixed(shade, shade_of(colors.dry), 0.6 * smooth_step(-climate.temperature + patch, -4, 2));
+  const double bare = smooth_step(1 - steepness + 0.02 * patch, 0.1, 0.24);
+  shade = mixed(shade, shade_of(colors.rock), bare);
+  if (world.params.relief.sea) {
+    const double above = sample.height - world.params.relief.sea_level;
+    shade = mixed(shade, shade_of(colors.sand), 1 - smooth_step(above + patch, 1.5, 5));
+  }
+  const double snow =
+      smooth_step(-climate.temperature + 1.2 * patch, 3, 6) * (1 - smooth_step(1 - steepness, 0.25, 0.5));
+  shade = mixed(shade, shade_of(colors.snow), snow);
+  const double light = 1 + 0.08 * patch;
+  return {byte_of(shade.red * light), byte_of(shade.green * light), byte_of(shade.blue * light), 255};
+}
+
+}  // namespace seedmesh::world

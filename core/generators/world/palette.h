@@ -1,0 +1,15 @@
+#pragma once
+/// Colours of the ground by climate, height and slope.
+#include <array>
+#include <cstdint>
+
+#include "core/generators/world/ground.h"
+
+namespace seedmesh::world {
+
+/// Linear colour of the ground. `steepness` is the cosine of the slope.
+std::array<std::uint8_t, 4> ground_color(const World& world, const GroundSample& sample, double east,
+                                         double north, double steepness);
+std::array<std::uint8_t, 4> linear_color(const Color& color);
+
+}  // namespace seedmesh::world

@@ -1,0 +1,214 @@
+#include "core/generators/world/plant_mesh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "core/base/math.h"
+#include "core/generators/world/palette.h"
+
+namespace seedmesh::world {
+namespace {
+
+using Rgba = std::array<std::uint8_t, 4>;
+constexpr double greatest_size = 1.3;
+
+struct Ring {
+  double radius = 0, height = 0;
+};
+
+/// Surfaces of revolution and blades, with one colour for each part.
+class Builder {
+ public:
+  explicit Builder(std::uint64_t key) : rng_(key) {}
+
+  /// Rings from low to high about an axis; `uneven` displaces the vertices of closed crowns.
+  void revolve(const std::vector<Ring>& rings, int sides, const Rgba& color, double uneven = 0,
+               const glm::dvec2& at = {0, 0}) {
+    const auto first = static_cast<std::uint32_t>(positions_.size());
+    for (std::size_t k = 0; k < rings.size(); ++k) {
+      const Ring& low = rings[k == 0 ? 0 : k - 1];
+      const Ring& high = rings[k + 1 == rings.size() ? k : k + 1];
+      const glm::dvec2 out = normal_of(low, high);
+      const double shade = 0.72 + 0.28 * static_cast<double>(k) / static_cast<double>(rings.size());
+      for (int side = 0; side < sides; ++side) {
+        const math::SinCos turn =
+            math::sincos_degrees(360.0 * (side + 0.5 * static_cast<double>(k % 2)) / sides);
+        const double radius = rings[k].radius * (1 + uneven * (rng_.unit() - 0.5));
+        add({at.x + radius * turn.cos, rings[k].height * (1 + 0.3 * uneven * (rng_.unit() - 0.5)),
+             at.y + radius * turn.sin},
+            {out.x * turn.cos, out.y, out.x * turn.sin}, shaded(color, shade));
+      }
+    }
+    const auto count = static_cast<std::uint32_t>(sides);
+    for (std::uint32_t k = 0; k + 1 < rings.size(); ++k) {
+      for (std::uint32_t side = 0; side < count; ++side) {
+        const std::uint32_t next = (side + 1) % count, a = first + k * count + side,
+                            b = first + k * count + next;
+        for (const std::uint32_t corner : {a, a + count, b, b, a + count, b + count})
+          indices_.push_back(corner);
+      }
+    }
+  }
+
+  /// A bent leaf from `base`, outwards by `reach` and down by `drop`, seen from both sides.
+  void blade(double base, double turn, double reach, double drop, double width, const Rgba& color) {
+    const math::SinCos way = math::sincos_degrees(turn);
+    const glm::dvec3 out(way.cos, 0, way.sin), side(-way.sin, 0, way.cos);
+    const auto first = static_cast<std::uint32_t>(positions_.size());
+    for (int k = 0; k < 4; ++k) {
+      const double t = k / 3.0, half = width * (k == 0 ? 0.4 : k == 3 ? 0.1 : 1) / 2;
+      const glm::dvec3 middle = out * (reach * t) + glm::dvec3(0, base + drop * (0.6 * t - 1.6 * t * t), 0);
+      const glm::dvec3 up = glm::dvec3(0, 1, 0) + out * (t * 0.8);
+      for (const double s : {-1.0, 1.0}) add(middle + side * (s * half), up, shaded(color, 0.8 + 0.2 * t));
+    }
+    for (std::uint32_t k = 0; k < 3; ++k) {
+      const std::uint32_t a = first + 2 * k;
+      for (const std::uint32_t corner : {a, a + 1, a + 2, a + 1, a + 3, a + 2}) indices_.push_back(corner);
+      for (const std::uint32_t corner : {a, a + 2, a + 1, a + 1, a + 2, a + 3}) indices_.push_back(corner);
+    }
+  }
+
+  PlantFile file() const {
+    PlantFile file;
+    file.vertices = static_cast<std::uint32_t>(positions_.size());
+    file.indices = static_cast<std::uint32_t>(indices_.size());
+    for (int k = 0; k < 3; ++k) {
+      file.low[k] = file.high[k] = positions_[0][k];
+      for (const glm::vec3& p : positions_) {
+        file.low[k] = std::min(file.low[k], p[k]);
+        file.high[k] = std::max(file.high[k], p[k]);
+      }
+    }
+    for (std::size_t k = 0; k < positions_.size(); ++k) {
+      char vertex[plant_vertex_bytes];
+      std::memcpy(vertex, &positions_[k], 12);
+      for (int axis = 0; axis < 3; ++axis) {
+        vertex[12 + axis] = static_cast<char>(math::to_int32(std::floor(normals_[k][axis] * 127 + 0.5)));
+      }
+      vertex[15] = 0;
+      std::memcpy(vertex + 16, colors_[k].data(), 4);
+      file.bytes.append(vertex, sizeof vertex);
+    }
+    for (const std::uint32_t index : indices_) {
+      file.bytes += static_cast<char>(index & 255U);
+      file.bytes += static_cast<char>(index >> 8U);
+    }
+    file.bytes.resize((file.bytes.size() + 3) & ~std::size_t{3});
+    return file;
+  }
+
+ private:
+  static glm::dvec2 normal_of(const Ring& low, const Ring& high) {
+    const double rise = high.height - low.height, narrowing = low.radius - high.radius;
+    const double length = std::sqrt(rise * rise + narrowing * narrowing);
+    return length > 0 ? glm::dvec2(rise, narrowing) / length : glm::dvec2(0, 1);
+  }
+  static Rgba shaded(const Rgba& color, double by) {
+    Rgba out = color;
+    for (std::size_t k = 0; k < 3; ++k) out[k] = static_cast<std::uint8_t>(math::to_int32(color[k] * by));
+    return out;
+  }
+  void add(const glm::dvec3& position, const glm::dvec3& normal, const Rgba& color) {
+    // + 0 turns -0 into 0
+    positions_.push_back(glm::vec3(position) + 0.0F);
+    normals_.push_back(math::unit(glm::dvec3(normal), {0, 1, 0}));
+    colors_.push_back(color);
+  }
+
+  Rng rng_;
+  std::vector<glm::vec3> positions_;
+  std::vector<glm::dvec3> normals_;
+  std::vector<Rgba> colors_;
+  std::vector<std::uint32_t> indices_;
+};
+
+void add_form(Builder& builder, const WorldClass& plant) {
+  const double h = plant.height;
+  const Rgba leaf = linear_color(plant.color), stem = linear_color(plant.stem);
+  switch (plant.form) {
+    case WorldForm::conifer:
+      builder.revolve({{0.022 * h, -0.02 * h}, {0.016 * h, 0.3 * h}}, 5, stem);
+      for (int k = 0; k < 4; ++k) {
+        const double low = (0.12 + 0.2 * k) * h, r = (0.2 - 0.045 * k) * h;
+        builder.revolve({{0.3 * r, low + 0.03 * h}, {r, low}, {0.01 * h, low + 0.3 * h}}, 8, leaf, 0.25);
+      }
+      return;
+    case WorldForm::broadleaf:
+      builder.revolve({{0.03 * h, -0.02 * h}, {0.02 * h, 0.25 * h}, {0.018 * h, 0.45 * h}}, 6, stem);
+      builder.revolve({{0.02 * h, 0.28 * h},
+                       {0.24 * h, 0.36 * h},
+                       {0.33 * h, 0.52 * h},
+                       {0.3 * h, 0.72 * h},
+                       {0.18 * h, 0.9 * h},
+                       {0.01 * h, h}},
+                      9, leaf, 0.35);
+      return;
+    case WorldForm::palm:
+      builder.revolve({{0.03 * h, -0.02 * h}, {0.018 * h, 0.5 * h}, {0.016 * h, 0.88 * h}}, 6, stem);
+      for (int k = 0; k < 11; ++k) {
+        builder.blade(0.87 * h, 360.0 * k / 11, (0.3 + 0.06 * (k % 3)) * h, (0.22 - 0.1 * (k % 3)) * h,
+                      0.09 * h, leaf);
+      }
+      return;
+    case WorldForm::shrub:
+      builder.revolve({{0.3 * h, -0.05 * h}, {0.5 * h, 0.3 * h}, {0.42 * h, 0.7 * h}, {0.02 * h, h}}, 8, leaf,
+                      0.4);
+      return;
+    case WorldForm::cactus:
+      builder.revolve({{0.07 * h, -0.02 * h}, {0.085 * h, 0.5 * h}, {0.06 * h, 0.93 * h}, {0.005 * h, h}}, 8,
+                      leaf, 0.06);
+      for (int k = 0; k < 2; ++k) {
+        const double low = (0.3 + 0.15 * k) * h;
+        builder.revolve({{0.02 * h, low},
+                         {0.05 * h, low + 0.06 * h},
+                         {0.045 * h, low + 0.3 * h},
+                         {0.004 * h, low + 0.36 * h}},
+                        6, leaf, 0.06, {(k == 0 ? 0.14 : -0.13) * h, 0.03 * h});
+      }
+      return;
+    case WorldForm::fungus:
+      builder.revolve({{0.09 * h, -0.02 * h}, {0.06 * h, 0.5 * h}, {0.05 * h, 0.8 * h}}, 7, stem, 0.08);
+      builder.revolve({{0.04 * h, 0.74 * h},
+                       {0.4 * h, 0.66 * h},
+                       {0.36 * h, 0.8 * h},
+                       {0.2 * h, 0.94 * h},
+                       {0.005 * h, h}},
+                      12, leaf, 0.08);
+      return;
+  }
+}
+
+std::string hash_of(const std::string& bytes) {
+  std::uint64_t hash = mix(bytes.size());
+  for (const char c : bytes) hash = mix(hash ^ static_cast<unsigned char>(c)) + 0x9E3779B97F4A7C15U;
+  std::string text(16, '0');
+  for (std::size_t k = 0; k < 16; ++k) text[k] = "0123456789abcdef"[(hash >> (60 - 4 * k)) & 15U];
+  return text;
+}
+
+}  // namespace
+
+PlantFile plant_file(const World& world, int plant_class) {
+  const WorldClass& plant = world.params.plants[static_cast<std::size_t>(plant_class)];
+  Builder builder(key_at(0x464F524DU, static_cast<std::uint64_t>(plant.form)));
+  add_form(builder, plant);
+  PlantFile file = builder.file();
+  file.hash = hash_of(file.bytes);
+  return file;
+}
+
+PlantExtent plant_extent(const World& world) {
+  PlantExtent extent;
+  if (!world.has(Layer::plants)) return extent;
+  for (const WorldClass& plant : world.params.plants) {
+    extent.across = std::max(extent.across, 0.8 * plant.height * greatest_size);
+    extent.up = std::max(extent.up, 1.05 * plant.height * greatest_size);
+  }
+  extent.across = std::ceil(extent.across);  // whole metres, so that sums with borders are exact
+  return extent;
+}
+
+}  // namespace seedmesh::world

@@ -1,0 +1,66 @@
+#pragma once
+/// Drainage of a region of about 32 km: lakes, and rivers that end in the sea, in a lake or in another river. A region
+/// depends on the land alone, and no water leaves it, so regions do not depend on each other.
+///
+///   jittered nodes, 2 km apart -> flood from the sea or the lowest node -> flow -> rivers with falling water
+///
+/// The flood is the priority flood of Barnes, Lehman and Mulla 2014 ("Priority-flood"), on a planar graph of nodes in
+/// place of a grid. Borders of regions are displaced by noise, so that they are no straight lines.
+#include <compare>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/generators/world/land.h"
+
+namespace seedmesh::world {
+
+constexpr double drain_cell = 2048;  ///< metres; one node a cell
+constexpr int region_cells = 16;     ///< along a side of a region
+
+/// A position of a cell of nodes, absolute.
+struct CellKey {
+  std::int64_t x = 0, y = 0;
+  auto operator<=>(const CellKey&) const = default;
+};
+
+/// The region that a cell belongs to.
+CellKey region_of(const World& world, const CellKey& cell);
+
+struct RiverPoint {
+  double east = 0, north = 0;  ///< absolute
+  double water = 0;            ///< height of the water; never rises along a river
+  double width = 0;            ///< metres
+};
+struct River {
+  std::string id;
+  std::string into;                ///< "sea", or the id of a lake or river
+  std::vector<RiverPoint> points;  ///< source to mouth
+};
+
+/// A lake with the radius `radius` times a factor by direction.
+struct Lake {
+  std::string id;
+  double east = 0, north = 0, level = 0, radius = 0;
+  double depth = 0;
+  std::uint64_t key = 0;
+};
+/// The distance of the shore from the middle of a lake in the direction of a position; `away` is the distance of the
+/// position.
+double shore_distance(const Lake& lake, double east, double north, double away);
+
+struct Region {
+  std::vector<River> rivers;
+  std::vector<Lake> lakes;
+  std::uint64_t size = 0;
+  std::uint64_t bytes() const { return size; }
+};
+
+/// From the store, or made in about 1 ms.
+std::shared_ptr<const Region> region_at(const World& world, const CellKey& region, Job& job);
+
+/// The regions whose water can lie within `reach` of a rectangle.
+std::vector<CellKey> regions_near(const World& world, double west, double south, double east, double north,
+                                  double reach);
+
+}  // namespace seedmesh::world

@@ -1,0 +1,56 @@
+#pragma once
+/// Settlements and the roads between them.
+///
+/// Two settlements are joined if none is nearer to both than they are to each other (relative neighbourhood graph,
+/// Toussaint 1980) and they are at most WorldRoads::longest apart. A road is the cheapest path on a grid of 128 m
+/// within an ellipse around its ends, with costs by grade as in Galin et al. 2010 ("Procedural generation of roads").
+/// Its height follows the ground with a grade of at most 10 %: the mean of the highest road below the ground and the
+/// lowest above it.
+///
+/// The nodes of the grid keep 64 m away from positions whose coordinates are multiples of 512 m, and so do earthworks:
+/// coarse tiles, whose samples have such coordinates, need no roads.
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/generators/world/ground.h"
+
+namespace seedmesh::world {
+
+constexpr double site_cell = 6144;     ///< metres; at most one settlement a cell
+constexpr double works_spacing = 512;  ///< metres; samples this far apart have no earthworks
+constexpr double most_grade = 0.1;
+constexpr double most_works = 9;  ///< metres; a road that needs deeper cuttings is not built
+
+struct Site {
+  CellKey cell;
+  bool is_settled = false;
+  double east = 0, north = 0, height = 0, radius = 0;  ///< absolute
+  static std::uint64_t bytes() { return sizeof(Site); }
+};
+
+struct RoadPoint {
+  double east = 0, north = 0, height = 0;  ///< of the carriageway
+  bool is_bridge = false;
+};
+struct Road {
+  std::string id;
+  double width = 0;
+  std::vector<RoadPoint> points;  ///< empty where no path exists
+  std::uint64_t bytes() const { return sizeof(Road) + points.size() * sizeof(RoadPoint); }
+};
+
+std::string name_of(const Site& site);
+std::shared_ptr<const Site> site_at(const World& world, const CellKey& cell, Job& job);
+/// Settlements in a rectangle with `reach` around it.
+std::vector<std::shared_ptr<const Site>> sites_near(const World& world, const Rectangle& box, double reach,
+                                                    Job& job);
+/// Roads that have a piece within `reach` of a rectangle. A new road takes about 10 ms.
+std::vector<std::shared_ptr<const Road>> roads_near(const World& world, const Rectangle& box, double reach,
+                                                    Job& job);
+
+/// Heights of a road of grade at most `most_grade` along a line, which begins and ends on the ground. `along`: the
+/// distances from the start. Empty where the ends are too steep.
+std::vector<double> graded(const std::vector<double>& along, const std::vector<double>& ground);
+
+}  // namespace seedmesh::world

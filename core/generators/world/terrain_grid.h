@@ -1,0 +1,25 @@
+#pragma once
+/// The samples of the terrain of a tile.
+#include <vector>
+
+#include "core/generators/world/ground.h"
+#include "core/generators/world/tile_frame.h"
+
+namespace seedmesh::world {
+
+/// Samples of a tile at `count` x `count` positions, rows from the south, with one row and column beyond each
+/// border where `halo` is 1.
+struct TerrainGrid {
+  int count = 0, halo = 0;
+  double west = 0, south = 0, spacing = 0;  ///< absolute position of sample (0, 0)
+  std::vector<GroundSample> samples;
+  const GroundSample& at(int column, int row) const {
+    const int wide = count + 2 * halo;
+    return samples[static_cast<std::size_t>((row + halo) * wide + column + halo)];
+  }
+};
+enum class Works { none, roads };
+TerrainGrid sample_grid(const World& world, const TileFrame& frame, int cells, int halo, Job& job,
+                        Works works = Works::roads);
+
+}  // namespace seedmesh::world

@@ -1,0 +1,23 @@
+#pragma once
+/// The terrain of a tile as a quantized mesh.
+#include "core/generators/world/glb.h"
+#include "core/generators/world/terrain_grid.h"
+
+namespace seedmesh::world {
+
+struct TerrainMesh {
+  TileMesh mesh;
+  double height = 0;  ///< metres at position 0: a multiple of the step
+};
+
+/// 33 x 33 vertices, and below those of the border a skirt whose walls face outwards. `grid` has a halo. Heights
+/// are rounded to whole steps of the level and normals follow from samples of the level, so two neighbours of one
+/// level have equal borders.
+TerrainMesh terrain_mesh(const World& world, const TileFrame& frame, const TerrainGrid& grid, double skirt);
+
+/// Whole steps at `height`, relative to `base`, within 16 bits.
+std::int16_t steps_of(double height, double base, double step);
+/// A multiple of the step near the middle of a range of heights.
+double base_of(double low, double high, double step);
+
+}  // namespace seedmesh::world

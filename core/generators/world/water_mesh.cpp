@@ -1,0 +1,84 @@
+#include "core/generators/world/water_mesh.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/generators/world/flat_mesh.h"
+#include "core/generators/world/palette.h"
+
+namespace seedmesh::world {
+namespace {
+
+/// Rows of cells that `is_wet` accepts, as rectangles; equal neighbouring rows become one rectangle.
+template <class IsWet>
+void add_level(FlatMesh& builder, const TerrainGrid& grid, double height, const IsWet& is_wet) {
+  const int cells = grid.count - 1;
+  struct Open {
+    int first, last, row;
+  };
+  std::vector<Open> open;
+  const auto close = [&](const Open& o, int row) {
+    builder.add_rectangle(grid.west + o.first * grid.spacing, grid.south + o.row * grid.spacing,
+                          grid.west + o.last * grid.spacing, grid.south + row * grid.spacing, height);
+  };
+  for (int row = 0; row <= cells; ++row) {
+    std::vector<Open> here;
+    for (int column = 0; row < cells && column < cells; ++column) {
+      if (!is_wet(column, row)) continue;
+      int last = column + 1;
+      while (last < cells && is_wet(last, row)) ++last;
+      here.push_back({column, last, row});
+      column = last;
+    }
+    for (const Open& o : open) {
+      const auto same = std::find_if(here.begin(), here.end(),
+                                     [&](const Open& h) { return h.first == o.first && h.last == o.last; });
+      if (same != here.end()) {
+        same->row = o.row;
+      } else {
+        close(o, row);
+      }
+    }
+    open = std::move(here);
+  }
+}
+
+bool is_below(const TerrainGrid& grid, int column, int row, double level) {
+  return std::min(std::min(grid.at(column, row).height, grid.at(column + 1, row).height),
+                  std::min(grid.at(column, row + 1).height, grid.at(column + 1, row + 1).height)) < level;
+}
+
+void add_lake(FlatMesh& builder, const TerrainGrid& grid, const Lake& lake) {
+  add_level(builder, grid, lake.level, [&](int column, int row) {
+    const double east = grid.west + (column + 0.5) * grid.spacing,
+                 north = grid.south + (row + 0.5) * grid.spacing;
+    const double x = east - lake.east, y = north - lake.north, away = std::sqrt(x * x + y * y);
+    return away < shore_distance(lake, east, north, away) + grid.spacing &&
+           is_below(grid, column, row, lake.level);
+  });
+}
+
+void add_reach(FlatMesh& builder, const Reach& reach, double lift) {
+  const RiverPoint &a = reach.from, &b = reach.to;
+  builder.add_ribbon({a.east, a.north, a.water + lift}, a.width, {b.east, b.north, b.water + lift}, b.width);
+}
+
+}  // namespace
+
+WaterMesh water_mesh(const World& world, const TileFrame& frame, const TerrainGrid& grid,
+                     const Ground& ground, double base) {
+  FlatMesh builder(frame, base, linear_color(world.params.colors.water));
+  if (world.params.relief.sea) {
+    const double level = world.params.relief.sea_level;
+    add_level(builder, grid, level, [&](int column, int row) { return is_below(grid, column, row, level); });
+  }
+  for (const Lake& lake : ground.lakes()) {
+    if (lake.radius > grid.spacing) add_lake(builder, grid, lake);
+  }
+  for (const Reach& reach : ground.reaches()) {
+    if (reach.to.width >= grid.spacing / 4) add_reach(builder, reach, std::min(2.0, 0.02 * grid.spacing));
+  }
+  return {builder.take(), base};
+}
+
+}  // namespace seedmesh::world

@@ -1,0 +1,19 @@
+#pragma once
+/// The water of a tile: the sea and lakes as level rectangles, rivers as ribbons. All of it is opaque.
+#include "core/generators/world/glb.h"
+#include "core/generators/world/ground.h"
+#include "core/generators/world/terrain_grid.h"
+
+namespace seedmesh::world {
+
+struct WaterMesh {
+  TileMesh mesh;
+  double height = 0;  ///< metres at position 0
+};
+
+/// Empty where the tile has no water. Rectangles lie wherever the ground of a cell is partly below the water. Rivers
+/// narrower than a quarter of the spacing of samples are left out.
+WaterMesh water_mesh(const World& world, const TileFrame& frame, const TerrainGrid& grid,
+                     const Ground& ground, double base);
+
+}  // namespace seedmesh::world

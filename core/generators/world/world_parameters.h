@@ -1,0 +1,43 @@
+#pragma once
+/// A world request as the functions of this directory use it.
+#include <cstdint>
+#include <memory>
+#include <string_view>
+
+#include "core/generators/world/store.h"
+#include "generated/params/world.h"
+
+namespace seedmesh::world {
+
+constexpr double leaf_side = 64;             ///< metres
+constexpr std::int64_t region_side = 32768;  ///< metres; the unit of the origin
+constexpr int tile_cells = 32;               ///< along a side of the terrain of a tile
+
+enum class Layer : std::uint8_t { terrain, water, roads, buildings, plants };
+
+/// Immutable; copies share the store. Positions of the plane ("absolute") are metres from its own zero; those of
+/// tiles and maps are relative to the middle of the world.
+struct World {
+  WorldParams params;
+  std::uint64_t seed = 0;
+  std::uint64_t key = 0;             ///< of all random choices
+  std::uint64_t id = 0;              ///< distinguishes worlds in the store
+  int levels = 15;                   ///< of the tree; the last has the leaves
+  double extent = 1048576;           ///< metres
+  std::int64_t east = 0, north = 0;  ///< the middle, absolute
+  std::shared_ptr<Store> store;
+
+  bool has(Layer layer) const { return (layers & (1U << static_cast<unsigned>(layer))) != 0; }
+  unsigned layers = 31;
+  double land_bias = 0;  ///< of the continents
+};
+
+/// Errors that the schema cannot express: /extent where it is no power of two, /layers where one is named twice,
+/// /plants where two classes have one name.
+std::vector<Issue> issues_of(const WorldParams& params);
+
+/// `store` keeps what tiles share; without one the world gets its own of 64 MiB.
+Result<World> read_world(const WorldParams& params, std::uint64_t seed,
+                         std::shared_ptr<Store> store = nullptr);
+
+}  // namespace seedmesh::world

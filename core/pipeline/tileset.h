@@ -1,0 +1,59 @@
+#pragma once
+/// The files of OGC 3D Tiles 1.1 (22-025r4) that name the tiles of a world: explicit tilesets, an implicit one, and
+/// subtrees. Boxes are upright, in metres: x = east, y = north, z = up.
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <string_view>
+
+namespace seedmesh::tiles {
+
+/// A tile of a quadtree: x runs east and y north, from 0 to 2^level - 1.
+struct Address {
+  int level = 0;
+  std::int64_t x = 0, y = 0;
+};
+
+bool operator==(const Address& a, const Address& b);
+
+/// The box of a tile with all that it holds, and its geometric error, in metres.
+struct Bounds {
+  double west = 0, south = 0, low = 0, east = 0, north = 0, high = 0, geometric_error = 0;
+};
+
+/// The bounds of a tile. Boxes lie inside their parent's; errors fall from level to level.
+using BoundsOf = std::function<Bounds(const Address&)>;
+
+/// Levels of an explicit tileset and of a subtree. Clients make all tiles of a file at once, in one frame.
+constexpr int levels_a_tileset = 4;
+constexpr int levels_a_subtree = 5;
+
+/// What a file names the others by: `<prefix>c/3/1/7.glb`, `<prefix>e/4/0/2.json`, `<prefix>s/5/3/3.subtree`.
+struct Naming {
+  std::string_view prefix;  ///< relative to the address of the file; ends with "/" or is empty
+  int levels = 0;           ///< of the tree; its last level has no children
+  int first_content = 0;    ///< tiles above this level have no content
+  std::function<bool(const Address&)> holds = {};  ///< tiles that the tree has; empty: all
+};
+
+/// An explicit tileset of at most four levels from `root` down. The tiles below the last of them point to tilesets
+/// of their own, whose roots have the same box and error.
+std::string explicit_tileset(const Address& root, const Naming& naming, const BoundsOf& bounds_of);
+
+/// An implicit tileset. Most clients overlook the metadata and halve box and error of the root, so the box is exactly
+/// the square of side `extent` in plan, and `error`, halved `level` times, is never below the error of a tile.
+std::string implicit_tileset(double extent, double error, const Naming& naming, const BoundsOf& bounds_of);
+
+/// Bit of a tile among those of its level in a subtree: the bits of x at even places, those of y at odd ones.
+std::uint32_t morton(std::uint32_t x, std::uint32_t y);
+
+/// Bits of all tiles of the first `levels` levels of a subtree: (4^levels - 1) / 3.
+std::uint32_t tiles_of(int levels);
+
+/// A binary subtree of five levels without metadata, whose tiles are those of a tree of `levels` levels without holes.
+std::string bare_subtree(const Address& root, int levels);
+
+/// The same with the box and the error of each tile as metadata (TILE_BOUNDING_BOX, TILE_GEOMETRIC_ERROR).
+std::string subtree(const Address& root, int levels, const BoundsOf& bounds_of);
+
+}  // namespace seedmesh::tiles

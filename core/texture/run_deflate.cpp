@@ -1,0 +1,293 @@
+/// Code lengths by the two-queue method (van Leeuwen, "On the construction of Huffman trees", 1976), limited as zlib
+/// limits them: codes that are too long are shortened, and others become longer until the codes fit again.
+#include "core/texture/run_deflate.h"
+
+#include <libdeflate.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cassert>
+#include <cstring>
+#include <vector>
+
+namespace seedmesh::texture {
+namespace {
+
+// Four codes and the rest of a byte fit the 64 bits of the writer.
+constexpr int longest_code = 13;
+constexpr int longest_length_code = 7;  ///< of the codes of code lengths (RFC 1951, 3.2.7)
+constexpr std::size_t symbols = 286, end_of_block = 256, first_length = 257;
+constexpr std::size_t longest_run = 258, least_run = 3;
+constexpr std::size_t word = 8;  ///< bytes that are handled at once
+
+struct Pixels {
+  std::span<const std::uint8_t> data;
+  std::size_t period;
+};
+
+std::uint64_t load(const std::uint8_t* at) {
+  std::uint64_t value = 0;
+  std::memcpy(&value, at, word);
+  return value;
+}
+
+/// Splits the data into words of literals and repeats: calls literals(at, count) with at most 8 bytes, and
+/// repeat(length) for 3 to 258 bytes that equal those `period` bytes before them.
+template <class Literals, class Repeat>
+void walk(const Pixels& pixels, Literals&& literals, Repeat&& repeat) {
+  const std::size_t period = pixels.period;
+  const std::uint8_t *at = pixels.data.data(), *const end = at + pixels.data.size();
+  const std::size_t first = std::min(period, pixels.data.size());
+  if (first > 0) literals(at, first);
+  at += first;
+  while (static_cast<std::size_t>(end - at) >= word) {
+    if (load(at) != load(at - period)) {
+      literals(at, word);
+      at += word;
+      continue;
+    }
+    const std::uint8_t* last = at + word;
+    while (static_cast<std::size_t>(end - last) >= word && load(last) == load(last - period)) last += word;
+    auto length = static_cast<std::size_t>(last - at);
+    at = last;
+    while (length > 0) {
+      // What is left of the run may not be shorter than the shortest match.
+      const std::size_t part = length <= longest_run ? length : std::min(longest_run, length - least_run);
+      repeat(part);
+      length -= part;
+    }
+  }
+  if (at < end) literals(at, static_cast<std::size_t>(end - at));
+}
+
+/// The symbol of a run and its extra bits (RFC 1951, 3.2.5).
+struct LengthCode {
+  std::uint16_t symbol;
+  std::uint8_t extra_bits;
+  std::uint16_t extra;
+};
+
+LengthCode length_code(std::size_t length) {
+  if (length == longest_run) return {285, 0, 0};
+  const auto rest = static_cast<std::uint32_t>(length - least_run);
+  if (rest < 8) return {static_cast<std::uint16_t>(first_length + rest), 0, 0};
+  const auto bits = static_cast<std::uint32_t>(std::bit_width(rest)) - 3;
+  const std::uint32_t group = (rest >> bits) & 3U;
+  return {static_cast<std::uint16_t>(first_length + 4 * bits + 4 + group), static_cast<std::uint8_t>(bits),
+          static_cast<std::uint16_t>(rest & ((1U << bits) - 1))};
+}
+
+using Counts = std::array<std::uint32_t, symbols>;
+
+/// How often each symbol occurs. Four tables, because adding to one number twice in a row makes the processor wait.
+Counts count(const Pixels& pixels) {
+  std::array<std::array<std::uint32_t, 256>, 4> bytes{};
+  Counts counts{};
+  walk(
+      pixels,
+      [&](const std::uint8_t* at, std::size_t size) {
+        for (std::size_t i = 0; i < size; ++i) ++bytes[i % 4][at[i]];
+      },
+      [&](std::size_t length) { ++counts[length_code(length).symbol]; });
+  for (std::size_t i = 0; i < 256; ++i) counts[i] = bytes[0][i] + bytes[1][i] + bytes[2][i] + bytes[3][i];
+  counts[end_of_block] = 1;
+  return counts;
+}
+
+/// The depths of the leaves of a Huffman tree over weights in ascending order.
+std::vector<int> depths_of(const std::vector<std::uint64_t>& weights) {
+  const std::size_t leaves = weights.size();
+  std::vector<std::uint64_t> weight(weights);
+  std::vector<std::size_t> parent(2 * leaves - 1, 0);
+  std::size_t leaf = 0, node = leaves;
+  const auto take_least = [&] {
+    const bool is_leaf = leaf < leaves && (node >= weight.size() || weight[leaf] <= weight[node]);
+    return is_leaf ? leaf++ : node++;
+  };
+  while (weight.size() < 2 * leaves - 1) {
+    const std::size_t a = take_least(), b = take_least();
+    parent[a] = parent[b] = weight.size();
+    weight.push_back(weight[a] + weight[b]);
+  }
+  std::vector<int> depth(2 * leaves - 1, 0);
+  for (std::size_t i = depth.size() - 1; i-- > 0;) depth[i] = depth[parent[i]] + 1;
+  depth.resize(leaves);
+  return depth;
+}
+
+/// Makes the codes fit `most` bits: Kraft's sum of 2^-length must be exactly 1, as decoders demand. Lengths fall with
+/// the weight.
+void limit(std::vector<int>& lengths, int most) {
+  const auto share = [most](int length) { return std::int64_t{1} << (most - length); };
+  std::int64_t rest = share(0);
+  for (int& length : lengths) {
+    length = std::min(length, most);
+    rest -= share(length);
+  }
+  // The rarest symbols that can still become longer come first.
+  for (std::size_t i = 0; rest < 0; i = i + 1 < lengths.size() ? i + 1 : 0) {
+    if (lengths[i] == most) continue;
+    rest += share(lengths[i] + 1);
+    ++lengths[i];
+  }
+  // What is left over goes to the most frequent symbols that it suffices for.
+  for (std::size_t i = lengths.size(); rest > 0; i = i > 1 ? i : lengths.size()) {
+    --i;
+    if (lengths[i] == 1 || share(lengths[i]) > rest) continue;
+    rest -= share(lengths[i]);
+    --lengths[i];
+  }
+}
+
+/// The length of each symbol's code, 0 for symbols that do not occur.
+template <std::size_t size>
+std::array<std::uint8_t, size> code_lengths(const std::array<std::uint32_t, size>& counts, int most) {
+  std::vector<std::size_t> used;
+  for (std::size_t i = 0; i < size; ++i) {
+    if (counts[i] > 0) used.push_back(i);
+  }
+  // A tree needs two leaves.
+  for (std::size_t i = 0; used.size() < 2; ++i) {
+    if (counts[i] == 0) used.push_back(i);
+  }
+  std::stable_sort(used.begin(), used.end(),
+                   [&](std::size_t a, std::size_t b) { return counts[a] < counts[b]; });
+  std::vector<std::uint64_t> weights;
+  for (const std::size_t symbol : used) weights.push_back(std::max(counts[symbol], 1U));
+  std::vector<int> lengths = depths_of(weights);
+  limit(lengths, most);
+  std::array<std::uint8_t, size> made{};
+  for (std::size_t i = 0; i < used.size(); ++i) made[used[i]] = static_cast<std::uint8_t>(lengths[i]);
+  return made;
+}
+
+struct Code {
+  std::uint32_t bits = 0;  ///< the first bit of the code is the lowest
+  std::uint32_t length = 0;
+};
+
+/// Codes of one length are consecutive (RFC 1951, 3.2.2).
+template <std::size_t size>
+std::array<Code, size> codes_of(const std::array<std::uint8_t, size>& lengths) {
+  std::array<Code, size> codes{};
+  std::uint32_t next = 0;
+  for (std::uint32_t length = 1; length <= longest_code; ++length) {
+    for (std::size_t i = 0; i < size; ++i) {
+      if (lengths[i] != length) continue;
+      std::uint32_t reversed = 0;
+      for (std::uint32_t bit = 0; bit < length; ++bit) reversed |= ((next >> bit) & 1U) << (length - 1 - bit);
+      codes[i] = {reversed, length};
+      ++next;
+    }
+    next <<= 1U;
+  }
+  return codes;
+}
+
+class BitWriter {
+ public:
+  explicit BitWriter(std::uint8_t* out) : out_(out) {}
+  /// Between two calls of flush(), at most 56 bits.
+  void put(std::uint64_t bits, std::uint32_t length) {
+    held_ |= bits << count_;
+    count_ += length;
+  }
+  void put(const Code& code) { put(code.bits, code.length); }
+  void flush() {
+    for (std::size_t i = 0; i < word; ++i) out_[i] = static_cast<std::uint8_t>(held_ >> (8 * i));
+    out_ += count_ / 8;
+    held_ >>= count_ & ~7U;
+    count_ &= 7U;
+  }
+  std::uint8_t* finish() {
+    flush();
+    return count_ > 0 ? out_ + 1 : out_;
+  }
+
+ private:
+  std::uint8_t* out_;
+  std::uint64_t held_ = 0;
+  std::uint32_t count_ = 0;
+};
+
+/// The head of a block with its own codes: the lengths of 286 symbols, and of distances up to `distance`, of which
+/// only the last has a code. Runs of equal lengths are not shortened.
+void put_head(BitWriter& bits, const std::array<std::uint8_t, symbols>& lengths, std::uint32_t distance) {
+  constexpr std::array<std::uint8_t, 19> order = {16, 17, 18, 0, 8,  7, 9,  6, 10, 5,
+                                                  11, 4,  12, 3, 13, 2, 14, 1, 15};
+  std::array<std::uint32_t, 19> counts{};
+  for (const std::uint8_t length : lengths) ++counts[length];
+  counts[0] += distance - 1;
+  ++counts[1];
+  const auto length_lengths = code_lengths(counts, longest_length_code);
+  const auto codes = codes_of(length_lengths);
+  constexpr std::uint32_t last_block = 1, own_codes = 2;
+  bits.put(last_block | own_codes << 1U, 3);
+  bits.put(symbols - 257, 5);
+  bits.put(distance - 1, 5);
+  bits.put(order.size() - 4, 4);
+  bits.flush();
+  for (const std::uint8_t symbol : order) {
+    bits.put(length_lengths[symbol], 3);
+    bits.flush();
+  }
+  for (const std::uint8_t length : lengths) {
+    bits.put(codes[length]);
+    bits.flush();
+  }
+  for (std::uint32_t i = 1; i < distance; ++i) bits.put(codes[0]);
+  bits.put(codes[1]);
+  bits.flush();
+}
+
+void put_data(BitWriter& bits, const Pixels& pixels, const std::array<Code, symbols>& codes) {
+  walk(
+      pixels,
+      [&](const std::uint8_t* at, std::size_t size) {
+        if (size == word) {
+          for (std::size_t i = 0; i < 4; ++i) bits.put(codes[at[i]]);
+          bits.flush();
+          for (std::size_t i = 4; i < word; ++i) bits.put(codes[at[i]]);
+          bits.flush();
+          return;
+        }
+        for (std::size_t i = 0; i < size; ++i) {
+          bits.put(codes[at[i]]);
+          bits.flush();
+        }
+      },
+      [&](std::size_t length) {
+        const LengthCode found = length_code(length);
+        bits.put(codes[found.symbol]);
+        bits.put(found.extra, found.extra_bits);
+        bits.put(0, 1);  // the only distance
+        bits.flush();
+      });
+  bits.put(codes[end_of_block]);
+}
+
+}  // namespace
+
+std::size_t run_deflate_bound(std::size_t size) {
+  constexpr std::size_t head = 512;  // of stream and block, the checksum, and the last word of the writer
+  return size + size * (longest_code - 8) / 8 + head;
+}
+
+std::size_t run_deflate(std::span<const std::uint8_t> data, std::size_t period, std::uint8_t* out) {
+  assert(period >= 1 && period <= 4);  // distances that have codes of their own (RFC 1951, 3.2.5)
+  const Pixels pixels{data, period};
+  constexpr std::uint8_t method = 0x78, level = 0x01;  // deflate with 32 KiB; the fastest
+  const auto lengths = code_lengths(count(pixels), longest_code);
+  out[0] = method;
+  out[1] = level;
+  BitWriter bits(out + 2);
+  put_head(bits, lengths, static_cast<std::uint32_t>(period));
+  put_data(bits, pixels, codes_of(lengths));
+  std::uint8_t* end = bits.finish();
+  const std::uint32_t checksum = libdeflate_adler32(1, data.data(), data.size());
+  for (int i = 0; i < 4; ++i) *end++ = static_cast<std::uint8_t>(checksum >> (24 - 8 * i));
+  return static_cast<std::size_t>(end - out);
+}
+
+}  // namespace seedmesh::texture

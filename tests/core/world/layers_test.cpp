@@ -1,0 +1,188 @@
+/// Layers and their reach: noise, rivers, ground, plants.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+
+#include "core/generators/world/land.h"
+#include "core/generators/world/plants.h"
+#include "core/generators/world/region.h"
+#include "tests/core/world/world_support.h"
+
+namespace seedmesh::world {
+namespace {
+
+TEST(WorldLayers, NoiseHasItsDerivative) {
+  constexpr double by = 1e-6;
+  for (int k = 0; k < 200; ++k) {
+    const double x = 0.37 * k - 30, y = 5.1 - 0.29 * k;
+    const Slope n = noise(99, x, y);
+    EXPECT_NEAR((noise(99, x + by, y).value - noise(99, x - by, y).value) / (2 * by), n.east, 1e-6);
+    EXPECT_NEAR((noise(99, x, y + by).value - noise(99, x, y - by).value) / (2 * by), n.north, 1e-6);
+  }
+}
+
+TEST(WorldLayers, LandHasItsDerivative) {
+  const World world = world_of(mountains_with_woods());
+  constexpr double by = 1e-2;
+  for (int k = 0; k < 200; ++k) {
+    const double x = 913.0 * k + 0.5, y = 77.0 * k - 20000;
+    const Slope h = land_at(world, x, y).height;
+    const double east = land_at(world, x + by, y).height.value - land_at(world, x - by, y).height.value;
+    EXPECT_NEAR(east / (2 * by), h.east, 2e-3);
+  }
+}
+
+/// Every river of 25 regions.
+TEST(WorldLayers, RiversOnlyFallAndEndInWater) {
+  for (const bool has_sea : {true, false}) {
+    WorldParams params = mountains_with_woods();
+    params.relief.sea = has_sea;
+    const World world = world_of(params);
+    Job job = test_job();
+    int rivers = 0;
+    for (std::int64_t y = -2; y <= 2; ++y) {
+      for (std::int64_t x = -2; x <= 2; ++x) {
+        const auto region = region_at(world, {x, y}, job);
+        std::set<std::string> waters;
+        for (const Lake& lake : region->lakes) EXPECT_TRUE(waters.insert(lake.id).second);
+        for (const River& river : region->rivers) EXPECT_TRUE(waters.insert(river.id).second);
+        for (const River& river : region->rivers) {
+          ASSERT_GE(river.points.size(), 2U);
+          for (std::size_t k = 1; k < river.points.size(); ++k) {
+            ASSERT_LE(river.points[k].water, river.points[k - 1].water) << river.id;
+          }
+          const RiverPoint& mouth = river.points.back();
+          if (river.into == "sea") {
+            EXPECT_LE(mouth.water, params.relief.sea_level + 0.05);
+          } else {
+            EXPECT_TRUE(waters.contains(river.into)) << river.id << " into " << river.into;
+          }
+          for (const River& other : region->rivers) {
+            if (other.id != river.into) continue;
+            bool is_met = false;
+            for (const RiverPoint& p : other.points) {
+              is_met |= p.east == mouth.east && p.north == mouth.north && p.water <= mouth.water;
+            }
+            EXPECT_TRUE(is_met) << river.id << " into " << river.into;
+          }
+          ++rivers;
+        }
+      }
+    }
+    EXPECT_GT(rivers, 100);
+  }
+}
+
+/// With its reach and more, the ground is the same; with an eighth of its reach it is not.
+TEST(WorldLayers, GroundReadsWaterWithinItsReachOnly) {
+  const World world = world_of(mountains_with_woods());
+  Job job = test_job();
+  int differences = 0;
+  for (int k = 0; k < 200; ++k) {
+    const double east = 64.0 * (137 * k % 1000), north = 64.0 * (311 * k % 1000);
+    const Rectangle box{east, north, east + 64, north + 64};
+    const Ground whole(world, box, job), more(world, box, job, valley_reach + 2048),
+        less(world, box, job, valley_reach / 8);
+    for (const double at : {3.0, 31.0, 60.0}) {
+      ASSERT_EQ(whole.height(east + at, north + at), more.height(east + at, north + at));
+      differences += whole.height(east + at, north + at) != less.height(east + at, north + at) ? 1 : 0;
+    }
+  }
+  EXPECT_GT(differences, 0);
+}
+
+std::set<std::pair<double, double>> feet_of(const World& world, const Rectangle& box, double reach) {
+  Job job = test_job();
+  const Ground ground(world, box, job);
+  std::set<std::pair<double, double>> feet;
+  for (const Plant& plant : plants_in(world, 0, box, ground, job, reach))
+    feet.insert({plant.east, plant.north});
+  return feet;
+}
+
+TEST(WorldLayers, PlantsCompeteWithinFiveSpacingsOnly) {
+  const World world = world_of(mountains_with_woods());
+  int differences = 0;
+  std::size_t count = 0;
+  for (int k = 0; k < 200; ++k) {
+    const double east = 64.0 * (251 * k % 1500), north = 64.0 * (97 * k % 1500);
+    const Rectangle box{east, north, east + 64, north + 64};
+    const auto feet = feet_of(world, box, thinning_rounds);
+    count += feet.size();
+    ASSERT_EQ(feet, feet_of(world, box, thinning_rounds + 1));
+    differences += feet != feet_of(world, box, 0.5 * thinning_rounds - 2) ? 1 : 0;
+  }
+  EXPECT_GT(count, 1000U);
+  EXPECT_GT(differences, 0);
+}
+
+TEST(WorldLayers, PlantsKeepTheirSpacingAcrossBorders) {
+  const World world = world_of(mountains_with_woods());
+  const double spacing = world.params.plants[0].spacing;
+  std::vector<std::pair<double, double>> feet;
+  std::size_t wooded = 0;
+  for (int k = 0; k < 40 && wooded < 4; ++k) {
+    feet.clear();
+    const double west = 64.0 * (509 * k % 3000), south = 64.0 * (797 * k % 3000);
+    std::size_t near_border = 0, inside = 0;
+    for (int tile = 0; tile < 64; ++tile) {
+      const double east = west + 64 * (tile % 8), north = south + 64 * (tile / 8);
+      for (const auto& [x, y] : feet_of(world, {east, north, east + 64, north + 64}, thinning_rounds)) {
+        feet.emplace_back(x, y);
+        const double u = std::min(x - east, east + 64 - x), v = std::min(y - north, north + 64 - y);
+        (std::min(u, v) < 8 ? near_border : inside) += 1;
+      }
+    }
+    for (std::size_t i = 0; i < feet.size(); ++i) {
+      for (std::size_t j = 0; j < i; ++j) {
+        const double x = feet[i].first - feet[j].first, y = feet[i].second - feet[j].second;
+        ASSERT_GE(x * x + y * y, spacing * spacing);
+      }
+    }
+    if (feet.size() < 1000) continue;
+    ++wooded;
+    // the outer 8 m are 7/16 of a tile
+    const double share = static_cast<double>(near_border) / static_cast<double>(feet.size());
+    EXPECT_NEAR(share, 7.0 / 16, 0.04);
+  }
+  EXPECT_GT(wooded, 0U);
+}
+
+struct Value {
+  int number = 0;
+  static std::uint64_t bytes() { return 1000; }
+};
+
+TEST(WorldStore, KeepsTheLastUsedWithinItsBytes) {
+  Store store(5000);
+  const Job job = test_job();
+  int made = 0;
+  const auto get = [&](std::int64_t x) {
+    return store.get<Value>({1, Store::Layer::region, x, 0, 0}, job, [&] {
+      ++made;
+      return std::make_shared<const Value>(Value{static_cast<int>(x)});
+    });
+  };
+  for (std::int64_t x = 0; x < 100; ++x) EXPECT_EQ(get(x)->number, x);
+  EXPECT_LE(store.bytes(), 5000U);
+  EXPECT_EQ(made, 100);
+  get(99);
+  EXPECT_EQ(made, 100) << "the last is kept";
+  get(0);
+  EXPECT_EQ(made, 101) << "the first is not";
+}
+
+TEST(WorldStore, TriesAgainAfterAnError) {
+  Store store;
+  const Job job = test_job();
+  const Store::Key key{1, Store::Layer::region, 0, 0, 0};
+  const auto fails = [&]() -> std::shared_ptr<const Value> {
+    job.refuse({IssueKind::internal, "", "stops"});
+  };
+  EXPECT_THROW(store.get<Value>(key, job, fails), Stop);
+  EXPECT_EQ(store.get<Value>(key, job, [] { return std::make_shared<const Value>(Value{5}); })->number, 5);
+}
+
+}  // namespace
+}  // namespace seedmesh::world
