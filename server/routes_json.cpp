@@ -68,7 +68,7 @@ std::string preset_list(const Access& access) {
 http::Response post_validate(Call& call) { return answer_with(call, validate); }
 
 http::Response post_derive(Call& call) {
-  if (call.query().empty()) return answer_with(call, derive);
+  if (call.query().find_first_not_of('&') == std::string_view::npos) return answer_with(call, derive);
   auto body = read_body(call);
   if (auto* refusal = std::get_if<http::Response>(&body)) return std::move(*refusal);
   return derive_world(call, std::get<Request>(body));

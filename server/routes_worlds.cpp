@@ -192,15 +192,31 @@ Problem too_long() {
                        "found a world whose token has more than 2,000 characters; every tile carries it"}}});
 }
 
+/// An issue for each key of a query but one.
+std::vector<Issue> keys_but(const Overrides& query, std::string_view known) {
+  constexpr std::size_t most_issues = 20;
+  std::vector<Issue> issues;
+  for (const auto& [key, value] : query) {
+    if (key == known || issues.size() == most_issues) continue;
+    issues.push_back({IssueKind::unknown_key, "/" + key,
+                      known.empty() ? "expected no query" : "expected " + std::string(known) + " alone"});
+  }
+  return issues;
+}
+
+/// Refuses the query of a file or a request that takes none.
+http::Response refuse_keys(const Call& call) {
+  auto query = parse_query(call);
+  if (auto* refusal = std::get_if<http::Response>(&query)) return std::move(*refusal);
+  return refuse(call, problem_of({Code::invalid, keys_but(std::get<Overrides>(query), "")}));
+}
+
 /// Reads the one parameter of a map's query.
 std::variant<WorldBox, http::Response> box_of(const Call& call, const OpenWorld& world) {
   auto query = parse_query(call);
   if (auto* refusal = std::get_if<http::Response>(&query)) return std::move(*refusal);
   const Overrides& given = std::get<Overrides>(query);
-  std::vector<Issue> issues;
-  for (const auto& [key, value] : given) {
-    if (key != "box") issues.push_back({IssueKind::unknown_key, "/" + key, "expected box alone"});
-  }
+  std::vector<Issue> issues = keys_but(given, "box");
   if (issues.empty() && given.size() != 1) {
     issues.push_back({given.empty() ? IssueKind::missing : IssueKind::conflict, "/box",
                       "expected one box=west,south,east,north in metres"});
@@ -263,9 +279,8 @@ http::Response answer(const Call& call, const NamedWorld& world, const Parts& pa
     auto box = box_of(call, world.open);
     if (auto* refusal = std::get_if<http::Response>(&box)) return std::move(*refusal);
     wanted.box = std::get<WorldBox>(box);
-  } else if (!call.query().empty()) {
-    return refuse(call, problem_of({Code::invalid,
-                                    {{IssueKind::unknown_key, "", "The file of a world has no query."}}}));
+  } else if (call.query().find_first_not_of('&') != std::string_view::npos) {
+    return refuse_keys(call);
   }
   if (path.is_root()) {
     if (world.token.empty()) return refuse(call, too_long());
@@ -316,11 +331,7 @@ http::Response post_world(Call& call, const Request& request) {
 }
 
 http::Response derive_world(Call& call, const Request& request) {
-  if (!is_world(request)) {
-    return refuse(
-        call,
-        problem_of({Code::invalid, {{IssueKind::unknown_key, "", "Only a world is derived with a query."}}}));
-  }
+  if (!is_world(request)) return refuse_keys(call);
   Result<OpenWorld> open = open_world(request, call.service.worlds.memory());
   if (!open) return refuse(call, problem_of(open.error()));
   const NamedWorld world{NamedWorld::Kind::own, request, *std::move(open), {}};

@@ -1,5 +1,6 @@
 // The contract of descriptions, status routes and pages, tested with the real program.
 import assert from 'node:assert/strict';
+import fs from 'node:fs';
 import { after, before, test } from 'node:test';
 import { koch, plant, random, is_problem } from './contract.mjs';
 import { ask, events_of, program, serve } from './support.mjs';
@@ -7,6 +8,22 @@ import { ask, events_of, program, serve } from './support.mjs';
 let server;
 before(async () => { server = await serve(program); });
 after(async () => { await server.stop(); });
+
+test('the vocabulary has the ranges and values of the attributes of every blueprint', async () => {
+  const folder = new URL('../../core/generators/building/blueprints/', import.meta.url);
+  const files = fs.readdirSync(folder).filter((name) => name.endsWith('.cga')).sort();
+  const rows = (await server.get('/v1/vocabulary')).json.building_blueprints;
+  assert.deepEqual(rows.map((row) => `${row.name}.cga`), files);
+  for (const { name, attributes } of rows) {
+    // The annotations, read from the text of the rules by a pattern.
+    const rules = fs.readFileSync(new URL(`${name}.cga`, folder), 'utf8');
+    const ranges = [...rules.matchAll(/@Range\(\s*([-0-9.]+)\s*,\s*([-0-9.]+)[^)]*\)\s*attr\s+(\w+)/g)].map((m) => [m[3], Number(m[1]), Number(m[2])]);
+    const values = [...rules.matchAll(/@Enum\(([^)]*)\)\s*attr\s+(\w+)/g)].map((m) => [m[2], JSON.parse(`[${m[1]}]`)]);
+    assert.ok(ranges.length > 2, name);
+    assert.deepEqual(attributes.filter((a) => 'minimum' in a).map((a) => [a.name, a.minimum, a.maximum]).sort(), ranges.sort(), name);
+    assert.deepEqual(attributes.filter((a) => 'values' in a).map((a) => [a.name, a.values]).sort(), values.sort(), name);
+  }
+});
 
 test('schemas, vocabulary and OpenAPI describe the service', async () => {
   const schema = await server.get('/v1/schemas/lsystem');
@@ -28,17 +45,21 @@ test('schemas, vocabulary and OpenAPI describe the service', async () => {
 
 test('every path of the OpenAPI document is served, and no response has an undocumented status', async () => {
   const api = (await server.get('/openapi.json')).json;
-  const preset = (await server.get('/v1/presets')).json.presets[0].name;
+  const { presets } = (await server.get('/v1/presets')).json;
+  const preset = presets[0].name, world = `${presets.find(({ generator }) => generator === 'world').name}.7`;
   const token = /models\/([^.]+)/.exec((await server.generate(plant)).headers['content-location'])[1];
   const texture = `${(await server.get('/version')).json.engine}.oak_bark.17.64.color.png`;
-  const values = { token, extension: 'glb', ext: 'glb' };
+  const values = { token, extension: 'glb', ext: 'glb', world, x: '0', y: '0', file: 'none.bin' };
   for (const [pattern, item] of Object.entries(api.paths)) {
     const name = pattern.includes('schemas') ? 'lsystem' : pattern.includes('textures') ? texture : preset;
-    const target = pattern.replace(/\{(\w+)\}/g, (_, key) => values[key] ?? name);
+    const level = { e: 4, s: 5 }[pattern.split('/')[4]] ?? 0, query = pattern.endsWith('/world.json') ? '?box=0,0,64,64' : '';
+    const target = pattern.replace(/\{(\w+)\}/g, (_, key) => (key === 'level' ? level : values[key] ?? name)) + query;
     const method = item.post ? 'POST' : 'GET';
     const answer = pattern === '/v1/import' ? await server.post('/v1/import?format=fractint', koch, { 'content-type': 'text/plain' }) : method === 'POST' ? await server.post(target, pattern === '/mcp' ? { jsonrpc: '2.0', id: 1, method: 'tools/list' } : plant) : await server.get(target);
-    assert.equal(answer.status, 200, `${method} ${target}: ${answer.text.slice(0, 200)}`);
     const described = item[method.toLowerCase()].responses;
+    // No tile of this world names a shared file of this name.
+    if (pattern.endsWith('/a/{file}')) { assert.equal(answer.status, 404); assert.ok(described['404']); continue; }
+    assert.equal(answer.status, 200, `${method} ${target}: ${answer.text.slice(0, 200)}`);
     assert.ok(described['200'], pattern);
   }
 });
