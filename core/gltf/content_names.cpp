@@ -73,6 +73,11 @@ std::uint64_t hash_of(Material& material, const std::vector<std::uint64_t>& imag
   hash.value(material.alpha_mode);
   hash.value(material.double_sided);
   hash.value(material.unlit);
+  if (material.specular < 1) hash.value(material.specular);
+  if (material.transmission > 0) {
+    hash.value(material.transmission);
+    for (int i = 0; i < 3; ++i) hash.value(material.transmission_color[i]);
+  }
   for (const TextureUse* use : uses_of(material)) {
     hash.value(use->texture < 0 ? 0 : images[static_cast<std::size_t>(use->texture)]);
     hash.value(use->uv_set);

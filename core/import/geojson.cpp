@@ -8,62 +8,17 @@
 #include "core/import/city_plan.h"
 #include "core/import/foreign_text.h"
 #include "core/import/formats.h"
+#include "core/import/map_names.h"
 #include "core/import/map_scene.h"
 
 namespace seedmesh {
 namespace {
 
-using Name = std::pair<std::string_view, std::string_view>;
-
 constexpr std::size_t most_errors = 100;
+constexpr std::string_view blanks = " \t\r\n";
+constexpr char record_separator = '\x1e';
 // Greatest depth of geometry collections.
 constexpr int deepest = 8;
-
-// Names in lower case without signs between words, and what OpenStreetMap calls them.
-constexpr std::array<Name, 38> other_names{{{"renderheight", "height"},
-                                            {"buildingheight", "height"},
-                                            {"measuredheight", "height"},
-                                            {"heightm", "height"},
-                                            {"minheight", "min_height"},
-                                            {"renderminheight", "min_height"},
-                                            {"baseheight", "min_height"},
-                                            {"levels", "building:levels"},
-                                            {"numfloors", "building:levels"},
-                                            {"floors", "building:levels"},
-                                            {"stories", "building:levels"},
-                                            {"buildinglevels", "building:levels"},
-                                            {"minlevel", "building:min_level"},
-                                            {"minfloor", "building:min_level"},
-                                            {"buildingminlevel", "building:min_level"},
-                                            {"color", "building:colour"},
-                                            {"colour", "building:colour"},
-                                            {"wallcolor", "building:colour"},
-                                            {"facadecolor", "building:colour"},
-                                            {"buildingcolor", "building:colour"},
-                                            {"buildingcolour", "building:colour"},
-                                            {"material", "building:material"},
-                                            {"wallmaterial", "building:material"},
-                                            {"facadematerial", "building:material"},
-                                            {"buildingmaterial", "building:material"},
-                                            {"buildingpart", "building:part"},
-                                            {"roofshape", "roof:shape"},
-                                            {"rooftype", "roof:shape"},
-                                            {"roofheight", "roof:height"},
-                                            {"roofangle", "roof:angle"},
-                                            {"rooflevels", "roof:levels"},
-                                            {"roofdirection", "roof:direction"},
-                                            {"rooforientation", "roof:orientation"},
-                                            {"roofcolor", "roof:colour"},
-                                            {"roofcolour", "roof:colour"},
-                                            {"roofmaterial", "roof:material"},
-                                            {"leaftype", "leaf_type"},
-                                            {"buildingid", "building:part"}}};
-
-std::string plain_name(std::string_view name) {
-  std::string plain = lower(name);
-  std::erase_if(plain, [](char c) { return c == ':' || c == '_' || c == '-' || c == ' ' || c == '.'; });
-  return plain;
-}
 
 /// The text of a property; empty for null and for lists and objects.
 std::string text_of(const Json& value) {
@@ -165,29 +120,46 @@ class GeoJsonReader {
       if (properties == json.end() || !describe_plan_feature(*properties, feature)) return;
     } else {
       close_lines(feature);
+      read_kind(feature);
     }
     data_.features.push_back(std::move(feature));
   }
 
   static void read_properties(const Json& properties, MapFeature& feature) {
     std::vector<std::pair<std::string, std::string>> translated;
-    for (const auto& [name, value] : properties.items()) {
-      if (name == "tags" && value.is_object()) {
-        for (const auto& [key, tag] : value.items()) {
-          if (std::string text = text_of(tag); !text.empty()) feature.tags.add(key, std::move(text));
-        }
-        continue;
-      }
+    const auto take = [&](const std::string& name, const Json& value) {
       std::string text = text_of(value);
-      if (text.empty()) continue;
-      const std::string plain = plain_name(name);
-      for (const auto& [other, key] : other_names) {
-        if (other == plain && key != name) translated.emplace_back(key, text);
+      if (text.empty()) return;
+      for (const FootprintName& known : footprint_names(name)) {
+        if (known.key != name) translated.emplace_back(known.key, text + std::string(known.unit));
       }
       feature.tags.add(name, std::move(text));
+    };
+    for (const auto& [name, value] : properties.items()) {
+      if (name == "tags" && value.is_object()) {
+        for (const auto& [key, tag] : value.items()) take(key, tag);
+      } else {
+        take(name, value);
+      }
     }
     for (auto& [key, text] : translated) {
       if (feature.tags.get(key).empty()) feature.tags.add(std::move(key), std::move(text));
+    }
+  }
+
+  /// Files of other map services say in one property what a feature is: {"class": "park"}.
+  static void read_kind(MapFeature& feature) {
+    for (const std::string_view name :
+         {"building", "building:part", "height", "building:levels", "roof:shape"}) {
+      if (feature.tags.has(name)) return;
+    }
+    if (is_area_tagged(feature.tags) || (feature.lines.empty() && feature.polygons.empty())) return;
+    for (const std::string_view name : {"fclass", "subclass", "class", "subtype", "kind", "type"}) {
+      const std::string value = lower(feature.tags.get(name));
+      const std::string_view key = map_key_of(value, feature.polygons.empty());
+      if (value.empty() || key.empty()) continue;
+      feature.tags.add(std::string(key), value);
+      return;
     }
   }
 
@@ -289,6 +261,7 @@ class GeoJsonReader {
     const Json* found = member(json, "coordinates", pointer);
     if (!found) return;
     const Json& coordinates = *found;
+    if (coordinates.is_array() && coordinates.empty()) return;  // as a geometry that is null
     const std::string at = pointer + "/coordinates";
     const auto add_point = [&](const Json& one, const std::string& where) {
       glm::dvec2 p{0};
@@ -315,11 +288,47 @@ class GeoJsonReader {
   bool is_stated_ = false, is_beyond_degrees_ = false, is_plan_ = false;
 };
 
+/// Whether the lines of a text are features of their own, as GeoJSON text sequences (RFC 8142) and newline-delimited
+/// GeoJSON have them.
+bool has_features_as_lines(std::string_view text) {
+  const std::size_t first = text.find_first_not_of(blanks);
+  if (first == std::string_view::npos) return false;
+  if (text[first] == record_separator) return true;
+  const std::size_t end = text.find('\n', first), next = text.find_first_not_of(blanks, end);
+  if (end == std::string_view::npos || next == std::string_view::npos) return false;
+  const std::size_t last = text.find_last_not_of(blanks, end);
+  return text[last] == '}' && text[next] == '{';
+}
+
+/// The features of such a text as one collection.
+Result<Json> collection_of_lines(std::string_view text, const Job* job) {
+  Json features = Json::array();
+  int line = 0;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find('\n', at), text.size());
+    std::string_view one = text.substr(at, end - at);
+    at = end + 1;
+    ++line;
+    if (one.starts_with(record_separator)) one.remove_prefix(1);
+    if (one.find_first_not_of(blanks) == std::string_view::npos) continue;
+    Result<Json> feature = parse_json(one, {.job = job});
+    if (!feature) {
+      Error error = std::move(feature).error();
+      for (Issue& issue : error.issues) {
+        if (issue.line > 0) issue.line += line - 1;
+      }
+      return error;
+    }
+    features.push_back(std::move(*feature));
+  }
+  return Json{{"type", "FeatureCollection"}, {"features", std::move(features)}};
+}
+
 }  // namespace
 
 int marks_of_geojson(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(" \t\r\n");
-  if (first == std::string_view::npos || text[first] != '{') return 0;
+  const std::size_t first = text.find_first_not_of(blanks);
+  if (first == std::string_view::npos || (text[first] != '{' && text[first] != record_separator)) return 0;
   if (text.find("\"FeatureCollection\"") != std::string_view::npos) return 100;
   const bool has_coordinates = text.find("\"coordinates\"") != std::string_view::npos;
   return has_coordinates && text.find("\"type\"") != std::string_view::npos ? 50 : 0;
@@ -328,7 +337,8 @@ int marks_of_geojson(std::string_view text) {
 Result<Imported> import_geojson(std::string_view text, const ImportOptions& options) {
   if (std::optional<Error> error = entry_error(options, "a file of GeoJSON is one map"))
     return *std::move(error);
-  Result<Json> file = parse_json(text, {.job = options.job});
+  Result<Json> file = has_features_as_lines(text) ? collection_of_lines(text, options.job)
+                                                  : parse_json(text, {.job = options.job});
   if (!file) return std::move(file).error();
   if (!file->is_object())
     return Error{Code::invalid, {{IssueKind::wrong_type, "", "expected an object of GeoJSON"}}};

@@ -6,6 +6,7 @@
 
 #include "core/base/math.h"
 #include "core/geom/polygon/massing.h"
+#include "core/import/foreign_text.h"
 #include "core/import/map_footprints.h"
 #include "core/import/map_scene.h"
 #include "core/import/map_values.h"
@@ -137,8 +138,10 @@ class BuildingWriter {
   std::string_view shape_of() {
     const std::string_view text = feature_.tags.get({"roof:shape", "building:roof:shape", "building:roof"});
     if (text.empty()) return "flat";
+    std::string plain = lower(text);
+    std::replace(plain.begin(), plain.end(), ' ', '_');
     for (const auto& [name, shape] : roof_shapes) {
-      if (name == text) return shape;
+      if (name == plain) return shape;
     }
     map_.warnings.add("roof:shape=" + shortened(text, 40) + " has no counterpart; the roof is flat",
                       feature_.position);

@@ -52,7 +52,9 @@ std::vector<MapBody> bodies_of(MapConversion& map, const MapData& data, std::vec
         map.warnings.add("a courtyard crosses other edges of its footprint; it is left out",
                          feature.position);
       if (sound.has_crossing)
-        map.warnings.add("a footprint crosses itself; it is left out", feature.position);
+        map.warnings.add("a footprint crosses itself; it is left out in part or whole", feature.position);
+      else if (sound.is_divided && !sound.plans.empty())
+        map.warnings.add("a footprint crosses itself; it is divided at the crossings", feature.position);
       else if (sound.plans.empty())
         map.warnings.add("a footprint has no area; it is left out", feature.position);
       for (Plan& plan : sound.plans) bodies.push_back({&feature, nullptr, std::move(plan), role, false});

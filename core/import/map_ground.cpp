@@ -248,7 +248,10 @@ class GroundWriter {
       const std::vector<PlanRing> rings = map_.outline(polygon, "an area", feature.position);
       if (rings.empty()) continue;
       const SoundPlans sound = sound_plans(rings, &map_.job);
-      if (sound.has_crossing) map_.warnings.add("an area crosses itself; it is left out", feature.position);
+      if (sound.has_crossing)
+        map_.warnings.add("an area crosses itself; it is left out in part or whole", feature.position);
+      else if (sound.is_divided)
+        map_.warnings.add("an area crosses itself; it is divided at the crossings", feature.position);
       if (sound.lost_holes > 0)
         map_.warnings.add("a hole of an area crosses its edges; it is left out", feature.position);
       for (const Plan& plan : sound.plans) {
@@ -300,6 +303,24 @@ bool is_area_tagged(const MapTags& tags) {
       "place",   "railway", "area:highway", "golf",     "aeroway", "barrier", "admin_level"};
   // A building of a file of footprints may have an amenity, too; it says that it is one.
   return std::any_of(keys.begin(), keys.end(), [&](std::string_view key) { return tags.has(key); });
+}
+
+std::string_view map_key_of(std::string_view value, bool is_line) {
+  if (is_line) {
+    for (const LineRule& rule : line_rules) {
+      if (value == rule.value) return rule.key;
+    }
+    return {};
+  }
+  // These are kinds of buildings, too.
+  constexpr std::array<std::string_view, 3> doubtful{"farm", "farmyard", "stadium"};
+  if (value.empty() || std::find(doubtful.begin(), doubtful.end(), value) != doubtful.end()) return {};
+  for (const AreaRule& rule : area_rules) {
+    const std::string_view key = rule.key;
+    const bool is_land = key == "natural" || key == "landuse" || key == "leisure" || key == "waterway";
+    if (is_land && value == rule.value) return key;
+  }
+  return {};
 }
 
 void add_ground(MapConversion& map, const MapData& data, const std::vector<bool>& is_building) {

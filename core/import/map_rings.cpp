@@ -5,6 +5,8 @@
 #include <glm/geometric.hpp>
 #include <map>
 
+#include "core/import/map_crossings.h"
+
 namespace seedmesh {
 namespace {
 
@@ -89,6 +91,38 @@ PlanRing shrunk(const PlanRing& ring) {
   return clean(made);
 }
 
+/// The loops of a ring that crosses itself, divided at its crossings. Rounding can make new crossings.
+std::vector<PlanRing> divided(const PlanRing& ring, const Job* job) {
+  constexpr int most_passes = 3;
+  std::vector<PlanRing> loops{ring};
+  for (int pass = 0; pass < most_passes; ++pass) {
+    std::vector<PlanRing> next;
+    for (const PlanRing& loop : loops) {
+      for (PlanRing& part : loops_of(with_crossings(loop, job))) next.push_back(std::move(part));
+    }
+    const bool is_done = next.size() == loops.size();
+    loops = std::move(next);
+    if (is_done) break;
+  }
+  return loops;
+}
+
+/// The largest loop around loop `i`; the number of loops without one. Loops touch one another in points at most.
+std::size_t loop_around(const std::vector<PlanRing>& loops, std::size_t i) {
+  std::size_t best = loops.size();
+  double largest = std::abs(signed_area(loops[i]));
+  for (std::size_t k = 0; k < loops.size(); ++k) {
+    const double size = std::abs(signed_area(loops[k]));
+    if (k == i || size <= largest) continue;
+    const Plan other{{loops[k]}};
+    if (!std::all_of(loops[i].begin(), loops[i].end(), [&](const dvec2& p) { return contains(other, p); }))
+      continue;
+    best = k;
+    largest = size;
+  }
+  return best;
+}
+
 bool has_errors(const Plan& plan, const Job* job) { return !faults_of(plan, job).empty(); }
 
 /// Adds the holes that lie in the outer ring. Those with errors become smaller, and are left out if that does not help.
@@ -132,26 +166,32 @@ Plan with_holes(PlanRing outer, const std::vector<PlanRing>& holes, const Job* j
 SoundPlans sound_plans(const std::vector<PlanRing>& rings, const Job* job) {
   SoundPlans made;
   if (rings.empty()) return made;
-  std::vector<PlanRing> outer = loops_of(clean(rings[0])), holes;
-  if (outer.empty()) return made;
-  const auto larger = [](const PlanRing& a, const PlanRing& b) {
-    return std::abs(signed_area(a)) < std::abs(signed_area(b));
-  };
-  const bool turns_left = signed_area(*std::max_element(outer.begin(), outer.end(), larger)) > 0;
-  for (PlanRing& loop : outer) {
-    if ((signed_area(loop) > 0) != turns_left) holes.push_back(std::move(loop));
+  std::vector<PlanRing> loops;
+  for (PlanRing& loop : loops_of(clean(rings[0]))) {
+    if (!has_errors(read_plan({loop}), job)) {
+      loops.push_back(std::move(loop));
+      continue;
+    }
+    made.is_divided = true;
+    for (PlanRing& part : divided(loop, job)) {
+      if (has_errors(read_plan({part}), job))
+        made.has_crossing = true;
+      else
+        loops.push_back(std::move(part));
+    }
   }
-  std::erase_if(outer, [](const PlanRing& loop) { return loop.empty(); });
+  std::vector<PlanRing> outer, holes;
+  for (std::size_t i = 0; i < loops.size(); ++i) {
+    const std::size_t around = loop_around(loops, i);
+    if (around == loops.size())
+      outer.push_back(loops[i]);
+    else if ((signed_area(loops[i]) > 0) != (signed_area(loops[around]) > 0))
+      holes.push_back(loops[i]);
+  }
   for (std::size_t i = 1; i < rings.size(); ++i) {
     for (PlanRing& loop : loops_of(clean(rings[i]))) holes.push_back(std::move(loop));
   }
-  for (PlanRing& loop : outer) {
-    if (has_errors(read_plan({loop}), job)) {
-      made.has_crossing = true;
-      continue;
-    }
-    made.plans.push_back(with_holes(std::move(loop), holes, job, made));
-  }
+  for (PlanRing& loop : outer) made.plans.push_back(with_holes(std::move(loop), holes, job, made));
   return made;
 }
 

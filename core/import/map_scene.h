@@ -50,6 +50,9 @@ constexpr double map_tree_height(bool is_needle) { return is_needle ? 12 : 10; }
 
 /// The kinds of features that are areas and lines of the ground.
 bool is_area_tagged(const MapTags& tags);
+/// The key of a value that only one kind of line or area has, such as "leisure" of "park"; empty if there is none, or if
+/// it may be a building.
+std::string_view map_key_of(std::string_view value, bool is_line);
 
 /// Buildings and parts of buildings (map_buildings.cpp). Returns whether each feature was one.
 std::vector<bool> add_buildings(MapConversion& map, const MapData& data);

@@ -17,10 +17,26 @@ void skip_blanks(std::string_view text, std::size_t& at) {
   while (at < text.size() && is_blank(text[at])) ++at;
 }
 
-/// The unsigned number at the beginning, and the rest.
+/// Reads the decimals after a comma: one or two digits, because three can be thousands.
+void take_decimals(std::string_view text, std::size_t& at, double& number) {
+  std::size_t end = at + 1;
+  while (end < text.size() && is_digit(text[end])) ++end;
+  const std::size_t digits = end - at - 1;
+  if (at >= text.size() || text[at] != ',' || digits < 1 || digits > 2 ||
+      text.substr(0, at).find('.') != std::string_view::npos)
+    return;
+  double decimals = 0;
+  std::size_t from = at + 1;
+  take_number(text, from, end, decimals);
+  number += decimals / (digits == 1 ? 10 : 100);
+  at = end;
+}
+
+/// The number at the beginning, which may follow "~", and the rest.
 std::optional<std::pair<double, std::string_view>> number_and_rest(std::string_view text) {
   const Line line = trimmed(text, {0, text.size()});
   text = text.substr(line.from, line.to - line.from);
+  if (text.starts_with('~')) text.remove_prefix(1);
   double sign = 1;
   if (text.starts_with('+') || text.starts_with('-')) {
     sign = text[0] == '-' ? -1 : 1;
@@ -29,6 +45,7 @@ std::optional<std::pair<double, std::string_view>> number_and_rest(std::string_v
   std::size_t at = 0;
   double number = 0;
   if (!take_number(text, at, text.size(), number)) return std::nullopt;
+  take_decimals(text, at, number);
   skip_blanks(text, at);
   return std::pair{sign * number, text.substr(at)};
 }
@@ -81,7 +98,7 @@ std::optional<double> map_length(std::string_view text) {
   if (!read) return std::nullopt;
   const auto [number, rest] = *read;
   const std::string unit = lower(rest);
-  if (unit.empty() || unit == "m" || unit == "metre" || unit == "metres" || unit == "meter" ||
+  if (unit.empty() || unit == "m" || unit == "m." || unit == "metre" || unit == "metres" || unit == "meter" ||
       unit == "meters" || unit == "mt")
     return number;
   if (unit == "cm") return number / 100;

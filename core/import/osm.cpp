@@ -1,5 +1,6 @@
 // Reads OpenStreetMap: XML as the editing interface, JOSM and Overpass write it, and the JSON of Overpass, with elements
 // or with geometry in place (`out geom`).
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <cstring>
@@ -105,14 +106,18 @@ class OsmXmlReader {
         !attribute(element, "maxlon", bounds.max.x) || !attribute(element, "maxlat", bounds.max.y))
       return;
     if (is_position(bounds.min.x, bounds.min.y) && is_position(bounds.max.x, bounds.max.y))
-      file_.bounds = bounds;
+      add_bounds(file_.bounds, bounds);
   }
 
   void read_node(const pugi::xml_node& element) {
     OsmNode node;
+    node.place = place_of(element);
+    if (!element.attribute("lon") && !element.attribute("lat")) {
+      file_.warnings.add("a node without a position is left out", node.place);
+      return;
+    }
     if (!attribute(element, "id", node.id) || !position(element, node.position)) return;
     node.tags = tags_of(element);
-    node.place = place_of(element);
     file_.nodes.push_back(std::move(node));
   }
 
@@ -147,7 +152,7 @@ class OsmXmlReader {
       if (std::strcmp(each.attribute("type").value(), "way") != 0) continue;
       OsmMember member;
       if (!attribute(each, "ref", member.way)) continue;
-      member.is_inner = std::strcmp(each.attribute("role").value(), "inner") == 0;
+      member.role = osm_role(each.attribute("role").value());
       member.inline_points = inline_points(each);
       relation.members.push_back(std::move(member));
     }
@@ -173,6 +178,7 @@ class OsmJsonReader {
     if (elements == file.end() || !elements->is_array())
       return Error{Code::invalid,
                    {{IssueKind::missing, "", "expected an array \"elements\", as Overpass writes it"}}};
+    read_bounds(file);
     for (std::size_t i = 0; i < elements->size() && issues_.size() < most_errors; ++i) {
       if (i % 256 == 0) options_.check();
       const std::string pointer = "/elements/" + std::to_string(i);
@@ -249,11 +255,29 @@ class OsmJsonReader {
     return points;
   }
 
+  /// `bounds` of the editing interface.
+  void read_bounds(const Json& file) {
+    const Json bounds = file.value("bounds", Json());
+    std::array<double, 4> values{};
+    constexpr std::array<const char*, 4> names{"minlon", "minlat", "maxlon", "maxlat"};
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      const Json value = bounds.is_object() ? bounds.value(names[i], Json()) : Json();
+      if (!value.is_number()) return;
+      values[i] = value.get<double>();
+    }
+    if (is_position(values[0], values[1]) && is_position(values[2], values[3]))
+      add_bounds(file_.bounds, {{values[0], values[1]}, {values[2], values[3]}});
+  }
+
   void read_node(const Json& json, const std::string& pointer) {
     OsmNode node;
+    node.place.pointer = pointer;
+    if (!json.contains("lon") && !json.contains("lat")) {
+      file_.warnings.add("a node without a position is left out", node.place);
+      return;
+    }
     if (!identity(json, "id", pointer, node.id) || !position(json, pointer, node.position)) return;
     node.tags = tags_of(json);
-    node.place.pointer = pointer;
     file_.nodes.push_back(std::move(node));
   }
 
@@ -283,7 +307,8 @@ class OsmJsonReader {
         if (!each.is_object() || each.value("type", Json()) != Json("way")) continue;
         OsmMember member;
         if (!identity(each, "ref", at, member.way)) continue;
-        member.is_inner = each.value("role", Json()) == Json("inner");
+        const Json role = each.value("role", Json());
+        if (role.is_string()) member.role = osm_role(role.get<std::string>());
         member.inline_points = geometry_of(each, at);
         relation.members.push_back(std::move(member));
       }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "core/geom/polygon/plan.h"
 
@@ -15,12 +16,40 @@ using glm::dvec2;
 // Pairs of an outer ring and a hole that are compared.
 constexpr std::size_t most_tried = 2'000'000;
 
+/// Adds the tags whose names `tags` lacks.
+void add_tags(MapTags& tags, const MapTags& more) {
+  for (const auto& [name, value] : more.all()) {
+    if (tags.get(name).empty()) tags.add(name, value);
+  }
+}
+
+void merge(OsmNode&, const OsmNode&) {}
+
+void merge(OsmWay& way, const OsmWay& other) {
+  if (way.nodes.empty()) way.nodes = other.nodes;
+  if (way.inline_points.empty()) way.inline_points = other.inline_points;
+}
+
+void merge(OsmRelation& relation, const OsmRelation& other) {
+  if (relation.members.empty()) relation.members = other.members;
+}
+
+/// Sorts, and joins elements that occur twice: Overpass can write tags and nodes of a way apart.
 template <class Element>
 void sort_by_id(std::vector<Element>& elements) {
   const auto before = [](const Element& a, const Element& b) { return a.id < b.id; };
   std::stable_sort(elements.begin(), elements.end(), before);
-  const auto same = [](const Element& a, const Element& b) { return a.id == b.id; };
-  elements.erase(std::unique(elements.begin(), elements.end(), same), elements.end());
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < elements.size(); ++i) {
+    if (kept > 0 && elements[kept - 1].id == elements[i].id) {
+      add_tags(elements[kept - 1].tags, elements[i].tags);
+      merge(elements[kept - 1], elements[i]);
+      continue;
+    }
+    if (kept != i) elements[kept] = std::move(elements[i]);
+    ++kept;
+  }
+  elements.erase(elements.begin() + static_cast<std::ptrdiff_t>(kept), elements.end());
 }
 
 template <class Element>
@@ -171,24 +200,27 @@ class Assembler {
   }
 
   /// The tags of a multipolygon: its own, or by an old convention those of its outer way.
-  const MapTags& tags_of(const OsmRelation& relation) const {
+  MapTags tags_of(const OsmRelation& relation) const {
     if (is_area(relation.tags)) return relation.tags;
     for (const OsmMember& member : relation.members) {
-      const OsmWay* way = member.is_inner ? nullptr : find(file_.ways, member.way);
+      const OsmWay* way = member.role == OsmRole::inner ? nullptr : find(file_.ways, member.way);
       if (way && is_area(way->tags)) return way->tags;
     }
     return relation.tags;
   }
 
-  void add_relation(const OsmRelation& relation) {
-    count();
-    const std::string_view type = relation.tags.get("type");
-    if (type != "multipolygon" && type != "boundary") return;
-    if (type == "boundary" && !is_area(relation.tags)) return;
-    const MapTags& tags = tags_of(relation);
-    if (tags.is("boundary", "administrative")) return;
+  /// The lines of a multipolygon by their roles.
+  struct Lines {
     std::vector<MapRing> outer, inner;
-    std::size_t missing = 0, open = 0;
+    std::size_t missing = 0;
+    bool has_unknown = false;
+  };
+
+  Lines lines_of(const OsmRelation& relation, MapTags& tags) {
+    Lines lines;
+    const auto outer_ways =
+        std::count_if(relation.members.begin(), relation.members.end(),
+                      [](const OsmMember& member) { return member.role != OsmRole::inner; });
     for (const OsmMember& member : relation.members) {
       const OsmWay* way = find(file_.ways, member.way);
       WayPoints read;
@@ -197,44 +229,106 @@ class Assembler {
       } else if (way) {
         read = points_of(*way, file_.nodes);
       } else {
-        ++missing;
+        ++lines.missing;
       }
-      missing += read.missing;
-      (member.is_inner ? inner : outer).push_back(std::move(read.points));
-      if (way && !member.is_inner) consume(*way, tags);
+      lines.missing += read.missing;
+      const bool is_inner = member.role == OsmRole::inner;
+      if (member.role == OsmRole::unknown) lines.has_unknown = true;
+      (is_inner ? lines.inner : lines.outer).push_back(std::move(read.points));
+      if (way && !is_inner) consume(*way, tags, outer_ways == 1);
     }
-    if (missing > 0) warn("a multipolygon refers to ways or nodes that the file lacks", relation.place);
+    return lines;
+  }
+
+  void add_relation(const OsmRelation& relation) {
+    count();
+    const std::string_view type = relation.tags.get("type");
+    if (type == "building") add_outline(relation);
+    if (type != "multipolygon" && type != "boundary") return;
+    if (type == "boundary" && !is_area(relation.tags)) return;
+    MapTags tags = tags_of(relation);
+    if (tags.is("boundary", "administrative")) return;
+    Lines lines = lines_of(relation, tags);
+    if (lines.missing > 0) warn("a multipolygon refers to ways or nodes that the file lacks", relation.place);
     MapFeature feature;
     feature.name = "relation/" + std::to_string(relation.id);
     feature.position = relation.place;
-    feature.tags = tags;
-    for (MapRing& ring : rings_of(std::move(outer), open)) feature.polygons.push_back({std::move(ring)});
-    for (MapRing& ring : rings_of(std::move(inner), open)) add_hole(feature, std::move(ring));
+    feature.tags = std::move(tags);
+    std::size_t open = 0;
+    std::vector<MapRing> outer = rings_of(std::move(lines.outer), open),
+                         inner = rings_of(std::move(lines.inner), open);
+    if (lines.has_unknown) take_inner(outer, inner);
+    for (MapRing& ring : outer) feature.polygons.push_back({std::move(ring)});
+    for (MapRing& ring : inner) add_hole(feature, std::move(ring));
     if (open > 0) warn("a ring of a multipolygon is not closed; it is left out", relation.place);
     if (!feature.polygons.empty()) features_.push_back(std::move(feature));
   }
 
-  /// An outer way that is the same thing as its multipolygon counts once.
-  void consume(const OsmWay& way, const MapTags& tags) {
-    constexpr std::array<std::string_view, 6> keys{"building", "building:part", "natural",
-                                                   "landuse",  "leisure",       "waterway"};
-    for (const std::string_view key : keys) {
-      if (tags.has(key) && tags.get(key) == way.tags.get(key))
-        is_consumed_[static_cast<std::size_t>(&way - file_.ways.data())] = true;
+  /// A relation `building` can hold the tags of its outline.
+  void add_outline(const OsmRelation& relation) {
+    if (!relation.tags.has("building")) return;
+    for (const OsmMember& member : relation.members) {
+      const OsmWay* way = find(file_.ways, member.way);
+      if (!way || member.role != OsmRole::outline || way->tags.has("building:part")) continue;
+      add_tags(file_.ways[static_cast<std::size_t>(way - file_.ways.data())].tags, relation.tags);
     }
   }
 
+  /// An outer way that is the same thing as its multipolygon counts once: buildings are, whatever their kinds. The only
+  /// outer way gives the multipolygon its further tags.
+  void consume(const OsmWay& way, MapTags& tags, bool is_only) {
+    constexpr std::array<std::string_view, 6> keys{"building", "building:part", "natural",
+                                                   "landuse",  "leisure",       "waterway"};
+    const auto is_same = [&](std::string_view key) {
+      return tags.has(key) &&
+             (tags.get(key) == way.tags.get(key) || (key == "building" && way.tags.has(key)));
+    };
+    if (std::none_of(keys.begin(), keys.end(), is_same)) return;
+    is_consumed_[static_cast<std::size_t>(&way - file_.ways.data())] = true;
+    if (is_only) add_tags(tags, way.tags);
+  }
+
+  /// Whether a ring lies in another that it may touch.
+  static bool lies_in(const MapRing& ring, const MapRing& other) {
+    return contains(Plan{{other}}, ring[0]) && contains(Plan{{other}}, ring[1]);
+  }
+
+  /// Moves the rings inside an odd number of others to the holes.
+  void take_inner(std::vector<MapRing>& outer, std::vector<MapRing>& inner) {
+    std::vector<bool> is_inner(outer.size(), false);
+    for (std::size_t i = 0; i < outer.size(); ++i) {
+      std::size_t around = 0;
+      for (std::size_t k = 0; k < outer.size() && tried_ < most_tried; ++k) {
+        if (k == i || std::abs(signed_area(outer[k])) <= std::abs(signed_area(outer[i]))) continue;
+        if (++tried_ % 64 == 0) options_.check();
+        if (lies_in(outer[i], outer[k])) ++around;
+      }
+      is_inner[i] = around % 2 == 1;
+    }
+    std::vector<MapRing> kept;
+    for (std::size_t i = 0; i < outer.size(); ++i)
+      (is_inner[i] ? inner : kept).push_back(std::move(outer[i]));
+    outer = std::move(kept);
+  }
+
+  /// Adds a hole to the smallest polygon around it.
   void add_hole(MapFeature& feature, MapRing ring) {
+    std::vector<MapRing>* best = nullptr;
+    double least = 0;
     for (std::vector<MapRing>& polygon : feature.polygons) {
       if (++tried_ > most_tried) break;
       options_.check();
-      if (feature.polygons.size() > 1 && !contains(Plan{{polygon[0]}}, ring[0]) &&
-          !contains(Plan{{polygon[0]}}, ring[1]))
-        continue;
-      polygon.push_back(std::move(ring));
-      return;
+      const double size = std::abs(signed_area(polygon[0]));
+      const bool is_around = feature.polygons.size() == 1 || contains(Plan{{polygon[0]}}, ring[0]) ||
+                             contains(Plan{{polygon[0]}}, ring[1]);
+      if (!is_around || (best && size >= least)) continue;
+      best = &polygon;
+      least = size;
     }
-    warn("a hole of a multipolygon lies in none of its outer rings; it is left out", feature.position);
+    if (best)
+      best->push_back(std::move(ring));
+    else
+      warn("a hole of a multipolygon lies in none of its outer rings; it is left out", feature.position);
   }
 
   OsmFile file_;
@@ -247,6 +341,18 @@ class Assembler {
 };
 
 }  // namespace
+
+OsmRole osm_role(std::string_view name) {
+  if (name == "inner" || name == "enclave") return OsmRole::inner;
+  if (name == "outline") return OsmRole::outline;
+  return name == "outer" ? OsmRole::outer : OsmRole::unknown;
+}
+
+void add_bounds(std::optional<MapBounds>& bounds, const MapBounds& more) {
+  if (!bounds) bounds = more;
+  bounds->min = {std::min(bounds->min.x, more.min.x), std::min(bounds->min.y, more.min.y)};
+  bounds->max = {std::max(bounds->max.x, more.max.x), std::max(bounds->max.y, more.max.y)};
+}
 
 MapData map_of(OsmFile file, const ImportOptions& options) {
   return Assembler(std::move(file), options).assemble();

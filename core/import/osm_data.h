@@ -10,6 +10,15 @@
 
 namespace seedmesh {
 
+/// `outline` is one of relations `building`. `unknown`: no role, as in old files, or another; the geometry decides then.
+enum class OsmRole { outer, inner, outline, unknown };
+
+/// The role of a member by its name.
+OsmRole osm_role(std::string_view name);
+
+/// Widens `bounds` to a further box: a file of several downloads states one for each.
+void add_bounds(std::optional<MapBounds>& bounds, const MapBounds& more);
+
 struct OsmNode {
   std::int64_t id = 0;
   glm::dvec2 position{0};  ///< longitude and latitude in degrees
@@ -28,7 +37,7 @@ struct OsmWay {
 
 struct OsmMember {
   std::int64_t way = 0;
-  bool is_inner = false;
+  OsmRole role = OsmRole::unknown;
   std::vector<glm::dvec2> inline_points;  ///< of `out geom`
 };
 
@@ -47,8 +56,9 @@ struct OsmFile {
   MapWarnings warnings;
 };
 
-/// Joins ways and multipolygons to features. Elements that occur twice count once. What refers to nodes or ways that
-/// the file lacks is left out or shortened, with a warning. Checks stop and deadline of the job of `options`. Cost: about
+/// Joins ways and multipolygons to features. Elements that occur twice count once, with the tags and nodes of both. The
+/// only outer way of a multipolygon that is the same thing as it gives it its further tags. What refers to nodes or ways that the
+/// file lacks is left out or shortened, with a warning. Checks stop and deadline of the job of `options`. Cost: about
 /// n log n.
 MapData map_of(OsmFile file, const ImportOptions& options = {});
 

@@ -191,6 +191,7 @@ class Program {
  private:
   class Parser;
   class Emitter;
+  friend class RowEvaluator;  // rows.h
 
   /// The array of an operand: the numbers of the program, the slots of the caller, the registers of the evaluation.
   enum class Storage : std::uint8_t { numbers, slots, registers };

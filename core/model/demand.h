@@ -12,7 +12,8 @@ enum class CopyForm { any, nodes, gpu, merge };
 
 /// A generator is only asked for what its row in the registry offers: the pipeline refuses other requests.
 struct Demand {
-  int lods = 1;               ///< levels of detail, 1 to 5
+  int lods = 1;                   ///< levels of detail, 1 to 5
+  bool two_sided_leaves = false;  ///< the engine of the profile turns the normals of back sides itself
   bool share_organs = false;  ///< leaves and other organs are nodes that share a mesh, not one merged mesh
   bool growth = false;        ///< the animation "growth"
   bool wind = false;          ///< wind weights in TEXCOORD_2 and TEXCOORD_3

@@ -36,6 +36,8 @@ struct TextureRecipe {
   std::uint64_t seed = 0;
   std::optional<std::array<std::uint8_t, 3>> color;  ///< sRGB main colour; without it, that of the kind
   glm::vec3 factor{1};  ///< linear; multiplies the texture, so that several materials can share one image
+  /// Of leaves whose mesh has both sides and normals of its own: without a normal map, and not double-sided.
+  bool has_own_sides = false;
 };
 
 /// Describes a texture that shows meshes of the model from several sides. It is drawn after these meshes have
@@ -61,7 +63,12 @@ struct Material {
   AlphaMode alpha_mode = AlphaMode::opaque;
   float alpha_cutoff = 0.5F;
   bool double_sided = false;
-  bool unlit = false;       ///< writes KHR_materials_unlit, never as required
+  bool unlit = false;  ///< writes KHR_materials_unlit, never as required
+  float specular = 1;  ///< strength of reflections; below 1 writes KHR_materials_specular
+  /// Share of the light that passes through a thin sheet and leaves it diffusely on the other side, and its
+  /// colour as a multiple of the base colour (linear); above 0 writes KHR_materials_diffuse_transmission.
+  float transmission = 0;
+  glm::vec3 transmission_color{1};
   TextureRecipe recipe;     ///< paint() replaces it by textures
   ImpostorRecipe impostor;  ///< draw_impostors() replaces it by textures
 };

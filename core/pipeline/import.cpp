@@ -153,6 +153,8 @@ static Result<ImportedRequest> import_within(const ImportQuestion& asked, const 
   ImportQuestion question = asked;
   std::string main;
   unpack(question, main, job);
+  constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+  if (question.text.starts_with(byte_order_mark)) question.text.remove_prefix(byte_order_mark.size());
   const ImportFormat* format =
       question.format.empty() ? likeliest_format(question.text) : find_import_format(question.format);
   std::string clean;

@@ -139,23 +139,24 @@ static_assert(static_cast<int>(OutputInstancing::merge) == static_cast<int>(Copy
 Demand demand_of(const OutputParams& output, const Generator& generator) {
   const bool budget_here =
       output.max_triangles && !generator.keeps_budget && (output.lods > 1 || !generator.joins_triangles);
-  return {.lods = budget_here ? levels_to_choose_from : output.lods,
-          .share_organs =
-              output.instancing == OutputInstancing::nodes || output.instancing == OutputInstancing::gpu,
-          .growth = output.animation == OutputParams::Animation::growth,
-          .wind = output.wind == OutputWind::weights,
-          .collision = static_cast<CollisionNames>(output.collision),
-          .textures = texture_size(output),
-          // Otherwise a later stage changes or merges the meshes first.
-          .tangents = output.tangents == OutputTangents::auto_ && !output.max_triangles &&
-                      output.variants == 1 && output.lods == 1 && !output.impostor &&
-                      output.instancing != OutputInstancing::merge,
-          .impostor = output.impostor,
-          .copies = static_cast<CopyForm>(output.instancing),
-          .most_triangles = static_cast<std::uint64_t>(output.max_triangles.value_or(0)),
-          // Otherwise fit(), row_of() or merge_copies() read the meshes again.
-          .packs = profile_of(output.profile).compressed && !output.max_triangles && output.variants == 1 &&
-                   output.instancing != OutputInstancing::merge};
+  return {
+      .lods = budget_here ? levels_to_choose_from : output.lods,
+      .two_sided_leaves = output.profile == OutputProfile::unreal || output.profile == OutputProfile::unity,
+      .share_organs =
+          output.instancing == OutputInstancing::nodes || output.instancing == OutputInstancing::gpu,
+      .growth = output.animation == OutputParams::Animation::growth,
+      .wind = output.wind == OutputWind::weights,
+      .collision = static_cast<CollisionNames>(output.collision),
+      .textures = texture_size(output),
+      // Otherwise a later stage changes or merges the meshes first.
+      .tangents = output.tangents == OutputTangents::auto_ && !output.max_triangles && output.variants == 1 &&
+                  output.lods == 1 && !output.impostor && output.instancing != OutputInstancing::merge,
+      .impostor = output.impostor,
+      .copies = static_cast<CopyForm>(output.instancing),
+      .most_triangles = static_cast<std::uint64_t>(output.max_triangles.value_or(0)),
+      // Otherwise fit(), row_of() or merge_copies() read the meshes again.
+      .packs = profile_of(output.profile).compressed && !output.max_triangles && output.variants == 1 &&
+               output.instancing != OutputInstancing::merge};
 }
 
 /// The model of one seed.

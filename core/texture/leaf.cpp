@@ -4,8 +4,10 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "core/texture/coverage.h"
 #include "core/texture/noise.h"
 
 namespace seedmesh::texture {
@@ -14,28 +16,23 @@ namespace {
 using glm::dvec2;
 using glm::vec2;
 
-constexpr int leaves_of_a_twig = 9;
+// Blossoms and shoots of needles have fewer, narrow leaves more, so that all twigs have similar gaps.
+constexpr int leaves_of_a_twig = 21, blossoms_of_a_spray = 9, narrow_leaves_of_a_twig = 39;
 // Rows between two checks of the deadline.
 constexpr int rows_a_look = 32;
 // The share of the accent colour in the heart of a blossom, and where on the petals it ends.
 constexpr float heart = 0.85F, heart_end = 0.3F;
-
-/// Pixels [x0, x1) x [y0, y1).
-struct Window {
-  int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
-  int width() const { return x1 - x0; }
-  bool empty() const { return x0 >= x1 || y0 >= y1; }
-};
 
 /// The map from the frame of the leaf to texels; y is reversed, because images begin at the top.
 class View {
  public:
   View(const LeafDrawing& drawing, int size) : low_(drawing.low), high_(drawing.high), size_(size) {
     scale_ = static_cast<double>(size) / (high_ - low_);
+    by_scale_ = 1.0 / scale_;
   }
   dvec2 texel(dvec2 p) const { return {(p.x - low_.x) * scale_.x, (high_.y - p.y) * scale_.y}; }
   vec2 leaf(int x, int y) const {
-    return vec2(low_.x + (x + 0.5) / scale_.x, high_.y - (y + 0.5) / scale_.y);
+    return vec2(low_.x + (x + 0.5) * by_scale_.x, high_.y - (y + 0.5) * by_scale_.y);
   }
   /// The longer side of a texel in the frame of the leaf.
   float texel_size() const { return static_cast<float>(1 / std::min(scale_.x, scale_.y)); }
@@ -49,73 +46,8 @@ class View {
 
  private:
   dvec2 low_, high_;
-  dvec2 scale_{1};
+  dvec2 scale_{1}, by_scale_{1};
   int size_;
-};
-
-/// The exact coverage of texels by a polygon: every edge adds, in each row, the signed area to its right, and
-/// a running sum along the row gives the coverage.
-class Coverage {
- public:
-  Coverage(const std::vector<dvec2>& outline, const Window& window) : window_(window) {
-    change_.resize(static_cast<std::size_t>(window.width() + 2) *
-                   static_cast<std::size_t>(window.y1 - window.y0));
-    for (std::size_t i = 0; i < outline.size(); ++i) add(outline[i], outline[(i + 1) % outline.size()]);
-  }
-
-  /// The coverage of one row, from the left of the window.
-  void read(int y, std::vector<float>& out) const {
-    double sum = 0;
-    const double* change = change_.data() + row(y);
-    for (int x = 0; x < window_.width(); ++x) {
-      sum += change[x];
-      out[static_cast<std::size_t>(x)] = static_cast<float>(std::min(1.0, std::abs(sum)));
-    }
-  }
-
- private:
-  std::size_t row(int y) const {
-    return static_cast<std::size_t>(y - window_.y0) * static_cast<std::size_t>(window_.width() + 2);
-  }
-
-  void add(dvec2 a, dvec2 b) {
-    if (a.y == b.y) return;
-    const double sign = a.y < b.y ? 1 : -1;
-    if (a.y > b.y) std::swap(a, b);
-    const double slope = (b.x - a.x) / (b.y - a.y);
-    const int first = std::max(window_.y0, static_cast<int>(std::floor(a.y)));
-    const int last = std::min(window_.y1 - 1, static_cast<int>(std::floor(b.y)));
-    for (int y = first; y <= last; ++y) {
-      const double top = std::max<double>(a.y, y), bottom = std::min<double>(b.y, y + 1.0);
-      if (bottom <= top) continue;
-      add_piece(y, a.x + (top - a.y) * slope, a.x + (bottom - a.y) * slope, sign * (bottom - top));
-    }
-  }
-
-  /// A piece of an edge inside one row, from x `from` to `to`, of signed height `height`: spread over the
-  /// texels that it crosses.
-  void add_piece(int y, double from, double to, double height) {
-    double* change = change_.data() + row(y);
-    const double low = std::clamp<double>(std::min(from, to) - window_.x0, 0, window_.width());
-    const double high = std::clamp<double>(std::max(from, to) - window_.x0, 0, window_.width());
-    const int first = static_cast<int>(low), last = static_cast<int>(high);
-    if (first == last) {
-      const double right = 1 - (0.5 * (low + high) - first);
-      change[first] += height * right;
-      change[first + 1] += height * (1 - right);
-      return;
-    }
-    const double by_x = height / (high - low);
-    for (int x = first; x <= last; ++x) {
-      const double l = std::max<double>(low, x), r = std::min<double>(high, x + 1.0);
-      const double share = (r - l) * by_x, right = 1 - (0.5 * (l + r) - x);
-      change[x] += share * right;
-      change[x + 1] += share * (1 - right);
-    }
-  }
-
-  Window window_;
-  std::vector<double> change_;
 };
 
 class Painter {
@@ -208,20 +140,35 @@ class Painter {
     const vec2 from(line.from), along = vec2(line.to - line.from);
     const float squared = glm::dot(along, along);
     if (squared <= 0) return;
-    const float by_texel = 1 / view_.texel_size();
+    const float by_texel = 1 / view_.texel_size(), by_squared = 1 / squared;
+    const float least_half = 0.35F * view_.texel_size(),
+                half_begin = 0.5F * static_cast<float>(line.width) * widen;
+    const float half_change = 0.5F * static_cast<float>(line.end_width - line.width) * widen;
     for (int y = window.y0; y < window.y1; ++y) {
       if (y % rows_a_look == 0) job_.check();
-      for (int x = window.x0; x < window.x1; ++x) {
+      const auto [x0, x1] = near_texels(line, reach, window, y);
+      for (int x = x0; x < x1; ++x) {
         const vec2 p = view_.leaf(x, y) - from;
-        const float t = clamp_share(glm::dot(p, along) / squared);
+        const float t = clamp_share(glm::dot(p, along) * by_squared);
         const vec2 off = p - along * t;
-        const float distance = std::sqrt(glm::dot(off, off));
-        const auto width = static_cast<float>(line.width + (line.end_width - line.width) * t);
-        const float half = std::max(0.5F * width * widen, 0.35F * view_.texel_size());
+        const float apart = glm::dot(off, off);
+        const float half = std::max(half_begin + half_change * t, least_half);
+        const float distance = std::sqrt(apart);
         const float cover = clamp_share((half - distance) * by_texel + 0.5F);
         if (cover > 0) body(x, y, cover, std::min(1.0F, distance / half));
       }
     }
+  }
+
+  /// The texels of a row that are no farther than `reach` from the infinite line through both ends.
+  std::pair<int, int> near_texels(const LeafLine& line, double reach, const Window& window, int y) const {
+    const dvec2 along = line.to - line.from;
+    if (along.y == 0) return {window.x0, window.x1};
+    const double height = static_cast<double>(view_.leaf(0, y).y) - line.from.y;
+    const double middle = line.from.x + along.x * (height / along.y);
+    const double half = reach * std::sqrt(glm::dot(along, along)) / std::abs(along.y);
+    const Window near = view_.around({middle - half, line.from.y}, {middle + half, line.from.y});
+    return {std::max(window.x0, near.x0), std::min(window.x1, near.x1)};
   }
 
   View view_;
@@ -272,6 +219,11 @@ constexpr bool makes_twigs(LeafShape shape) {
          shape != LeafShape::palmate;
 }
 
+int count_of(LeafShape shape) {
+  if (shape == LeafShape::petal || shape == LeafShape::needles) return blossoms_of_a_spray;
+  return shape == LeafShape::willow ? narrow_leaves_of_a_twig : leaves_of_a_twig;
+}
+
 struct Kind {
   std::string name;
   LeafPicture picture;
@@ -290,7 +242,7 @@ const std::vector<Kind>& kinds() {
     for (int i = 0; i < leaf_shape_count; ++i) {
       const auto shape = static_cast<LeafShape>(i);
       const std::string name(leaf_shape_names()[static_cast<std::size_t>(i)]);
-      if (makes_twigs(shape)) list.push_back({name + "_twig", {shape, leaves_of_a_twig}});
+      if (makes_twigs(shape)) list.push_back({name + "_twig", {shape, count_of(shape)}});
     }
     return list;
   }();
@@ -344,6 +296,15 @@ std::string_view leaf_kind(LeafShape shape, bool is_twig) {
     leaf = kind.name;
   }
   return leaf;
+}
+
+void let_light_through(Material& material, LeafShape shape) {
+  constexpr float through_blade = 0.4F, through_needle = 0.2F, leaf_specular = 0.4F;
+  // Chlorophyll takes blue light twice: the proportions of 1.25, 1.2 and 0.55, at most 1 as glTF demands.
+  constexpr glm::vec3 through_green{1, 0.96F, 0.44F};
+  material.transmission = shape == LeafShape::needles ? through_needle : through_blade;
+  material.transmission_color = shape == LeafShape::petal ? glm::vec3(1) : through_green;
+  material.specular = leaf_specular;
 }
 
 // At most 0.4: opaque to half a texel beyond the middle of the edge, so that distant leaves do not become

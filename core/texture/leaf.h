@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "core/geom/plant/leaf_shape.h"
+#include "core/model/model.h"
 #include "core/texture/bark.h"
 
 namespace seedmesh::texture {
@@ -27,6 +28,12 @@ std::string_view leaf_kind(LeafShape shape, bool is_twig);
 /// The least alpha of texels that are drawn. For distant leaves, renderers compare it with means over many
 /// texels, so that images of thin needles need a low value, or the crown vanishes.
 float leaf_cutoff(std::string_view kind);
+
+/// Makes the material one of thin leaves: light passes through, less through needles, more yellow than the
+/// reflected light except through petals; and reflections are weaker than those of a plain dielectric, because
+/// the cuticle is rough at grazing angles. The shares are in the range that the PROSPECT model gives for fresh
+/// leaves (Jacquemoud and Baret, 1990).
+void let_light_through(Material& material, LeafShape shape);
 
 /// `kind` is one of leaf_kinds(). Cost: 10 to 30 ns a texel.
 Painting paint_leaf(std::string_view kind, int size, std::uint64_t seed, const Tint& tint, const Job& job);

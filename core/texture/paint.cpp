@@ -60,14 +60,15 @@ struct Places {
   int color = 0, normal = 0, surface = 0;
 };
 
-/// Sets the textures of a material, except those that it has already.
+/// Sets the textures of a material, except those that it has already, for the set of texture coordinates that
+/// it names.
 void put(TextureUse& use, int texture, bool repeats) {
-  if (use.texture < 0) use = {texture, 0, repeats};
+  if (use.texture < 0) use = {texture, use.uv_set, repeats};
 }
 
 void dress(Material& material, const Places& places, bool repeats) {
   put(material.base_color_texture, places.color, repeats);
-  put(material.normal_texture, places.normal, repeats);
+  if (!material.recipe.has_own_sides) put(material.normal_texture, places.normal, repeats);
   put(material.occlusion_texture, places.surface, repeats);
   put(material.metallic_roughness_texture, places.surface, repeats);
   material.base_color = {material.recipe.factor, material.base_color.w};
@@ -75,7 +76,8 @@ void dress(Material& material, const Places& places, bool repeats) {
   if (repeats) return;
   material.alpha_mode = AlphaMode::mask;
   material.alpha_cutoff = leaf_cutoff(material.recipe.kind);
-  material.double_sided = true;
+  if (material.transmission == 0) let_light_through(material, leaf_picture(material.recipe.kind).shape);
+  material.double_sided = !material.recipe.has_own_sides;
 }
 
 }  // namespace

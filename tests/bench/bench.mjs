@@ -10,7 +10,7 @@ import { print_cold } from './cold.mjs';
 const words = process.argv[2] ?? '';
 const build = 'build/release';
 /** How often each program runs; seconds of work need no repetition for the sake of start-up. */
-const launches = 3, launches_of = { scene: 1 };
+const launches = 3, launches_of = { scene: 1, city: 1 };
 
 // Targets: the figures of the best known engine, measured on comparable hardware.
 const aims = {
@@ -39,9 +39,13 @@ const aims = {
   'memory: 100,000 trees as nodes': { ratio: 2 },
   'memory: 100,000 trees for the web': { ratio: 2 },
   'memory: 1 M placements as list': { ratio: 2 },
+  // Cities: total seconds.
+  'city plan of 1 km2': { seconds: 0.01 },
+  'city plan of 16 km2': { seconds: 0.15 },
+  'city of 16 km2 to GLB': { seconds: 3, megabytes: 60 },
 };
 /** The programs that print figures, a line each, and what runs beside them. */
-const figures = { lsystem: 'lindenmayer', request: null, terrain: 'terrain', fractal: 'manifold', tree: 'ez_tree', scene: 'scene' };
+const figures = { lsystem: 'lindenmayer', request: null, terrain: 'terrain', fractal: 'manifold', tree: 'ez_tree', scene: 'scene', city: null };
 const chosen = Object.keys(figures).filter((bench) => bench.includes(words));
 const nanoseconds_per_triangle = 30;
 const memory_ratio = 1.5;

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "core/lang/expression.h"
+#include "core/lang/rows.h"
 
 namespace {
 
@@ -62,6 +63,39 @@ void evaluate_production(benchmark::State& state) {
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(expressions.size()));
 }
 
+/// Whole rows of cells, as terrain evaluates them. items_per_second counts cells.
+void evaluate_rows(benchmark::State& state, const char* text) {
+  constexpr std::size_t width = lang::RowEvaluator::width;
+  lang::Names names;
+  names.bind_slot("l", 0);
+  names.bind_slot("w", 1);
+  names.bind_constant("r1", 0.9);
+  names.bind_constant("wr", 0.707);
+  std::vector<lang::TextError> faults;
+  lang::Program program;
+  std::size_t at = 0;
+  const std::string source = text;
+  const lang::Expression expression =
+      program.parse(lang::tokenize(source, 0, source.size(), faults), at, names, faults);
+  if (!faults.empty()) return state.SkipWithError(faults[0].message.c_str());
+  std::vector<double> l(width), w(width), out(width);
+  for (std::size_t i = 0; i < width; ++i) {
+    l[i] = 1 + static_cast<double>(i);
+    w[i] = 1 / l[i];
+  }
+  const std::vector<const double*> slots{l.data(), w.data()};
+  lang::RowEvaluator rows(program, expression);
+  for (auto step : state) {
+    rows.run(slots, width, {}, out.data());
+    benchmark::DoNotOptimize(out.data());
+    benchmark::ClobberMemory();
+  }
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(width));
+}
+
+BENCHMARK_CAPTURE(evaluate_rows, ten_operations, "l*w + l*r1 - w*wr*(l - w)/(1 + l*l + w)");
+BENCHMARK_CAPTURE(evaluate_rows, condition, "l > 10 && w < 0.5");
+BENCHMARK_CAPTURE(evaluate_rows, sine, "sin(l)");
 BENCHMARK_CAPTURE(evaluate, constant, "r1*wr");
 BENCHMARK_CAPTURE(evaluate, slot, "l");
 BENCHMARK_CAPTURE(evaluate, slot_times_constant, "l*r1");

@@ -46,6 +46,7 @@ const sum = (list) => list.reduce((total, each) => total + each, 0);
 const glb = {
   triangles: (all) => sum(all.filter(({ mode }) => mode === 4).map(({ count }) => count / 3)),
   each: (all) => all.map(({ count }) => count / 3),
+  facades: (all) => new Set(all.flatMap(({ material }) => (/facade/.test(material?.name) && material.pbrMetallicRoughness.baseColorTexture ? [material.name] : []))).size,
   lines: (all) => sum(all.filter(({ mode }) => mode === 1).map(({ count }) => count / 2)),
   points: (all) => all.filter(({ mode }) => mode === 0).map(({ count }) => count),
   positions: (all) => sum(all.map(({ positions }) => positions)),

@@ -1,5 +1,6 @@
 // The contract of descriptions, status routes and pages, tested with the real program.
 import assert from 'node:assert/strict';
+import fs from 'node:fs';
 import { after, before, test } from 'node:test';
 import { koch, plant, random, is_problem } from './contract.mjs';
 import { ask, events_of, program, serve } from './support.mjs';
@@ -7,6 +8,22 @@ import { ask, events_of, program, serve } from './support.mjs';
 let server;
 before(async () => { server = await serve(program); });
 after(async () => { await server.stop(); });
+
+test('the vocabulary has the ranges and values of the attributes of every blueprint', async () => {
+  const folder = new URL('../../core/generators/building/blueprints/', import.meta.url);
+  const files = fs.readdirSync(folder).filter((name) => name.endsWith('.cga')).sort();
+  const rows = (await server.get('/v1/vocabulary')).json.building_blueprints;
+  assert.deepEqual(rows.map((row) => `${row.name}.cga`), files);
+  for (const { name, attributes } of rows) {
+    // The annotations, read from the text of the rules by a pattern.
+    const rules = fs.readFileSync(new URL(`${name}.cga`, folder), 'utf8');
+    const ranges = [...rules.matchAll(/@Range\(\s*([-0-9.]+)\s*,\s*([-0-9.]+)[^)]*\)\s*attr\s+(\w+)/g)].map((m) => [m[3], Number(m[1]), Number(m[2])]);
+    const values = [...rules.matchAll(/@Enum\(([^)]*)\)\s*attr\s+(\w+)/g)].map((m) => [m[2], JSON.parse(`[${m[1]}]`)]);
+    assert.ok(ranges.length > 2, name);
+    assert.deepEqual(attributes.filter((a) => 'minimum' in a).map((a) => [a.name, a.minimum, a.maximum]).sort(), ranges.sort(), name);
+    assert.deepEqual(attributes.filter((a) => 'values' in a).map((a) => [a.name, a.values]).sort(), values.sort(), name);
+  }
+});
 
 test('schemas, vocabulary and OpenAPI describe the service', async () => {
   const schema = await server.get('/v1/schemas/lsystem');

@@ -67,6 +67,6 @@ export function wire_view(viewer: Viewer, acts: Acts): void {
     show_triangles(viewer);
     tell_figure();
     const level = viewer.level === null ? '' : `, level ${viewer.level}`;
-    drawn.textContent = `${time(milliseconds)}${frame === null ? '' : `, frame ${time(frame)}`}${level}`;
+    drawn.textContent = `${time(milliseconds)}${frame === null ? '' : `, frame ${time(frame)}, ${Math.round(1000 / frame)} a second`}${level}`;
   };
 }

@@ -239,6 +239,10 @@ export interface BuildingParameters {
   restrict?: "none" | "non_erasing" | "unimarker" | "split";
   /** The materials that rules name. They replace built-in materials of the same name. */
   materials?: { [key: string]: BuildingParametersMaterialsValue };
+  /** A picture for the walls, whatever their style: a PNG or JPEG file as a data URI. It repeats over all upright faces whose material is a wall (brick, plaster, wall, facade, building, stone, concrete, wood, cladding). */
+  facade_image?: string;
+  /** The width and height of one copy of the facade picture. */
+  facade_tile?: [number, number];
   /** Whether materials get textures made by seed, by their names (brick, plaster, wall, facade, building, stone, concrete, wood, roof, roof_tile, slate, cladding, chimney). auto: in blueprints; made: in your own rules too; none: only materials with images have textures. Built-in parts, such as windows, have none. */
   textures?: "auto" | "made" | "none";
   /** Models that rules insert by name, as in i("statue"): a nested request, or a GLB file as data URI. */
@@ -375,10 +379,48 @@ export interface CityParametersStreetsClasses {
   lane?: CityParametersStreetsClassesLane;
 }
 
+/** A base field. */
+export interface CityParametersStreetsTensorFieldsItem {
+  /** grid: one direction. radial: along and across the rays from the position. boundary: along the nearest shore, or the nearest border of an area without water. polyline: along the nearest piece of a line. */
+  type?: "grid" | "radial" | "boundary" | "polyline";
+  /** The centre of the field, east and north. */
+  position?: [number, number];
+  /** The direction of a grid, counter-clockwise from east. */
+  angle?: number;
+  /** The distance from the position, the boundary or the line at which the weight is exp(-1) of its greatest value. 0: the same weight everywhere. */
+  size?: number;
+  /** The greatest weight of the field in the sum of all fields. */
+  weight?: number;
+  /** The corners of a polyline, east and north. */
+  points?: ([number, number])[];
+}
+
+/** The tensor field of the method tensor. */
+export interface CityParametersStreetsTensor {
+  /** Base fields, which are added by weight. A weak grid at the angle of the streets lies below them. */
+  fields?: CityParametersStreetsTensorFieldsItem[];
+  /** About the share of the crossings of major streets that lose one arm. */
+  t_junctions?: number;
+}
+
+/** The wards of a medieval town about the centre. */
+export interface CityParametersStreetsWards {
+  /** The number of wards, square and citadel included. Wards without space between the border and the water are left out. */
+  count?: number;
+  /** The square root of the mean area of a ward. */
+  size?: number;
+  /** The greatest number of gates in the wall. Gates are at least 70 m apart. */
+  gates?: number;
+  /** Whether one ward at the wall is a citadel: one lot without minor streets. */
+  citadel?: boolean;
+  /** The height of the town wall. 0: no wall. */
+  wall_height?: number;
+}
+
 /** The growth of the streets. */
 export interface CityParametersStreets {
-  /** growth: an extended L-system. given: the given streets alone. */
-  method?: "growth" | "given";
+  /** growth: an extended L-system. tensor: major streets follow the lines of a tensor field, and minor streets grow along it. wards: a medieval town of wards with a wall, gates, a square and a citadel; minor streets grow within the wards. given: the given streets alone. */
+  method?: "growth" | "tensor" | "wards" | "given";
   /** The productions of the street L-system, in the notation of the generator lsystem. The modules are R(delay, rule), the tip of a road; B(delay, rule, road), a delayed branch; and I(road, state), the query that checks a proposed road. States are UNASSIGNED, SUCCEED and FAILED. { globalGoals(rule, road) } sets pDel0 to pDel2, pRule0 to pRule2 and pRoad0 to pRoad2: straight on, to the left, to the right. { localConstraints(road) } sets state. Default: those of Parish and Müller. */
   productions?: string[];
   /** The pattern of the major streets. organic: an irregular net. raster: right angles, also for minor streets unless minor_pattern says otherwise. radial: rings and rays about the centre. */
@@ -421,6 +463,10 @@ export interface CityParametersStreets {
   classes?: CityParametersStreetsClasses;
   /** The greatest length of a bridge. 0: no bridges. */
   bridge_length?: number;
+  /** The tensor field of the method tensor. */
+  tensor?: CityParametersStreetsTensor;
+  /** The wards of a medieval town about the centre. */
+  wards?: CityParametersStreetsWards;
 }
 
 /** The division of the blocks. */
@@ -463,6 +509,8 @@ export interface BuildingRule {
   depth?: [number, number];
   /** The greatest share of the lot that is built over. */
   share?: number;
+  /** The zones of the lots. Empty: all zones. Zones of wards are citadel, merchants, patricians, craftsmen and poor. */
+  zones?: string[];
 }
 
 /** The buildings of the lots. */
@@ -1121,6 +1169,34 @@ export interface SceneParameters {
   chunks?: number;
 }
 
+/** One layer. */
+export interface TerrainParametersLayersItem {
+  /** A name by which expressions of later layers use the heights of this one. */
+  name?: string;
+  /** Where the heights of the layer come from. */
+  algorithm?: "expression" | "fault_formation" | "poisson_faulting" | "fbm";
+  /** As that of the terrain. It can also use height and slope, the height in metres and the slope in degrees so far, and the names of earlier layers. A sphere has no slope. */
+  expression?: string;
+  /** The operation on the height so far and that of the layer. replace takes the layer. none only gives it a name. */
+  combine?: "add" | "subtract" | "multiply" | "max" | "min" | "replace" | "none";
+  /** Where the layer has an effect: an expression from 0 (nowhere) to 1, with the same names, such as slope < 30, or height / 100. */
+  mask?: string;
+  /** The number of faults, or the octaves of noise. Default: 64 faults, 8 octaves. */
+  iterations?: number;
+  /** As that of the terrain, for fbm. */
+  amplitude?: number;
+  /** As that of the terrain, for fbm. */
+  hurst?: number;
+  /** As that of the terrain, for fbm. */
+  noise?: "rolling" | "ridged" | "billow";
+  /** As that of the terrain, for fbm. */
+  wavelength?: number;
+  /** As that of the terrain, for faults. */
+  fault_max?: number;
+  /** As that of the terrain, for faults. */
+  fault_min?: number;
+}
+
 /** Heights as an image, for the algorithm image. */
 export interface TerrainParametersImage {
   /** A PNG, JPEG, WebP or TIFF file, raw 16-bit samples or an .hgt file, in base64. A data: URL is accepted, too. The first row is the northern one. */
@@ -1242,17 +1318,21 @@ export interface TerrainParametersHeightmap {
 
 /** A height field by one of the classic algorithms, filtered, meshed and coloured, or as a height map for an engine; or a planetoid. */
 export interface TerrainParameters {
-  /** The algorithm. fault_formation and poisson_faulting lift one side of random lines. triangular_edge, diamond_square and square_square refine a few heights repeatedly. fbm sums octaves of noise. image takes heights from an image.. */
-  algorithm?: "fault_formation" | "poisson_faulting" | "triangular_edge" | "diamond_square" | "square_square" | "fbm" | "image";
-  /** Rounds of a subdivision (n rounds give 2^n + 1 samples a side, square_square 2^n + 2), the number of faults, or the octaves of noise. Default: 8 rounds, 64 faults, 8 octaves. Not for image. */
+  /** The algorithm. fault_formation and poisson_faulting lift one side of random lines. triangular_edge, diamond_square and square_square refine a few heights repeatedly. fbm sums octaves of noise. image takes heights from an image. expression computes each height. */
+  algorithm?: "fault_formation" | "poisson_faulting" | "triangular_edge" | "diamond_square" | "square_square" | "fbm" | "image" | "expression";
+  /** The height of a sample, for the algorithm expression: x and y are metres to the east and north of the centre, on a sphere x, y and z its position, and latitude and longitude in degrees. size is the size. noise(x, y) is gradient noise; fbm, ridged and billow(x, y, octaves) are sums of it; all take a z as well. ran draws anew at each sample. */
+  expression?: string;
+  /** Further heights that are combined with those of the algorithm, one after the other, before the filters. */
+  layers?: TerrainParametersLayersItem[];
+  /** Rounds of a subdivision (n rounds give 2^n + 1 samples a side, square_square 2^n + 2), the number of faults, or the octaves of noise. Default: 8 rounds, 64 faults, 8 octaves. Not for image and expression. */
   iterations?: number;
   /** Additional iterations after the planned ones. A subdivision or noise becomes finer by that many rounds and keeps its old heights. Faults are added without the falling bound. */
   extra_iterations?: number;
-  /** Samples a side for algorithms that do not determine it: faults and fbm. On a sphere, samples along an edge of its cube. Default: 257, on a sphere 65. */
+  /** Samples a side for algorithms that do not determine it: faults, fbm and expression. On a sphere, samples along an edge of its cube. Default: 257, on a sphere 65. */
   resolution?: number;
   /** Length of the terrain from west to east, or the diameter of a sphere. */
   size?: number;
-  /** A plane, or a planetoid (fault_formation, poisson_faulting and fbm). */
+  /** A plane, or a planetoid (fault_formation, poisson_faulting, fbm and expression). */
   shape?: "plane" | "sphere";
   /** Greatest random deviation of the first round of a subdivision, or the weight of the first octave of noise. Default: a tenth of the size, on a sphere a twentieth of the diameter. */
   amplitude?: number;
@@ -1362,10 +1442,16 @@ export interface TreeParametersLeaf {
   density?: number;
   /** Factor for the length and width that the model gives. */
   size?: number;
+  /** outward: both sides of a leaf are faces with one normal, which points out of the crown, so that its upper side is as bright as the lower ones are dark. Such leaves have no generated normal map. two_sided: one face that is visible from both sides; renderers turn its normal around at the back, and crowns seen from below the leaves are dark. auto: outward, or two_sided in the profiles unity and unreal, whose foliage materials have a light of their own. Leaves that share a mesh (output.instancing) are two_sided. */
+  faces?: "auto" | "two_sided" | "outward";
   /** 0 gives every leaf its own normals. 1 gives it the normals of the surface of the crown, so that distant crowns look smoother. */
   crown_normals?: number;
   /** Largest random difference in brightness between leaves. */
   tint?: number;
+  /** Standard deviation of the hue between leaves, as vertex colours. Leaves of a limb, and leaves of a twig, resemble each other. If it is above 0, one leaf in fifty is withered. */
+  hue?: number;
+  /** Largest share of the light of the sky that leaves take from the leaves below them, as vertex colours. */
+  occlusion?: number;
   /** Colour in summer. Petals have it in spring as well. */
   color?: string;
   /** Colour in autumn. If left out, leaves are yellow, and petals keep their colour. */

@@ -14,12 +14,17 @@ Asset& BodySource::asset_of(const Shape& shape) {
   if (asset.row == nullptr) return asset;
   const Style& style = shapes_.styles[shape.style];
   const auto [found, is_new] =
-      parts_.try_emplace({shape.geometry, style.options, rounded(shape.size), style.color});
+      parts_.try_emplace({shape.geometry, style.options, rounded(shape.size), style.color, style.material});
   if (!is_new) return found->second;
   Asset& made = found->second;
   made.size = shape.size;
-  for (PartPiece& piece : make_part(*asset.row, shape.size, shapes_.part_options[style.options], job_))
-    made.primitives.push_back({std::move(piece.mesh), materials_.material_of_part(piece.role, style), {}});
+  for (PartPiece& piece : make_part(*asset.row, shape.size, shapes_.part_options[style.options], job_)) {
+    const int material = materials_.material_of_part(piece.role, style);
+    if (materials_.tile_of(material) != nullptr) {
+      for (glm::vec2& uv : piece.mesh.uv[0]) uv.y = 0.0F - uv.y;  // down, as that of walls
+    }
+    made.primitives.push_back({std::move(piece.mesh), material, {}});
+  }
   return made;
 }
 

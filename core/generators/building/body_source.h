@@ -44,8 +44,10 @@ class BodySource {
   std::span<Asset> assets_;
   Job& job_;
   SurfaceBuilder surfaces_{&job_};
-  /// By row, options, size and colour in force.
-  std::map<std::tuple<std::uint32_t, std::uint32_t, std::array<std::int64_t, 3>, std::uint32_t>, Asset>
+  /// By row, options, size, colour and material in force.
+  std::map<
+      std::tuple<std::uint32_t, std::uint32_t, std::array<std::int64_t, 3>, std::uint32_t, std::uint32_t>,
+      Asset>
       parts_;
 };
 

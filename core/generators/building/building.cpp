@@ -322,6 +322,7 @@ Result<Model> generate(const BuildingParams& params, const GenerateContext& cont
     add_bodies(model, shapes, materials, work.assets, sharing_of(context.demand), job);
   else
     add_levels(model, work, params, shapes, lods, materials, context);
+  if (auto warning = materials.unused_facade_image()) model.warnings.push_back(*std::move(warning));
   add_collision(model, shapes, context);
   point_at_blueprint(params, model.warnings);
   if (!shapes.reports.empty()) model.extras.push_back({"reports", json_of(shapes.reports).dump()});

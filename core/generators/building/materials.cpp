@@ -22,8 +22,8 @@ constexpr MaterialPreset presets[] = {
     {"facade", {214, 203, 184}, 0.95, 0, 1},   {"brick", {150, 82, 64}, 0.95, 0, 1},
     {"stone", {176, 170, 158}, 0.9, 0, 1},     {"concrete", {158, 157, 152}, 0.9, 0, 1},
     {"marble", {228, 226, 220}, 0.5, 0, 1},    {"wood", {122, 84, 54}, 0.8, 0, 1},
-    {"door", {94, 62, 42}, 0.7, 0, 1},         {"glass", {74, 96, 112}, 0.1, 0, 1},
-    {"window", {74, 96, 112}, 0.1, 0, 1},      {"frame", {238, 236, 230}, 0.7, 0, 1},
+    {"door", {94, 62, 42}, 0.7, 0, 1},         {"glass", {44, 50, 54}, 0.06, 0, 1},
+    {"window", {44, 50, 54}, 0.06, 0, 1},      {"frame", {222, 219, 210}, 0.7, 0, 1},
     {"metal", {134, 138, 142}, 0.4, 1, 1},     {"steel", {134, 138, 142}, 0.4, 1, 1},
     {"copper", {104, 152, 132}, 0.6, 0, 1},    {"gold", {212, 168, 74}, 0.35, 1, 1},
     {"roof", {142, 74, 58}, 0.9, 0, 1},        {"roof_tile", {142, 74, 58}, 0.9, 0, 1},
@@ -46,9 +46,29 @@ constexpr Surface surfaces[] = {
     {"building", "plaster"},
 };
 
+// Parts of blueprints: what the request can paint is wood, what has a colour of its own is stone.
+constexpr Surface part_surfaces[] = {
+    {"door", "planks"},  {"color", "ashlar"},   {"stone", "ashlar"},      {"brick", "brick"},
+    {"wall", "plaster"}, {"roof", "roof_tile"}, {"concrete", "concrete"}, {"wood", "planks"},
+};
+// Flat bodies of blueprints with a colour alone.
+constexpr std::string_view painted_surface = "plaster";
+
+const texture::WallKind* surface_of_part(std::string_view role) {
+  const auto* const found =
+      std::ranges::find(part_surfaces, role.substr(0, role.find('_')), &Surface::material);
+  return found == std::end(part_surfaces) ? nullptr : texture::wall_kind(found->kind);
+}
+
 const texture::WallKind* surface_named(std::string_view material) {
   const auto* const found = std::ranges::find(surfaces, material, &Surface::material);
   return found == std::end(surfaces) ? nullptr : texture::wall_kind(found->kind);
+}
+
+/// Whether a surface is one of walls, not of roofs.
+bool is_wall(std::string_view material) {
+  const texture::WallKind* const kind = surface_named(material);
+  return kind != nullptr && kind->name != "roof_tile" && kind->name != "slate";
 }
 
 const MaterialPreset* find_preset(std::string_view name) {
@@ -92,6 +112,9 @@ void check_materials(const BuildingParams& params, std::vector<Issue>& issues) {
     check(given.images->normal, "normal");
     check(given.images->surface, "surface");
   }
+  if (params.facade_image.empty()) return;
+  if (std::string error = texture::fault_of_image_uri(params.facade_image); !error.empty())
+    issues.push_back({IssueKind::invalid_value, "/facade_image", std::move(error)});
 }
 
 MaterialTable::MaterialTable(Model& model, const BuildingParams& params, const Shapes& shapes,
@@ -108,6 +131,7 @@ MaterialTable::MaterialTable(Model& model, const BuildingParams& params, const S
                        load(given.images->normal, name + "_normal", at + "normal", job),
                        load(given.images->surface, name + "_surface", at + "surface", job)};
   }
+  facade_image_ = load(params.facade_image, "facade", "/facade_image", job);
 }
 
 int MaterialTable::load(const std::string& uri, const std::string& name, const std::string& pointer,
@@ -120,7 +144,8 @@ int MaterialTable::load(const std::string& uri, const std::string& name, const s
 }
 
 int MaterialTable::material_of(const Shape& shape) {
-  const auto [found, is_new] = made_.try_emplace({shape.style, shape.symbol}, -1);
+  const bool may_have_image = facade_image_ >= 0 && is_upright(shape);
+  const auto [found, is_new] = made_.try_emplace({shape.style, shape.symbol, may_have_image}, -1);
   if (!is_new) return found->second;
   const Style& style = shapes_->styles[shape.style];
   const std::string* const color = shapes_->texts.find(style.color);
@@ -138,14 +163,43 @@ int MaterialTable::material_of(const Shape& shape) {
                  ? lower(symbol)
                  : "building";
   }
-  found->second = make({name, color, false});
+  const bool has_image = may_have_image && is_wall(name);
+  found->second = has_image ? facade_material() : make({name, color, false});
   return found->second;
+}
+
+bool MaterialTable::is_upright(const Shape& shape) const {
+  if (dimension(shape.size) != 2) return false;
+  const glm::dvec3& normal = shapes_->axes[shape.axes][flat_axis(shape.size)];
+  return std::abs(normal.y) < 1e-3;
+}
+
+int MaterialTable::facade_material() {
+  if (facade_material_ >= 0) return facade_material_;
+  Material material;
+  material.name = "facade";
+  material.roughness = 0.9F;
+  material.base_color_texture = {facade_image_, 0, true};
+  facade_material_ = static_cast<int>(model_.materials.size());
+  tiles_[facade_material_] = {params_.facade_tile[0], params_.facade_tile[1]};
+  model_.materials.push_back(std::move(material));
+  return facade_material_;
+}
+
+std::optional<Warning> MaterialTable::unused_facade_image() const {
+  if (facade_image_ < 0 || facade_material_ >= 0) return std::nullopt;
+  return Warning{"/facade_image", "has no effect: no upright face has the material of a wall", 0, 0};
 }
 
 int MaterialTable::material_of_part(std::string_view role, const Style& style) {
   const std::string* const color = shapes_->texts.find(style.color);
-  if (color != nullptr && role == "stone" && !params_.materials.contains(std::string(role)))
-    return make({name_of_color(*color), color, true});
+  if (params_.materials.contains(std::string(role))) return make({std::string(role), nullptr, true});
+  if (color != nullptr && role == "stone") return make({name_of_color(*color), color, true});
+  // The frames and leaves of parts in the material "painted" have the colour in force.
+  const std::string* const material = shapes_->texts.find(style.material);
+  const bool is_painted = material != nullptr && *material == "painted";
+  if (color != nullptr && is_painted && (role == "frame" || role == "door"))
+    return make({std::string(role) + "_" + lower(color->substr(1)), color, true});
   return make({std::string(role), nullptr, true});
 }
 
@@ -158,8 +212,10 @@ const texture::WallKind* MaterialTable::surface_of(const MaterialRequest& reques
     if (own.images || own.texture == BuildingTexture::none) return nullptr;
     if (own.texture != BuildingTexture::auto_) return texture::wall_kind(text_of(own.texture));
   }
+  if (request.is_role) return params_.blueprint ? surface_of_part(request.name) : nullptr;
+  if (params_.blueprint && request.name.starts_with("color_")) return texture::wall_kind(painted_surface);
   const bool by_name = params_.textures == BuildingTextures::made || params_.blueprint.has_value();
-  return by_name && !request.is_role ? surface_named(request.name) : nullptr;
+  return by_name ? surface_named(request.name) : nullptr;
 }
 
 int MaterialTable::make(const MaterialRequest& request) {
@@ -176,10 +232,12 @@ int MaterialTable::make(const MaterialRequest& request) {
   const auto [found, is_new] = by_name_.try_emplace(key, static_cast<int>(model_.materials.size()));
   if (!is_new) return found->second;
   Material material;
-  material.name = is_tinted && takes_color ? name + "_" + lower(color->substr(1)) : name;
+  const bool is_named = color != nullptr && name.ends_with(lower(color->substr(1)));
+  material.name = is_tinted && takes_color && !is_named ? name + "_" + lower(color->substr(1)) : name;
   MaterialPreset preset = known != nullptr ? *known : presets[0];
   for (const PartMaterial& part : part_materials()) {
-    if (known == nullptr && part.role == name)
+    const bool is_painted = is_role && name.starts_with(std::string(part.role) + "_");
+    if (known == nullptr && (part.role == name || is_painted))
       preset = {part.role, *color_of(part.color), static_cast<double>(part.roughness),
                 static_cast<double>(part.metallic), 1};
   }

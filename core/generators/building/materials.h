@@ -1,8 +1,10 @@
 #pragma once
 /// Materials by name: those of the request, built-in ones, and plain colours.
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <tuple>
 
 #include "core/generators/api.h"
 #include "core/generators/building/shapes.h"
@@ -29,12 +31,14 @@ class MaterialTable {
     made_.clear();
   }
   int material_of(const Shape& shape);
-  /// The material of a role of a built-in part. Stone has the colour in force, unless `materials` of the
-  /// request have a stone.
+  /// The material of a role of a built-in part. Stone has the colour in force, and so have frames and
+  /// doors in the material "painted", unless `materials` of the request have the role.
   int material_of_part(std::string_view role, const Style& style);
   /// The size of one tile in metres if the material has textures, and so needs texture coordinates; else
   /// null.
   const glm::dvec2* tile_of(int material) const;
+  /// A warning if no shape had the facade picture of the request.
+  std::optional<Warning> unused_facade_image() const;
 
  private:
   struct MaterialRequest {
@@ -43,6 +47,9 @@ class MaterialTable {
     bool is_role;              ///< of a part
   };
   int make(const MaterialRequest& request);
+  int facade_material();
+  /// An upright flat face, which the facade picture may cover.
+  bool is_upright(const Shape& shape) const;
   const texture::WallKind* surface_of(const MaterialRequest& request) const;
   int load(const std::string& uri, const std::string& name, const std::string& pointer, const Job& job);
 
@@ -54,7 +61,8 @@ class MaterialTable {
     int color = -1, normal = -1, surface = -1;
   };
   std::map<std::string, Textures, std::less<>> textures_;
-  std::map<std::pair<std::uint32_t, std::uint32_t>, int> made_;  ///< style and symbol
+  std::map<std::tuple<std::uint32_t, std::uint32_t, bool>, int> made_;  ///< style, symbol, upright
+  int facade_image_ = -1, facade_material_ = -1;
   std::map<std::string, int> by_name_;
   std::map<int, glm::dvec2> tiles_;
   std::vector<std::string> symbols_;

@@ -115,10 +115,12 @@ constexpr OperationRow rows[] = {
     {"I", Op::place, "t|nnn", Braces::absent, "name, count, frame, angle",
      "Places a solid, a part or an asset in the scope, as a leaf of its own. The shape does not change.",
      "A ~> [ I(\"cube\") ] T(0, 3, 0) I(\"pyramid\")"},
-    {"i", Op::insert, "t|xxx", Braces::absent, "name, count or up axis, frame or mode, angle",
+    {"i", Op::insert, "t|xxxx", Braces::absent, "name, count or up axis, frame or mode, angle, room",
      "Replaces the geometry of the shape by a solid, a part or an asset that fills the scope. Sizes of 0 "
      "follow from the others. For parts: the number of panes, steps, sides or teeth, the width of the frame, "
-     "and the angle of the roof; 0 means by size.",
+     "and the angle of the roof; 0 means by size. The last number says what is behind a window: 0 darkness, "
+     "1 "
+     "curtains, 2 a blind, 3 a short curtain.",
      "A --> i(\"cylinder\")"},
     {"primitive", Op::insert, "t", Braces::absent, "name", "As i.", "A --> primitive(\"prism\")"},
     {"color", Op::color, "t|nnn", Braces::absent, "color",

@@ -122,6 +122,7 @@ std::uint32_t options_of(Derivation& d, const Step& step) {
   options.count = math::to_int32(given(1, 1'000, "the count of a part"));
   options.frame = given(2, 10, "the frame of a part");
   options.angle = math::radians(given(3, 85, "the angle of a part"));
+  options.room = math::to_int32(given(4, 3, "the room behind a window"));
   const auto [found, is_new] =
       d.part_option_ids.try_emplace(options, static_cast<std::uint32_t>(d.out.part_options.size()));
   if (is_new) d.out.part_options.push_back(options);

@@ -1,10 +1,14 @@
 /// The words of the rules, for GET /v1/vocabulary: operations, and what is no operation.
+#include <algorithm>
 #include <nlohmann/json.hpp>
+#include <vector>
 
+#include "core/generators/building/blueprints/blueprints.h"
 #include "core/generators/building/building.h"
 #include "core/generators/building/materials.h"
 #include "core/generators/building/operations.h"
 #include "core/generators/building/parts/parts.h"
+#include "core/generators/building/syntax.h"
 #include "core/generators/building/value_functions.h"
 
 namespace seedmesh::building {
@@ -129,6 +133,29 @@ std::pair<int, int> arity_of(std::string_view arguments) {
   return {static_cast<int>(bar), static_cast<int>(arguments.size()) - 1};
 }
 
+/// The attributes of a blueprint that have a range or a list of values.
+Json attributes_of(const Blueprint& blueprint) {
+  std::vector<lang::TextError> errors;  // none: tests read every blueprint
+  const RuleText text = rule_text(blueprint.rules);
+  const Grammar grammar = read_rules(text, "", errors);
+  std::vector<Json> rows;
+  for (const Attribute& attribute : grammar.attributes) {
+    if (attribute.is_hidden || (!attribute.has_range && attribute.choices.empty())) continue;
+    Json row = {{"name", attribute.name}};
+    if (attribute.has_range) {
+      row["minimum"] = attribute.low;
+      row["maximum"] = attribute.high;
+    }
+    for (const lang::TaggedValue& value : attribute.choices) {
+      const std::string* const word = grammar.texts.find(value.text);
+      row["values"].push_back(word != nullptr ? Json(*word) : Json(value.number));
+    }
+    rows.push_back(std::move(row));
+  }
+  std::sort(rows.begin(), rows.end(), [](const Json& a, const Json& b) { return a["name"] < b["name"]; });
+  return Json(std::move(rows));
+}
+
 }  // namespace
 
 Json vocabulary() {
@@ -170,7 +197,12 @@ Json vocabulary() {
                      {"example", "A --> i(\"" + std::string(row.name) + "\")"}});
   Json materials = Json::array();
   for (const std::string_view name : built_in_materials()) materials.push_back(name);
-  return {{"building_operations", std::move(operation_rows)},
+  Json blueprint_rows = Json::array();
+  for (const Blueprint& blueprint : blueprints())
+    blueprint_rows.push_back(
+        {{"kind", "blueprint"}, {"name", blueprint.name}, {"attributes", attributes_of(blueprint)}});
+  return {{"building_blueprints", std::move(blueprint_rows)},
+          {"building_operations", std::move(operation_rows)},
           {"building_words", std::move(word_rows)},
           {"building_parts", std::move(parts)},
           {"building_materials", std::move(materials)}};

@@ -7,6 +7,7 @@
 
 #include "core/base/math.h"
 #include "core/generators/city/growth.h"
+#include "core/generators/city/tensor.h"
 #include "generated/params/city.h"
 
 namespace seedmesh::city {
@@ -45,6 +46,7 @@ class Cell final : public RoadRules {
  public:
   Cell(const GrowthInput& input, Rng rng)
       : input_(input), streets_(input.streets), rng_(rng), network_(limits_of(input.streets)) {
+    is_along_tensor_ = input.tensor && !streets_.minor_pattern;
     if (streets_.minor_pattern) {
       is_raster_ = *streets_.minor_pattern == CityMinorPattern::raster;
       is_radial_ = *streets_.minor_pattern == CityMinorPattern::radial;
@@ -117,12 +119,13 @@ class Cell final : public RoadRules {
     const double density = input_.density.at(in_metres(network_.nodes()[road.start]));
     const double length = streets_.length * 100 * (1.3 - 0.5 * density) *
                           (1 + draw.uniform(-streets_.length_spread, streets_.length_spread));
-    const double bend = is_raster_ || is_radial_ ? 0 : draw.uniform(-streets_.bend, streets_.bend);
+    const bool is_straight = is_raster_ || is_radial_ || is_along_tensor_;
+    const double bend = is_straight ? 0 : draw.uniform(-streets_.bend, streets_.bend);
     const std::int32_t pieces = std::max(1, math::to_int32(length / piece_length + 0.5));
     dvec2 direction = aligned(road.direction, road.start);
     std::uint32_t node = road.start;
     for (std::int32_t n = 0; n < pieces; ++n) {
-      if (n > 0) direction = rotated(direction, bend / pieces);
+      if (n > 0) direction = is_along_tensor_ ? aligned(direction, node) : rotated(direction, bend / pieces);
       const dvec2 end = in_cm(network_.nodes()[node]) + direction * (length / pieces);
       if (input_.density.at(end / 100.0) < least_density ||
           input_.is_blocked(in_cm(network_.nodes()[node]), end))
@@ -222,11 +225,13 @@ class Cell final : public RoadRules {
 
   /// The direction, or that of the pattern which is nearest to it.
   dvec2 aligned(const dvec2& direction, std::uint32_t node) const {
-    if (!is_raster_ && !is_radial_) return direction;
-    dvec2 best = frame_at(streets_, is_radial_, in_cm(network_.nodes()[node]));
+    if (!is_raster_ && !is_radial_ && !is_along_tensor_) return direction;
+    const dvec2 p = in_cm(network_.nodes()[node]);
+    const dvec2 frame = is_along_tensor_ ? input_.tensor->direction_at(p) : frame_at(streets_, is_radial_, p);
+    if (frame == dvec2(0)) return direction;
+    dvec2 best = frame;
     for (int quarter = 0; quarter < 4; ++quarter) {
-      const dvec2 turned =
-          rotated(frame_at(streets_, is_radial_, in_cm(network_.nodes()[node])), 90.0 * quarter);
+      const dvec2 turned = rotated(frame, 90.0 * quarter);
       if (glm::dot(turned, direction) > glm::dot(best, direction)) best = turned;
     }
     return best;
@@ -265,7 +270,7 @@ class Cell final : public RoadRules {
   const CityStreets& streets_;
   Rng rng_;
   std::uint64_t cell_key_ = 0;
-  bool is_raster_ = false, is_radial_ = false;
+  bool is_raster_ = false, is_radial_ = false, is_along_tensor_ = false;
   Network network_;
   std::map<CmPoint, std::uint32_t> by_point_;
   std::map<std::uint32_t, int> seen_;

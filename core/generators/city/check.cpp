@@ -97,6 +97,9 @@ std::vector<Issue> check(const CityParams& params, const CheckContext& context) 
   issues.insert(issues.end(), of_streets.begin(), of_streets.end());
   if (params.streets.method == CityMethod::given && !params.given.given_streets)
     issues.push_back({IssueKind::missing, "/given/streets", "the method given needs streets"});
+  if (params.streets.method == CityMethod::wards && params.given.given_streets)
+    issues.push_back({IssueKind::conflict, "/given/streets",
+                      "found given streets; the method wards lays out all streets"});
   return issues;
 }
 

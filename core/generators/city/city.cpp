@@ -12,6 +12,8 @@
 #include "core/generators/city/lots.h"
 #include "core/generators/city/plan_json.h"
 #include "core/generators/city/statistics.h"
+#include "core/generators/city/tensor.h"
+#include "core/generators/city/wards.h"
 #include "core/generators/city/zoning.h"
 #include "core/generators/unused.h"
 #include "core/schema/warning_list.h"
@@ -124,16 +126,27 @@ Result<CityPlan> plan_of(const CityParams& params, Job& job) {
   plan.region = region_of_request(params, maps, plan.area, job, issues);
   const Route given = given_route_of(plan.region, lines);
   job.progress("streets", 0);
-  plan.graph = grow_streets({params.streets, *maps.density, grammar, plan.region,
-                             maps.obstacles ? &*maps.obstacles : nullptr, lines.empty() ? nullptr : &given},
-                            job);
+  const FieldMap* obstacles = maps.obstacles ? &*maps.obstacles : nullptr;
+  WardPlan wards;
+  const bool has_wards = params.streets.method == CityMethod::wards;
+  if (has_wards)
+    wards = lay_out_wards(params, plan.region, *maps.density, obstacles, plan.classes, job, issues);
+  std::optional<TensorField> tensor;
+  if (params.streets.method == CityMethod::tensor) tensor.emplace(params.streets, plan.region, issues);
+  if (!issues.empty()) return Error{Code::invalid, std::move(issues)};
+  plan.graph = grow_streets(
+      {params.streets, *maps.density, grammar, plan.region, obstacles, lines.empty() ? nullptr : &given,
+       has_wards ? &wards : nullptr, tensor ? &*tensor : nullptr},
+      job);
+  plan.wards = std::move(wards.wards);
+  plan.gates = std::move(wards.gates);
   plan.charges.emplace_back(job, plan.graph.edges.size() * bytes_a_street);
   job.progress("blocks", 0);
   const std::vector<BlockOutline> blocks = lay_out_streets(plan, job);
   job.progress("lots", 0);
   divide_blocks(plan, blocks, params.lots, *maps.density, job);
   plan.charges.emplace_back(job, plan.lots.size() * bytes_a_lot);
-  place_houses(plan, params, maps.obstacles ? &*maps.obstacles : nullptr, job);
+  place_houses(plan, params, obstacles, job);
   return plan;
 }
 

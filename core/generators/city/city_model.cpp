@@ -182,7 +182,7 @@ void add_ground(Model& model, const CityPlan& plan, Job& job) {
     GroundMesh mesh(job);
     std::size_t done = 0;
     for (const Part& part : plan.parts) {
-      if (static_cast<std::size_t>(part.kind) != kind) continue;
+      if (static_cast<std::size_t>(part.kind) != kind || part.is_wall) continue;
       if (done++ % 256 == 0) job.check();
       mesh.add_part(part, height_of(part.kind));
       if (part.kind == PartKind::water) continue;
@@ -209,20 +209,50 @@ void add_ground(Model& model, const CityPlan& plan, Job& job) {
   }
 }
 
+/// Adds a node with one mesh.
+void add_mesh(Model& model, const char* name, const Look& look, Mesh mesh) {
+  MeshGroup group;
+  group.name = name;
+  Primitive primitive;
+  primitive.mesh = std::move(mesh);
+  primitive.material = static_cast<int>(model.materials.size());
+  model.materials.push_back(material_of(look));
+  group.primitives.push_back(std::move(primitive));
+  const int node = add_node(model, name, 0);
+  model.nodes[static_cast<std::size_t>(node)].mesh = static_cast<int>(model.meshes.size());
+  model.meshes.push_back(std::move(group));
+}
+
+/// The parts of a town wall, raised to its height.
+void add_town_wall(Model& model, const CityPlan& plan, double height, Job& job) {
+  std::vector<DirectedEdge> edges;
+  for (const Part& part : plan.parts) {
+    if (!part.is_wall) continue;
+    for (const CmRing& ring : part.rings) {
+      for (std::size_t i = 0; i < ring.size(); ++i) edges.push_back({ring[i], ring[(i + 1) % ring.size()]});
+    }
+  }
+  if (edges.empty()) return;
+  std::sort(edges.begin(), edges.end());
+  const std::vector<DirectedEdge> low = low_edges(plan);
+  GroundMesh mesh(job);
+  for (const Part& part : plan.parts) {
+    if (part.is_wall) mesh.add_part(part, height);
+  }
+  for (const DirectedEdge& edge : edges) {
+    const DirectedEdge back{edge.b, edge.a};
+    if (std::binary_search(edges.begin(), edges.end(), back)) continue;
+    const bool is_at_kerb = std::binary_search(low.begin(), low.end(), back);
+    mesh.add_wall(edge.a, edge.b, is_at_kerb ? 0 : kerb_height, height);
+  }
+  add_mesh(model, "wall", {"wall", {0x8d, 0x84, 0x74}, 0.95F}, mesh.take(job));
+}
+
 void add_bridges(Model& model, const CityPlan& plan, Job& job) {
   Mesh mesh = bridge_mesh(plan, job);
   if (mesh.elements() == 0) return;
   job.spend(Resource::triangles, mesh.elements());
-  MeshGroup group;
-  group.name = "bridges";
-  Primitive primitive;
-  primitive.mesh = std::move(mesh);
-  primitive.material = static_cast<int>(model.materials.size());
-  model.materials.push_back(material_of({"bridge", {0x8a, 0x88, 0x84}, 0.9F}));
-  group.primitives.push_back(std::move(primitive));
-  const int node = add_node(model, "bridges", 0);
-  model.nodes[static_cast<std::size_t>(node)].mesh = static_cast<int>(model.meshes.size());
-  model.meshes.push_back(std::move(group));
+  add_mesh(model, "bridges", {"bridge", {0x8a, 0x88, 0x84}, 0.9F}, std::move(mesh));
 }
 
 int add_material(Model& model, Material material) {
@@ -303,6 +333,7 @@ std::uint64_t ground_triangles(const CityPlan& plan) {
   for (const Part& part : plan.parts) {
     for (const CmRing& ring : part.rings) count += ring.size();
     count += 2 * part.rings.size() - 4;
+    if (part.is_wall) count += 2 * part.rings[0].size() - 4;
     if (part.kind == PartKind::water) continue;
     count += 2 * count_kerbs(part, water);
     if (!is_low(part.kind)) count += 2 * count_kerbs(part, low);
@@ -316,6 +347,7 @@ Result<Model> city_model(const CityPlan& plan, const CityParams& params, const G
   model.name = "city";
   add_node(model, "city", -1);
   add_ground(model, plan, job);
+  add_town_wall(model, plan, params.streets.wards.wall_height, job);
   add_bridges(model, plan, job);
   const std::vector<SharedHouse> houses = shared_houses(plan, params);
   if (houses.empty()) return model;

@@ -16,6 +16,9 @@ struct CityStreets;
 
 namespace seedmesh::city {
 
+struct WardPlan;
+class TensorField;
+
 /// What the growth reads.
 struct GrowthInput {
   const CityStreets& streets;
@@ -24,6 +27,8 @@ struct GrowthInput {
   const Region& region;
   const FieldMap* obstacles = nullptr;  ///< null: none
   const Route* given = nullptr;         ///< null: none
+  const WardPlan* wards = nullptr;      ///< null: major streets grow
+  const TensorField* tensor = nullptr;  ///< null: streets follow patterns
 
   /// Whether an obstacle is at a position in metres.
   bool is_blocked(const glm::dvec2& metres) const { return obstacles && obstacles->at(metres) >= 0.5; }

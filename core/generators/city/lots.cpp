@@ -9,6 +9,7 @@
 #include "core/base/math.h"
 #include "core/base/parallel.h"
 #include "core/generators/city/division.h"
+#include "core/generators/city/wards.h"
 #include "generated/params/city.h"
 
 namespace seedmesh::city {
@@ -58,8 +59,18 @@ std::uint64_t block_key(const CityPlan& plan, const BlockOutline& outline) {
 /// How a block was divided, made by one thread.
 struct Divided {
   std::optional<Division> division;
-  bool is_park = false;
+  bool is_park = false, is_square = false;
+  std::string zone;
 };
+
+/// A position just inside of a block: 2 cm to the left of the middle of its longest edge.
+glm::dvec2 position_in(const CmRing& ring) {
+  std::size_t longest = 0;
+  const auto length = [&ring](std::size_t i) { return distance(ring[i], ring[(i + 1) % ring.size()]); };
+  for (std::size_t i = 1; i < ring.size(); ++i) longest = length(i) > length(longest) ? i : longest;
+  const dvec2 a = in_cm(ring[longest]), along = in_cm(ring[(longest + 1) % ring.size()]) - a;
+  return a + along / 2.0 + dvec2(-along.y, along.x) * (2 / length(longest));
+}
 
 /// Fills in what a lot is, from its piece.
 Lot lot_of(const CityPlan& plan, const Division& division, const Piece& piece) {
@@ -138,7 +149,7 @@ void add_block(CityPlan& plan, const BlockOutline& outline, const Divided& divid
   if (divided.is_park) {
     Part part;
     const bool is_small = area_of(block.rings) < 1500;
-    part.kind = is_small ? PartKind::square : PartKind::park;
+    part.kind = is_small || divided.is_square ? PartKind::square : PartKind::park;
     part.block = number;
     part.rings = block.rings;
     plan.parts.push_back(std::move(part));
@@ -157,6 +168,7 @@ void add_block(CityPlan& plan, const BlockOutline& outline, const Divided& divid
     Lot lot = lot_of(plan, division, piece);
     lot.part = static_cast<std::uint32_t>(plan.parts.size());
     lot.density = density.at(middle_of(piece.ring));
+    lot.zone = divided.zone;
     Part part;
     part.kind = PartKind::lot;
     part.block = number;
@@ -185,6 +197,8 @@ double area_of(const std::vector<CmRing>& rings) {
 void divide_blocks(CityPlan& plan, const std::vector<BlockOutline>& outlines, const CityLots& lots,
                    const FieldMap& density, Job& job) {
   std::vector<Divided> divided(outlines.size());
+  CityLots whole = lots;  // of a citadel
+  whole.division = CityDivision::none;
   const Rng rng = job.rng().at("lots");
   parallel_for(job, outlines.size(), blocks_a_chunk, [&](std::size_t begin, std::size_t end, std::size_t) {
     job.check();
@@ -192,10 +206,14 @@ void divide_blocks(CityPlan& plan, const std::vector<BlockOutline>& outlines, co
       const BlockOutline& outline = outlines[i];
       const std::uint64_t key = block_key(plan, outline);
       Divided& each = divided[i];
-      each.division.emplace(outline, lots, key, rng);
+      const Ward* ward = ward_at(plan.wards, position_in(outline.ring));
+      if (ward) each.zone = ward->zone;
+      each.division.emplace(outline, each.zone == zone_citadel ? whole : lots, key, rng);
+      each.is_square = each.zone == zone_square;
+      const bool is_outside = !plan.wards.empty() && !ward;
       const bool is_empty = density.at(middle_of(outline.ring)) < 0.1;
-      each.is_park = !outline.holes.empty() || is_empty || !each.division->holds_lots() ||
-                     rng.at("park").at(key).unit() < lots.park_share;
+      each.is_park = !outline.holes.empty() || is_empty || is_outside || each.is_square ||
+                     !each.division->holds_lots() || rng.at("park").at(key).unit() < lots.park_share;
       if (!each.is_park) each.division->cut(job);
     }
   });

@@ -24,6 +24,7 @@ struct CrossSection {
   std::array<double, 2> sidewalk = {0, 0};  ///< left and right
   int lanes = 0;
   double grade_limit = 0.12;  ///< rise over run
+  bool has_wall = false;      ///< on the right side of its streets, in place of the sidewalk
   friend bool operator==(const CrossSection&, const CrossSection&) = default;
 };
 
@@ -90,7 +91,16 @@ struct Part {
   PartKind kind = PartKind::verge;
   std::uint32_t street = no_index, node = no_index, block = no_index;  ///< what it belongs to
   std::vector<CmRing> rings;
+  bool is_wall = false;  ///< a verge that a town wall fills
 };
+
+/// A quarter of a town of wards. Its outline runs along the middle of the streets around it.
+struct Ward {
+  CmRing ring;
+  std::string zone;
+};
+/// Zones without minor streets: the first is a square, and the second one lot.
+constexpr const char *zone_square = "square", *zone_citadel = "citadel";
 
 /// A house that stands on a lot.
 struct House {
@@ -109,7 +119,8 @@ struct Lot {
   std::uint32_t street = no_index;  ///< of its front: an edge of the graph
   bool is_corner = false, is_inner = false;
   double density = 0;
-  CmRing corners;  ///< without the corners of neighbours in between
+  std::string zone;  ///< empty without zones
+  CmRing corners;    ///< without the corners of neighbours in between
   CmPoint front_start, front_end;
   std::optional<House> house;
 };
@@ -148,6 +159,8 @@ struct CityPlan {
   std::vector<CmRing> area;
   Region region;                      ///< the same, divided into land and water
   std::vector<CrossSection> classes;  ///< by EdgeClass, then those of given streets
+  std::vector<Ward> wards;            ///< empty unless the method is wards
+  std::vector<CmPoint> gates;         ///< nodes where streets pass a town wall
   StreetGraph graph;
   std::vector<Part> parts;
   std::vector<Block> blocks;

@@ -1,5 +1,6 @@
 #include "core/generators/city/plan_json.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -59,6 +60,8 @@ class Writer {
 
   const char* type_of(std::uint32_t node, std::uint32_t degree) const {
     if (plan_.graph.is_at_area_border(node)) return "border";
+    const std::vector<CmPoint>& gates = plan_.gates;
+    if (std::find(gates.begin(), gates.end(), plan_.graph.nodes[node]) != gates.end()) return "gate";
     return degree == 1 ? "dead_end" : degree == 2 ? "bend" : "junction";
   }
 
@@ -110,7 +113,7 @@ class Writer {
                                  {"tunnel", street.level < 0},
                                  {"grade", grade_of(street)},
                                  {"grade_limit", section.grade_limit},
-                                 {"given", street.tag >= first_given}}));
+                                 {"given", street.tag >= first_given && !section.has_wall}}));
   }
 
   void add_block(const Block& block) {
@@ -137,7 +140,7 @@ class Writer {
     properties["frontage"] = lot.frontage;
     properties["corner"] = lot.is_corner;
     properties["inner"] = lot.is_inner;
-    properties["zone"] = nullptr;
+    properties["zone"] = lot.zone.empty() ? Json() : Json(lot.zone);
     properties["building"] = nullptr;
     if (!lot.house) return;
     const Child request = request_of(*lot.house, params_);

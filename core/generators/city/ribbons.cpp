@@ -244,6 +244,13 @@ class StreetSpace {
     plan_.parts.push_back(std::move(part));
   }
 
+  /// A town wall takes the place of the sidewalk on the right side of its street.
+  void add_sidewalk(std::uint32_t half) {
+    const bool is_wall = half % 2 == 1 && plan_.class_of(half / 2).has_wall;
+    add_part(is_wall ? PartKind::verge : PartKind::sidewalk, sidewalk_ring(half), half / 2, no_index);
+    plan_.parts.back().is_wall = is_wall;
+  }
+
   void add_junctions() {
     for (std::uint32_t node = 0; node < graph_.nodes.size(); ++node) {
       const auto around = graph_.arms.of(node);
@@ -312,7 +319,7 @@ class StreetSpace {
       for (const std::uint32_t half : outline.half_edges) {
         const std::uint32_t part =
             graph_.is_street(half / 2) ? static_cast<std::uint32_t>(plan_.parts.size()) : no_index;
-        if (part != no_index) add_part(PartKind::sidewalk, sidewalk_ring(half), half / 2, no_index);
+        if (part != no_index) add_sidewalk(half);
         if (!outline.is_outer) continue;
         add_block_edges(block, half, part);
       }

@@ -141,7 +141,10 @@ bool applies(const CityBuildingRule& rule, const Lot& lot, double distance) {
   const auto holds = [](const std::array<double, 2>& range, double value) {
     return range[0] <= value && value <= range[1];
   };
-  return holds(rule.density, lot.density) && holds(rule.distance, distance) && holds(rule.lot, lot.area);
+  const bool is_zone =
+      rule.zones.empty() || std::find(rule.zones.begin(), rule.zones.end(), lot.zone) != rule.zones.end();
+  return is_zone && holds(rule.density, lot.density) && holds(rule.distance, distance) &&
+         holds(rule.lot, lot.area);
 }
 
 /// The rules that apply, in an order drawn by their weights (Efraimidis and Spirakis 2006).

@@ -5,6 +5,7 @@
 
 #include "core/base/math.h"
 #include "core/base/parallel.h"
+#include "core/base/wide.h"
 #include "core/generators/fractal/element.h"
 #include "generated/params/fractal.h"
 
@@ -14,17 +15,51 @@ namespace {
 constexpr double far =
     1e6;  ///< squared distance at which a point has left; large, so that fractions are smooth
 
-/// Steps until z leaves, with a fraction; negative if it does not leave within the limit.
-double steps_to_leave(double zr, double zi, double cr, double ci, int limit) {
-  double rr = zr * zr, ii = zi * zi;
-  for (int step = 0; step < limit; ++step) {
-    if (rr + ii > far) return step + 1 - math::log(math::log(rr + ii) / math::log(far)) / math::log(2.0);
-    zi = 2 * zr * zi + ci;
-    zr = rr - ii + cr;
-    rr = zr * zr;
-    ii = zi * zi;
+constexpr int lanes = 16;         ///< points that are iterated together
+constexpr int steps_a_look = 16;  ///< steps between two tests whether all points have left
+
+/// z and c of some points, and how many steps they have made. A point that has left stays where it is.
+struct Orbits {
+  double zr[lanes], zi[lanes], cr[lanes], ci[lanes], steps[lanes];
+};
+
+/// Iterates until every point has left or made `limit` steps.
+SEEDMESH_WIDE void iterate(Orbits& orbits, int limit) {
+  for (int step = 0; step < limit; step += steps_a_look) {
+    const int last = std::min(steps_a_look, limit - step);
+    for (int i = 0; i < last; ++i) {
+      for (int k = 0; k < lanes; ++k) {
+        const double rr = orbits.zr[k] * orbits.zr[k], ii = orbits.zi[k] * orbits.zi[k];
+        const double next_i = 2 * orbits.zr[k] * orbits.zi[k] + orbits.ci[k], next_r = rr - ii + orbits.cr[k];
+        const bool has_left = rr + ii > far;
+        orbits.zi[k] = has_left ? orbits.zi[k] : next_i;
+        orbits.zr[k] = has_left ? orbits.zr[k] : next_r;
+        orbits.steps[k] += has_left ? 0.0 : 1.0;
+      }
+    }
+    int gone = 0;
+    for (int k = 0; k < lanes; ++k)
+      gone += orbits.zr[k] * orbits.zr[k] + orbits.zi[k] * orbits.zi[k] > far ? 1 : 0;
+    if (gone == lanes) return;
   }
-  return -1;
+}
+
+/// The logarithms that all points need.
+struct Scale {
+  explicit Scale(int step_limit)
+      : limit(step_limit),
+        log_far(math::log(far)),
+        log_two(math::log(2.0)),
+        log_limit(math::log(std::max(limit, 2.0))) {}
+  double limit, log_far, log_two, log_limit;
+};
+
+/// Steps until z leaves, with a fraction, on a logarithmic scale from 0 to 0.999; 1 where it does not leave.
+double value_of(const Orbits& orbits, int lane, const Scale& scale) {
+  const double norm = orbits.zr[lane] * orbits.zr[lane] + orbits.zi[lane] * orbits.zi[lane];
+  if (orbits.steps[lane] >= scale.limit) return 1;
+  const double steps = orbits.steps[lane] + 1 - math::log(math::log(norm) / scale.log_far) / scale.log_two;
+  return std::min(math::log(std::clamp(steps, 1.0, scale.limit)) / scale.log_limit, 0.999);
 }
 
 /// Builds the plate: the relief, four walls and the underside, each with its own vertices.
@@ -200,22 +235,23 @@ EscapeField escape_field(const FractalParams& params, Job& job) {
   const double step = window.span / (side - 1), top = window.center[1] + window.span / 2,
                left = window.center[0] - window.span / 2;
   const bool julia = window.set == FractalSet::julia;
-  const double least_steps = 1, most_steps = window.limit;
+  const Scale scale(window.limit);
   parallel_for(job, side, 1, [&](std::size_t begin, std::size_t end, std::size_t) {
     for (std::size_t j = begin; j < end; ++j) {
-      for (std::uint32_t i = 0; i < side; ++i) {
-        if (i % 64 == 0) job.check();
-        const double re = left + step * i, im = top - step * static_cast<double>(j);
-        const double steps =
-            julia ? steps_to_leave(re, im, window.constant[0], window.constant[1], window.limit)
-                  : steps_to_leave(0, 0, re, im, window.limit);
-        double value = 1;
-        if (steps >= 0) {
-          value =
-              math::log(std::clamp(steps, least_steps, most_steps)) / math::log(std::max(most_steps, 2.0));
-          value = std::min(value, 0.999);
+      const double im = top - step * static_cast<double>(j);
+      for (std::uint32_t i = 0; i < side; i += lanes) {
+        job.check();
+        Orbits orbits{};
+        for (std::uint32_t k = 0; k < lanes; ++k) {
+          const double re = left + step * std::min(i + k, side - 1);
+          orbits.zr[k] = julia ? re : 0;
+          orbits.zi[k] = julia ? im : 0;
+          orbits.cr[k] = julia ? window.constant[0] : re;
+          orbits.ci[k] = julia ? window.constant[1] : im;
         }
-        field.value[j * side + i] = static_cast<float>(value);
+        iterate(orbits, window.limit);
+        for (std::uint32_t k = 0; k < lanes && i + k < side; ++k)
+          field.value[j * side + i + k] = static_cast<float>(value_of(orbits, static_cast<int>(k), scale));
       }
     }
   });

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "core/generators/terrain/layers.h"
 #include "core/generators/terrain/plan.h"
 #include "core/generators/terrain/triangulation.h"
 #include "core/schema/json.h"
@@ -33,6 +34,7 @@ class Check {
     if (params_.hydraulic) hydraulic();
     if (params_.onto) onto();
     mesh();
+    for (Issue& issue : layer_errors(params_)) issues_.push_back(std::move(issue));
     return std::move(issues_);
   }
 
@@ -61,7 +63,11 @@ class Check {
 
   void belongings() {
     using enum TerrainAlgorithm;
-    belongs("resolution", params_.resolution, {fault_formation, poisson_faulting, fbm});
+    belongs("resolution", params_.resolution, {fault_formation, poisson_faulting, fbm, expression});
+    belongs("expression", params_.expression, {expression});
+    if (is({expression}) && !params_.expression)
+      fault(IssueKind::missing, "",
+            "\"expression\" is missing; the algorithm expression takes its heights from it");
     belongs("amplitude", params_.amplitude, {triangular_edge, diamond_square, square_square, fbm});
     belongs("hurst", params_.hurst, {triangular_edge, diamond_square, square_square, fbm});
     belongs("corners", params_.corners, {triangular_edge, diamond_square});
@@ -95,10 +101,11 @@ class Check {
         "found " + std::to_string(planned) +
         (params_.extra_iterations > 0 ? " and " + std::to_string(params_.extra_iterations) + " extra" : "");
     using enum TerrainAlgorithm;
-    if (is({image})) {
-      if (params_.iterations) fault(IssueKind::conflict, "/iterations", "an image has no iterations");
-      if (params_.extra_iterations > 0)
-        fault(IssueKind::conflict, "/extra_iterations", "an image has no iterations");
+    if (is({image, expression})) {
+      const std::string reason =
+          std::string("the algorithm ") + std::string(text_of(params_.algorithm)) + " has no iterations";
+      if (params_.iterations) fault(IssueKind::conflict, "/iterations", reason);
+      if (params_.extra_iterations > 0) fault(IssueKind::conflict, "/extra_iterations", reason);
     } else if (is({triangular_edge, diamond_square, square_square}) && all > most_rounds) {
       fault(IssueKind::out_of_range, "/iterations",
             found + "; expected at most " + std::to_string(most_rounds) +
@@ -162,10 +169,11 @@ class Check {
 
   void sphere() {
     using enum TerrainAlgorithm;
-    if (!is({fault_formation, poisson_faulting, fbm}))
-      return fault(IssueKind::not_available, "/shape",
-                   std::string(text_of(params_.algorithm)) +
-                       " cannot make a sphere; expected fault_formation, poisson_faulting or fbm");
+    if (!is({fault_formation, poisson_faulting, fbm, expression}))
+      return fault(
+          IssueKind::not_available, "/shape",
+          std::string(text_of(params_.algorithm)) +
+              " cannot make a sphere; expected fault_formation, poisson_faulting, fbm or expression");
     if (params_.resolution && *params_.resolution > longest_sphere)
       fault(IssueKind::out_of_range, "/resolution",
             "found " + std::to_string(*params_.resolution) + "; expected at most " +

@@ -13,6 +13,8 @@ namespace seedmesh::terrain {
 namespace {
 
 constexpr std::size_t rows_a_chunk = 32;
+// Fresh snow reflects at most nine tenths of the light (Wiscombe and Warren, 1980).
+constexpr float brightest = 0.9F;
 
 struct Srgb {
   std::uint8_t r, g, b;
@@ -156,7 +158,7 @@ glm::vec3 GroundColors::color(const Site& site) const {
   color = blend(color, linear(ramp.bed), all.bed);
   // Hollows are darker, ridges brighter, and patches vary.
   const float light = std::clamp(1 - site.hollow * 0.9F, 0.55F, 1.25F) * (1 + site.patch * 0.08F);
-  return glm::clamp(color * light, glm::vec3(0), glm::vec3(1));
+  return glm::clamp(color * light, glm::vec3(0), glm::vec3(brightest));
 }
 
 Sites::Sites(const Field& field, const Window& world, Rng rng, const Job& job)

@@ -1,9 +1,10 @@
 #include "core/generators/terrain/flow.h"
 
+#include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
-#include <queue>
-#include <vector>
+#include <utility>
 
 #include "core/base/math.h"
 #include "core/generators/terrain/filters.h"
@@ -28,13 +29,63 @@ constexpr std::uint32_t none = 0xFFFFFFFFU;
 // Number of samples between two checks of the clock.
 constexpr std::size_t look = 4096;
 
-struct Front {
-  float height;
-  std::uint32_t sample;
-  /// Orders by height, then by sample number, so that the order is unique.
-  bool operator<(const Front& other) const {
-    return height != other.height ? height > other.height : sample > other.sample;
+/// The numbers of all samples in ascending order of height, and of number where heights are equal: a radix sort of three
+/// digits. Heights are finite.
+Array<std::uint32_t> ascending(const Field& field, const Job& job) {
+  constexpr std::uint32_t digit = 11, values = 1U << digit, sign = 1U << 31U;
+  const std::size_t count = field.heights.size();
+  Array<std::uint64_t> items(job, count), sorted(job, count);
+  std::array<std::array<std::uint32_t, values>, 3> starts{};
+  for (std::size_t i = 0; i < count; ++i) {
+    // Bits of floats compare as their values do once the sign is turned, and all bits of negative ones.
+    const auto bits = std::bit_cast<std::uint32_t>(field.heights[i] + 0.0F);
+    const std::uint32_t key = (bits & sign) != 0 ? ~bits : bits | sign;
+    items[i] = std::uint64_t{key} << 32U | i;
+    for (std::uint32_t pass = 0; pass < 3; ++pass) ++starts[pass][key >> (digit * pass) & (values - 1)];
   }
+  for (std::uint32_t pass = 0; pass < 3; ++pass) {
+    job.check();
+    std::uint32_t sum = 0;
+    for (std::uint32_t& start : starts[pass]) start = std::exchange(sum, sum + start);
+    for (const std::uint64_t item : items)
+      sorted[starts[pass][item >> (32 + digit * pass) & (values - 1)]++] = item;
+    std::swap(items, sorted);
+  }
+  Array<std::uint32_t> order(job, count);
+  for (std::size_t i = 0; i < count; ++i) order[i] = static_cast<std::uint32_t>(items[i]);
+  return order;
+}
+
+/// Samples that wait, in the order of their levels, which are ranks of heights. A sample enters at the level of the
+/// last one that left, or above it.
+class LevelQueue {
+ public:
+  LevelQueue(std::size_t count, const Job& job)
+      : first_(job, count, none), last_(job, count), next_(job, count) {}
+
+  void push(std::uint32_t level, std::uint32_t sample) {
+    next_[sample] = none;
+    if (first_[level] == none) {
+      first_[level] = sample;
+    } else {
+      next_[last_[level]] = sample;
+    }
+    last_[level] = sample;
+  }
+  /// The first sample of the lowest level, or none.
+  std::uint32_t pop() {
+    while (level_ < first_.size() && first_[level_] == none) ++level_;
+    if (level_ == first_.size()) return none;
+    const std::uint32_t sample = first_[level_];
+    first_[level_] = next_[sample];
+    return sample;
+  }
+  /// Of the last sample that left.
+  std::uint32_t level() const { return static_cast<std::uint32_t>(level_); }
+
+ private:
+  Array<std::uint32_t> first_, last_, next_;
+  std::size_t level_ = 0;
 };
 
 template <class Body>
@@ -48,50 +99,64 @@ void each_neighbour(const Field& field, std::uint32_t sample, const Body& body) 
   }
 }
 
+/// For samples that are not on the border.
+template <class Body>
+void each_inner_neighbour(const Field& field, std::uint32_t sample, const Body& body) {
+  for (const Neighbour& each : neighbours) {
+    const std::int32_t apart = each.dz * field.width + each.dx;
+    body(static_cast<std::uint32_t>(static_cast<std::int32_t>(sample) + apart), each.distance);
+  }
+}
+
 }  // namespace
 
+// Priority-Flood (Barnes, Lehman and Mulla, 2014) with ranks of heights instead of heights: a level of the water is
+// always the height of a sample, so that the queue needs no comparisons.
 Drainage drainage_of(const Field& field, const Job& job) {
   const std::size_t count = field.heights.size();
   Drainage drainage{Array<std::uint32_t>(job), Array<std::uint32_t>(job, count, none),
                     Array<float>(job, count)};
   drainage.order.reserve(count);
-  // The queue contains each sample at most once. An array of that size is charged for it.
-  const Array<Front> charge(job, count / 4);
-  std::priority_queue<Front> front;
-  const auto enter = [&](std::uint32_t sample, float height, std::uint32_t from) {
-    drainage.receiver[sample] = from;
-    drainage.filled[sample] = height;
-    front.push({height, sample});
-  };
+  const Array<std::uint32_t> by_rank = ascending(field, job);
+  Array<std::uint32_t> rank(job, count);
+  for (std::size_t i = 0; i < count; ++i) rank[by_rank[i]] = static_cast<std::uint32_t>(i);
+  LevelQueue queue(count, job);
   const auto width = static_cast<std::uint32_t>(field.width), depth = static_cast<std::uint32_t>(field.depth);
+  const auto is_inside = [&](std::uint32_t sample) { return drainage.receiver[sample] != sample; };
   for (std::uint32_t z = 0; z < depth; ++z) {
     const bool whole = z == 0 || z == depth - 1;
     for (std::uint32_t x = 0; x < width; x += whole ? 1 : width - 1) {
       const std::uint32_t sample = z * width + x;
-      enter(sample, field.heights[sample], sample);
+      drainage.receiver[sample] = sample;
+      queue.push(rank[sample], sample);
     }
   }
-  while (!front.empty()) {
+  for (std::uint32_t sample = queue.pop(); sample != none; sample = queue.pop()) {
     if (drainage.order.size() % look == 0) job.check();
-    const Front lowest = front.top();
-    front.pop();
-    drainage.order.push_back(lowest.sample);
-    each_neighbour(field, lowest.sample, [&](std::uint32_t next, float) {
-      if (drainage.receiver[next] == none)
-        enter(next, std::max(field.heights[next], lowest.height), lowest.sample);
-    });
+    drainage.order.push_back(sample);
+    drainage.filled[sample] = field.heights[by_rank[queue.level()]];
+    const auto enter = [&](std::uint32_t next, float) {
+      if (drainage.receiver[next] != none) return;
+      drainage.receiver[next] = sample;
+      queue.push(std::max(rank[next], queue.level()), next);
+    };
+    if (is_inside(sample)) {
+      each_inner_neighbour(field, sample, enter);
+    } else {
+      each_neighbour(field, sample, enter);
+    }
   }
   // Outside depressions, water follows the steepest slope, which always leads to an earlier sample.
   for (const std::uint32_t sample : drainage.order) {
-    if (drainage.receiver[sample] == sample || drainage.filled[sample] > field.heights[sample]) continue;
+    if (!is_inside(sample) || drainage.filled[sample] > field.heights[sample]) continue;
     float steepest = 0;
-    each_neighbour(field, sample, [&](std::uint32_t next, float distance) {
-      const float slope = (drainage.filled[sample] - drainage.filled[next]) / distance;
-      if (slope > steepest) {
-        steepest = slope;
-        drainage.receiver[sample] = next;
-      }
+    std::uint32_t receiver = drainage.receiver[sample];
+    each_inner_neighbour(field, sample, [&](std::uint32_t next, float distance) {
+      const float slope = (drainage.filled[sample] - drainage.filled[next]) * (1 / distance);
+      receiver = slope > steepest ? next : receiver;
+      steepest = slope > steepest ? slope : steepest;
     });
+    drainage.receiver[sample] = receiver;
   }
   return drainage;
 }

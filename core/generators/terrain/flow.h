@@ -13,7 +13,7 @@ struct Drainage {
 
 /// Computes the flow by flooding from the border (Barnes, Lehman and Mulla, "Priority-flood", 2014).
 /// Depressions drain over their lowest rim, other samples to their steepest of eight neighbours. Cost: about
-/// 150 ns for each sample.
+/// 30 ns for each sample.
 Drainage drainage_of(const Field& field, const Job& job);
 
 /// Returns for each sample the number of samples that drain through it, including itself, in fractions. Water

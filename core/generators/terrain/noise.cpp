@@ -297,6 +297,21 @@ Field noisy(const NoisePlan& plan, const Window& window, double cell, Rng rng, c
   return field;
 }
 
+void noise_in_plane(const NoisePlan& plan, std::span<const double> x, std::span<const double> z, Rng rng,
+                    double* out) {
+  const std::vector<Octave> octaves = octaves_of(plan, plan.octaves, rng);
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    float height = 0, weight = 1;
+    auto amplitude = static_cast<float>(plan.amplitude);
+    for (const Octave& octave : octaves) {
+      const float noise = octave.value(x[i] * octave.frequency, z[i] * octave.frequency);
+      Sum{plan.kind, amplitude}.add(&noise, 1, &height, &weight);
+      amplitude *= static_cast<float>(plan.gain);
+    }
+    out[i] = static_cast<double>(height);
+  }
+}
+
 double noise_in_space(const NoisePlan& plan, const glm::dvec3& position, Rng rng) {
   glm::dvec3 at = position;
   if (plan.warp > 0) {

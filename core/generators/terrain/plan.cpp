@@ -5,6 +5,7 @@
 
 #include "core/base/math.h"
 #include "core/generators/terrain/image.h"
+#include "core/generators/terrain/layers.h"
 #include "generated/params/terrain.h"
 
 namespace seedmesh::terrain {
@@ -50,21 +51,9 @@ Window window_of(const TerrainParams& params, std::int32_t margin) {
 }
 
 Field raw_field(const TerrainParams& params, const Window& window, double cell, Rng rng, const Job& job) {
-  switch (params.algorithm) {
-    case Algorithm::triangular_edge:
-    case Algorithm::diamond_square:
-      return subdivide(square_plan(params), params.tile ? World::unbounded : World::bounded, window, rng,
-                       job);
-    case Algorithm::square_square:
-      return subdivide_nested(nested_plan(params), window, rng, job);
-    case Algorithm::fbm:
-      return noisy(noise_plan(params), window, cell, rng, job);
-    default: {
-      const std::int64_t across = params.tile ? params.tile->across.value_or(1) : 1;
-      const auto side = static_cast<std::int32_t>(across * (made_side(params) - 1) + 1);
-      return faulted(fault_plan(params), {0, 0, side, side}, window, cell, rng, job);
-    }
-  }
+  Field field = algorithm_field(params, window, cell, rng, job);
+  add_layers(params, field, window, cell, rng, job);
+  return field;
 }
 
 DropletPlan droplet_plan(const TerrainParams& params, const Field& field) {
@@ -156,6 +145,27 @@ Range raw_range(const TerrainParams& params) {
 }
 
 }  // namespace
+
+Field algorithm_field(const TerrainParams& params, const Window& window, double cell, Rng rng,
+                      const Job& job) {
+  switch (params.algorithm) {
+    case Algorithm::triangular_edge:
+    case Algorithm::diamond_square:
+      return subdivide(square_plan(params), params.tile ? World::unbounded : World::bounded, window, rng,
+                       job);
+    case Algorithm::square_square:
+      return subdivide_nested(nested_plan(params), window, rng, job);
+    case Algorithm::fbm:
+      return noisy(noise_plan(params), window, cell, rng, job);
+    case Algorithm::expression:
+      return expressed_field(params, window, cell, rng, job);
+    default: {
+      const std::int64_t across = params.tile ? params.tile->across.value_or(1) : 1;
+      const auto side = static_cast<std::int32_t>(across * (made_side(params) - 1) + 1);
+      return faulted(fault_plan(params), {0, 0, side, side}, window, cell, rng, job);
+    }
+  }
+}
 
 int planned_iterations(const TerrainParams& params) {
   return params.iterations.value_or(is_fault(params) ? 64 : 8);
@@ -260,7 +270,9 @@ static_assert(static_cast<int>(PaletteName::none) == static_cast<int>(TerrainPal
 
 /// Samples around what filters read of the neighbours of a tile.
 static std::int32_t filter_reach(const TerrainParams& params) {
-  return smooth_reach(params.smooth) + (params.thermal ? params.thermal->iterations : 0);
+  // A layer may read slopes, which need the neighbours of a sample.
+  return smooth_reach(params.smooth) + (params.thermal ? params.thermal->iterations : 0) +
+         static_cast<std::int32_t>(params.layers.size());
 }
 
 /// The samples of one tile of a world without margin, with one sample around them for normals. Beyond the border
@@ -307,6 +319,7 @@ Result<Field> field_of(const TerrainParams& params, Job& job) {
     Result<Field> field = field_of_image(*params.image, job);
     if (!field) return field;
     field->cell = params.size / (field->width - 1);
+    add_layers(params, *field, {0, 0, field->width, field->depth}, field->cell, rng, job);
     filter(params, *field, rng, job);
     run_water(params, *field, rng, job);
     if (!params.resample) return field;
@@ -337,12 +350,19 @@ std::int32_t planet_side(const TerrainParams& params, int level) {
 Planet planet_of(const TerrainParams& params, int level, Job& job) {
   const Rng rng = job.rng().at("terrain");
   Planet planet = sphere_of(planet_side(params, level), params.size / 2, job);
+  algorithm_sphere(params, planet, rng, job);
+  add_layers(params, planet, rng, job);
+  return planet;
+}
+
+void algorithm_sphere(const TerrainParams& params, Planet& planet, Rng rng, const Job& job) {
   if (params.algorithm == Algorithm::fbm) {
     noise_sphere(planet, noise_plan(params), rng, job);
+  } else if (params.algorithm == Algorithm::expression) {
+    express_sphere(params, planet, rng, job);
   } else {
     fault_sphere(planet, fault_plan(params), rng, job);
   }
-  return planet;
 }
 
 }  // namespace seedmesh::terrain

@@ -50,6 +50,12 @@ PaletteName palette_of(const TerrainParams& params);
 /// Returns all errors that the schema cannot express, with pointers relative to the parameters.
 std::vector<Issue> errors_between(const TerrainParams& params, const Limits& limits);
 
+/// Generates the heights of the algorithm at the samples of a window, without layers and filters. Not for images.
+Field algorithm_field(const TerrainParams& params, const Window& window, double cell, Rng rng,
+                      const Job& job);
+/// Writes those of a sphere.
+void algorithm_sphere(const TerrainParams& params, Planet& planet, Rng rng, const Job& job);
+
 /// Generates the field with all filters; margin 1 for a tile, else 0. Issues: an unreadable image.
 Result<Field> field_of(const TerrainParams& params, Job& job);
 

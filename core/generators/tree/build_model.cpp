@@ -186,7 +186,7 @@ Model build_model(Skeleton skeleton, const TreeParams& params, const GenerateCon
   if (context.demand.wind) motion.wind.emplace(skeleton.limbs, job);
   Mesh leaf;
   if (has_leaves(params)) {
-    leaf = leaf_of(params, 0, job);
+    leaf = drawn_leaf(params, 0, context);
     fit_leaves(skeleton.organs, params, leaf, job);
   }
   TreeLevels levels(skeleton, params, context);
@@ -194,8 +194,14 @@ Model build_model(Skeleton skeleton, const TreeParams& params, const GenerateCon
   if (motion.growth) moved.bones = motion.growth->bone.span();
   if (motion.wind) moved.wind = &*motion.wind;
   const Organs none(job);
-  const Leaves leaves{has_leaves(params) ? skeleton.organs : none, leaf, params, moved,
-                      size_of(skeleton.limbs)};
+  std::optional<FoliageShade> shade;
+  if (has_leaves(params)) shade = shade_of(skeleton.limbs, skeleton.organs, leaf, params, context);
+  const Leaves leaves{has_leaves(params) ? skeleton.organs : none,
+                      leaf,
+                      params,
+                      moved,
+                      size_of(skeleton.limbs),
+                      shade ? &*shade : nullptr};
   add_bark(model, skeleton.limbs, params, motion, levels, context);
   if (context.demand.collision != CollisionNames::none)
     add_limb_bodies(model, limb_bodies(skeleton.limbs, BelowGround::left_out, context.job), context);

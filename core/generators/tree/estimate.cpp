@@ -15,7 +15,7 @@ constexpr std::uint64_t vertex_bytes = 32, tangent_bytes = 16, color_bytes = 4, 
 // Vertices of bark per triangle, measured.
 constexpr double vertices_a_triangle = 0.71;
 // Bytes of PNG files per texel (colour, normal and surface), averaged over all kinds.
-constexpr double bark_texture = 3.8, leaf_texture = 2.3;
+constexpr double bark_texture = 3.8, leaf_texture = 2.3, flat_leaf_texture = 1.2;
 
 std::uint64_t index_bytes(std::uint64_t vertices, std::uint64_t triangles) {
   return 3 * triangles * (vertices > 65'535 ? 4 : 2);
@@ -37,15 +37,15 @@ Estimate estimate_of(Skeleton skeleton, const TreeParams& params, const Generate
   estimate.bytes =
       file_bytes + vertices * (vertex_bytes + (is_plain ? 0 : tangent)) + index_bytes(vertices, bark);
   if (has_leaves(params)) {
-    const Mesh leaf = leaf_of(params, 0, job);
+    const Mesh leaf = drawn_leaf(params, 0, context);
     fit_leaves(skeleton.organs, params, leaf, job);
     const std::uint64_t count = skeleton.organs.organ.size(), leaves = count * leaf.elements(),
                         corners = count * leaf.position.size();
     estimate.triangles += leaves;
-    const bool has_texture = has_leaf_texture(params);
+    const bool has_texture = has_leaf_texture(params), has_relief = has_leaf_relief(params, context.demand);
     estimate.bytes +=
-        corners * (vertex_bytes + color_bytes + (has_texture ? tangent : 0)) + index_bytes(corners, leaves);
-    if (has_texture) texture_bytes += leaf_texture * texels;
+        corners * (vertex_bytes + color_bytes + (has_relief ? tangent : 0)) + index_bytes(corners, leaves);
+    if (has_texture) texture_bytes += (has_relief ? leaf_texture : flat_leaf_texture) * texels;
   }
   estimate.bytes += static_cast<std::uint64_t>(math::to_int64(texture_bytes));
   return estimate;

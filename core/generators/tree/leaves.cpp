@@ -17,6 +17,21 @@ namespace {
 constexpr int first_build = static_cast<int>(TreeBuild::card);
 static_assert(static_cast<int>(TreeBuild::bunch) - first_build == static_cast<int>(LeafBuild::bunch));
 
+// Share of the area of a square that the leaf or the twig on it fills: between 0.32 for needles and 0.59.
+constexpr float filled_card = 0.5F;
+
+/// The area of all faces.
+float area_of(const Mesh& mesh) {
+  float area = 0;
+  for (std::size_t i = 0; i < mesh.index.size(); i += 3) {
+    const glm::vec3& a = mesh.position[mesh.index.at(i)];
+    const glm::vec3 across =
+        glm::cross(mesh.position[mesh.index.at(i + 1)] - a, mesh.position[mesh.index.at(i + 2)] - a);
+    area += 0.5F * std::sqrt(glm::dot(across, across));
+  }
+  return area;
+}
+
 LeafBuild leaf_build(TreeBuild build) {
   return static_cast<LeafBuild>(std::max(static_cast<int>(build) - first_build, 0));
 }
@@ -26,20 +41,22 @@ FoliageOptions options_of(const Leaves& leaves, const GenerateContext& context) 
   const TreeParams& params = leaves.params;
   FoliageOptions options;
   options.model_size = leaves.model_size;
-  options.tint = static_cast<float>(params.leaf.tint);
+  options.shade = leaves.shade;
   options.bones = leaves.motion.bones;
   options.wind = leaves.motion.wind;
   const Demand& demand = context.demand;
-  options.tangents = demand.tangents && demand.textures > 0 && has_leaf_relief(params);
-  if (params.leaf.crown_normals > 0 && !organs.organ.empty()) {
+  options.tangents = demand.tangents && demand.textures > 0 && has_leaf_relief(params, demand);
+  options.outward = has_outward_faces(params, demand);
+  if ((params.leaf.crown_normals > 0 || options.outward) && !organs.organ.empty()) {
     Box box{organs.organ[0].position, organs.organ[0].position};
     for (const Organ& organ : organs.organ) {
       box.min = glm::min(box.min, organ.position);
       box.max = glm::max(box.max, organ.position);
     }
-    // A little below the middle, so that the normals of the lowest leaves do not point straight down.
-    const glm::vec3 middle = 0.5F * (box.min + box.max);
-    options.crown = glm::vec3(middle.x, middle.y - 0.2F * (box.max.y - box.min.y), middle.z);
+    // Below the middle, so that the normals of the lowest leaves do not point straight down.
+    const glm::vec3 middle = 0.5F * (box.min + box.max), size = box.max - box.min;
+    options.crown = glm::vec3(middle.x, middle.y - 0.2F * size.y, middle.z);
+    options.crown_axes = 0.5F * glm::max(size, glm::vec3(0.01F * std::max({size.x, size.y, size.z, 1e-3F})));
     options.crown_share = static_cast<float>(params.leaf.crown_normals);
   }
   return options;
@@ -77,7 +94,7 @@ void add_merged(Model& model, const Leaves& leaves, TreeLevels& levels, const Le
     if (level == 0) {
       parts = place(leaves.organs, leaves.leaf, options_of(leaves, context), job);
     } else {
-      const Mesh leaf = leaf_of(leaves.params, level, job);
+      const Mesh leaf = drawn_leaf(leaves.params, level, context);
       const double share =
           levels.leaves_at(Detail(level), leaves.organs.organ.size(), leaf.elements(), before);
       const Organs fewer = levels.foliage->keep(leaves.organs, share, job);
@@ -131,6 +148,35 @@ Mesh leaf_of(const TreeParams& params, int level, const Job& job) {
   return mesh;
 }
 
+Mesh drawn_leaf(const TreeParams& params, int level, const GenerateContext& context) {
+  Mesh mesh = leaf_of(params, level, context.job);
+  if (!has_outward_faces(params, context.demand)) return mesh;
+  // Both sides of a triangle one after the other, so that its vertices are still in the cache.
+  Array<std::uint32_t> both(context.job);
+  const Array<std::uint32_t>& front = mesh.index.wide;
+  for (std::size_t i = 0; i < front.size(); i += 3) {
+    for (const std::size_t corner : {i, i + 1, i + 2, i, i + 2, i + 1}) both.push_back(front[corner]);
+  }
+  mesh.index.wide = std::move(both);
+  return mesh;
+}
+
+std::optional<FoliageShade> shade_of(const Limbs& limbs, const Organs& organs, const Mesh& leaf,
+                                     const TreeParams& params, const GenerateContext& context) {
+  const TreeLeaf& given = params.leaf;
+  const bool is_uniform = given.tint == 0 && given.hue == 0 && given.occlusion == 0;
+  if (is_uniform || context.demand.share_organs || organs.organ.empty()) return std::nullopt;
+  FoliageShade::Options options;
+  options.tint = static_cast<float>(given.tint);
+  options.hue = static_cast<float>(given.hue);
+  options.occlusion = static_cast<float>(given.occlusion);
+  options.color = color_of_leaves(params);
+  const float filled = has_leaf_texture(params) ? filled_card : 1.0F;
+  const float sides = has_outward_faces(params, context.demand) ? 2.0F : 1.0F;
+  options.leaf_area = area_of(leaf) * filled / sides;
+  return FoliageShade(limbs, organs, options, context.job);
+}
+
 void fit_leaves(Organs& organs, const TreeParams& params, const Mesh& leaf, const Job& job) {
   const Box box = bounds_of(leaf.position.span());
   const float across = std::max(1e-3F, box.max.x - box.min.x);
@@ -146,9 +192,8 @@ void fit_leaves(Organs& organs, const TreeParams& params, const Mesh& leaf, cons
 }
 
 void add_leaves(Model& model, const Leaves& leaves, TreeLevels& levels, const GenerateContext& context) {
-  Job& job = context.job;
   if (leaves.organs.organ.empty()) return;
-  const LeafMaterials materials = add_leaf_materials(model, leaves.params, job);
+  const LeafMaterials materials = add_leaf_materials(model, leaves.params, context);
   if (context.demand.share_organs) {
     add_shared(model, leaves.organs, leaves.params, options_of(leaves, context), materials, context);
   } else {

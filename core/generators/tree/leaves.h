@@ -1,5 +1,7 @@
 #pragma once
 /// The leaves of a tree as merged meshes or as instances of one mesh.
+#include <optional>
+
 #include "core/generators/api.h"
 #include "core/generators/tree/levels.h"
 #include "core/generators/tree/materials.h"
@@ -14,8 +16,16 @@ struct LeafMotion {
   const WindField* wind = nullptr;
 };
 
-/// The mesh of a leaf of length 1.
+/// The mesh of a leaf of length 1, with faces on one side.
 Mesh leaf_of(const TreeParams& params, int level, const Job& job);
+
+/// The same, with all faces in both windings and the same vertices if leaves have outward faces.
+Mesh drawn_leaf(const TreeParams& params, int level, const GenerateContext& context);
+
+/// The vertex colours of the leaves, or none where all leaves have the same colour. `leaf`: drawn_leaf() of the
+/// finest level, which `organs` fit.
+std::optional<FoliageShade> shade_of(const Limbs& limbs, const Organs& organs, const Mesh& leaf,
+                                     const TreeParams& params, const GenerateContext& context);
 
 /// Converts the scales of leaves from length and width to factors for the mesh `leaf`.
 void fit_leaves(Organs& organs, const TreeParams& params, const Mesh& leaf, const Job& job);
@@ -26,7 +36,8 @@ struct Leaves {
   const Mesh& leaf;
   const TreeParams& params;
   const LeafMotion& motion;
-  float model_size;  ///< diagonal of the bounding box of the tree
+  float model_size;           ///< diagonal of the bounding box of the tree
+  const FoliageShade* shade;  ///< may be null
 };
 
 /// Adds the node "leaves" with all levels of detail, or instances of one mesh if context.demand.share_organs.

@@ -41,6 +41,11 @@ Color leaf_color(const TreeLeaf& leaf, std::size_t season) {
   return leaf.autumn.value_or(is_blossom ? leaf.color : autumn_yellow);
 }
 
+/// The season of the request as an index of leafy_seasons; summer for evergreen trees in winter.
+std::size_t season_of(const TreeParams& params) {
+  return params.season == TreeSeason::winter ? 1 : static_cast<std::size_t>(params.season);
+}
+
 /// The largest value of each component over all seasons. The colours of seasons are darker multiples of it.
 Color brightest(const TreeLeaf& leaf) {
   Color most{1, 1, 1};
@@ -133,9 +138,18 @@ bool has_leaf_texture(const TreeParams& params) {
   return params.leaf.picture == TreePicture::own;
 }
 
-bool has_leaf_relief(const TreeParams& params) {
+bool has_outward_faces(const TreeParams& params, const Demand& demand) {
+  if (demand.share_organs || params.leaf.leaf_faces == TreeLeafFaces::two_sided) return false;
+  return params.leaf.leaf_faces == TreeLeafFaces::outward || !demand.two_sided_leaves;
+}
+
+glm::vec3 color_of_leaves(const TreeParams& params) {
+  return linear(leaf_color(params.leaf, season_of(params)));
+}
+
+bool has_leaf_relief(const TreeParams& params, const Demand& demand) {
   if (!params.leaf.images.normal.empty()) return true;
-  return has_leaf_texture(params) && params.leaf.images.color.empty();
+  return !has_outward_faces(params, demand) && has_leaf_texture(params) && params.leaf.images.color.empty();
 }
 
 bool has_bark_relief(const TreeParams& params) {
@@ -160,21 +174,26 @@ int add_bark_material(Model& model, const TreeParams& params, const Job& job) {
   return static_cast<int>(model.materials.size()) - 1;
 }
 
-LeafMaterials add_leaf_materials(Model& model, const TreeParams& params, const Job& job) {
+LeafMaterials add_leaf_materials(Model& model, const TreeParams& params, const GenerateContext& context) {
+  const Job& job = context.job;
+  const bool has_own_sides = has_outward_faces(params, context.demand);
   Material material;
   material.roughness = leaf_roughness;
-  material.double_sided = true;
+  material.double_sided = !has_own_sides;
+  texture::let_light_through(material, static_cast<LeafShape>(params.leaf.leaf_shape));
   const Color most = brightest(params.leaf);
   if (has_leaf_texture(params)) {
     material.recipe.kind =
         texture::leaf_kind(static_cast<LeafShape>(params.leaf.leaf_shape), shows_twig(params));
     material.recipe.color = {{most.red, most.green, most.blue}};
+    material.recipe.has_own_sides = has_own_sides;
   }
   LeafMaterials result;
   material.name = "leaf";
   use_images(material, params.leaf.images, "/leaf/images", model, job);
   if (!params.leaf.images.color.empty()) {
     cut_out_by_alpha(material, model);
+    material.double_sided = !has_own_sides;
     result.material = static_cast<int>(model.materials.size());
     model.materials.push_back(std::move(material));
     return result;
@@ -188,9 +207,7 @@ LeafMaterials add_leaf_materials(Model& model, const TreeParams& params, const J
     model.materials.push_back(material);
     model.variants.emplace_back(leafy_seasons[season]);
   }
-  const std::size_t chosen =
-      params.season == TreeSeason::winter ? 1 : static_cast<std::size_t>(params.season);
-  result.material = result.variants[chosen];
+  result.material = result.variants[season_of(params)];
   return result;
 }
 

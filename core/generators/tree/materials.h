@@ -2,7 +2,7 @@
 /// Materials of bark and leaves: generated textures, images of the request, or a plain colour.
 #include <vector>
 
-#include "core/base/job.h"
+#include "core/generators/api.h"
 #include "core/model/model.h"
 #include "generated/params/tree.h"
 
@@ -26,8 +26,15 @@ bool has_leaves(const TreeParams& params);
 /// Do leaves have a generated texture?
 bool has_leaf_texture(const TreeParams& params);
 
-/// Do leaves, or bark, have a normal map if textures are wanted?
-bool has_leaf_relief(const TreeParams& params);
+/// Do leaves have faces on both sides with one outward normal (see the parameter leaf.faces)? Leaves that share
+/// a mesh have not, because their normals depend on their positions.
+bool has_outward_faces(const TreeParams& params, const Demand& demand);
+
+/// The linear colour of the leaves in the season of the request.
+glm::vec3 color_of_leaves(const TreeParams& params);
+
+/// Do leaves, or bark, have a normal map if textures are wanted? Outward faces have that of the request alone.
+bool has_leaf_relief(const TreeParams& params, const Demand& demand);
 bool has_bark_relief(const TreeParams& params);
 
 /// Adds a material and returns its index. Throws Stop (Code::invalid) for a damaged image.
@@ -38,6 +45,6 @@ struct LeafMaterials {
   int material = -1;          ///< of the season of the request
   std::vector<int> variants;  ///< indices by Model::variants; may be empty
 };
-LeafMaterials add_leaf_materials(Model& model, const TreeParams& params, const Job& job);
+LeafMaterials add_leaf_materials(Model& model, const TreeParams& params, const GenerateContext& context);
 
 }  // namespace seedmesh::tree

@@ -38,6 +38,7 @@ struct Samples {
   double low = 1e12, high = -1e12, shore = 1e12, road = 1e12;
   Roughness roughness;
   bool has_plants = false;
+  double rise = 0;  ///< the greatest between neighbouring samples
 };
 
 Samples samples_of(const World& world, const TileFrame& frame, Job& job) {
@@ -49,6 +50,10 @@ Samples samples_of(const World& world, const TileFrame& frame, Job& job) {
       found.low = std::min(found.low, sample.height);
       found.high = std::max(found.high, sample.height);
       found.roughness.ruggedness = std::max(found.roughness.ruggedness, sample.land.ruggedness);
+      if (column > 0)
+        found.rise = std::max(found.rise, std::abs(sample.height - grid.at(column - 1, row).height));
+      if (row > 0)
+        found.rise = std::max(found.rise, std::abs(sample.height - grid.at(column, row - 1).height));
       found.shore = std::min(found.shore, sample.shore);
       found.road = std::min(found.road, sample.road);
       if (found.has_plants || !world.has(Layer::plants)) continue;
@@ -77,12 +82,33 @@ double highest_road(const World& world, const TileFrame& frame, Job& job) {
   return height + 1;
 }
 
-/// The level of the highest lake in a tile; its surface can be above all ground of the tile.
-double highest_lake(const World& world, const TileFrame& frame, Job& job) {
+/// The highest water of a river inside a rectangle, if any; it is where the river enters.
+double entry_of(const Reach& reach, const Rectangle& box) {
+  double first = 0, last = 1;
+  const auto cut = [&](double from, double to, double low, double high) {
+    const double along = to - from;
+    if (std::abs(along) < 1e-9) {
+      if (from < low || from > high) last = -1;
+      return;
+    }
+    const double a = (low - from) / along, b = (high - from) / along;
+    first = std::max(first, std::min(a, b));
+    last = std::min(last, std::max(a, b));
+  };
+  const double w = reach.to.width;
+  cut(reach.from.east, reach.to.east, box.west - w, box.east + w);
+  cut(reach.from.north, reach.to.north, box.south - w, box.north + w);
+  if (first > last) return -1e12;
+  return reach.from.water + first * (reach.to.water - reach.from.water);
+}
+
+/// The level of the highest river or lake in a tile; its surface can be above all sampled ground.
+double highest_water(const World& world, const TileFrame& frame, Job& job) {
   const Rectangle box{frame.west, frame.south, frame.west + frame.side, frame.south + frame.side};
-  const Ground ground(world, box, job, 0);
+  const Ground ground(world, box, job, 100);
   double level = -1e12;
   for (const Lake& lake : ground.lakes()) level = std::max(level, lake.level);
+  for (const Reach& reach : ground.reaches()) level = std::max(level, entry_of(reach, box));
   return level;
 }
 
@@ -97,6 +123,7 @@ std::shared_ptr<const KnownBounds> measured(const World& world, const TileKey& k
   const int above_leaves = world.levels - 1 - key.level;
   const double error = error_of(world, frame.side, samples.roughness);
   const double margin = between_samples * error_of(world, 2 * frame.side, samples.roughness) + frame.step;
+  const double steep = frame.side <= widest_measured_works ? 0.35 * samples.rise : 0;  // cliffs
   const bool has_sites = world.params.settlements.density > 0;
   const double works =
       has_sites && works_of(frame) == Works::none && frame.spacing < works_spacing ? most_works : 0;
@@ -116,12 +143,12 @@ std::shared_ptr<const KnownBounds> measured(const World& world, const TileKey& k
   double top = is_wet ? std::max(samples.high, world.params.relief.sea_level) : samples.high;
   if (is_built) top = std::max(top, highest_road(world, frame, job));
   if (samples.roughness.is_near_water && frame.spacing <= widest_lake_spacing) {
-    top = std::max(top, highest_lake(world, frame, job)) + highest_lift;
+    top = std::max(top, highest_water(world, frame, job)) + highest_lift;
   }
-  const double below =
-      margin + works + cutting + (above > 0 ? most_cellar : 0) + skirt_depth(world, frame.side) + frame.step;
+  const double below = margin + steep + works + cutting + (above > 0 ? most_cellar : 0) +
+                       skirt_depth(world, frame.side) + frame.step;
   box.low = std::floor(samples.low - below);
-  box.high = std::ceil(top + margin + works + cutting + plants.up);
+  box.high = std::ceil(top + margin + steep + works + cutting + plants.up);
   box.geometric_error = above_leaves == 0 ? 0 : error;
   if (key.level == 0) return known;
   const TileBounds& parent = known_bounds(world, {key.level - 1, key.x / 2, key.y / 2}, job)->box;

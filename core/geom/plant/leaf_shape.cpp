@@ -5,6 +5,8 @@
 #include <cmath>
 
 #include "core/base/math.h"
+#include "core/geom/plant/leaf_stand.h"
+#include "core/geom/plant/leafy_twig.h"
 #include "core/geom/plant/needle_twig.h"
 
 namespace seedmesh {
@@ -215,32 +217,6 @@ LeafBlade blade_of(const Margin& margin, const LeafDetail& detail) {
   return blade;
 }
 
-/// The placement of a leaflet: its base, the direction of its tip in degrees to the right of +y, its length.
-struct Stand {
-  dvec2 at{0};
-  double degrees = 0, length = 1;
-
-  dvec2 operator()(dvec2 p) const {
-    const math::SinCos turn = math::sincos_degrees(degrees);
-    return at + dvec2{p.x * turn.cos + p.y * turn.sin, p.y * turn.cos - p.x * turn.sin} * length;
-  }
-};
-
-LeafLine moved(LeafLine line, const Stand& stand) {
-  return {stand(line.from), stand(line.to), line.width * stand.length, line.end_width * stand.length};
-}
-
-void add_blade(LeafDrawing& drawing, const LeafBlade& blade, const Stand& stand) {
-  LeafBlade moved_blade = blade;
-  for (dvec2& p : moved_blade.right) p = stand(p);
-  for (dvec2& p : moved_blade.left) p = stand(p);
-  moved_blade.base = stand(blade.base);
-  moved_blade.tip = stand(blade.tip);
-  moved_blade.half_width *= stand.length;
-  for (LeafLine& vein : moved_blade.veins) vein = moved(vein, stand);
-  drawing.blades.push_back(std::move(moved_blade));
-}
-
 /// Leaflets in pairs along a rachis, and one at its end where `ends` is set.
 struct Pinnate {
   int pairs;
@@ -336,26 +312,10 @@ LeafDrawing spray(const LeafDetail& detail, int count) {
   return drawing;
 }
 
-/// Leaves alternately along a stem that ends in a leaf.
 LeafDrawing twig(LeafShape shape, const LeafDetail& detail, int count) {
   if (shape == LeafShape::needles) return needle_twig(count);
   if (shape == LeafShape::petal) return spray(detail, count);
-  const LeafDrawing leaf = single(shape, detail);
-  LeafDrawing drawing;
-  const double length = std::min(0.5, 1.5 / std::sqrt(static_cast<double>(count)));
-  const double end = 1 - 0.9 * length;
-  drawing.stalks.push_back({{0, 0}, {0, end}, 0.024, 0.01});
-  const auto add = [&](const Stand& stand) {
-    for (const LeafLine& line : leaf.stalks) drawing.stalks.push_back(moved(line, stand));
-    for (const LeafBlade& blade : leaf.blades) add_blade(drawing, blade, stand);
-  };
-  for (int i = 0; i + 1 < count; ++i) {
-    const double share = static_cast<double>(i) / (count - 1);
-    const double angle = (i % 2 == 0 ? 1 : -1) * (68 - 30 * share);
-    add({{0, 0.1 + (end - 0.1) * share}, angle, length * (0.85 + 0.15 * (i % 3))});
-  }
-  add({{0, end}, 0, length * 0.9});
-  return drawing;
+  return leafy_twig(single(shape, detail), count);
 }
 
 void measure(LeafDrawing& drawing) {

@@ -161,6 +161,27 @@ SEEDMESH_WIDE void mix_outward(float share, const Lanes3& outward, const Lanes3&
   }
 }
 
+/// Away from the middle of an ellipsoid, at right angles to the one through the point.
+SEEDMESH_WIDE void ellipsoid_normal(const glm::vec3& middle, const glm::vec3& by, const Lanes3& position,
+                                    Lanes3& __restrict out) {
+  for (std::size_t l = 0; l < lanes; ++l) {
+    put(out, l,
+        {(position.x[l] - middle.x) * by.x, (position.y[l] - middle.y) * by.y,
+         (position.z[l] - middle.z) * by.z});
+  }
+}
+
+/// Between the direction outward and the normal or its opposite, whichever points outward.
+SEEDMESH_WIDE void mix_on_outer_side(float share, const Lanes3& outward, const Lanes3& normal,
+                                     Lanes3& __restrict out) {
+  for (std::size_t l = 0; l < lanes; ++l) {
+    const glm::vec3 own = at(normal, l), away = at(outward, l);
+    const float side = (dot_of(away, own) < 0.0F ? -1.0F : 1.0F) * (1.0F - share);
+    put(out, l,
+        {away.x * share + own.x * side, away.y * share + own.y * side, away.z * share + own.z * side});
+  }
+}
+
 /// The cross product of a face's sides. Returns false where at each lane the normals of its corners are on
 /// its side, with a margin.
 SEEDMESH_WIDE bool face_of(const Lanes3* position, const Lanes3* normal, const std::uint32_t* corner,
@@ -285,12 +306,20 @@ void OrganBlock::place(const Array<Organ>& organs, std::span<const std::uint32_t
     if (!surface_.tangent.empty()) turn_tangent(turns, surface_.tangent[i], own, tangent_[i]);
     if (!options_.crown) continue;
     const auto its_own = [&](std::size_t l) { return at(own, l); };
-    away_from(*options_.crown, position_[i], vector);
+    if (options_.outward) {
+      const glm::vec3 by = 1.0F / (options_.crown_axes * options_.crown_axes);
+      ellipsoid_normal(*options_.crown, by, position_[i], vector);
+    } else {
+      away_from(*options_.crown, position_[i], vector);
+    }
     to_units(vector, its_own, vector);
-    mix_outward(options_.crown_share, vector, own, normal_[i]);
+    if (options_.outward)
+      mix_on_outer_side(options_.crown_share, vector, own, normal_[i]);
+    else
+      mix_outward(options_.crown_share, vector, own, normal_[i]);
     to_units(normal_[i], its_own, normal_[i]);
   }
-  if (options_.crown) turn_toward_faces();
+  if (options_.crown && !options_.outward) turn_toward_faces();
   Lanes3 u, across;
   for (std::size_t i = 0; i < axes_.size(); ++i) {
     if (i == 0 || axes_[i] != axes_[i - 1]) place_axes(turns, axes_[i], u, across);

@@ -71,12 +71,12 @@ class Placer {
   void place_rest(const Array<Organ>& organs, std::span<const std::uint32_t> numbers,
                   std::size_t first) const {
     const std::size_t vertices = surface_.position.size();
-    const bool is_gray = !out_.color.empty() && surface_.color.empty();
-    if (is_gray) place_grays(organs, numbers, out_.color.data() + first);
-    if ((out_.color.empty() || is_gray) && out_.bone.empty() && !options_.wind) return;
+    const bool is_plain = !out_.color.empty() && surface_.color.empty();
+    if (is_plain) place_plain(organs, numbers, out_.color.data() + first);
+    if ((out_.color.empty() || is_plain) && out_.bone.empty() && !options_.wind) return;
     for (const std::uint32_t number : numbers) {
       const Organ& organ = organs[number];
-      if (!out_.color.empty() && !is_gray) place_colors(organ, first);
+      if (!out_.color.empty() && !is_plain) place_colors(organ, first);
       if (!out_.bone.empty()) std::fill_n(out_.bone.data() + first, vertices, bone_of(organ));
       if (options_.wind) place_wind(organ, first);
       first += vertices;
@@ -91,15 +91,19 @@ class Placer {
     return 1.0F - options_.tint * fraction_of(key_at(organ.key, 0x7147));
   }
 
-  /// For surfaces without colours: one gray for all vertices of an organ.
-  void place_grays(const Array<Organ>& organs, std::span<const std::uint32_t> numbers,
+  std::uint32_t word_of(const Organ& organ) const {
+    if (options_.shade) return options_.shade->color_of(organ);
+    return 0xFF000000U | static_cast<std::uint8_t>(255.0F * shade_of(organ)) * 0x010101U;
+  }
+
+  /// For surfaces without colours: one colour for all vertices of an organ.
+  void place_plain(const Array<Organ>& organs, std::span<const std::uint32_t> numbers,
                    glm::u8vec4* to) const {
     constexpr std::size_t together = 4;
     const std::size_t vertices = surface_.position.size(), rest = vertices % together;
     for (const std::uint32_t number : numbers) {
-      const auto gray = static_cast<std::uint8_t>(255.0F * shade_of(organs[number]));
       // Written as words: bytes are slower.
-      const std::uint32_t color = 0xFF000000U | gray * 0x010101U;
+      const std::uint32_t color = word_of(organs[number]);
       static_assert(sizeof(color) == sizeof(glm::u8vec4) && std::endian::native == std::endian::little);
       const std::uint32_t colors[together] = {color, color, color, color};
       glm::u8vec4* const end = to + (vertices - rest);
@@ -146,7 +150,8 @@ Mesh room_for(const Mesh& surface, std::size_t count, const FoliageOptions& opti
   mesh.normal = Array<glm::vec3>(job, vertices);
   if (!surface.uv[0].empty()) mesh.uv[0] = Array<glm::vec2>(job, vertices);
   if (options.tangents || !surface.tangent.empty()) mesh.tangent = Array<glm::vec4>(job, vertices);
-  if (options.tint > 0 || !surface.color.empty()) mesh.color = Array<glm::u8vec4>(job, vertices);
+  if (options.tint > 0 || options.shade || !surface.color.empty())
+    mesh.color = Array<glm::u8vec4>(job, vertices);
   if (!options.bones.empty()) mesh.bone = Array<std::uint16_t>(job, vertices);
   if (options.wind) {
     for (const std::size_t set : {2U, 3U}) mesh.uv[set] = Array<glm::vec2>(job, vertices);

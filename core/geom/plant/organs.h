@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "core/geom/plant/foliage_shade.h"
 #include "core/geom/plant/limbs.h"
 #include "core/geom/plant/wind.h"
 #include "core/model/model.h"
@@ -35,9 +36,16 @@ struct FoliageOptions {
   /// They stay on the side of their faces, since renderers turn the normals of back faces around.
   std::optional<glm::vec3> crown;
   float crown_share = 0.75F;
+  /// With `crown`: all normals point outward, away from `crown`, on whichever side of their faces that is. For
+  /// surfaces whose faces occur in both windings with the same vertices, which have the same light from both
+  /// sides. The directions are those of an ellipsoid with these half axes.
+  bool outward = false;
+  glm::vec3 crown_axes{1};
   /// Organs differ in brightness by up to this share, by a hash of their key, as vertex colours; 0: no
   /// colours.
   float tint = 0;
+  /// If not null, the vertex colours of surfaces without colours, instead of `tint`.
+  const FoliageShade* shade = nullptr;
   /// For each joint of the limbs, what moves it: Mesh::bone gets that of Organ::limb_joint.
   std::span<const std::uint16_t> bones = {};
   /// If not null, wind weights are added (wind.h).

@@ -120,7 +120,7 @@ void Surroundings::cast_shadows() {
   shades_.clear();
   const ShadowOptions& shadow = options_.shadow;
   // Each cell once: many short internodes are no darker than one long twig.
-  Array<std::uint64_t> filled = shades_.empty_array_of<std::uint64_t>();
+  Array<std::uint64_t> filled = cells_.empty_array_of<std::uint64_t>();
   for (const Stretch& each : grown_) {
     const glm::dvec3 end = each.to;
     filled.push_back(
@@ -141,31 +141,17 @@ void Surroundings::cast_shadows() {
     for (int layer = 0; layer <= shadow.layers; ++layer, amount /= shadow.falloff) {
       for (std::int64_t dx = -layer; dx <= layer; ++dx) {
         for (std::int64_t dz = -layer; dz <= layer; ++dz)
-          shades_.push_back({cell_key(x + dx, y - layer, z + dz), amount});
+          shades_.add(cell_key(x + dx, y - layer, z + dz), amount);
       }
     }
   }
-  std::sort(shades_.begin(), shades_.end(), [](const Shade& a, const Shade& b) {
-    return a.key != b.key ? a.key < b.key : a.amount > b.amount;
-  });
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < shades_.size(); ++i) {
-    if (kept > 0 && shades_[kept - 1].key == shades_[i].key) {
-      shades_[kept - 1].amount += shades_[i].amount;
-    } else {
-      shades_[kept++] = shades_[i];
-    }
-  }
-  shades_.resize(kept);
 }
 
 double Surroundings::light_at(const glm::dvec3& point) const {
   const double size = options_.shadow.cell;
   const std::uint64_t key = cell_key(cell_of(point.x, size), cell_of(point.y, size), cell_of(point.z, size));
-  const auto* const found = std::lower_bound(
-      shades_.begin(), shades_.end(), key, [](const Shade& shade, std::uint64_t k) { return shade.key < k; });
-  if (found == shades_.end() || found->key != key) return 1;
-  return std::clamp(1 - (found->amount - options_.shadow.shade), 0.0, 1.0);
+  const double amount = shades_.at(key);
+  return amount == 0 ? 1 : std::clamp(1 - (amount - options_.shadow.shade), 0.0, 1.0);
 }
 
 bool Surroundings::collides(const Prober& prober, const glm::dvec3& from, const glm::dvec3& to) const {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/geom/mesh/solid.h"
+#include "core/geom/plant/key_sums.h"
 #include "core/geom/plant/limbs.h"
 
 namespace seedmesh {
@@ -73,10 +74,6 @@ class Surroundings {
     std::uint64_t key;
     std::uint32_t stretch;
   };
-  struct Shade {
-    std::uint64_t key;
-    double amount;
-  };
   void cast_shadows();
   bool collides(const Prober& prober, const glm::dvec3& from, const glm::dvec3& to) const;
 
@@ -84,8 +81,8 @@ class Surroundings {
   Job& job_;
   double cell_ = 1;  ///< of the grid of internodes
   std::vector<Stretch> grown_;
-  Array<Cell> cells_;    ///< sorted
-  Array<Shade> shades_;  ///< sorted, one a cell
+  Array<Cell> cells_;  ///< sorted
+  KeySums shades_;     ///< the shade of each cell
 };
 
 enum class Membership { centre, whole, clipped };

@@ -86,7 +86,7 @@ class Describer {
   }
 
   void add_materials() {
-    bool any_unlit = false, any_strength = false;
+    bool any_unlit = false, any_strength = false, any_transmission = false, any_specular = false;
     const TextureNumber texture_number = [this](const TextureUse& use) {
       return textures_.number(use, images_);
     };
@@ -95,8 +95,12 @@ class Describer {
       append_material(material_list_, material, texture_number);
       any_unlit = any_unlit || material.unlit;
       any_strength = any_strength || emissive_strength(material) != 1;
+      any_transmission = any_transmission || material.transmission > 0;
+      any_specular = any_specular || material.specular < 1;
     }
+    if (any_transmission) extensions_used_.emplace_back("KHR_materials_diffuse_transmission");
     if (any_strength) extensions_used_.emplace_back("KHR_materials_emissive_strength");
+    if (any_specular) extensions_used_.emplace_back("KHR_materials_specular");
     if (any_unlit) extensions_used_.emplace_back("KHR_materials_unlit");
     if (materials_.any_variants) extensions_used_.emplace_back("KHR_materials_variants");
   }

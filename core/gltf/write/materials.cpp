@@ -59,18 +59,28 @@ std::string surface_members(const Material& material, int base, int surface) {
   return text;
 }
 
-void append_extensions(JsonWriter& json, const Material& material) {
-  const float strength = emissive_strength(material);
-  if (!material.unlit && strength == 1) return;
+/// The members of `extensions`; empty where the material has none. `base`: its colour texture, or -1.
+std::string extension_members(const Material& material, int base) {
   std::string text;
-  if (strength != 1) {
-    text += "\"KHR_materials_emissive_strength\":{\"emissiveStrength\":";
-    append_decimal(text, strength);
-    text += '}';
+  Members members(text);
+  if (material.transmission > 0) {
+    members.json.object("KHR_materials_diffuse_transmission", [&] {
+      const glm::vec3 color = glm::vec3(material.base_color) * material.transmission_color;
+      members.factors("diffuseTransmissionColorFactor", std::array{color.x, color.y, color.z}, 1);
+      members.texture("diffuseTransmissionColorTexture", base, material.base_color_texture.uv_set);
+      members.factor("diffuseTransmissionFactor", material.transmission, 0);
+    });
   }
-  if (material.unlit) text += (text.empty() ? "" : ",") + std::string("\"KHR_materials_unlit\":{}");
-  json.key("extensions");
-  json.json('{' + text + '}');
+  if (const float strength = emissive_strength(material); strength != 1) {
+    members.json.object("KHR_materials_emissive_strength",
+                        [&] { members.factor("emissiveStrength", strength, 1); });
+  }
+  if (material.specular < 1) {
+    members.json.object("KHR_materials_specular",
+                        [&] { members.factor("specularFactor", material.specular, 1); });
+  }
+  if (material.unlit) members.json.object("KHR_materials_unlit", [] {});
+  return text;
 }
 
 }  // namespace
@@ -97,7 +107,10 @@ void append_material(std::string& out, const Material& material, const TextureNu
     const glm::vec3 glow = material.emissive / emissive_strength(material);
     members.factors("emissiveFactor", std::array{glow.x, glow.y, glow.z}, 0);
     members.texture("emissiveTexture", emissive, material.emissive_texture.uv_set);
-    append_extensions(json, material);
+    if (const std::string inner = extension_members(material, base); !inner.empty()) {
+      json.key("extensions");
+      json.json('{' + inner + '}');
+    }
     if (!material.name.empty()) json.member("name", material.name);
     members.texture("normalTexture", normal, material.normal_texture.uv_set);
     members.texture("occlusionTexture", occlusion, material.occlusion_texture.uv_set);

@@ -51,6 +51,55 @@ std::size_t corners_on_edges(const Model& model) {
   return count;
 }
 
+constexpr const char* picture =
+    "data:image/png;base64,"
+    "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAIAAACQd1PeAAAADElEQVR4nGP4z8AAAAMBAQDJ/pLvAAAA"
+    "AElFTkSuQmCC";
+
+/// Hutsko 2022, figures 2.11 and 2.12: a picture of the facade, whatever the style draws.
+TEST(FacadeImage, CoversTheWallsOfEveryStyle) {
+  for (const char* style : {"plaster", "brick", "wood"}) {
+    BuildingParams params = blueprint(BuildingBlueprint::house);
+    params.attributes["style"] = std::string(style);
+    params.facade_image = picture;
+    params.facade_tile = {4, 2};
+    const Model model = model_of(params);
+    double area = 0;
+    for (const MeshGroup& group : model.meshes) {
+      for (const Primitive& primitive : group.primitives) {
+        const Material& material = model.materials[static_cast<std::size_t>(primitive.material)];
+        // Walls are tinted; the part that makes a chimney is plain brick.
+        EXPECT_FALSE(material.name.starts_with(style + std::string("_"))) << material.name;
+        if (material.name != "facade") continue;
+        EXPECT_GE(material.base_color_texture.texture, 0);
+        const Mesh& mesh = primitive.mesh;
+        for (const glm::vec3& normal : mesh.normal) EXPECT_NEAR(normal.y, 0, 1e-3);
+        for (std::size_t i = 0; i < mesh.index.size(); i += 3) {
+          const std::uint32_t a = mesh.index.at(i), b = mesh.index.at(i + 1), c = mesh.index.at(i + 2);
+          const glm::vec3 cross =
+              glm::cross(mesh.position[b] - mesh.position[a], mesh.position[c] - mesh.position[a]);
+          const glm::vec2 u = mesh.uv[0][b] - mesh.uv[0][a], v = mesh.uv[0][c] - mesh.uv[0][a];
+          // One copy of the picture covers 4 m by 2 m.
+          EXPECT_NEAR(glm::length(cross), 8 * std::abs(u.x * v.y - u.y * v.x), 1e-3);
+          area += 0.5 * static_cast<double>(glm::length(cross));
+        }
+      }
+    }
+    EXPECT_GT(area, 50) << style;
+    EXPECT_TRUE(model.warnings.empty());
+  }
+}
+
+TEST(FacadeImage, IsReportedWhereNoWallShowsIt) {
+  BuildingParams params = with("Lot --> color(\"#ff0000\") comp(f){ all: Red. }");
+  params.facade_image = picture;
+  const Model model = model_of(params);
+  ASSERT_EQ(model.warnings.size(), 1U);
+  EXPECT_EQ(model.warnings[0].pointer, "/facade_image");
+  params.facade_image = "facade.png";
+  EXPECT_EQ(check(params, Limits{}).front().pointer, "/facade_image");
+}
+
 TEST(CoplanarRectangles, GiveAnEdgeTheCornersOfItsNeighbours) {
   const BuildingParams params = with(
       "Lot --> comp(f){ front: split(y){ 3: Low. | ~1: split(x){ ~2: Wall. | 1: split(y){ ~1: Wall. | 2: "

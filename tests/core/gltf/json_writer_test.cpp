@@ -88,12 +88,30 @@ TEST(Materials, HaveTheirMembersByName) {
   material.normal_texture = {2, 0, true};
   material.emissive_texture = {3, 0, true};
   EXPECT_EQ(described(material),
-            R"({"alphaCutoff":0.4,"alphaMode":"MASK","doubleSided":true,"emissiveFactor":[0.0,0.0,2.0],)"
-            R"("emissiveTexture":{"index":3},"extensions":{"KHR_materials_unlit":{}},"name":"all",)"
+            R"({"alphaCutoff":0.4,"alphaMode":"MASK","doubleSided":true,"emissiveFactor":[0.0,0.0,1.0],)"
+            R"("emissiveTexture":{"index":3},"extensions":{"KHR_materials_emissive_strength":)"
+            R"({"emissiveStrength":2.0},"KHR_materials_unlit":{}},"name":"all",)"
             R"("normalTexture":{"index":2},"occlusionTexture":{"index":1},)"
             R"("pbrMetallicRoughness":{"baseColorFactor":[0.25,1.0,0.0,1.0],)"
             R"("baseColorTexture":{"index":0,"texCoord":1},"metallicFactor":0.0,)"
             R"("metallicRoughnessTexture":{"index":1}}})");
+}
+
+TEST(Materials, DescribeTheLightThatPassesThroughLeaves) {
+  Material material;
+  material.metallic = 1;
+  material.roughness = 1;
+  material.base_color = {0.5F, 0.5F, 0.5F, 1};
+  material.base_color_texture = {4, 0, true};
+  material.transmission = 0.25F;
+  material.transmission_color = {1, 1, 0.5F};
+  material.specular = 0.5F;
+  EXPECT_EQ(
+      described(material),
+      R"({"extensions":{"KHR_materials_diffuse_transmission":{)"
+      R"("diffuseTransmissionColorFactor":[0.5,0.5,0.25],"diffuseTransmissionColorTexture":{"index":4},)"
+      R"("diffuseTransmissionFactor":0.25},"KHR_materials_specular":{"specularFactor":0.5}},)"
+      R"("pbrMetallicRoughness":{"baseColorFactor":[0.5,0.5,0.5,1.0],"baseColorTexture":{"index":4}}})");
 }
 
 TEST(JsonWriter, SetsCommasBetweenMembersAndValues) {

@@ -162,11 +162,61 @@ TEST(GeoJson, RepairsOutlinesThatTouchThemselves) {
   const auto court = imported_map(collection_of(
       {feature_of({{"building", "yes"}}, {box_of(0, 0, 20, 20), ring_of({{0, 0}, {10, 4}, {4, 10}})})}));
   EXPECT_EQ(parameters_of(court)["buildings"][0]["footprint"].size(), 2U);
-  const auto crossing = imported_map(
-      collection_of({feature_of({{"building", "yes"}}, {ring_of({{0, 0}, {10, 10}, {10, 0}, {0, 7}})}),
-                     feature_of({{"building", "yes"}}, {box_of(30, 0, 9, 9)})}));
-  EXPECT_EQ(parameters_of(crossing)["buildings"].size(), 1U);
-  EXPECT_THAT(reports(crossing), Contains(HasSubstr("a footprint crosses itself; it is left out")));
+}
+
+TEST(GeoJson, ReadsNamesInEveryCaseAndOfShapeFiles) {
+  EXPECT_EQ(building_of({{"HEIGHT", 21}})["height"], 21);
+  EXPECT_EQ(building_of({{"Height", "21 m"}})["height"], 21);
+  EXPECT_EQ(building_of({{"heightroof", "100"}})["height"], 30.48);  // feet
+  EXPECT_EQ(building_of({{"hauteur", 15.5}, {"nombre_d_etages", 5}})["height"], 15.5);
+  for (const char* name :
+       {"storeys", "building_l", "numberOfFloors", "FLOOR_COUNT", "nb_etages", "no_storeys"})
+    EXPECT_EQ(building_of({{name, 5}})["height"], 15) << name;
+  EXPECT_EQ(building_of({{"tags", {{"Height", 12}}}, {"type", "way"}})["height"], 12);
+  EXPECT_EQ(building_of({{"height", 9}, {"roof_shape", "Half Hipped"}})["roof"]["shape"], "half_hipped");
+}
+
+TEST(GeoJson, ReadsTheKindOfAFeatureFromOneProperty) {
+  const Value line = {
+      {"type", "Feature"},
+      {"properties", {{"fclass", "residential"}}},
+      {"geometry", {{"type", "LineString"}, {"coordinates", {degrees_at(0, 0), degrees_at(99, 0)}}}}};
+  const Value parameters = parameters_of(imported_map(
+      collection_of({feature_of({{"fclass", "park"}}, {box_of(0, 0, 9, 9)}),
+                     feature_of({{"subtype", "water"}, {"class", "pond"}}, {box_of(20, 0, 9, 9)}),
+                     feature_of({{"class", "stadium"}}, {box_of(40, 0, 9, 9)}),
+                     feature_of({{"class", "grass"}, {"height", 4}}, {box_of(60, 0, 9, 9)}), line})));
+  ASSERT_EQ(parameters["areas"].size(), 2U);
+  EXPECT_EQ(parameters["areas"][0]["name"], "grass");
+  EXPECT_EQ(parameters["areas"][1]["name"], "water");
+  EXPECT_EQ(parameters["buildings"].size(), 2U);
+  EXPECT_EQ(parameters["paths"].size(), 1U);
+}
+
+TEST(GeoJson, ReadsFeaturesAsLines) {
+  const std::string first = feature_of({{"height", 5}}, {box_of(0, 0, 9, 9)}).dump(),
+                    second = feature_of({{"height", 7}}, {box_of(20, 0, 9, 9)}).dump();
+  for (const std::string& text :
+       {first + "\n" + second + "\n", first + "\r\n\r\n" + second, "\x1e" + first + "\n\x1e" + second + "\n",
+        "\xEF\xBB\xBF" + first + "\n" + second}) {
+    const auto result = imported("", text);
+    ASSERT_TRUE(result) << reports(result)[0];
+    EXPECT_EQ(parameters_of(result)["buildings"].size(), 2U);
+  }
+  const auto broken = imported("geojson", first + "\n" + second.substr(0, 30) + "\n");
+  ASSERT_FALSE(broken);
+  EXPECT_EQ(broken.error().issues[0].line, 2);
+}
+
+TEST(GeoJson, TakesGeometriesWithoutCoordinates) {
+  const auto result =
+      imported_map(collection_of({feature_of({{"height", 5}}, {box_of(0, 0, 9, 9)}),
+                                  feature_of({}, Value::array()),
+                                  {{"type", "Feature"},
+                                   {"properties", nullptr},
+                                   {"geometry", {{"type", "Point"}, {"coordinates", Value::array()}}}}}));
+  ASSERT_TRUE(result) << reports(result)[0];
+  EXPECT_EQ(parameters_of(result)["buildings"].size(), 1U);
 }
 
 TEST(GeoJson, ReadsWebMercatorAndMetres) {

@@ -106,6 +106,121 @@ TEST(Osm, MakesTreesOfRows) {
   EXPECT_EQ(layers[0]["place"]["positions"].size(), 11U);
 }
 
+/// Areas of the rings of each building, outer rings first, in square metres.
+std::vector<std::vector<double>> ring_areas(const Value& parameters) {
+  std::vector<std::vector<double>> buildings;
+  for (const Value& building : parameters.value("buildings", Value::array())) {
+    std::vector<double> areas;
+    for (const Value& ring : building["footprint"]) {
+      double twice = 0;
+      for (std::size_t i = 0; i < ring.size(); ++i) {
+        const Value &a = ring[i], &b = ring[(i + 1) % ring.size()];
+        twice += a[0].get<double>() * b[1].get<double>() - a[1].get<double>() * b[0].get<double>();
+      }
+      areas.push_back(std::abs(twice) / 2);
+    }
+    buildings.push_back(std::move(areas));
+  }
+  return buildings;
+}
+
+const auto about = [](double area) { return testing::DoubleNear(area, 0.2); };
+
+TEST(Osm, FindsTheHolesOfMultipolygonsWithoutRoles) {
+  OsmText osm;
+  // An island in a courtyard has a courtyard of its own.
+  const int outer = osm.way(osm.box(0, 0, 40, 40), ""), court = osm.way(osm.box(5, 5, 30, 30), ""),
+            island = osm.way(osm.box(10, 10, 20, 20), ""), inner = osm.way(osm.box(15, 15, 10, 10), "");
+  osm.multipolygon({inner, outer, island, court}, {}, house);
+  std::string text = osm.text();
+  const std::string role = "role='outer'";
+  for (std::size_t at = text.find(role); at != std::string::npos; at = text.find(role))
+    text.replace(at, role.size(), "role=''");
+  const Value parameters = parameters_of(imported("osm", text));
+  EXPECT_THAT(ring_areas(parameters), testing::UnorderedElementsAre(ElementsAre(about(1600), about(900)),
+                                                                    ElementsAre(about(400), about(100))));
+}
+
+TEST(Osm, GivesHolesToTheSmallestRingAround) {
+  OsmText osm;
+  const int outer = osm.way(osm.box(0, 0, 40, 40), ""), court = osm.way(osm.box(5, 5, 30, 30), ""),
+            island = osm.way(osm.box(10, 10, 20, 20), ""), inner = osm.way(osm.box(15, 15, 10, 10), "");
+  osm.multipolygon({outer, island}, {court, inner}, house);
+  const auto result = imported("osm", osm.text());
+  EXPECT_THAT(ring_areas(parameters_of(result)),
+              ElementsAre(ElementsAre(about(1600), about(900)), ElementsAre(about(400), about(100))));
+  EXPECT_THAT(reports(result), testing::Not(Contains(HasSubstr("courtyard"))));
+}
+
+TEST(Osm, CountsAnOuterWayWithAnotherKindOfBuildingOnce) {
+  OsmText osm;
+  const int outer = osm.way(osm.box(0, 0, 30, 30), tag("building", "yes") + tag("building:levels", "5")),
+            inner = osm.way(osm.box(10, 10, 10, 10), "");
+  osm.multipolygon({outer}, {inner}, tag("building", "apartments"));
+  const Value parameters = parameters_of(imported("osm", osm.text()));
+  ASSERT_EQ(parameters["buildings"].size(), 1U);
+  EXPECT_EQ(parameters["buildings"][0]["height"], 15);
+  EXPECT_EQ(parameters["buildings"][0]["footprint"].size(), 2U);
+}
+
+TEST(Osm, ReadsTheTagsOfRelationsOfBuildings) {
+  OsmText osm;
+  const int outline = osm.way(osm.box(0, 0, 30, 30), "");
+  std::string text = osm.text();
+  text.insert(text.find("</osm>"), "<relation id='99'><member type='way' role='outline' ref='" +
+                                       std::to_string(outline) + "'/><tag k='type' v='building'/>" + house +
+                                       "</relation>\n");
+  const Value parameters = parameters_of(imported("osm", text));
+  ASSERT_EQ(parameters["buildings"].size(), 1U);
+  EXPECT_EQ(parameters["buildings"][0]["height"], 7);
+}
+
+TEST(Osm, JoinsElementsThatOverpassWritesTwice) {
+  OsmText osm;
+  const std::vector<int> box = osm.box(0, 0, 12, 8);
+  const int way = osm.way(box, "");
+  std::string text = osm.text();
+  const auto result = [&](bool skeleton_first) {
+    const std::string tagged = "<way id='" + std::to_string(way) + "'>" + house + "</way>\n";
+    std::string whole = text;
+    whole.insert(skeleton_first ? whole.find("</osm>") : whole.find("<node"), tagged);
+    return parameters_of(imported("osm", whole));
+  };
+  for (const bool skeleton_first : {false, true}) {
+    const Value parameters = result(skeleton_first);
+    ASSERT_EQ(parameters["buildings"].size(), 1U) << skeleton_first;
+    EXPECT_EQ(parameters["buildings"][0]["height"], 7);
+  }
+}
+
+TEST(Osm, LeavesOutNodesWithoutAPosition) {
+  OsmText osm;
+  osm.way(osm.box(0, 0, 12, 8), house);
+  std::string text = osm.text();
+  text.insert(text.find("<node"), "<node id='77'><tag k='natural' v='tree'/></node>\n");
+  const auto result = imported("osm", text);
+  ASSERT_TRUE(result) << reports(result)[0];
+  EXPECT_THAT(reports(result), Contains(HasSubstr("3:2 a node without a position is left out")));
+}
+
+TEST(Osm, PutsTheOriginIntoTheMiddleOfAllBounds) {
+  OsmText osm;
+  osm.way(osm.box(0, 0, 12, 8), house);
+  std::string text = osm.text();
+  text.insert(text.find("<node"),
+              "<bounds minlat='48.09' minlon='11.49' maxlat='48.1' maxlon='11.5'/>\n"
+              "<bounds minlat='48.1' minlon='11.5' maxlat='48.13' maxlon='11.53'/>\n");
+  const Value origin = parameters_of(imported("osm", text))["georeference"];
+  EXPECT_NEAR(origin["latitude"].get<double>(), 48.11, 1e-9);
+  EXPECT_NEAR(origin["longitude"].get<double>(), 11.51, 1e-9);
+}
+
+TEST(Osm, StripsAByteOrderMark) {
+  OsmText osm;
+  osm.way(osm.box(0, 0, 12, 8), house);
+  ASSERT_TRUE(imported("", "\xEF\xBB\xBF" + osm.text()));
+}
+
 TEST(Osm, RefusesBrokenXmlAtItsLine) {
   EXPECT_THAT(reports(imported("osm", "<osm>\n<node id='1'\n</osm>")),
               ElementsAre(HasSubstr("this is no XML")));
@@ -180,6 +295,11 @@ TEST(MapValues, ReadsLengthsDirectionsAndColours) {
   EXPECT_DOUBLE_EQ(*map_length("10 ft"), 3.048);
   EXPECT_FALSE(map_length("high"));
   EXPECT_FALSE(map_length("12;14"));
+  EXPECT_DOUBLE_EQ(*map_length("12,5"), 12.5);
+  EXPECT_DOUBLE_EQ(*map_length("7,25 m."), 7.25);
+  EXPECT_DOUBLE_EQ(*map_length("~10"), 10);
+  EXPECT_FALSE(map_length("1,200"));
+  EXPECT_FALSE(map_number("2-3"));
   EXPECT_DOUBLE_EQ(*map_number("2;3"), 2);
   EXPECT_DOUBLE_EQ(*map_direction("north-east"), 45);
   EXPECT_DOUBLE_EQ(*map_direction("WNW"), 292.5);

@@ -196,6 +196,38 @@ TEST(Drainage, DrainsEveryDepressionOverItsRim) {
   EXPECT_GE(area[4 * 9 + 7], 25.0F);
 }
 
+// The definition: water stands at the lowest rim over all ways to the border, here by relaxation until nothing changes.
+TEST(Drainage, FillsToTheLowestRimAndOrdersReceiversFirst) {
+  constexpr int size = 33;
+  // Steps of 5 m, so that many heights are equal, above and below 0.
+  Field field = hills(size);
+  for (float& height : field.heights) height = 5 * std::round((height - field.heights[40]) / 5);
+  std::vector<float> filled(field.heights.begin(), field.heights.end());
+  for (int z = 1; z < size - 1; ++z) std::fill_n(filled.begin() + z * size + 1, size - 2, 1e9F);
+  for (bool changes = true; changes;) {
+    changes = false;
+    for (int i = size + 1; i < size * (size - 1) - 1; ++i) {
+      if (i % size == 0 || i % size == size - 1) continue;
+      for (const int apart : {-size - 1, -size, -size + 1, -1, 1, size - 1, size, size + 1}) {
+        const auto at = static_cast<std::size_t>(i);
+        const float level = std::max(field.heights[at], filled[static_cast<std::size_t>(i + apart)]);
+        changes = changes || level < filled[at];
+        filled[at] = std::min(filled[at], level);
+      }
+    }
+  }
+  const Drainage drainage = drainage_of(field, any_job());
+  ASSERT_EQ(drainage.order.size(), filled.size());
+  std::vector<bool> seen(filled.size(), false);
+  for (const std::uint32_t sample : drainage.order) {
+    EXPECT_EQ(drainage.filled[sample], filled[sample]) << sample;
+    const std::uint32_t to = drainage.receiver[sample];
+    EXPECT_TRUE(to == sample || seen[to]) << sample;
+    EXPECT_FALSE(seen[sample]);
+    seen[sample] = true;
+  }
+}
+
 TEST(Drainage, DrainsEverySampleToTheBorder) {
   const Field field = hills(65);
   const Array<float> area = gathered(field, drainage_of(field, any_job()), any_job());

@@ -156,6 +156,8 @@ class BuildingParameters(TypedDict, total=False):
     weights: Literal['normalize', 'strict']
     restrict: Literal['none', 'non_erasing', 'unimarker', 'split']
     materials: Dict[str, "BuildingParametersMaterialsValue"]
+    facade_image: str
+    facade_tile: List[float]
     textures: Literal['auto', 'made', 'none']
     assets: Dict[str, "BuildingParametersAssetsValue"]
 
@@ -245,8 +247,30 @@ class CityParametersStreetsClasses(TypedDict, total=False):
     lane: "CityParametersStreetsClassesLane"
 
 
+class CityParametersStreetsTensorFieldsItem(TypedDict, total=False):
+    type: Literal['grid', 'radial', 'boundary', 'polyline']
+    position: List[float]
+    angle: float
+    size: float
+    weight: float
+    points: List[List[float]]
+
+
+class CityParametersStreetsTensor(TypedDict, total=False):
+    fields: List["CityParametersStreetsTensorFieldsItem"]
+    t_junctions: float
+
+
+class CityParametersStreetsWards(TypedDict, total=False):
+    count: int
+    size: float
+    gates: int
+    citadel: bool
+    wall_height: float
+
+
 class CityParametersStreets(TypedDict, total=False):
-    method: Literal['growth', 'given']
+    method: Literal['growth', 'tensor', 'wards', 'given']
     productions: List[str]
     pattern: Literal['organic', 'raster', 'radial']
     minor_pattern: Literal['organic', 'raster', 'radial']
@@ -268,6 +292,8 @@ class CityParametersStreets(TypedDict, total=False):
     crossings: float
     classes: "CityParametersStreetsClasses"
     bridge_length: float
+    tensor: "CityParametersStreetsTensor"
+    wards: "CityParametersStreetsWards"
 
 
 class CityParametersLots(TypedDict, total=False):
@@ -291,6 +317,7 @@ class BuildingRule(TypedDict, total=False):
     rear: float
     depth: List[float]
     share: float
+    zones: List[str]
 
 
 class CityParametersBuildings(TypedDict, total=False):
@@ -729,6 +756,21 @@ class SceneParameters(TypedDict, total=False):
     chunks: int
 
 
+class TerrainParametersLayersItem(TypedDict, total=False):
+    name: str
+    algorithm: Literal['expression', 'fault_formation', 'poisson_faulting', 'fbm']
+    expression: str
+    combine: Literal['add', 'subtract', 'multiply', 'max', 'min', 'replace', 'none']
+    mask: str
+    iterations: int
+    amplitude: float
+    hurst: float
+    noise: Literal['rolling', 'ridged', 'billow']
+    wavelength: float
+    fault_max: float
+    fault_min: float
+
+
 class _TerrainParametersImageRequired(TypedDict):
     data: str
 
@@ -807,7 +849,9 @@ class TerrainParametersHeightmap(TypedDict, total=False):
 
 
 class TerrainParameters(TypedDict, total=False):
-    algorithm: Literal['fault_formation', 'poisson_faulting', 'triangular_edge', 'diamond_square', 'square_square', 'fbm', 'image']
+    algorithm: Literal['fault_formation', 'poisson_faulting', 'triangular_edge', 'diamond_square', 'square_square', 'fbm', 'image', 'expression']
+    expression: str
+    layers: List["TerrainParametersLayersItem"]
     iterations: int
     extra_iterations: int
     resolution: int
@@ -871,8 +915,11 @@ class TreeParametersLeaf(TypedDict, total=False):
     coarseness: int
     density: float
     size: float
+    faces: Literal['auto', 'two_sided', 'outward']
     crown_normals: float
     tint: float
+    hue: float
+    occlusion: float
     color: str
     autumn: str
     evergreen: bool

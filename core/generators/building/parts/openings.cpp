@@ -16,6 +16,25 @@ double frame_width(const dvec3& size, const PartOptions& options, double share) 
   return std::min(options.frame > 0 ? options.frame : std::min(share * least, 0.12), least / 3);
 }
 
+/// Curtains or a blind, directly before the opaque glass, so that they seem to hang behind it. `low` and `high`:
+/// the glass; they lie between its front and `front`.
+void add_room(PartWriter& out, const dvec3& low, const dvec3& high, double front, int room) {
+  const double width = high.x - low.x, height = high.y - low.y;
+  const double back = 0.5 * (low.z + high.z), face = high.z + 0.3 * (front - high.z);
+  const auto hang = [&](const dvec2& from, const dvec2& to, double gap) {
+    out.box("curtain", {low.x + from.x * width, low.y + from.y * height, back},
+            {low.x + to.x * width, low.y + to.y * height, high.z + gap * (face - high.z)});
+  };
+  if (room == 1) {
+    hang({0.02, 0.02}, {0.27, 0.98}, 1);
+    hang({0.75, 0.03}, {0.98, 0.97}, 0.8);
+  } else if (room == 2) {
+    hang({0.02, 0.55}, {0.98, 0.98}, 1);
+  } else if (room == 3) {
+    hang({0.02, 0.02}, {0.98, 0.46}, 1);
+  }
+}
+
 /// A frame with openings, and glass in the middle of its depth.
 void add_window(PartWriter& out, const dvec3& low, const dvec3& high, const PartOptions& options) {
   const dvec3 size = high - low;
@@ -39,8 +58,10 @@ void add_window(PartWriter& out, const dvec3& low, const dvec3& high, const Part
   }
   out.push("frame", outline, {Along::z, low.z, high.z});
   const double inset = 0.5 * frame;
-  out.box("glass", {low.x + inset, low.y + inset, low.z + 0.4 * size.z},
-          {high.x - inset, high.y - inset, low.z + 0.55 * size.z});
+  const dvec3 glass_low{low.x + inset, low.y + inset, low.z + 0.4 * size.z},
+      glass_high{high.x - inset, high.y - inset, low.z + 0.55 * size.z};
+  out.box("glass", glass_low, glass_high);
+  add_room(out, glass_low, glass_high, high.z, options.room);
 }
 
 std::vector<PartPiece> make_window(const dvec3& size, const PartOptions& options, Job& job) {

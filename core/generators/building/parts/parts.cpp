@@ -37,16 +37,17 @@ constexpr std::array<PartRow, 18> rows{{
     {"window", "A frame, glazing bars by its width, and glass.", {1.2, 1.5, 0.12}, make_window},
 }};
 
-constexpr std::array<PartMaterial, 14> materials{{
+constexpr std::array<PartMaterial, 15> materials{{
     {"brick", "#96594a", 0, 0.95F},
     {"bronze", "#8f6b3e", 0.9F, 0.45F},
     {"clay", "#a8623f", 0, 0.9F},
     {"concrete", "#a9a8a3", 0, 0.95F},
+    {"curtain", "#8d8779", 0, 0.15F},
     {"door", "#5c3b26", 0, 0.7F},
     {"floor", "#9d978d", 0, 0.9F},
-    {"frame", "#efece4", 0, 0.6F},
+    {"frame", "#dedbd2", 0, 0.6F},
     {"gable", "#ded4c3", 0, 0.95F},
-    {"glass", "#5d7a8c", 0.1F, 0.12F},
+    {"glass", "#2c3236", 0, 0.06F},
     {"metal", "#43474c", 0.8F, 0.45F},
     {"roof", "#8b4b3b", 0, 0.9F},
     {"stone", "#bdb6a8", 0, 0.95F},

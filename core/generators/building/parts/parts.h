@@ -24,6 +24,7 @@ struct PartOptions {
   double angle = 0;  ///< radians: slope of the roof of a tower or dormer; 0: a default
   int count = 0;     ///< sides of round parts, steps of stairs, panes of a window, saw teeth; 0: by size
   double frame = 0;  ///< metres: width of the frame of a window or door, of a balcony rail; 0: by size
+  int room = 0;      ///< behind a window: 0 darkness, 1 curtains, 2 a blind, 3 a short curtain
 
   friend auto operator<=>(const PartOptions&, const PartOptions&) = default;
 };

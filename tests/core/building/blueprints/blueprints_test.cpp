@@ -253,5 +253,47 @@ TEST(Blueprints, VillaHasNoWindowBehindThePorticosRoof) {
   }
 }
 
+/// Linear luminance of what is on a facade in any light: glass as dark as a pane before an unlit room, paint
+/// and plaster no lighter than fresh lime.
+TEST(Blueprints, HaveColoursThatAreSafeInAnyLight) {
+  for (const auto& [name, size] : lots()) {
+    for (std::uint64_t seed = 0; seed < 4; ++seed) {
+      const Result<Model> model = model_of(request(name), seed);
+      ASSERT_TRUE(model) << name;
+      for (const Material& material : model->materials) {
+        const glm::vec4& color = material.base_color;
+        const float luminance = 0.2126F * color.x + 0.7152F * color.y + 0.0722F * color.z;
+        EXPECT_LE(luminance, 0.76F) << name << " " << material.name;
+        if (!material.name.starts_with("glass")) continue;
+        EXPECT_GE(luminance, 0.02F) << name;
+        EXPECT_LE(luminance, 0.06F) << name;
+        EXPECT_LE(material.roughness, 0.12F) << name;
+      }
+    }
+  }
+}
+
+TEST(Blueprints, HaveAPictureOnEveryPartButOpeningsAndMetal) {
+  for (const auto& [name, size] : lots()) {
+    const Result<Model> model = model_of(request(name), 3);
+    ASSERT_TRUE(model) << name;
+    double plain = 0, all = 0;
+    for (const Node& node : model->nodes) {
+      if (node.mesh < 0) continue;
+      const auto copies = static_cast<double>(std::max<std::size_t>(node.instances.transforms.size(), 1));
+      for (const Primitive& primitive : model->meshes[static_cast<std::size_t>(node.mesh)].primitives) {
+        const Material& material = model->materials[static_cast<std::size_t>(primitive.material)];
+        const double area = copies * measure({&primitive.mesh}).area;
+        const bool is_opening = material.name.starts_with("glass") || material.name.starts_with("frame") ||
+                                material.name.starts_with("curtain");
+        if (is_opening || material.metallic > 0.5F) continue;
+        all += area;
+        if (material.recipe.kind.empty()) plain += area;
+      }
+    }
+    EXPECT_LE(plain, 0.05 * all) << name;
+  }
+}
+
 }  // namespace
 }  // namespace seedmesh::building

@@ -87,6 +87,7 @@ TEST(Parts, AreSoundAtAnySizeAndOption) {
     if (here.below(2)) options.count = 1 + static_cast<int>(here.below(12));
     if (here.below(2)) options.frame = here.uniform(0.01, 0.3);
     if (here.below(2)) options.angle = here.uniform(0.3, 1.2);
+    options.room = static_cast<int>(here.below(4));
     expect_sound(row, size, options);
   }
 }
@@ -111,6 +112,27 @@ TEST(Parts, WindowHasAFrameAndGlassAndADoorAHandle) {
   for (const PartPiece& piece : make_part(*part_named("door"), {1, 2, 0.2}, {}, job)) door.insert(piece.role);
   EXPECT_THAT(window, testing::ElementsAre("frame", "glass"));
   EXPECT_THAT(door, testing::ElementsAre("door", "frame", "metal"));
+}
+
+TEST(Parts, WindowsHaveCurtainsOrABlindBeforeTheirGlass) {
+  std::set<float> areas;
+  for (int room = 0; room <= 3; ++room) {
+    Job job = job_of();
+    PartOptions options;
+    options.room = room;
+    float curtain = 0, glass_front = 0, curtain_front = 0;
+    for (const PartPiece& piece : make_part(*part_named("window"), {1, 1.4, 0.1}, options, job)) {
+      const Box box = bounds_of(piece.mesh.position.span());
+      if (piece.role == "glass") glass_front = box.max.z;
+      if (piece.role != "curtain") continue;
+      curtain_front = box.max.z;
+      curtain = static_cast<float>(measure({&piece.mesh}).volume);
+    }
+    EXPECT_EQ(curtain > 0, room > 0) << room;
+    EXPECT_EQ(curtain_front > glass_front, room > 0) << room;
+    areas.insert(curtain);
+  }
+  EXPECT_EQ(areas.size(), 4U) << "each room has other curtains";
 }
 
 TEST(Parts, StairsHaveTheRequestedNumberOfSteps) {

@@ -72,6 +72,35 @@ TEST(OrganBlock, RotatesScalesAndMovesASurface) {
   }
 }
 
+/// n = normalize(share unit((p - c) / e^2) + (1 - share) s n_face), in double precision.
+TEST(OrganBlock, PointsNormalsOutwardOnWhicheverSideOfTheirFacesThatIs) {
+  Job job = job_of();
+  const Mesh leaf = leaf_of(LeafBuild::card, job);
+  const Organs organs = organs_of(45, job);
+  FoliageOptions options = options_of(leaf);
+  options.outward = true;
+  options.crown_share = 0.65F;
+  options.crown_axes = {3, 2.5F, 3};
+  const Mesh mesh = std::move(place_organs(organs, options, job)[0].mesh);
+  const std::size_t vertices = leaf.position.size();
+  std::size_t turned = 0;
+  for (std::size_t i = 0; i < mesh.position.size(); ++i) {
+    const Organ& organ = organs.organ[i / vertices];
+    const glm::dmat3 turn = glm::mat3_cast(glm::dquat(organ.frame));
+    const glm::dvec3 own =
+        glm::normalize(turn * (glm::dvec3(leaf.normal[i % vertices]) / glm::dvec3(organ.scale)));
+    const glm::dvec3 axes(options.crown_axes);
+    const glm::dvec3 away =
+        glm::normalize((glm::dvec3(mesh.position[i]) - glm::dvec3(*options.crown)) / (axes * axes));
+    const double side = glm::dot(away, own) < 0 ? -1 : 1;
+    turned += side < 0 ? 1 : 0;
+    const glm::dvec3 wanted = glm::normalize(0.65 * away + 0.35 * side * own);
+    ASSERT_LT(glm::distance(glm::dvec3(mesh.normal[i]), wanted), 1e-5) << i;
+    ASSERT_GT(glm::dot(glm::dvec3(mesh.normal[i]), away), 0.6) << i;
+  }
+  EXPECT_GT(turned, vertices) << "some leaves show their back side to the sky";
+}
+
 TEST(OrganBlock, KeepsNormalsThatFollowACrownOnTheSideOfTheirFaces) {
   Job job = job_of();
   const Mesh leaf = leaf_of(LeafBuild::curved, job);

@@ -1,0 +1,259 @@
+#pragma once
+/// Removes what the rules of a street network forbid from a planar graph.
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "core/generators/city/plan.h"
+
+namespace seedmesh::city {
+
+inline std::uint64_t key_of_point(const CmPoint& p) {
+  return key_at(key_at(0xC17, static_cast<std::uint32_t>(p.x)), static_cast<std::uint32_t>(p.y));
+}
+
+inline bool is_boundary(const PlanarEdge& edge) { return !is_street_tag(edge.tag); }
+inline bool is_given(const PlanarEdge& edge) { return edge.tag >= first_given; }
+/// The order in which streets stay where two of them are too near.
+inline std::uint32_t rank_of(const PlanarEdge& edge) { return is_given(edge) ? 0 : edge.tag + 1; }
+
+inline bool is_street(const PlanarEdge& edge) { return is_street_tag(edge.tag); }
+
+/// Working copy of a graph with the degrees of its nodes.
+class PrunedGraph {
+ public:
+  PrunedGraph(const PlanarGraph& graph, const std::vector<BridgeLine>& bridges)
+      : nodes_(graph.nodes()), degree_(nodes_.size(), 0) {
+    for (const PlanarEdge& edge : graph.edges()) {
+      if (!edge.is_removed()) edges_.push_back(edge);
+    }
+    is_border_.assign(nodes_.size(), 0);
+    for (const PlanarEdge& edge : edges_) {
+      if (is_boundary(edge)) is_border_[edge.from] = is_border_[edge.to] = 1;
+    }
+    count_degrees();
+    if (bridges.empty()) return;
+    std::map<CmPoint, std::uint32_t> at;
+    for (std::uint32_t n = 0; n < nodes_.size(); ++n) at.emplace(nodes_[n], n);
+    for (const BridgeLine& each : bridges) {
+      const auto from = at.find(each.line.front()), to = at.find(each.line.back());
+      if (from == at.end() || to == at.end()) continue;
+      bridges_.push_back({from->second, to->second, each.kind, each.level, each.line, 0});
+    }
+  }
+
+  void drop_outside(const Region& region) {
+    for (PlanarEdge& edge : edges_) {
+      if (is_boundary(edge)) continue;
+      const glm::dvec2 middle = (in_cm(nodes_[edge.from]) + in_cm(nodes_[edge.to])) / 2.0;
+      if (!is_on_land(region, middle)) remove(edge);
+    }
+    compact();
+  }
+
+  /// Removes majors that end nowhere, back to the last junction.
+  void drop_loose_majors() {
+    bool goes_on = true;
+    while (goes_on) {
+      goes_on = false;
+      for (PlanarEdge& edge : edges_) {
+        if (edge.is_removed() || edge.tag != static_cast<std::uint32_t>(EdgeClass::major)) continue;
+        if (!is_loose(edge.from) && !is_loose(edge.to)) continue;
+        remove(edge);
+        goes_on = true;
+      }
+    }
+    compact();
+  }
+
+  /// Removes streets that are shorter than the least length, where rounding and clipping left any.
+  void drop_short(double least) {
+    for (PlanarEdge& edge : edges_) {
+      if (is_street(edge) && !is_given(edge) && distance(nodes_[edge.from], nodes_[edge.to]) < least)
+        remove(edge);
+    }
+    compact();
+  }
+
+  /// Joins the pieces of a straight given street at nodes without another street, where one is too short.
+  void join_short_given(double least) {
+    const PlanarArms arms = arms_of(nodes_, edges_);
+    for (std::uint32_t node = 0; node < nodes_.size(); ++node) {
+      const auto around = arms.of(node);
+      if (around.size() != 2 || is_bridge_end(node)) continue;
+      PlanarEdge &first = edges_[around[0] / 2], &second = edges_[around[1] / 2];
+      if (first.is_removed() || second.is_removed() || !is_given(first) || first.tag != second.tag) continue;
+      const std::uint32_t a = first.from == node ? first.to : first.from,
+                          b = second.from == node ? second.to : second.from;
+      const double shorter = std::min(distance(nodes_[a], nodes_[node]), distance(nodes_[b], nodes_[node]));
+      if (a == b || shorter >= least ||
+          distance_to_segment(in_cm(nodes_[node]), in_cm(nodes_[a]), in_cm(nodes_[b])) > 1.5)
+        continue;
+      first.from = a;
+      first.to = b;
+      second.from = second.to = PlanarEdge::removed;
+    }
+    compact();
+  }
+
+  /// Removes edges that leave a node at an angle below the least one to a wider or earlier edge.
+  void drop_sharp(double cos_least) {
+    for (int round = 0; round < 8; ++round) {
+      const PlanarArms arms = arms_of(nodes_, edges_);
+      bool goes_on = false;
+      for (std::uint32_t node = 0; node < nodes_.size(); ++node)
+        goes_on |= drop_sharp_at(node, arms, cos_least);
+      compact();
+      if (!goes_on) return;
+    }
+  }
+
+  /// Keeps the component of streets with the greatest length, and given streets.
+  void keep_largest() {
+    drop_loose_bridges();
+    std::vector<std::uint32_t> root(nodes_.size());
+    for (std::uint32_t i = 0; i < root.size(); ++i) root[i] = i;
+    const auto find = [&root](std::uint32_t i) {
+      while (root[i] != i) i = root[i] = root[root[i]];
+      return i;
+    };
+    const auto join = [&](std::uint32_t from, std::uint32_t to) {
+      const std::uint32_t a = find(from), b = find(to);
+      root[std::max(a, b)] = std::min(a, b);
+    };
+    for (const PlanarEdge& edge : edges_) {
+      if (is_street(edge)) join(edge.from, edge.to);
+    }
+    for (const Bridge& bridge : bridges_) join(bridge.from, bridge.to);
+    std::vector<double> length(nodes_.size(), 0);
+    std::vector<std::uint8_t> has_given(nodes_.size(), 0);
+    for (const PlanarEdge& edge : edges_) {
+      if (!is_street(edge)) continue;
+      length[find(edge.from)] += distance(nodes_[edge.from], nodes_[edge.to]);
+      if (is_given(edge)) has_given[find(edge.from)] = 1;
+    }
+    const auto longest =
+        static_cast<std::uint32_t>(std::max_element(length.begin(), length.end()) - length.begin());
+    for (PlanarEdge& edge : edges_) {
+      if (is_street(edge) && find(edge.from) != longest && has_given[find(edge.from)] == 0) remove(edge);
+    }
+    compact();
+    drop_loose_bridges();
+  }
+
+  std::vector<BridgeLine> bridges() const {
+    std::vector<BridgeLine> all;
+    for (const Bridge& each : bridges_) all.push_back({each.line, each.tag, each.level});
+    return all;
+  }
+
+  StreetGraph finished() const {
+    StreetGraph graph;
+    std::vector<std::uint32_t> number(nodes_.size(), no_index);
+    const auto node = [&](std::uint32_t old) {
+      if (number[old] == no_index) {
+        number[old] = static_cast<std::uint32_t>(graph.nodes.size());
+        graph.nodes.push_back(nodes_[old]);
+        graph.is_border.push_back(is_border_[old]);
+        graph.node_key.push_back(key_of_point(nodes_[old]));
+      }
+      return number[old];
+    };
+    for (const PlanarEdge& edge : edges_) {
+      const std::uint32_t from = node(edge.from), to = node(edge.to);
+      graph.edges.push_back({from, to, edge.tag});
+      const std::uint64_t a = graph.node_key[from], b = graph.node_key[to];
+      graph.edge_key.push_back(key_at(std::min(a, b), std::max(a, b)));
+    }
+    graph.arms = arms_of(graph.nodes, graph.edges);
+    if (bridges_.empty()) return graph;
+    graph.bridge_ends.assign(graph.nodes.size(), 0);
+    for (Bridge bridge : bridges_) {
+      bridge.from = number[bridge.from];
+      bridge.to = number[bridge.to];
+      const std::uint64_t a = graph.node_key[bridge.from], b = graph.node_key[bridge.to];
+      bridge.key = key_at(key_at(std::min(a, b), std::max(a, b)), 0xB41D6E);
+      ++graph.bridge_ends[bridge.from];
+      ++graph.bridge_ends[bridge.to];
+      graph.bridges.push_back(std::move(bridge));
+    }
+    return graph;
+  }
+
+ private:
+  /// Removes bridges without a street at one of their ends.
+  void drop_loose_bridges() {
+    std::erase_if(bridges_, [&](const Bridge& each) {
+      return degree_[each.from] == 0 || degree_[each.to] == 0 || each.from == each.to;
+    });
+  }
+
+  bool is_bridge_end(std::uint32_t node) const {
+    return std::any_of(bridges_.begin(), bridges_.end(),
+                       [node](const Bridge& each) { return each.from == node || each.to == node; });
+  }
+  bool is_loose(std::uint32_t node) const { return degree_[node] == 1 && is_border_[node] == 0; }
+
+  void remove(PlanarEdge& edge) {
+    --degree_[edge.from];
+    --degree_[edge.to];
+    edge.from = edge.to = PlanarEdge::removed;
+  }
+  void compact() {
+    std::erase_if(edges_, [](const PlanarEdge& edge) { return edge.is_removed(); });
+    count_degrees();
+  }
+  void count_degrees() {
+    std::fill(degree_.begin(), degree_.end(), 0);
+    for (const PlanarEdge& edge : edges_) {
+      if (is_boundary(edge)) continue;
+      ++degree_[edge.from];
+      ++degree_[edge.to];
+    }
+  }
+
+  bool drop_sharp_at(std::uint32_t node, const PlanarArms& arms, double cos_least) {
+    const auto around = arms.of(node);
+    bool has_dropped = false;
+    for (std::size_t i = 0; i < around.size() && around.size() > 1; ++i) {
+      PlanarEdge& first = edges_[around[i] / 2];
+      PlanarEdge& second = edges_[around[(i + 1) % around.size()] / 2];
+      if (first.is_removed() || second.is_removed() || (is_boundary(first) && is_boundary(second)) ||
+          (is_given(first) && is_given(second)))
+        continue;
+      const glm::dvec2 u = direction(first, node), v = direction(second, node);
+      // On the side of an angle above 150 degrees the kerb of a street would pass the border.
+      const bool is_wide = u.x * v.y - u.y * v.x < 0 || u.x * v.x + u.y * v.y < -0.87;
+      if (is_boundary(first) != is_boundary(second) && is_wide) {
+        PlanarEdge& street = is_boundary(first) ? second : first;
+        if (is_given(street)) continue;
+        remove(street);
+        has_dropped = true;
+        continue;
+      }
+      if (u.x * v.x + u.y * v.y <= cos_least) continue;
+      // The border and given streets stay, then the lower class, then the earlier edge.
+      const bool drops_second =
+          is_boundary(first) || (is_street(second) && rank_of(first) <= rank_of(second));
+      PlanarEdge& dropped = drops_second ? second : first;
+      if (is_given(dropped)) continue;
+      remove(dropped);
+      has_dropped = true;
+    }
+    return has_dropped;
+  }
+  glm::dvec2 direction(const PlanarEdge& edge, std::uint32_t node) const {
+    const glm::dvec2 along = in_cm(nodes_[edge.from == node ? edge.to : edge.from]) - in_cm(nodes_[node]);
+    return along / std::sqrt(along.x * along.x + along.y * along.y);
+  }
+
+  std::vector<CmPoint> nodes_;
+  std::vector<PlanarEdge> edges_;
+  std::vector<std::uint32_t> degree_;
+  std::vector<std::uint8_t> is_border_;
+  std::vector<Bridge> bridges_;
+};
+
+}  // namespace seedmesh::city

@@ -1,0 +1,38 @@
+#pragma once
+/// Placing leaflets and leaves in the drawing of a larger leaf or twig.
+#include <utility>
+
+#include "core/base/math.h"
+#include "core/geom/plant/leaf_shape.h"
+
+namespace seedmesh {
+
+/// The placement of a leaflet: its base, the direction of its tip in degrees to the right of +y, its length.
+struct Stand {
+  glm::dvec2 at{0};
+  double degrees = 0, length = 1;
+
+  glm::dvec2 operator()(glm::dvec2 p) const {
+    const math::SinCos turn = math::sincos_degrees(degrees);
+    return at + glm::dvec2{p.x * turn.cos + p.y * turn.sin, p.y * turn.cos - p.x * turn.sin} * length;
+  }
+};
+
+/// The line in the frame of the drawing.
+inline LeafLine moved(LeafLine line, const Stand& stand) {
+  return {stand(line.from), stand(line.to), line.width * stand.length, line.end_width * stand.length};
+}
+
+/// Adds a blade, given in the frame of the leaflet.
+inline void add_blade(LeafDrawing& drawing, const LeafBlade& blade, const Stand& stand) {
+  LeafBlade moved_blade = blade;
+  for (glm::dvec2& p : moved_blade.right) p = stand(p);
+  for (glm::dvec2& p : moved_blade.left) p = stand(p);
+  moved_blade.base = stand(blade.base);
+  moved_blade.tip = stand(blade.tip);
+  moved_blade.half_width *= stand.length;
+  for (LeafLine& vein : moved_blade.veins) vein = moved(vein, stand);
+  drawing.blades.push_back(std::move(moved_blade));
+}
+
+}  // namespace seedmesh

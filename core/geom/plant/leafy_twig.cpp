@@ -1,0 +1,68 @@
+#include "core/geom/plant/leafy_twig.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/math.h"
+#include "core/geom/plant/leaf_stand.h"
+
+namespace seedmesh {
+namespace {
+
+using glm::dvec2;
+
+constexpr double usual_width = 0.25, most_stretch = 2.5;
+
+/// A shoot of a twig: where it begins, its direction in degrees to the right of +y, its length and its leaves.
+struct Shoot {
+  dvec2 at{0};
+  double degrees = 0, length = 1;
+  int leaves = 1;
+};
+
+/// Leaves alternately along a shoot, larger towards its middle, that ends in a leaf. They leave gaps between
+/// them, so that a twig does not look like one leaf.
+void add_shoot(LeafDrawing& drawing, const LeafDrawing& leaf, const Shoot& shoot, double size) {
+  const math::SinCos turn = math::sincos_degrees(shoot.degrees);
+  const dvec2 along = dvec2{turn.sin, turn.cos} * shoot.length;
+  drawing.stalks.push_back({shoot.at, shoot.at + along, 0.016, 0.007});
+  const auto add = [&](const Stand& stand) {
+    for (const LeafLine& line : leaf.stalks) drawing.stalks.push_back(moved(line, stand));
+    for (const LeafBlade& blade : leaf.blades) add_blade(drawing, blade, stand);
+  };
+  for (int i = 0; i + 1 < shoot.leaves; ++i) {
+    const double share = (i + 0.6) / shoot.leaves;
+    const double angle = (i % 2 == 0 ? 1 : -1) * (64 - 26 * share + 9 * (i % 3 - 1));
+    const double rise = 0.78 + 0.22 * math::sincos(math::pi * share).sin;
+    add({shoot.at + along * share, shoot.degrees + angle, size * rise * (0.94 + 0.06 * (i % 3))});
+  }
+  add({shoot.at + along, shoot.degrees, size * 0.85});
+}
+
+}  // namespace
+
+LeafDrawing leafy_twig(const LeafDrawing& leaf, int count) {
+  LeafDrawing drawing;
+  // Narrow leaves are longer, so that they cover as much.
+  const double width = leaf.blades.empty() ? usual_width : leaf.blades.front().half_width;
+  const double stretch = std::sqrt(std::clamp(usual_width / std::max(width, 1e-3), 1.0, most_stretch));
+  const double size = 1.2 * stretch / std::sqrt(static_cast<double>(count)), end = 1 - 0.85 * size;
+  const int aside = count / 4;
+  const Shoot shoots[] = {{{0, 0}, 0, end, count - 2 * aside},
+                          {{0, 0.16 * end}, 46, 0.62 * end, aside},
+                          {{0, 0.3 * end}, -44, 0.55 * end, aside}};
+  std::size_t woody = 0;
+  for (const Shoot& shoot : shoots) {
+    if (shoot.leaves < 1) continue;
+    LeafDrawing own;
+    add_shoot(own, leaf, shoot, size);
+    drawing.stalks.insert(drawing.stalks.begin() + static_cast<std::ptrdiff_t>(woody), own.stalks.front());
+    ++woody;
+    drawing.stalks.insert(drawing.stalks.end(), own.stalks.begin() + 1, own.stalks.end());
+    drawing.blades.insert(drawing.blades.end(), own.blades.begin(), own.blades.end());
+  }
+  drawing.woody = woody;
+  return drawing;
+}
+
+}  // namespace seedmesh
