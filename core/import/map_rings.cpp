@@ -166,8 +166,13 @@ Plan with_holes(PlanRing outer, const std::vector<PlanRing>& holes, const Job* j
 SoundPlans sound_plans(const std::vector<PlanRing>& rings, const Job* job) {
   SoundPlans made;
   if (rings.empty()) return made;
-  std::vector<PlanRing> loops;
-  for (PlanRing& loop : loops_of(clean(rings[0]))) {
+  const PlanRing whole = clean(rings[0]);
+  std::vector<PlanRing> loops, found = loops_of(whole);
+  if (found.empty()) {  // the loops of a ring that crosses itself can cancel out
+    found = divided(whole, job);
+    made.is_divided = !found.empty();
+  }
+  for (PlanRing& loop : found) {
     if (!has_errors(read_plan({loop}), job)) {
       loops.push_back(std::move(loop));
       continue;

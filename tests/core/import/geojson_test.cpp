@@ -164,6 +164,53 @@ TEST(GeoJson, RepairsOutlinesThatTouchThemselves) {
   EXPECT_EQ(parameters_of(court)["buildings"][0]["footprint"].size(), 2U);
 }
 
+/// Areas of the outer rings of all buildings, in square metres.
+std::vector<double> outer_areas(const Result<ImportedRequest>& result) {
+  std::vector<double> areas;
+  const Value parameters = parameters_of(result);
+  for (const Value& building : parameters["buildings"]) {
+    const Value& ring = building["footprint"][0];
+    double twice = 0;
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      const Value &a = ring[i], &b = ring[(i + 1) % ring.size()];
+      twice += a[0].get<double>() * b[1].get<double>() - a[1].get<double>() * b[0].get<double>();
+    }
+    areas.push_back(std::abs(twice) / 2);
+  }
+  return areas;
+}
+
+TEST(GeoJson, DividesOutlinesThatCrossThemselves) {
+  // The edges y = x and y = 7 - 0.7 x cross at x = 7 / 1.7.
+  const auto crossing = imported_map(
+      collection_of({feature_of({{"building", "yes"}}, {ring_of({{0, 0}, {10, 10}, {10, 0}, {0, 7}})})}));
+  constexpr double x = 7 / 1.7;
+  EXPECT_THAT(outer_areas(crossing),
+              testing::UnorderedElementsAre(testing::DoubleNear(7 * x / 2, 0.05),
+                                            testing::DoubleNear(10 * (10 - x) / 2, 0.05)));
+  EXPECT_THAT(reports(crossing), Contains(HasSubstr("a footprint crosses itself; it is divided")));
+  // A wall that is drawn over the opposite wall: the flap of 1 m behind it is a part of its own.
+  const auto flap = imported_map(collection_of(
+      {feature_of({{"building", "yes"}},
+                  {ring_of({{0, 0}, {20, 0}, {20, 10}, {12, 10}, {12, -1}, {8, -1}, {8, 10}, {0, 10}})})}));
+  EXPECT_THAT(outer_areas(flap),
+              testing::UnorderedElementsAre(testing::DoubleNear(80, 0.2), testing::DoubleNear(80, 0.2),
+                                            testing::DoubleNear(4, 0.1)));
+}
+
+TEST(GeoJson, DividesAnOutlineWhoseLoopsCancelOut) {
+  const auto bow = imported_map(
+      collection_of({feature_of({{"building", "yes"}}, {ring_of({{0, 0}, {10, 10}, {10, 0}, {0, 10}})})}));
+  EXPECT_THAT(outer_areas(bow), ElementsAre(testing::DoubleNear(25, 0.1), testing::DoubleNear(25, 0.1)));
+}
+
+TEST(GeoJson, KeepsBothLoopsOfARingThatTouchesItself) {
+  // The two triangles have opposite directions.
+  const auto both = imported_map(collection_of(
+      {feature_of({{"building", "yes"}}, {ring_of({{0, 0}, {10, 0}, {5, 5}, {0, 10}, {10, 10}, {5, 5}})})}));
+  EXPECT_THAT(outer_areas(both), ElementsAre(testing::DoubleNear(25, 0.1), testing::DoubleNear(25, 0.1)));
+}
+
 TEST(GeoJson, ReadsNamesInEveryCaseAndOfShapeFiles) {
   EXPECT_EQ(building_of({{"HEIGHT", 21}})["height"], 21);
   EXPECT_EQ(building_of({{"Height", "21 m"}})["height"], 21);
