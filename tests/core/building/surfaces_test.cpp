@@ -68,8 +68,11 @@ TEST(FacadeImage, CoversTheWallsOfEveryStyle) {
     for (const MeshGroup& group : model.meshes) {
       for (const Primitive& primitive : group.primitives) {
         const Material& material = model.materials[static_cast<std::size_t>(primitive.material)];
-        // Walls are tinted; the part that makes a chimney is plain brick.
-        EXPECT_FALSE(material.name.starts_with(style + std::string("_"))) << material.name;
+        // Walls are tinted; the part that makes a chimney is plain brick, and shutters have a tint of their own.
+        // Of the walls only what looks down over an opening has no picture.
+        if (material.name.starts_with(style + std::string("_")) && material.name != "wood_55675a") {
+          for (const glm::vec3& normal : primitive.mesh.normal) EXPECT_LT(normal.y, -0.99) << material.name;
+        }
         if (material.name != "facade") continue;
         EXPECT_GE(material.base_color_texture.texture, 0);
         const Mesh& mesh = primitive.mesh;
