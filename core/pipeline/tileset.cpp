@@ -106,7 +106,9 @@ void append_word(std::string& out, std::uint64_t word, int bytes) {
   for (int i = 0; i < bytes; ++i) out += static_cast<char>(word >> (8 * i) & 0xFFU);
 }
 
-void append_double(std::string& out, double value) { append_word(out, std::bit_cast<std::uint64_t>(value), 8); }
+void append_double(std::string& out, double value) {
+  append_word(out, std::bit_cast<std::uint64_t>(value), 8);
+}
 
 void pad(std::string& text, char with) {
   constexpr std::size_t alignment = 8;
@@ -220,9 +222,7 @@ std::string written(const Address& root, int levels, const Values* values) {
 
 }  // namespace
 
-bool operator==(const Address& a, const Address& b) {
-  return a.level == b.level && a.x == b.x && a.y == b.y;
-}
+bool operator==(const Address& a, const Address& b) { return a.level == b.level && a.x == b.x && a.y == b.y; }
 
 std::string explicit_tileset(const Address& root, const Naming& naming, const BoundsOf& bounds_of) {
   std::string out;

@@ -171,14 +171,16 @@ Payload write(Model model, const WriteOptions& options, Job& job) {
   const Dialect& dialect = options.dialect;
   const bool is_quantized = dialect.compressed || dialect.quantized;
   std::vector<gltf::Grid> grids;
-  if (is_quantized)
-    grids = gltf::apply_grids(model,
-                              {.least_extent = options.least_extent, .keeps_copies = !dialect.compressed});
+  if (is_quantized) {
+    grids =
+        gltf::apply_grids(model, {.least_extent = options.least_extent, .keeps_copies = !dialect.compressed});
+  }
   Columns columns = gltf::take_columns(model);
-  if (is_quantized)
+  if (is_quantized) {
     gltf::quantize(columns, grids, job,
                    dialect.compressed ? gltf::Encoding::filtered : gltf::Encoding::plain);
-  if (is_quantized && options.counts) recount(model, columns, *options.counts);
+    if (options.counts) recount(model, columns, *options.counts);
+  }
   gltf::DocumentOptions described{
       .generator = options.generator, .scene_extras = options.scene_extras, .dialect = dialect};
   if (!options.image_stem.empty()) described.image_names = gltf::image_names(model, options.image_stem);
