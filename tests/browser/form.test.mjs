@@ -282,7 +282,9 @@ test('the client source contains no parameter name', () => {
     // A value that a shader reads, an element and an event of the page.
     'centre', 'detail', 'y',
     // Annotations of CityEngine.
-    'order', 'angle', 'length', 'distance']);
+    'order', 'angle', 'length', 'distance',
+    // A notation of the editor, an attribute and a class name of elements.
+    'expression', 'class', 'colors']);
   assert.ok(names.has('productions'));
   for (const name of names) {
     assert.doesNotMatch(source, new RegExp(`parameters(\\.|\\[['"])${name}\\b`), name);
