@@ -79,7 +79,7 @@ test('levels fade by dithering when they change with the distance, and the frame
   await choose(page, '#detail', 'ask');
   await page.waitForFunction(() => document.querySelector('#detail').value === 'auto');
   const level = () => page.evaluate(() => Number(/level (\d)$/.exec(document.getElementById('drawn').textContent)?.[1] ?? -1));
-  assert.match(await page.textContent('#drawn'), /^[\d.]+ ms(, frame [\d.]+ ms)?, level 0$/);
+  assert.match(await page.textContent('#drawn'), /^[\d.]+ ms(, frame [\d.]+ ms, [\d.]+ a second)?, level 0$/);
   // Every shader program used during a fade contains the dithering.
   await page.evaluate(() => {
     window.fades = [];

@@ -13,7 +13,7 @@
 namespace seedmesh::world {
 namespace {
 
-constexpr int bound_cells = 16;
+constexpr int bound_cells = tile_cells;  ///< so that a box has the samples of its tile
 constexpr double between_samples =
     1.1;  ///< of the error at the distance of samples: how far ground can be outside
 
@@ -38,7 +38,8 @@ struct Samples {
   double low = 1e12, high = -1e12, shore = 1e12, road = 1e12;
   Roughness roughness;
   bool has_plants = false;
-  double rise = 0;  ///< the greatest between neighbouring samples
+  double rise = 0;       ///< the greatest between neighbouring samples
+  double border = 1e12;  ///< the lowest height at the border, from which the skirt hangs
 };
 
 Samples samples_of(const World& world, const TileFrame& frame, Job& job) {
@@ -49,6 +50,8 @@ Samples samples_of(const World& world, const TileFrame& frame, Job& job) {
       const GroundSample& sample = grid.at(column, row);
       found.low = std::min(found.low, sample.height);
       found.high = std::max(found.high, sample.height);
+      const bool is_border = row == 0 || column == 0 || row + 1 == grid.count || column + 1 == grid.count;
+      if (is_border) found.border = std::min(found.border, sample.height);
       found.roughness.ruggedness = std::max(found.roughness.ruggedness, sample.land.ruggedness);
       if (column > 0)
         found.rise = std::max(found.rise, std::abs(sample.height - grid.at(column - 1, row).height));
@@ -122,8 +125,9 @@ std::shared_ptr<const KnownBounds> measured(const World& world, const TileKey& k
   const Samples samples = samples_of(world, frame, job);
   const int above_leaves = world.levels - 1 - key.level;
   const double error = error_of(world, frame.side, samples.roughness);
-  const double margin = between_samples * error_of(world, 2 * frame.side, samples.roughness) + frame.step;
-  const double steep = frame.side <= widest_measured_works ? 0.35 * samples.rise : 0;  // cliffs
+  const bool is_leaf = above_leaves == 0;
+  const double margin = is_leaf ? 0 : between_samples * error_of(world, frame.side, samples.roughness);
+  const double steep = !is_leaf && frame.side <= widest_measured_works ? 0.35 * samples.rise : 0;  // cliffs
   const bool has_sites = world.params.settlements.density > 0;
   const double works =
       has_sites && works_of(frame) == Works::none && frame.spacing < works_spacing ? most_works : 0;
@@ -138,17 +142,21 @@ std::shared_ptr<const KnownBounds> measured(const World& world, const TileKey& k
   box.east = box.west + frame.side + 2 * plants.across;
   box.north = box.south + frame.side + 2 * plants.across;
   const bool is_built = has_sites && frame.side <= widest_measured_works && samples.road < 64;
-  const double cutting = is_built ? std::min(most_works, 0.04 * frame.side) + 1 : 0;
+  const double cutting = is_built && !is_leaf ? std::min(most_works, 0.04 * frame.side) + 1 : 0;
   const bool is_wet = world.params.relief.sea && samples.low - margin < world.params.relief.sea_level;
   double top = is_wet ? std::max(samples.high, world.params.relief.sea_level) : samples.high;
   if (is_built) top = std::max(top, highest_road(world, frame, job));
   if (samples.roughness.is_near_water && frame.spacing <= widest_lake_spacing) {
     top = std::max(top, highest_water(world, frame, job)) + highest_lift;
   }
-  const double below = margin + steep + works + cutting + (above > 0 ? most_cellar : 0) +
-                       skirt_depth(world, frame.side) + frame.step;
-  box.low = std::floor(samples.low - below);
-  box.high = std::ceil(top + margin + steep + works + cutting + plants.up);
+  // descendants lie between the samples, with shorter skirts; the skirt of the tile hangs from its border alone
+  const double between = margin + steep + works + cutting;
+  const double hanging = is_leaf ? 0 : skirt_depth(world, frame.side / 2);
+  const double cellar = above > 0 ? most_cellar : 0;
+  const double lowest = std::min(samples.border - skirt_depth(world, frame.side),
+                                 samples.low - between - std::max(cellar, hanging));
+  box.low = std::floor((lowest - 2 * frame.step) * 4) / 4;
+  box.high = std::ceil((top + between + plants.up + 2 * frame.step) * 4) / 4;
   box.geometric_error = above_leaves == 0 ? 0 : error;
   if (key.level == 0) return known;
   const TileBounds& parent = known_bounds(world, {key.level - 1, key.x / 2, key.y / 2}, job)->box;

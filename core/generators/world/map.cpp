@@ -1,5 +1,9 @@
 #include <algorithm>
+#include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <set>
+#include <string>
 
 #include "core/base/math.h"
 
@@ -13,14 +17,18 @@ namespace {
 
 constexpr int height_cells = 64;
 
+/// Lengths of maps are multiples of 1/64 m, the grid of plants. All 53 bits of a double would only make texts long.
+/// The order of two lengths stays, so rivers still fall.
+double rounded(double metres) { return std::floor(metres * 64 + 0.5) / 64; }
+
 Json heights_of(const World& world, const Rectangle& box, Job& job) {
   const Ground ground = Ground::with_works(world, box, job);
   Json values = Json::array();
   for (int row = 0; row <= height_cells; ++row) {
     job.check();
     for (int column = 0; column <= height_cells; ++column) {
-      values.push_back(ground.height(box.west + (box.east - box.west) * column / height_cells,
-                                     box.south + (box.north - box.south) * row / height_cells));
+      values.push_back(rounded(ground.height(box.west + (box.east - box.west) * column / height_cells,
+                                             box.south + (box.north - box.south) * row / height_cells)));
     }
   }
   return {{"columns", height_cells + 1}, {"rows", height_cells + 1}, {"values", std::move(values)}};
@@ -35,14 +43,12 @@ class MapWriter {
     for (const CellKey& key : regions_near(world_, box_.west, box_.south, box_.east, box_.north, 0)) {
       job_.check();
       const auto region = region_at(world_, key, job_);
+      const std::set<std::string> waters = waters_of(*region);
       for (const River& river : region->rivers) {
-        if (touches(river)) map["rivers"].push_back(river_json(river));
+        if (waters.contains(river.id)) map["rivers"].push_back(river_json(river));
       }
       for (const Lake& lake : region->lakes) {
-        const double far = 1.4 * lake.radius;
-        if (overlaps(lake.east - far, lake.north - far, lake.east + far, lake.north + far)) {
-          map["lakes"].push_back(lake_json(lake));
-        }
+        if (waters.contains(lake.id)) map["lakes"].push_back(lake_json(lake));
       }
     }
   }
@@ -74,7 +80,7 @@ class MapWriter {
     for (const auto& site : sites_near(world_, box_, 0, job_)) {
       map["settlements"].push_back({{"id", name_of(*site)},
                                     {"position", position(site->east, site->north, site->height)},
-                                    {"radius", site->radius}});
+                                    {"radius", rounded(site->radius)}});
     }
   }
 
@@ -90,7 +96,8 @@ class MapWriter {
   static constexpr double most_places_side = 2048, block = 256;
 
   Json position(double east, double north, double height) const {
-    return {east - static_cast<double>(world_.east), north - static_cast<double>(world_.north), height};
+    return {rounded(east - static_cast<double>(world_.east)),
+            rounded(north - static_cast<double>(world_.north)), rounded(height)};
   }
   bool overlaps(double west, double south, double east, double north) const {
     return west <= box_.east && east >= box_.west && south <= box_.north && north >= box_.south;
@@ -106,11 +113,34 @@ class MapWriter {
     }
     return false;
   }
+  bool touches(const Lake& lake) const {
+    const double far = 1.4 * lake.radius;
+    return overlaps(lake.east - far, lake.north - far, lake.east + far, lake.north + far);
+  }
+  /// The ids of what touches the box, and of all that it flows into. No water leaves a region.
+  std::set<std::string> waters_of(const Region& region) const {
+    std::set<std::string> found;
+    for (const Lake& lake : region.lakes) {
+      if (touches(lake)) found.insert(lake.id);
+    }
+    std::map<std::string, const River*> rivers;
+    for (const River& river : region.rivers) rivers[river.id] = &river;
+    for (const River& river : region.rivers) {
+      if (!touches(river)) continue;
+      const River* here = &river;
+      while (here != nullptr && found.insert(here->id).second) {
+        const auto next = rivers.find(here->into);
+        if (next == rivers.end() && here->into != "sea") found.insert(here->into);
+        here = next == rivers.end() ? nullptr : next->second;
+      }
+    }
+    return found;
+  }
   Json river_json(const River& river) const {
     Json points = Json::array(), widths = Json::array();
     for (const RiverPoint& p : river.points) {
       points.push_back(position(p.east, p.north, p.water));
-      widths.push_back(p.width);
+      widths.push_back(rounded(p.width));
     }
     return {
         {"id", river.id}, {"into", river.into}, {"points", std::move(points)}, {"widths", std::move(widths)}};
@@ -121,10 +151,10 @@ class MapWriter {
     for (int k = 0; k < corners; ++k) {
       const math::SinCos turn = math::sincos_degrees(360.0 * k / corners);
       const double shore = shore_distance(lake, lake.east + turn.cos, lake.north + turn.sin, 1);
-      outline.push_back({lake.east + shore * turn.cos - static_cast<double>(world_.east),
-                         lake.north + shore * turn.sin - static_cast<double>(world_.north)});
+      outline.push_back({rounded(lake.east + shore * turn.cos - static_cast<double>(world_.east)),
+                         rounded(lake.north + shore * turn.sin - static_cast<double>(world_.north))});
     }
-    return {{"id", lake.id}, {"level", lake.level}, {"outline", std::move(outline)}};
+    return {{"id", lake.id}, {"level", rounded(lake.level)}, {"outline", std::move(outline)}};
   }
 
   const World& world_;
