@@ -1442,7 +1442,7 @@ export interface TreeParametersLeaf {
   density?: number;
   /** Factor for the length and width that the model gives. */
   size?: number;
-  /** outward: both sides of a leaf are faces with one normal, which points out of the crown, so that its upper side is as bright as the lower ones are dark. Such leaves have no generated normal map. two_sided: one face that is visible from both sides; renderers turn its normal around at the back, and crowns seen from below the leaves are dark. auto: outward, or two_sided in the profiles unity and unreal, whose foliage materials have a light of their own. Leaves that share a mesh (output.instancing) are two_sided. */
+  /** two_sided: one face that is visible from both sides; renderers turn its normal around at the back, and crowns seen from below the leaves are dark. outward: both sides of a leaf are faces with one normal, which points out of the crown, so that its upper side is as bright as the lower ones are dark. Such leaves have twice the triangles and no generated normal map, and a strict check of meshes reports their faces as duplicates. auto: two_sided. Leaves that share a mesh (output.instancing) are always two_sided. */
   faces?: "auto" | "two_sided" | "outward";
   /** 0 gives every leaf its own normals. 1 gives it the normals of the surface of the crown, so that distant crowns look smoother. */
   crown_normals?: number;

@@ -139,8 +139,7 @@ bool has_leaf_texture(const TreeParams& params) {
 }
 
 bool has_outward_faces(const TreeParams& params, const Demand& demand) {
-  if (demand.share_organs || params.leaf.leaf_faces == TreeLeafFaces::two_sided) return false;
-  return params.leaf.leaf_faces == TreeLeafFaces::outward || !demand.two_sided_leaves;
+  return !demand.share_organs && params.leaf.leaf_faces == TreeLeafFaces::outward;
 }
 
 glm::vec3 color_of_leaves(const TreeParams& params) {
