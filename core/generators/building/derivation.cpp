@@ -16,7 +16,7 @@ Derivation::Derivation(const Task& given, const Context* first, Job& own_job)
       grammar(*given.grammar),
       first_pass(first),
       job(own_job),
-      meter(own_job, Resource::shapes),
+      meter(own_job),
       out(own_job),
       squares{square(0), square(1), square(2)} {
   slots.assign(grammar.first_parameter_slot + grammar.most_parameters + 1, {});

@@ -8,6 +8,7 @@
 #include "core/generators/building/cuts.h"
 #include "core/generators/building/derive.h"
 #include "core/generators/building/occlusion.h"
+#include "core/generators/building/shape_meter.h"
 
 namespace seedmesh::building {
 
@@ -40,7 +41,7 @@ struct Derivation {
   const Grammar& grammar;
   const Context* first_pass;  ///< what the first pass made; null during that pass
   Job& job;
-  Meter meter;
+  ShapeMeter meter;
   Shapes out;
   std::vector<SnapPlane> snap_planes;
   bool is_finishing = false;  ///< runs until no rule applies
