@@ -1,8 +1,9 @@
-/** The intermediate result of the generator (POST /v1/derive): figures, texts, height maps and shapes. */
+/** The intermediate result of the generator (POST /v1/derive): figures, texts, height maps, plans and shapes. */
 import { Refusal, derive, type Request } from './api';
 import { el, grouped, part, rounded } from './dom';
 import { is_members, type Members } from './form/schema';
 import type { State } from './state';
+import { CityPlanView, is_plan } from './derived/city_plan';
 import { draw_map, is_heights } from './derived/height_map';
 import { ShapeList, is_shapes } from './derived/shape_list';
 import type { Overlay } from './derived/overlay';
@@ -21,14 +22,18 @@ const longest = 4000;
 /** The server is asked after changes have paused for this long, in milliseconds. */
 const debounce = 200;
 
-/** `lead` moves the cursor to a line of the rules; `has_rules` tells whether the shown request contains rules. */
-export function wire_result(overlay: Overlay | null, lead: (line: number) => void, has_rules: () => boolean): Result {
+/**
+ * `lead` moves the cursor to a line of the rules; `has_rules` tells whether the shown request contains rules. `open`
+ * opens another request, such as that of a building of a city.
+ */
+export function wire_result(overlay: Overlay | null, lead: (line: number) => void, has_rules: () => boolean, open: (request: Request, title: string) => void): Result {
   const page = part('result');
   let request: Request | null = null;
   let shown_for: Request | null = null;
   let in_sight = false;
   let running = new AbortController();
   let shapes: ShapeList | null = null;
+  let plan: CityPlanView | null = null;
   let is_unanswered = false;
   let timer = 0;
 
@@ -46,7 +51,7 @@ export function wire_result(overlay: Overlay | null, lead: (line: number) => voi
       draw(answer);
     } catch (error) {
       if (signal.aborted) return;
-      shapes = null;
+      shapes = plan = null;
       is_unanswered = !(error instanceof Refusal);
       page.replaceChildren(head(), el('p', { class: 'soft' }, error instanceof Refusal ? `Nothing to show: ${error.message}` : 'The server does not respond.'));
     }
@@ -56,8 +61,14 @@ export function wire_result(overlay: Overlay | null, lead: (line: number) => voi
   function draw(answer: Members): void {
     const rest = { ...answer };
     const parts: (HTMLElement | null)[] = [];
-    const before = shapes;
-    shapes = null;
+    const before = shapes, plan_before = plan;
+    shapes = plan = null;
+    if (is_plan(rest['plan'])) {
+      plan = new CityPlanView(rest['plan'], open);
+      if (plan_before) plan.take_over(plan_before);
+      parts.push(plan.element);
+      delete rest['plan'];
+    }
     if (is_heights(rest)) {
       parts.push(draw_map(rest));
       delete (rest as Members)['heights'];
@@ -78,7 +89,7 @@ export function wire_result(overlay: Overlay | null, lead: (line: number) => voi
     open(now) { in_sight = now; void ask(); },
     follow(state, is_new) {
       request = state.request;
-      if (is_new) shapes = null;
+      if (is_new) shapes = plan = null;
       clearTimeout(timer);
       timer = window.setTimeout(() => void ask(), debounce);
     },

@@ -82,7 +82,7 @@ export function wire_tools(core: Core): Tools {
   const result = wire_result(viewer, (line) => {
     tabs.open('parameters');
     part('parameters').querySelector(`[data-pointer="/parameters/${rules_name()}"]`)?.dispatchEvent(new CustomEvent('go-line', { detail: line }));
-  }, () => typeof store.current?.request.parameters[rules_name() ?? ''] === 'string');
+  }, () => typeof store.current?.request.parameters[rules_name() ?? ''] === 'string', (request, title) => core.open(request, title));
   const steps = wire_steps({
     edit(name, value) {
       const { [name]: _, ...others } = store.current?.request.parameters ?? {};
