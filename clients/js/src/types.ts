@@ -265,6 +265,14 @@ export interface Polygons {
   coordinates: (((number | number[])[])[])[];
 }
 
+/** A name and its polygons. */
+export interface CityParametersMapsZonesItem {
+  /** The name. */
+  zone: string;
+  /** The polygons of the zone. */
+  area: Polygons;
+}
+
 /** Quantities that vary over the area. */
 export interface CityParametersMaps {
   /** The density of people, from 0 to 1: an expression over x (east) and y (north) in metres, a PNG image as data URI, whose brightness covers the box around the area, or polygons with density 1. Streets avoid positions below 0.1; blocks there become parks. */
@@ -273,6 +281,8 @@ export interface CityParametersMaps {
   water?: string | Polygons;
   /** Where no street may grow, as an expression, an image or polygons: from 0.5 upwards. Nothing is built on lots there. */
   obstacles?: string | Polygons;
+  /** Named zones, which rules of buildings can use. Where polygons overlap, the first one counts. Wards have zones of their own. */
+  zones?: CityParametersMapsZonesItem[];
 }
 
 /** A LineString or MultiLineString in metres, east and north. */
@@ -489,6 +499,12 @@ export interface CityParametersLots {
 export interface BuildingRule {
   /** Built-in rules of the generator building. */
   blueprint?: "church" | "factory" | "house" | "office_tower" | "parisian_block" | "skyscraper" | "temple" | "terraced_house" | "villa" | "warehouse";
+  /** A request of the generator building instead of the blueprint: a preset, or rules of your own. Its size becomes that of the lot's building. */
+  building?: Child;
+  /** Values for attributes of the blueprint or of the request. */
+  attributes?: { [key: string]: number | string | boolean };
+  /** The attribute of the request that receives the number of floors. Default: none. */
+  floors_as?: string;
   /** The weight of this rule among those that apply. */
   weight?: number;
   /** The range of the density at the lot, from and to. */
@@ -497,20 +513,42 @@ export interface BuildingRule {
   distance?: [number, number];
   /** The range of the area of the lot. */
   lot?: [number, number];
+  /** The range of the length of the lot along streets. */
+  frontage?: [number, number];
+  /** The classes of the street at the front. Empty: all classes. */
+  streets?: ("highway" | "major" | "minor" | "lane")[];
   /** The least and the greatest number of floors. */
   floors?: [number, number];
   /** The least distance from the street. */
   front?: number;
   /** The least distance from the neighbours; 0 for houses that touch. */
   side?: number;
+  /** Whether the building is as wide as the lot allows to the centimetre. Otherwise widths are whole metres, so that buildings share models. */
+  shared_walls?: boolean;
   /** The least distance from the end of the lot. */
   rear?: number;
+  /** The least and the greatest width of the building along the front. On a lot without space for the least, nothing is built. */
+  width?: [number, number];
   /** The least and the greatest depth of the building. On a lot without space for the least, nothing is built. */
   depth?: [number, number];
   /** The greatest share of the lot that is built over. */
   share?: number;
   /** The zones of the lots. Empty: all zones. Zones of wards are citadel, merchants, patricians, craftsmen and poor. */
   zones?: string[];
+}
+
+/** A model at a position. */
+export interface CityParametersBuildingsLandmarksItem {
+  /** Any request. */
+  model: Child;
+  /** East and north. */
+  position: [number, number];
+  /** Counter-clockwise from above. */
+  turn?: number;
+  /** lot: the model stands on the lot at its position. block: the whole block there stays one lot. free: lots stay as they are. */
+  plot?: "lot" | "block" | "free";
+  /** The distance at which trees of parks keep away. */
+  radius?: number;
 }
 
 /** The buildings of the lots. */
@@ -521,6 +559,118 @@ export interface CityParametersBuildings {
   variants?: number;
   /** The attribute lod of blueprints: 0 everything, 1 flat windows and doors, 2 the mass alone. */
   detail?: number;
+  /** Models at given positions. On a lot, the model replaces the lot's building; in parks and on squares, trees keep away from it. */
+  landmarks?: CityParametersBuildingsLandmarksItem[];
+}
+
+/** Street lamps at the kerbs, on both sides in turn. */
+export interface CityParametersFurnitureLamps {
+  /** The distance between positions along one side of a street. */
+  spacing?: number;
+  /** The share of the positions that are used, drawn by position. */
+  share?: number;
+  /** Requests among which each position chooses. Empty: a built-in model. */
+  models?: Child[];
+}
+
+/** Trees along kerbs with sidewalks of at least 1.5 m, at least 8 m away from junctions. */
+export interface CityParametersFurnitureTrees {
+  /** The distance between positions along one side of a street. */
+  spacing?: number;
+  /** The share of the positions that are used, drawn by position. */
+  share?: number;
+  /** Requests among which each position chooses. Empty: a built-in model. */
+  models?: Child[];
+}
+
+/** Benches on sidewalks of at least 1.8 m. */
+export interface CityParametersFurnitureBenches {
+  /** The distance between positions along one side of a street. */
+  spacing?: number;
+  /** The share of the positions that are used, drawn by position. */
+  share?: number;
+  /** Requests among which each position chooses. Empty: a built-in model. */
+  models?: Child[];
+}
+
+/** Bins on sidewalks of at least 1.2 m. */
+export interface CityParametersFurnitureBins {
+  /** The distance between positions along one side of a street. */
+  spacing?: number;
+  /** The share of the positions that are used, drawn by position. */
+  share?: number;
+  /** Requests among which each position chooses. Empty: a built-in model. */
+  models?: Child[];
+}
+
+/** Signs at the right side of streets that lead to junctions. */
+export interface CityParametersFurnitureSigns {
+  /** The share of these positions that are used. */
+  share?: number;
+  /** Requests among which each position chooses. Empty: a built-in model. */
+  models?: Child[];
+}
+
+/** Cars beside the kerbs of carriageways of at least 6 m. */
+export interface CityParametersFurnitureCars {
+  /** The distance between positions along one side of a street. */
+  spacing?: number;
+  /** The share of the positions that are used, drawn by position. */
+  share?: number;
+  /** Requests among which each position chooses. Empty: a built-in model. */
+  models?: Child[];
+}
+
+/** Objects along the streets, as copies of shared models. Kinds that are not given are left out. */
+export interface CityParametersFurniture {
+  /** Street lamps at the kerbs, on both sides in turn. */
+  lamps?: CityParametersFurnitureLamps;
+  /** Trees along kerbs with sidewalks of at least 1.5 m, at least 8 m away from junctions. */
+  trees?: CityParametersFurnitureTrees;
+  /** Benches on sidewalks of at least 1.8 m. */
+  benches?: CityParametersFurnitureBenches;
+  /** Bins on sidewalks of at least 1.2 m. */
+  bins?: CityParametersFurnitureBins;
+  /** Signs at the right side of streets that lead to junctions. */
+  signs?: CityParametersFurnitureSigns;
+  /** Cars beside the kerbs of carriageways of at least 6 m. */
+  cars?: CityParametersFurnitureCars;
+}
+
+/** Trees of the parks. Without this object, parks are lawns. */
+export interface CityParametersParks {
+  /** The mean distance between trees. */
+  spacing?: number;
+  /** Requests of trees, such as those of the generators tree and lsystem. Empty: built-in trees. */
+  models?: Child[];
+}
+
+/** Trees, hedges and fences of lots with buildings. Without this object, yards are lawns. */
+export interface CityParametersYards {
+  /** The mean number of trees of a lot of 600 m²; other lots have trees by their area. Trees keep away from buildings and borders. */
+  trees?: number;
+  /** Requests of trees. Empty: built-in trees. */
+  models?: Child[];
+  /** What stands along the borders between lots, outside of the buildings. */
+  border?: "none" | "hedge" | "fence" | "wall";
+  /** The height of hedges, fences and walls. */
+  height?: number;
+}
+
+/** Divides the model into parts with nodes of their own, so that engines can skip parts out of view. */
+export interface CityParametersChunks {
+  /** blocks: a part for each block, with the streets in parts of their own. squares: a part for each square of the given size. */
+  by?: "blocks" | "squares";
+  /** The length of a side. */
+  size?: number;
+}
+
+/** The point of view. Each building and each copy gets the level of detail that fits its size on the screen. */
+export interface CityParametersCamera {
+  /** East, north, and above height 0. */
+  position: [number, number, number];
+  /** The angle from the lower to the upper edge of the screen. */
+  field_of_view?: number;
 }
 
 /** A city as an exact partition of its area. Streets grow by an extended L-system after Parish and Müller (2001), the faces of their graph become blocks, blocks are cut into lots with street access, and each lot holds a building, which is a whole request of its own. */
@@ -537,6 +687,16 @@ export interface CityParameters {
   lots?: CityParametersLots;
   /** The buildings of the lots. */
   buildings?: CityParametersBuildings;
+  /** Objects along the streets, as copies of shared models. Kinds that are not given are left out. */
+  furniture?: CityParametersFurniture;
+  /** Trees of the parks. Without this object, parks are lawns. */
+  parks?: CityParametersParks;
+  /** Trees, hedges and fences of lots with buildings. Without this object, yards are lawns. */
+  yards?: CityParametersYards;
+  /** Divides the model into parts with nodes of their own, so that engines can skip parts out of view. */
+  chunks?: CityParametersChunks;
+  /** The point of view. Each building and each copy gets the level of detail that fits its size on the screen. */
+  camera?: CityParametersCamera;
 }
 
 /** Map */

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <glm/common.hpp>
-#include <map>
 #include <nlohmann/json.hpp>
 
-#include "core/generators/child.h"
 #include "core/generators/city/city_model.h"
+#include "core/generators/city/contents.h"
 #include "core/generators/city/given.h"
 #include "core/generators/city/growth.h"
+#include "core/generators/city/landmarks.h"
 #include "core/generators/city/lots.h"
 #include "core/generators/city/plan_json.h"
 #include "core/generators/city/statistics.h"
@@ -63,6 +63,13 @@ Box box_of(const std::vector<CmRing>& area) {
   return box;
 }
 
+/// The warnings of a request and its plan.
+std::vector<Warning> warnings_about(const CityParams& params, const CityPlan& plan) {
+  std::vector<Warning> warnings = warnings_of(unused_parameters(params));
+  for (Warning& each : landmark_warnings(plan)) warnings.push_back(std::move(each));
+  return warnings;
+}
+
 /// The maps of a request; those that it does not have are empty.
 struct Maps {
   std::optional<FieldMap> density, water, obstacles;
@@ -76,6 +83,15 @@ Maps read_maps(const CityParams& params, const Box& box, const Job& job, std::ve
   if (params.maps.water) maps.water = read(*params.maps.water, "/maps/water");
   if (params.maps.obstacles) maps.obstacles = read(*params.maps.obstacles, "/maps/obstacles");
   return maps;
+}
+
+std::vector<NamedZone> zones_of(const CityParams& params, std::vector<Issue>& issues) {
+  std::vector<NamedZone> zones;
+  for (std::size_t i = 0; i < params.maps.zones.size(); ++i) {
+    const std::string pointer = "/maps/zones/" + std::to_string(i) + "/area";
+    zones.push_back({params.maps.zones[i].zone, polygons_of(params.maps.zones[i].polygons, pointer, issues)});
+  }
+  return zones;
 }
 
 /// The area cut into land and water.
@@ -118,7 +134,9 @@ Result<CityPlan> plan_of(const CityParams& params, Job& job) {
   CityPlan plan;
   plan.area = area_rings(params);
   plan.classes = classes_of(params);
+  plan.landmarks = landmarks_of(params, job);
   std::vector<Issue> issues;
+  plan.zones = zones_of(params, issues);
   const StreetGrammar grammar(params.streets.productions, "/streets/productions", issues);
   const Maps maps = read_maps(params, box_of(plan.area), job, issues);
   const std::vector<GivenLine> lines = given_lines(params, plan.classes, issues);
@@ -147,6 +165,7 @@ Result<CityPlan> plan_of(const CityParams& params, Job& job) {
   divide_blocks(plan, blocks, params.lots, *maps.density, job);
   plan.charges.emplace_back(job, plan.lots.size() * bytes_a_lot);
   place_houses(plan, params, obstacles, job);
+  place_landmarks(plan);
   return plan;
 }
 
@@ -159,7 +178,7 @@ Result<Model> generate(const CityParams& params, const GenerateContext& context)
   Result<Model> model = city_model(*plan, params, context);
   if (!model) return model;
   model->extras.push_back({"statistics", canonical_text(statistics_of(*plan, job))});
-  for (Warning& each : warnings_of(unused_parameters(params))) model->warnings.push_back(std::move(each));
+  for (Warning& each : warnings_about(params, *plan)) model->warnings.push_back(std::move(each));
   return model;
 }
 
@@ -171,7 +190,7 @@ Result<Json> derive(const CityParams& params, const GenerateContext& context) {
   Json answer;
   answer["statistics"] = statistics_of(*plan, job);
   answer["plan"] = plan_json(*plan, params);
-  answer["warnings"] = warning_list(warnings_of(unused_parameters(params)));
+  answer["warnings"] = warning_list(warnings_about(params, *plan));
   return answer;
 }
 
@@ -181,23 +200,11 @@ Result<Appraisal> appraise(const CityParams& params, const GenerateContext& cont
   const Result<CityPlan> plan = plan_of(params, job);
   if (!plan) return plan.error();
   Appraisal appraisal;
-  appraisal.warnings = warnings_of(unused_parameters(params));
-  // Houses of one rule and number of floors have about as many triangles; one of each is made.
+  appraisal.warnings = warnings_about(params, *plan);
   Estimate estimate;
   estimate.triangles = ground_triangles(*plan);
   estimate.bytes = estimate.triangles * 48;
-  std::map<std::pair<std::uint32_t, int>, ModelCounts> samples;
-  for (const SharedHouse& shared : shared_houses(*plan, params)) {
-    const House& house = *plan->lots[shared.lots[0]].house;
-    const auto [sample, is_new] = samples.try_emplace({house.rule, house.floors});
-    if (is_new) {
-      const Result<Model> made = generate_child(shared.request, "/buildings", Rng(0), context);
-      if (!made) return made.error();
-      sample->second = count(*made);
-    }
-    estimate.triangles += sample->second.triangles * shared.lots.size();
-    estimate.bytes += sample->second.bytes + 150 * shared.lots.size();
-  }
+  if (auto error = estimate_contents(estimate, *plan, params, context)) return std::move(*error);
   appraisal.estimate = estimate;
   return appraisal;
 }

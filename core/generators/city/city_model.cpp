@@ -7,11 +7,9 @@
 #include <map>
 
 #include "core/base/math.h"
-#include "core/base/parallel.h"
-#include "core/generators/child.h"
 #include "core/generators/city/bridge_mesh.h"
-#include "core/generators/city/zoning.h"
-#include "core/generators/scene/model_levels.h"
+#include "core/generators/city/chunks.h"
+#include "core/generators/city/contents.h"
 #include "core/geom/mesh/weld.h"
 #include "core/geom/polygon/triangulate.h"
 #include "generated/params/city.h"
@@ -165,24 +163,37 @@ class GroundMesh {
   std::vector<std::uint32_t> sizes_;
 };
 
-int add_node(Model& model, std::string name, int parent) {
-  Node node;
-  node.name = std::move(name);
-  node.parent = parent;
-  model.nodes.push_back(std::move(node));
-  return static_cast<int>(model.nodes.size()) - 1;
+/// Parts of one chunk and kind.
+struct GroundPiece {
+  std::uint32_t chunk = 0;
+  PartKind kind = PartKind::verge;
+  std::vector<std::uint32_t> parts;
+};
+
+/// All parts but walls, by chunk and kind.
+std::vector<GroundPiece> ground_pieces(const CityPlan& plan, const Chunks& chunks) {
+  std::map<std::pair<std::uint32_t, PartKind>, std::vector<std::uint32_t>> sorted;
+  for (std::uint32_t i = 0; i < plan.parts.size(); ++i) {
+    const Part& part = plan.parts[i];
+    if (!part.is_wall) sorted[{chunks.of(part), part.kind}].push_back(i);
+  }
+  std::vector<GroundPiece> pieces;
+  for (auto& [key, parts] : sorted) pieces.push_back({key.first, key.second, std::move(parts)});
+  return pieces;
 }
 
-/// One mesh for each kind of part.
-void add_ground(Model& model, const CityPlan& plan, Job& job) {
+/// One mesh for each kind of part in each chunk.
+void add_ground(Model& model, const CityPlan& plan, const Chunks& chunks, ChunkNodes& nodes, Job& job) {
   job.spend(Resource::triangles, ground_triangles(plan));
   const std::vector<DirectedEdge> low = low_edges(plan), water = water_edges(plan);
-  const int ground = add_node(model, "ground", 0);
-  for (std::size_t kind = 0; kind < std::size(looks); ++kind) {
+  std::array<int, std::size(looks)> materials;
+  materials.fill(-1);
+  for (const GroundPiece& piece : ground_pieces(plan, chunks)) {
+    const auto kind = static_cast<std::size_t>(piece.kind);
     GroundMesh mesh(job);
     std::size_t done = 0;
-    for (const Part& part : plan.parts) {
-      if (static_cast<std::size_t>(part.kind) != kind || part.is_wall) continue;
+    for (const std::uint32_t number : piece.parts) {
+      const Part& part = plan.parts[number];
       if (done++ % 256 == 0) job.check();
       mesh.add_part(part, height_of(part.kind));
       if (part.kind == PartKind::water) continue;
@@ -195,15 +206,17 @@ void add_ground(Model& model, const CityPlan& plan, Job& job) {
       visit_kerbs(part, low,
                   [&](const CmPoint& a, const CmPoint& b) { mesh.add_wall(a, b, 0, kerb_height); });
     }
-    if (done == 0) continue;
+    if (materials[kind] < 0) {
+      materials[kind] = static_cast<int>(model.materials.size());
+      model.materials.push_back(material_of(looks[kind]));
+    }
     MeshGroup group;
     group.name = looks[kind].name;
     Primitive primitive;
     primitive.mesh = mesh.take(job);
-    primitive.material = static_cast<int>(model.materials.size());
-    model.materials.push_back(material_of(looks[kind]));
+    primitive.material = materials[kind];
     group.primitives.push_back(std::move(primitive));
-    const int node = add_node(model, looks[kind].name, ground);
+    const int node = add_node(model, looks[kind].name, nodes.group(piece.chunk, "ground"));
     model.nodes[static_cast<std::size_t>(node)].mesh = static_cast<int>(model.meshes.size());
     model.meshes.push_back(std::move(group));
   }
@@ -255,77 +268,7 @@ void add_bridges(Model& model, const CityPlan& plan, Job& job) {
   add_mesh(model, "bridges", {"bridge", {0x8a, 0x88, 0x84}, 0.9F}, std::move(mesh));
 }
 
-int add_material(Model& model, Material material) {
-  for (std::size_t i = 0; i < model.materials.size(); ++i) {
-    if (scene::is_same(model.materials[i], material, scene::Seeds::may_differ)) return static_cast<int>(i);
-  }
-  model.materials.push_back(std::move(material));
-  return static_cast<int>(model.materials.size()) - 1;
-}
-
-Transform transform_of(const House& house) {
-  Transform at;
-  at.translation = {static_cast<float>(house.position.x), static_cast<float>(kerb_height),
-                    static_cast<float>(0 - house.position.y)};
-  const math::SinCos half = math::sincos_degrees(house.turn / 2);
-  at.rotation = glm::quat(static_cast<float>(half.cos), 0, static_cast<float>(half.sin), 0);
-  return at;
-}
-
-/// Adds one building with all its copies.
-void add_building(Model& model, Model made, const SharedHouse& house, const CityPlan& plan, int parent,
-                  Job& job) {
-  std::vector<int> materials;
-  for (Material& material : made.materials) {
-    for (TextureUse* use :
-         {&material.base_color_texture, &material.normal_texture, &material.metallic_roughness_texture,
-          &material.occlusion_texture, &material.emissive_texture}) {
-      if (use->texture < 0) continue;
-      model.textures.push_back(made.textures[static_cast<std::size_t>(use->texture)]);
-      use->texture = static_cast<int>(model.textures.size()) - 1;
-    }
-    materials.push_back(add_material(model, std::move(material)));
-  }
-  scene::separate_bodies(made);
-  std::vector<std::vector<Primitive>> levels = scene::extract_levels(made, job);
-  if (levels.empty() || levels[0].empty()) return;
-  MeshGroup group;
-  group.name = "building_" + std::to_string(model.meshes.size());
-  std::uint64_t triangles = 0;
-  for (Primitive& each : levels[0]) {
-    if (each.mesh.elements() == 0) continue;
-    if (each.material >= 0) each.material = materials[static_cast<std::size_t>(each.material)];
-    triangles += each.mesh.elements();
-    group.primitives.push_back(std::move(each));
-  }
-  if (group.primitives.empty()) return;
-  job.spend(Resource::triangles, triangles * (house.lots.size() - 1));
-  const int node = add_node(model, group.name, parent);
-  Node& added = model.nodes[static_cast<std::size_t>(node)];
-  added.mesh = static_cast<int>(model.meshes.size());
-  model.meshes.push_back(std::move(group));
-  if (house.lots.size() == 1) {
-    added.transform = transform_of(*plan.lots[house.lots[0]].house);
-    return;
-  }
-  for (const std::uint32_t lot : house.lots)
-    added.instances.transforms.push_back(transform_of(*plan.lots[lot].house));
-}
-
 }  // namespace
-
-std::vector<SharedHouse> shared_houses(const CityPlan& plan, const CityParams& params) {
-  std::vector<SharedHouse> houses;
-  std::map<std::pair<std::uint64_t, std::string>, std::size_t> known;
-  for (std::uint32_t i = 0; i < plan.lots.size(); ++i) {
-    if (!plan.lots[i].house) continue;
-    Child request = request_of(*plan.lots[i].house, params);
-    const auto [at, is_new] = known.try_emplace({*request.seed, request.parameters}, houses.size());
-    if (is_new) houses.push_back({std::move(request), {}});
-    houses[at->second].lots.push_back(i);
-  }
-  return houses;
-}
 
 std::uint64_t ground_triangles(const CityPlan& plan) {
   const std::vector<DirectedEdge> low = low_edges(plan), water = water_edges(plan);
@@ -346,21 +289,12 @@ Result<Model> city_model(const CityPlan& plan, const CityParams& params, const G
   Model model;
   model.name = "city";
   add_node(model, "city", -1);
-  add_ground(model, plan, job);
+  const Chunks chunks(plan, params);
+  ChunkNodes nodes(model, chunks);
+  add_ground(model, plan, chunks, nodes, job);
   add_town_wall(model, plan, params.streets.wards.wall_height, job);
   add_bridges(model, plan, job);
-  const std::vector<SharedHouse> houses = shared_houses(plan, params);
-  if (houses.empty()) return model;
-  const int buildings = add_node(model, "buildings", 0);
-  std::vector<std::optional<Result<Model>>> made(houses.size());
-  parallel_for(job, houses.size(), 1, [&](std::size_t i, std::size_t, std::size_t) {
-    made[i].emplace(generate_child(houses[i].request, "/buildings", Rng(0), context));
-  });
-  for (std::size_t i = 0; i < houses.size(); ++i) {
-    if (!*made[i]) return std::move(*made[i]).error();
-    add_building(model, std::move(**made[i]), houses[i], plan, buildings, job);
-    made[i].reset();
-  }
+  if (auto error = add_contents(model, nodes, chunks, plan, params, context)) return std::move(*error);
   return model;
 }
 

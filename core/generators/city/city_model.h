@@ -3,7 +3,6 @@
 /// shared meshes.
 #include "core/generators/api.h"
 #include "core/generators/city/plan.h"
-#include "core/schema/child.h"
 
 namespace seedmesh {
 struct CityParams;
@@ -13,20 +12,12 @@ namespace seedmesh::city {
 
 constexpr double kerb_height = 0.13;  // m
 
-/// A building that stands in the city, once or often.
-struct SharedHouse {
-  Child request;
-  std::vector<std::uint32_t> lots;
-};
-
-/// The different requests of all houses, in the order of their first lots.
-std::vector<SharedHouse> shared_houses(const CityPlan& plan, const CityParams& params);
-
 /// Triangles of the ground of a plan.
 std::uint64_t ground_triangles(const CityPlan& plan);
 
 /// Nodes: "city" > "ground" > one node and mesh for each kind of part ("asphalt", "junction", ..., "lot");
-/// "city" > "buildings" > one node for each shared building. Charges Resource::triangles.
+/// "city" > "buildings" > one node for each shared building; "city" > "landmarks", "furniture", "trees", "borders". With
+/// chunks, these groups are below a node for each chunk. Charges Resource::triangles.
 Result<Model> city_model(const CityPlan& plan, const CityParams& params, const GenerateContext& context);
 
 }  // namespace seedmesh::city

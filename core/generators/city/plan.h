@@ -14,6 +14,7 @@
 #include "core/generators/city/region.h"
 #include "core/geom/polygon/cm_point.h"
 #include "core/geom/polygon/planar_graph.h"
+#include "core/schema/child.h"
 
 namespace seedmesh::city {
 
@@ -102,6 +103,23 @@ struct Ward {
 /// Zones without minor streets: the first is a square, and the second one lot.
 constexpr const char *zone_square = "square", *zone_citadel = "citadel";
 
+/// A zone of the request: its polygons have a name.
+struct NamedZone {
+  std::string name;
+  std::vector<std::vector<CmRing>> polygons;
+};
+
+/// A model at a given position.
+struct Landmark {
+  Child request;  ///< with its seed
+  std::string pointer;
+  glm::dvec2 position{0};  ///< metres east and north
+  double turn = 0;         ///< degrees, counter-clockwise from above
+  double radius = 15;      ///< where no tree of a park stands
+  bool is_block_whole = false, replaces_house = true;
+  std::uint32_t lot = no_index, part = no_index;  ///< on which it stands; no_index: none
+};
+
 /// A house that stands on a lot.
 struct House {
   std::uint32_t rule = 0;
@@ -123,6 +141,9 @@ struct Lot {
   CmRing corners;    ///< without the corners of neighbours in between
   CmPoint front_start, front_end;
   std::optional<House> house;
+  std::uint32_t landmark = no_index;  ///< into CityPlan::landmarks; such lots have no house
+
+  bool is_built() const { return house.has_value() || landmark != no_index; }
 };
 
 struct Block {
@@ -161,6 +182,8 @@ struct CityPlan {
   std::vector<CrossSection> classes;  ///< by EdgeClass, then those of given streets
   std::vector<Ward> wards;            ///< empty unless the method is wards
   std::vector<CmPoint> gates;         ///< nodes where streets pass a town wall
+  std::vector<NamedZone> zones;
+  std::vector<Landmark> landmarks;
   StreetGraph graph;
   std::vector<Part> parts;
   std::vector<Block> blocks;

@@ -6,8 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/generators/city/bridge_mesh.h"
-#include "core/generators/city/zoning.h"
-#include "generated/params/city.h"
+#include "core/generators/city/house_requests.h"
 
 namespace seedmesh::city {
 namespace {
@@ -38,7 +37,7 @@ Json feature(Json geometry, Json properties) {
 
 class Writer {
  public:
-  Writer(const CityPlan& plan, const CityParams& params) : plan_(plan), params_(params) {}
+  Writer(const CityPlan& plan, const CityParams& params) : plan_(plan), requests_(params) {}
 
   Json write() {
     features_.push_back(feature(polygon(plan_.area), {{"kind", "area"}}));
@@ -142,17 +141,24 @@ class Writer {
     properties["inner"] = lot.is_inner;
     properties["zone"] = lot.zone.empty() ? Json() : Json(lot.zone);
     properties["building"] = nullptr;
-    if (!lot.house) return;
-    const Child request = request_of(*lot.house, params_);
+    if (lot.landmark != no_index) {
+      const Landmark& landmark = plan_.landmarks[lot.landmark];
+      add_building(landmark.request, landmark.position, landmark.turn, properties);
+    } else if (lot.house) {
+      add_building(requests_.of(*lot.house), lot.house->position, lot.house->turn, properties);
+    }
+  }
+
+  static void add_building(const Child& request, const glm::dvec2& position, double turn, Json& properties) {
     properties["building"] = {{"generator", request.generator},
                               {"seed", *request.seed},
                               {"parameters", Json::parse(request.parameters)}};
-    properties["position"] = {lot.house->position.x, lot.house->position.y, 0};
-    properties["turn"] = lot.house->turn;
+    properties["position"] = {position.x, position.y, 0};
+    properties["turn"] = turn;
   }
 
   const CityPlan& plan_;
-  const CityParams& params_;
+  HouseRequests requests_;
   Json features_ = Json::array();
 };
 

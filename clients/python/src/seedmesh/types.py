@@ -172,10 +172,16 @@ class Polygons(TypedDict):
     coordinates: List[List[List[Union[float, List[float]]]]]
 
 
+class CityParametersMapsZonesItem(TypedDict):
+    zone: str
+    area: "Polygons"
+
+
 class CityParametersMaps(TypedDict, total=False):
     density: Union[str, "Polygons"]
     water: Union[str, "Polygons"]
     obstacles: Union[str, "Polygons"]
+    zones: List["CityParametersMapsZonesItem"]
 
 
 class CityParametersGivenStreetsFeaturesItemGeometry(TypedDict):
@@ -307,23 +313,111 @@ class CityParametersLots(TypedDict, total=False):
 
 class BuildingRule(TypedDict, total=False):
     blueprint: Literal['church', 'factory', 'house', 'office_tower', 'parisian_block', 'skyscraper', 'temple', 'terraced_house', 'villa', 'warehouse']
+    building: "Child"
+    attributes: Dict[str, Union[float, str, bool]]
+    floors_as: str
     weight: float
     density: List[float]
     distance: List[float]
     lot: List[float]
+    frontage: List[float]
+    streets: List[Literal['highway', 'major', 'minor', 'lane']]
     floors: List[int]
     front: float
     side: float
+    shared_walls: bool
     rear: float
+    width: List[float]
     depth: List[float]
     share: float
     zones: List[str]
+
+
+class _CityParametersBuildingsLandmarksItemRequired(TypedDict):
+    model: "Child"
+    position: List[float]
+
+
+class CityParametersBuildingsLandmarksItem(_CityParametersBuildingsLandmarksItemRequired, total=False):
+    turn: float
+    plot: Literal['lot', 'block', 'free']
+    radius: float
 
 
 class CityParametersBuildings(TypedDict, total=False):
     rules: List["BuildingRule"]
     variants: int
     detail: int
+    landmarks: List["CityParametersBuildingsLandmarksItem"]
+
+
+class CityParametersFurnitureLamps(TypedDict, total=False):
+    spacing: float
+    share: float
+    models: List["Child"]
+
+
+class CityParametersFurnitureTrees(TypedDict, total=False):
+    spacing: float
+    share: float
+    models: List["Child"]
+
+
+class CityParametersFurnitureBenches(TypedDict, total=False):
+    spacing: float
+    share: float
+    models: List["Child"]
+
+
+class CityParametersFurnitureBins(TypedDict, total=False):
+    spacing: float
+    share: float
+    models: List["Child"]
+
+
+class CityParametersFurnitureSigns(TypedDict, total=False):
+    share: float
+    models: List["Child"]
+
+
+class CityParametersFurnitureCars(TypedDict, total=False):
+    spacing: float
+    share: float
+    models: List["Child"]
+
+
+class CityParametersFurniture(TypedDict, total=False):
+    lamps: "CityParametersFurnitureLamps"
+    trees: "CityParametersFurnitureTrees"
+    benches: "CityParametersFurnitureBenches"
+    bins: "CityParametersFurnitureBins"
+    signs: "CityParametersFurnitureSigns"
+    cars: "CityParametersFurnitureCars"
+
+
+class CityParametersParks(TypedDict, total=False):
+    spacing: float
+    models: List["Child"]
+
+
+class CityParametersYards(TypedDict, total=False):
+    trees: float
+    models: List["Child"]
+    border: Literal['none', 'hedge', 'fence', 'wall']
+    height: float
+
+
+class CityParametersChunks(TypedDict, total=False):
+    by: Literal['blocks', 'squares']
+    size: float
+
+
+class _CityParametersCameraRequired(TypedDict):
+    position: List[float]
+
+
+class CityParametersCamera(_CityParametersCameraRequired, total=False):
+    field_of_view: float
 
 
 class CityParameters(TypedDict, total=False):
@@ -333,6 +427,11 @@ class CityParameters(TypedDict, total=False):
     streets: "CityParametersStreets"
     lots: "CityParametersLots"
     buildings: "CityParametersBuildings"
+    furniture: "CityParametersFurniture"
+    parks: "CityParametersParks"
+    yards: "CityParametersYards"
+    chunks: "CityParametersChunks"
+    camera: "CityParametersCamera"
 
 
 class FractalParametersInstructions2Item(TypedDict, total=False):
