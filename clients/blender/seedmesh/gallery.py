@@ -2,11 +2,11 @@
 """The gallery of presets, and the parameters of the chosen one."""
 import bpy
 
-from . import service
+from . import pictures, service
 
 
 class SEEDMESH_OT_gallery(bpy.types.Operator):
-    """Lists the presets of the server"""
+    """Lists the presets of the server with their pictures"""
     bl_idname = "seedmesh.gallery"
     bl_label = "Load gallery"
 
@@ -27,7 +27,12 @@ class SEEDMESH_OT_gallery(bpy.types.Operator):
                 row = settings.presets.add()
                 row.name, row.title, row.generator, row.text = each["name"], each["title"], each["generator"], each["description"]
 
-        service.call(client.presets, done)
+        def work():
+            presets = client.presets()
+            pictures.fetch(client, [each["name"] for each in presets])
+            return presets
+
+        service.call(work, done)
         return {"CANCELLED"} if settings.errors else {"FINISHED"}
 
 
@@ -60,7 +65,7 @@ class SEEDMESH_OT_parameters(bpy.types.Operator):
 
 class SEEDMESH_UL_presets(bpy.types.UIList):
     def draw_item(self, _context, layout, _data, item, _icon, _active, _name):
-        layout.operator("seedmesh.choose", text=item.title, emboss=False).preset = item.name
+        layout.operator("seedmesh.choose", text=item.title, emboss=False, icon_value=pictures.icon(item.name)).preset = item.name
         layout.label(text=item.generator)
 
 

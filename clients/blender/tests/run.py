@@ -132,6 +132,11 @@ class AddOn(unittest.TestCase):
     def test_the_gallery_is_listed(self):
         self.assertEqual(bpy.ops.seedmesh.gallery(), {"FINISHED"})
         self.assertEqual(len(self.settings.presets), len(json.loads(served("/v1/presets"))["presets"]))
+        pictures = sys.modules[module + ".pictures"]
+        for each in self.settings.presets:
+            self.assertGreater(pictures.icon(each.name), 0, each.name)
+        self.assertEqual(pictures.size("oak"), (192, 144))
+        self.assertEqual(pictures.icon("oakk"), 0)
 
     def test_copies_lie_on_the_surface_and_on_the_curve(self):
         bpy.ops.seedmesh.grow(preset="koch_snowflake", seed=0)
