@@ -8,7 +8,7 @@ from typing import Any, Dict, List, Mapping, Optional, Union, cast, overload
 from . import links
 from .files import sha256, sha256_of_file, text_of, write_whole
 from .transport import Answer, Transport
-from .types import (BuildingDerivation, BuildingRequest, FractalDerivation, FractalRequest, LsystemDerivation, LsystemRequest,
+from .types import (BuildingDerivation, BuildingRequest, CityDerivation, CityRequest, FractalDerivation, FractalRequest, LsystemDerivation, LsystemRequest,
                     PresetListPresetsItem, Request, SceneDerivation, SceneRequest, TerrainDerivation, TerrainRequest,
                     TreeDerivation, TreeRequest, Validation)
 
@@ -85,6 +85,8 @@ class Client:
 
     @overload
     def derive(self, request: BuildingRequest) -> BuildingDerivation: ...
+    @overload
+    def derive(self, request: CityRequest) -> CityDerivation: ...
     @overload
     def derive(self, request: FractalRequest) -> FractalDerivation: ...
     @overload
