@@ -65,8 +65,9 @@ class SEEDMESH_OT_parameters(bpy.types.Operator):
 
 class SEEDMESH_UL_presets(bpy.types.UIList):
     def draw_item(self, _context, layout, _data, item, _icon, _active, _name):
-        layout.operator("seedmesh.choose", text=item.title, emboss=False, icon_value=pictures.icon(item.name)).preset = item.name
-        layout.label(text=item.generator)
+        row = layout.split(factor=0.7)
+        row.operator("seedmesh.choose", text=item.title, emboss=False, icon_value=pictures.icon(item.name)).preset = item.name
+        row.label(text=item.generator)
 
 
 class SEEDMESH_OT_choose(bpy.types.Operator):
@@ -76,8 +77,10 @@ class SEEDMESH_OT_choose(bpy.types.Operator):
     preset: bpy.props.StringProperty()
 
     def execute(self, context):
-        context.scene.seedmesh.preset = self.preset
-        context.scene.seedmesh.parameters.clear()
+        settings = context.scene.seedmesh
+        settings.preset = self.preset
+        settings.preset_index = max(settings.presets.find(self.preset), 0)
+        settings.parameters.clear()
         return {"FINISHED"}
 
 
