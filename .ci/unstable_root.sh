@@ -24,10 +24,13 @@ rm -r "$state"
 libraries=$root/usr/lib/$(uname -m)-linux-gnu
 loader=$(find "$root/usr/lib64" "$libraries" -maxdepth 1 -name 'ld-linux-*' 2>/dev/null | head -1)
 run="exec \"$loader\" --library-path \"$libraries:$root/usr/lib:$libraries/pulseaudio:$libraries/blas:$libraries/lapack\" \"$root/usr/bin"
+mkdir -p "$root/bin"
 printf '#!/bin/sh\n%s/godot" "$@"\n' "$run" >"$root/godot"
-printf '#!/bin/sh\nexport PYTHONHOME="%s/usr" BLENDER_SYSTEM_RESOURCES="%s/usr/share/blender"\n%s/blender" --python-use-system-env "$@"\n' \
-  "$root" "$root" "$run" >"$root/blender"
-chmod +x "$root/godot" "$root/blender"
+printf '#!/bin/sh\n%s/python3" "$@"\n' "$run" >"$root/bin/python3"  # Blender installs extensions by a Python of its own version
+printf '#!/bin/sh\nexport PATH="%s/bin:$PATH" PYTHONHOME="%s/usr" BLENDER_SYSTEM_RESOURCES="%s/usr/share/blender"\n%s/blender" --python-use-system-env "$@"\n' \
+  "$root" "$root" "$root" "$run" >"$root/blender"
+for name in python "$(basename "$(readlink -f "$root/usr/bin/python3")")"; do ln -sf python3 "$root/bin/$name"; done
+chmod +x "$root/godot" "$root/blender" "$root/bin/python3"
 "$root/godot" --version
 "$root/blender" --version | head -1
 echo "${packages[*]}" >"$stamp"

@@ -181,9 +181,9 @@ class SyncRun {
     ::sigaddset(&ending, SIGTERM);
     const timespec at_once{0, 0};
     std::unique_lock guard(mutex_);
-    while (!changed_.wait_for(guard, signal_interval, [&] { return outcomes_[index].has_value(); })) {
+    do {
       if (::sigtimedwait(&ending, nullptr, &at_once) > 0) stop_.request_stop();
-    }
+    } while (!changed_.wait_for(guard, signal_interval, [&] { return outcomes_[index].has_value(); }));
     return std::move(*outcomes_[index]);
   }
 

@@ -62,7 +62,7 @@ TEST(RequestFile, ListsAllErrorsOfAFile) {
       errors_in("{\"output\": 3,\n \"seed\": 1, \"seed\": 2, \"outputs\": {\"a.glb\": 1}}"),
       ElementsAre("assets/oak.seedmesh:2:13: the key \"seed\" is given twice",
                   "assets/oak.seedmesh:1:12: /output: expected an object",
-                  "assets/oak.seedmesh:2:46: /outputs/a.glb: expected an object with members of output"));
+                  "assets/oak.seedmesh:2:45: /outputs/a.glb: expected an object with members of output"));
   EXPECT_EQ(errors_in(R"({"outputs": {}})").size(), 1U);
 }
 

@@ -23,7 +23,7 @@ def unregister():
     _state.pop("folder").cleanup()
 
 
-def _path(name):
+def path(name):
     return os.path.join(_state["folder"].name, name + ".webp")
 
 
@@ -34,22 +34,18 @@ def fetch(client, names):
             data = client.thumbnail(name)
         except (OSError, SeedmeshError):
             return
-        with open(_path(name), "wb") as file:
+        with open(path(name), "wb") as file:
             file.write(data)
 
     with ThreadPoolExecutor(8) as pool:
-        list(pool.map(save, [name for name in names if not os.path.exists(_path(name))]))
+        list(pool.map(save, [name for name in names if not os.path.exists(path(name))]))
 
 
 def icon(name):
-    """The number of the icon of a preset; 0 for none."""
+    """The number of the icon of a preset; 0 for none, and without a window."""
     icons = _state["icons"]
     if name not in icons:
-        if not os.path.exists(_path(name)):
+        if not os.path.exists(path(name)):
             return 0
-        icons.load(name, _path(name), "IMAGE")
+        icons.load(name, path(name), "IMAGE")
     return icons[name].icon_id
-
-
-def size(name):
-    return tuple(_state["icons"][name].image_size)

@@ -134,8 +134,8 @@ class AddOn(unittest.TestCase):
         self.assertEqual(len(self.settings.presets), len(json.loads(served("/v1/presets"))["presets"]))
         pictures = sys.modules[module + ".pictures"]
         for each in self.settings.presets:
-            self.assertGreater(pictures.icon(each.name), 0, each.name)
-        self.assertEqual(pictures.size("oak"), (192, 144))
+            self.assertEqual(tuple(bpy.data.images.load(pictures.path(each.name)).size), (192, 144), each.name)
+            pictures.icon(each.name)
         self.assertEqual(pictures.icon("oakk"), 0)
 
     def test_copies_lie_on_the_surface_and_on_the_curve(self):

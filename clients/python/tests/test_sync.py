@@ -71,9 +71,9 @@ class Syncing(InFolder):
 
     def test_a_refused_output_is_asked_for_again(self) -> None:
         self.write("a.seedmesh", '{"preset": "koch_snowflake",\n "outputs": {"a.glb": {},\n "b.glb": {"lods": 99}}}')
-        for made in (1, 1):
+        for made, same in [(1, 0), (0, 1)]:
             report = self.sync().report
-            self.assertEqual((report.made, report.refused), (made, 1))
+            self.assertEqual((report.made, report.same, report.refused), (made, same, 1))
             self.assertTrue(any("a.seedmesh:3:20: /outputs/b.glb/lods: found 99" in line for line in report.lines), report.lines)
 
     def test_outputs_of_removed_request_files_go_unless_somebody_changed_them(self) -> None:
