@@ -1053,6 +1053,8 @@ TreeParameters = TypedDict("TreeParameters", {
     'PrunePowerHigh': float,
     'sway': "TreeParametersSway",
     'Leaves': int,
+    'LeafDistrib': int,
+    'counting': Literal['paper', 'arbaro'],
     'LeafScale': float,
     'LeafScaleX': float,
     'LeafBend': float,
