@@ -10,10 +10,10 @@ struct CityParams;
 
 namespace seedmesh::city {
 
-constexpr double kerb_height = 0.13;  // m
+class Surface;
 
-/// Triangles of the ground of a plan.
-std::uint64_t ground_triangles(const CityPlan& plan);
+/// Triangles of the ground of a plan and of its foundations, which are made for it.
+std::uint64_t ground_triangles(const CityPlan& plan, const Surface& surface, Job& job);
 
 /// Nodes: "city" > "ground" > one node and mesh for each kind of part ("asphalt", "junction", ..., "lot");
 /// "city" > "buildings" > one node for each shared building; "city" > "landmarks", "furniture", "trees", "borders". With

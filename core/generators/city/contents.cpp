@@ -26,11 +26,6 @@ constexpr float border_depth = 0.25F;  // of hedges and fences below the ground,
 constexpr double post_spacing = 2.6;
 constexpr std::uint64_t bytes_a_copy = 150;
 
-/// The height of a part's surface.
-double height_of(const CityPlan& plan, std::uint32_t part) {
-  return plan.parts[part].kind == PartKind::carriageway ? 0 : kerb_height;
-}
-
 Transform transform_at(const dvec2& position, double height, double turn, double scale = 1) {
   Transform at;
   at.translation = {static_cast<float>(position.x), static_cast<float>(height),
@@ -58,8 +53,9 @@ Result<Model> model_of(const Contents& each, const Demand& demand, const Generat
 }
 
 /// All contents that are not houses, in order.
-std::vector<Contents> other_contents(const CityPlan& plan, const CityParams& params, const Chunks& chunks,
+std::vector<Contents> other_contents(const Surface& surface, const CityParams& params, const Chunks& chunks,
                                      const Job& job) {
+  const CityPlan& plan = surface.plan();
   std::vector<Contents> all;
   for (const Landmark& landmark : plan.landmarks) {
     Contents each;
@@ -68,7 +64,7 @@ std::vector<Contents> other_contents(const CityPlan& plan, const CityParams& par
     each.request = &landmark.request;
     each.pointer = landmark.pointer + "/model";
     const std::uint32_t block = landmark.part == no_index ? no_index : plan.parts[landmark.part].block;
-    const double height = landmark.part == no_index ? 0 : height_of(plan, landmark.part);
+    const double height = landmark.part == no_index ? 0 : surface.height(landmark.part, landmark.position);
     each.copies.push_back(
         {transform_at(landmark.position, height, landmark.turn), chunks.at(landmark.position, block)});
     all.push_back(std::move(each));
@@ -92,7 +88,8 @@ std::vector<Contents> other_contents(const CityPlan& plan, const CityParams& par
     }
     for (const CityObject& object : kind.objects) {
       all[first + object.model].copies.push_back(
-          {transform_at(object.position, height_of(plan, object.part), object.turn, object.scale),
+          {transform_at(object.position, surface.height(object.part, object.position), object.turn,
+                        object.scale),
            chunks.at(object.position, plan.parts[object.part].block)});
     }
   }
@@ -100,11 +97,13 @@ std::vector<Contents> other_contents(const CityPlan& plan, const CityParams& par
   return all;
 }
 
-std::vector<Copy> copies_of(const SharedHouse& house, const CityPlan& plan, const Chunks& chunks) {
+std::vector<Copy> copies_of(const SharedHouse& house, const Surface& surface, const Chunks& chunks) {
+  const CityPlan& plan = surface.plan();
   std::vector<Copy> copies;
   for (const std::uint32_t number : house.lots) {
     const Lot& lot = plan.lots[number];
-    copies.push_back({transform_at(lot.house->position, kerb_height, lot.house->turn),
+    double lowest = 0;
+    copies.push_back({transform_at(lot.house->position, surface.floor_height(lot, lowest), lot.house->turn),
                       chunks.at(lot.house->position, plan.parts[lot.part].block)});
   }
   return copies;
@@ -135,29 +134,35 @@ std::optional<Error> make_and_add(Job& job, std::size_t count, const Make& make,
   return std::nullopt;
 }
 
-/// A hedge or a wall, or the panel and the posts of a fence, along a border.
-void add_border(SolidBuilder& solid, const BorderPiece& piece, CityBorder kind, double height) {
+/// A hedge or a wall, or the panel and the posts of a fence, along a border. `ground` has the heights of the ground
+/// at its ends.
+void add_border(SolidBuilder& solid, const BorderPiece& piece, const std::array<double, 2>& ground,
+                CityBorder kind, double height) {
   const dvec2 run = piece.b - piece.a;
   const double length = glm::length(run);
   const dvec2 along = run / length, side(-along.y, along.x);
-  const auto base = static_cast<float>(kerb_height), top = base + static_cast<float>(height);
   const auto corner = [&](double s, double offset) {
     const dvec2 p = piece.a + along * s + side * offset;
     return glm::vec2(static_cast<float>(p.x), static_cast<float>(0 - p.y));
   };
-  const auto add = [&](double from, double to, double half, float low, float high) {
-    solid.add_slab({corner(from, -half), corner(to, -half), corner(to, half), corner(from, half)},
-                   {low, low, low, low}, {high, high, high, high});
+  const auto base = [&](double s) {
+    return static_cast<float>(ground[0] + (ground[1] - ground[0]) * s / length);
   };
+  const auto add = [&](double from, double to, double half, float low, float high) {
+    const float a = base(from), b = base(to);
+    solid.add_slab({corner(from, -half), corner(to, -half), corner(to, half), corner(from, half)},
+                   {a + low, b + low, b + low, a + low}, {a + high, b + high, b + high, a + high});
+  };
+  const auto top = static_cast<float>(height);
   if (kind != CityBorder::fence) {
-    add(0, length, kind == CityBorder::hedge ? 0.3 : 0.15, base - border_depth, top);
+    add(0, length, kind == CityBorder::hedge ? 0.3 : 0.15, 0 - border_depth, top);
     return;
   }
-  add(0, length, 0.02, base + 0.1F, top);
+  add(0, length, 0.02, 0.1F, top);
   const int posts = 1 + math::to_int32(std::floor(length / post_spacing));
   for (int i = 0; i <= posts; ++i) {
     const double at = 0.06 + (length - 0.12) * i / posts;
-    add(at - 0.05, at + 0.05, 0.05, base - border_depth, top + 0.08F);
+    add(at - 0.05, at + 0.05, 0.05, 0 - border_depth, top + 0.08F);
   }
 }
 
@@ -173,18 +178,35 @@ std::uint64_t border_triangles(const BorderPiece& piece, CityBorder kind) {
   return 12 + 12 * static_cast<std::uint64_t>(posts + 1);
 }
 
-std::vector<BorderPiece> borders_of(const CityPlan& plan, const CityParams& params, const Job& job) {
+/// The borders; on a terrain in short pieces, 2 cm apart, that follow the ground.
+std::vector<BorderPiece> borders_of(const Surface& surface, const CityParams& params, const Job& job) {
+  constexpr double longest = 6, gap = 0.02;
   if (!params.yards || params.yards->border == CityBorder::none) return {};
-  return lot_borders(plan, job);
+  std::vector<BorderPiece> whole = lot_borders(surface.plan(), job);
+  if (surface.is_level()) return whole;
+  std::vector<BorderPiece> pieces;
+  for (const BorderPiece& each : whole) {
+    const dvec2 run = each.b - each.a;
+    const double length = glm::length(run);
+    const int count = math::to_int32(std::ceil(length / longest));
+    for (int i = 0; i < count; ++i) {
+      const double end = i + 1 < count ? (i + 1.0) / count - gap / length : 1;
+      pieces.push_back({each.a + run * (static_cast<double>(i) / count), each.a + run * end, each.part});
+    }
+  }
+  return pieces;
 }
 
-void add_borders(Model& model, ChunkNodes& nodes, const Chunks& chunks, const CityPlan& plan,
+void add_borders(Model& model, ChunkNodes& nodes, const Chunks& chunks, const Surface& surface,
                  const CityParams& params, Job& job) {
+  const CityPlan& plan = surface.plan();
   std::map<std::uint32_t, SolidBuilder> by_chunk;
-  for (const BorderPiece& piece : borders_of(plan, params, job)) {
+  for (const BorderPiece& piece : borders_of(surface, params, job)) {
     job.spend(Resource::triangles, border_triangles(piece, params.yards->border));
     const std::uint32_t chunk = chunks.at((piece.a + piece.b) / 2.0, plan.parts[piece.part].block);
-    add_border(by_chunk.try_emplace(chunk, job).first->second, piece, params.yards->border,
+    const std::array<double, 2> ground = {surface.height(piece.part, piece.a),
+                                          surface.height(piece.part, piece.b)};
+    add_border(by_chunk.try_emplace(chunk, job).first->second, piece, ground, params.yards->border,
                params.yards->height);
   }
   if (by_chunk.empty()) return;
@@ -235,9 +257,11 @@ LevelInfo scaled(const HouseSample& sample, const House& house) {
 
 }  // namespace
 
-std::optional<Error> add_contents(Model& model, ChunkNodes& nodes, const Chunks& chunks, const CityPlan& plan,
-                                  const CityParams& params, const GenerateContext& context) {
+std::optional<Error> add_contents(Model& model, ChunkNodes& nodes, const Chunks& chunks,
+                                  const Surface& surface, const CityParams& params,
+                                  const GenerateContext& context) {
   Job& job = context.job;
+  const CityPlan& plan = surface.plan();
   const ViewPoint view(params);
   CopyWriter writer(model, nodes, view, context);
   Demand demand;
@@ -249,10 +273,10 @@ std::optional<Error> add_contents(Model& model, ChunkNodes& nodes, const Chunks&
       [&](std::size_t i, Model made) {
         scene::separate_bodies(made);
         writer.add(std::move(made), "building_" + std::to_string(model.meshes.size()), "buildings",
-                   copies_of(houses[i], plan, chunks), CopyWriter::Bodies::boxes);
+                   copies_of(houses[i], surface, chunks), CopyWriter::Bodies::boxes);
       });
   if (error) return error;
-  const std::vector<Contents> others = other_contents(plan, params, chunks, job);
+  const std::vector<Contents> others = other_contents(surface, params, chunks, job);
   error = make_and_add(
       job, others.size(), [&](std::size_t i) { return model_of(others[i], demand, context); },
       [&](std::size_t i, Model made) {
@@ -263,13 +287,14 @@ std::optional<Error> add_contents(Model& model, ChunkNodes& nodes, const Chunks&
                    is_landmark ? CopyWriter::Bodies::boxes : CopyWriter::Bodies::none);
       });
   if (error) return error;
-  add_borders(model, nodes, chunks, plan, params, job);
+  add_borders(model, nodes, chunks, surface, params, job);
   return std::nullopt;
 }
 
-std::optional<Error> estimate_contents(Estimate& estimate, const CityPlan& plan, const CityParams& params,
+std::optional<Error> estimate_contents(Estimate& estimate, const Surface& surface, const CityParams& params,
                                        const GenerateContext& context) {
   Job& job = context.job;
+  const CityPlan& plan = surface.plan();
   const Chunks chunks(plan, params);
   const ViewPoint view(params);
   Demand demand;
@@ -294,15 +319,15 @@ std::optional<Error> estimate_contents(Estimate& estimate, const CityPlan& plan,
       sample->second = {house.width, house.depth, std::move(info), bytes};
     }
     const LevelInfo info = scaled(sample->second, house);
-    add_copies(estimate, info, sample->second.bytes, view, copies_of(shared, plan, chunks));
+    add_copies(estimate, info, sample->second.bytes, view, copies_of(shared, surface, chunks));
   }
-  for (const Contents& each : other_contents(plan, params, chunks, job)) {
+  for (const Contents& each : other_contents(surface, params, chunks, job)) {
     Result<Model> made = model_of(each, demand, context);
     if (!made) return made.error();
     const auto [info, bytes] = measured(std::move(made));
     add_copies(estimate, info, bytes, view, each.copies);
   }
-  for (const BorderPiece& piece : borders_of(plan, params, job)) {
+  for (const BorderPiece& piece : borders_of(surface, params, job)) {
     const std::uint64_t triangles = border_triangles(piece, params.yards->border);
     estimate.triangles += triangles;
     estimate.bytes += 50 * triangles;

@@ -64,6 +64,7 @@ class Division {
   bool has_size(const Piece& piece) const;  ///< its least area and frontage
   double least_width() const;               ///< centimetres, with a margin for rounding
   bool is_partition() const;
+  std::size_t long_pieces() const;
   bool is_large(const Piece& piece, const LeastBox& box, Rng& draw) const;
   bool find_cut(const Piece& piece, const LeastBox& box, Rng& draw, Piece& left, Piece& right);
   bool find_cut_across_front(const Piece& piece, Rng& draw, Piece& left, Piece& right);

@@ -1,6 +1,7 @@
 #pragma once
 /// The plan of a city: the street graph and the partition of the area that is cut along it. Points are whole
 /// centimetres, x east and y north; lengths and areas are metres unless a name says otherwise.
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <memory>
@@ -10,6 +11,8 @@
 #include <vector>
 
 #include "core/base/job.h"
+#include "core/generators/city/grades.h"
+#include "core/generators/city/landform.h"
 #include "core/generators/city/network.h"
 #include "core/generators/city/region.h"
 #include "core/geom/polygon/cm_point.h"
@@ -59,6 +62,7 @@ struct StreetGraph {
   std::vector<std::uint64_t> node_key, edge_key;  ///< identities by position
   std::vector<std::uint8_t> is_border;            ///< by node: on the border of the area or on a shore
   std::vector<Bridge> bridges;
+  std::vector<CmPoint> ring_nodes;         ///< of roundabouts, sorted
   std::vector<std::uint32_t> bridge_ends;  ///< by node: ends of bridges there; empty without bridges
 
   bool is_street(std::uint32_t edge) const { return is_street_tag(edges[edge].tag); }
@@ -68,6 +72,9 @@ struct StreetGraph {
       if (edges[half / 2].tag == static_cast<std::uint32_t>(EdgeClass::border)) return true;
     }
     return false;
+  }
+  bool is_on_ring(std::uint32_t node) const {
+    return std::binary_search(ring_nodes.begin(), ring_nodes.end(), nodes[node]);
   }
   /// Ends of streets of all levels.
   std::uint32_t street_ends(std::uint32_t node) const {
@@ -117,6 +124,7 @@ struct Landmark {
   double turn = 0;         ///< degrees, counter-clockwise from above
   double radius = 15;      ///< where no tree of a park stands
   bool is_block_whole = false, replaces_house = true;
+  bool is_too_large = false;                      ///< for its lot, which then has no building in the plan
   std::uint32_t lot = no_index, part = no_index;  ///< on which it stands; no_index: none
 };
 
@@ -185,6 +193,11 @@ struct CityPlan {
   std::vector<NamedZone> zones;
   std::vector<Landmark> landmarks;
   StreetGraph graph;
+  /// By edge: the start and end of the straight kerbs, left and then right; equal points without them.
+  std::vector<std::array<CmPoint, 4>> kerbs;
+  std::vector<double> holds;  ///< by half-edge: how far the corners at its start reach along it, metres
+  std::shared_ptr<const Landform> landform;  ///< never null after plan_of()
+  StreetHeights heights;
   std::vector<Part> parts;
   std::vector<Block> blocks;
   std::vector<Lot> lots;

@@ -239,6 +239,27 @@ TEST(Landmarks, ReplaceTheBuildingOfTheirLotOrKeepTheirBlockWhole) {
   }
 }
 
+TEST(Landmarks, AreNotInThePlanWhereTheyAreLargerThanTheirLot) {
+  const CityPlan plain = plan_with(params_of(R"({"area": {"size": [500, 400]}})"), 5);
+  const auto built = std::find_if(plain.lots.begin(), plain.lots.end(),
+                                  [](const Lot& lot) { return lot.house.has_value(); });
+  ASSERT_NE(built, plain.lots.end());
+  const dvec2 place = built->house->position;
+  for (const double size : {2.0, 120.0}) {
+    Json json = {{"area", {{"size", {500, 400}}}}};
+    json["buildings"]["landmarks"] =
+        Json::array({{{"model",
+                       {{"generator", "building"},
+                        {"parameters", {{"blueprint", "warehouse"}, {"size", {size, 0, size}}}}}},
+                      {"position", {place.x, place.y}}}});
+    const CityPlan plan = plan_with(params_of(json.dump().c_str()), 5);
+    const Lot& lot = plan.lots[plan.landmarks[0].lot];
+    EXPECT_EQ(lot.landmark == no_index, size > 100);
+    EXPECT_EQ(plan.landmarks[0].is_too_large, size > 100);
+    EXPECT_FALSE(lot.house);
+  }
+}
+
 TEST(Landmarks, WarnWhereTheyStandOnAStreetOrOutside) {
   const CityParams params = params_of(R"({"area": {"size": [400, 400]}, "streets": {"method": "given"},
     "given": {"streets": {"type": "FeatureCollection", "features": [{"type": "Feature", "properties": {},
