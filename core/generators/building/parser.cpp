@@ -101,6 +101,11 @@ bool begins_rule(const Parser& p, std::size_t i) {
   if (p.tokens.at(i).kind != TokenKind::name) return false;
   ++i;
   if (p.tokens.is(i, "(")) i = p.tokens.partner(i) + 1;
+  while (p.tokens.is(i, "+") &&
+         p.tokens.at(i + 1).kind == TokenKind::name) {  // a left side of several shapes
+    i += 2;
+    if (p.tokens.is(i, "(")) i = p.tokens.partner(i) + 1;
+  }
   if (p.tokens.is_arrow(i)) return true;
   if (!p.tokens.is(i, ":")) return false;
   const std::size_t behind = p.tokens.behind_expression(i + 1);
