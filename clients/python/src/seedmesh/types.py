@@ -176,6 +176,7 @@ class CityParametersMaps(TypedDict, total=False):
     density: Union[str, "Polygons"]
     water: Union[str, "Polygons"]
     obstacles: Union[str, "Polygons"]
+    height: str
 
 
 class CityParametersGivenStreetsFeaturesItemGeometry(TypedDict):
@@ -220,24 +221,28 @@ class CityParametersStreetsClassesHighway(TypedDict, total=False):
     width: float
     lanes: int
     sidewalk: float
+    grade: float
 
 
 class CityParametersStreetsClassesMajor(TypedDict, total=False):
     width: float
     lanes: int
     sidewalk: float
+    grade: float
 
 
 class CityParametersStreetsClassesMinor(TypedDict, total=False):
     width: float
     lanes: int
     sidewalk: float
+    grade: float
 
 
 class CityParametersStreetsClassesLane(TypedDict, total=False):
     width: float
     lanes: int
     sidewalk: float
+    grade: float
 
 
 class CityParametersStreetsClasses(TypedDict, total=False):
@@ -248,7 +253,7 @@ class CityParametersStreetsClasses(TypedDict, total=False):
 
 
 class CityParametersStreetsTensorFieldsItem(TypedDict, total=False):
-    type: Literal['grid', 'radial', 'boundary', 'polyline']
+    type: Literal['grid', 'radial', 'boundary', 'polyline', 'height']
     position: List[float]
     angle: float
     size: float
@@ -272,11 +277,12 @@ class CityParametersStreetsWards(TypedDict, total=False):
 class CityParametersStreets(TypedDict, total=False):
     method: Literal['growth', 'tensor', 'wards', 'given']
     productions: List[str]
-    pattern: Literal['organic', 'raster', 'radial']
-    minor_pattern: Literal['organic', 'raster', 'radial']
+    pattern: Literal['organic', 'raster', 'radial', 'slope']
+    minor_pattern: Literal['organic', 'raster', 'radial', 'slope']
     angle: float
     centre: List[float]
     major_spacing: float
+    highway_spacing: float
     block: List[float]
     fill: float
     length: float
@@ -290,6 +296,8 @@ class CityParametersStreets(TypedDict, total=False):
     minimal_angle: float
     dead_ends: float
     crossings: float
+    roundabouts: float
+    roundabout_radius: float
     classes: "CityParametersStreetsClasses"
     bridge_length: float
     tensor: "CityParametersStreetsTensor"
@@ -328,6 +336,7 @@ class CityParametersBuildings(TypedDict, total=False):
 
 class CityParameters(TypedDict, total=False):
     area: "CityParametersArea"
+    terrain: "Child"
     maps: "CityParametersMaps"
     given: "CityParametersGiven"
     streets: "CityParametersStreets"
