@@ -1722,6 +1722,10 @@ export interface TreeParameters {
   sway?: TreeParametersSway;
   /** Largest number of leaves on a limb of the last level. A negative number puts that many in a fan at its end. */
   Leaves?: number;
+  /** How the number of leaves of a limb depends on its place along the parent: the number of a crown shape (Shape). The paper has 4. */
+  LeafDistrib?: number;
+  /** How stems that split are counted. paper: a stem and its clones share its branches and leaves, and a split makes further splits half as likely. arbaro: as Arbaro counts: clones bear as many per segment as their stem and split as often, numbers of branches are rounded down, and pruned limbs stay. */
+  counting?: "paper" | "arbaro";
   /** Length of a leaf. */
   LeafScale?: number;
   /** Width of a leaf as a share of its length. */

@@ -31,9 +31,10 @@ std::uint32_t parse_alternatives_2006(Parser& p, const Value& condition) {
   return static_cast<std::uint32_t>(p.grammar.bodies.size()) - 1;
 }
 
-/// with ( name := value  name := value ): values that the successor reads. The closing bracket is read too.
+/// with ( name := value  name := value ): values that the successor reads. The closing bracket is read too. It stands
+/// before the arrow, or behind it.
 void parse_locals(Parser& p, Rule& rule) {
-  while (here(p).kind == TokenKind::name && p.tokens.is(p.at + 1, ":") && p.tokens.is(p.at + 2, "=")) {
+  while (begins_local(p, p.at)) {
     const std::string name(here(p).text);
     p.at += 3;
     const std::size_t number = rule.parameter_count + rule.locals.size();
@@ -43,7 +44,7 @@ void parse_locals(Parser& p, Rule& rule) {
     }
     rule.locals.push_back(parse_value(p));
     p.names.bind_slot(name, p.grammar.first_parameter_slot + static_cast<std::uint32_t>(number));
-    take(p, ",");
+    if (!take(p, ",")) take(p, ";");
   }
   expect(p, ")", "the values of with");
 }
@@ -79,6 +80,12 @@ void parse_rule(Parser& p, std::int32_t priority) {
     }
     p.at = std::min(close + 1, p.tokens.end());
   }
+  const auto parse_with = [&] {
+    if (!p.tokens.is_name(p.at, "with") || !p.tokens.is(p.at + 1, "(")) return;
+    p.at += 2;
+    parse_locals(p, rule);
+  };
+  parse_with();
   Value condition;
   if (take(p, ":")) condition = parse_value(p);
   if (!p.tokens.is_arrow(p.at)) {
@@ -86,10 +93,7 @@ void parse_rule(Parser& p, std::int32_t priority) {
   } else {
     const bool is_old = !p.tokens.is(p.at, "-->");
     ++p.at;
-    if (p.tokens.is_name(p.at, "with") && p.tokens.is(p.at + 1, "(")) {
-      p.at += 2;
-      parse_locals(p, rule);
-    }
+    parse_with();
     rule.body = condition.is_given || is_old ? parse_alternatives_2006(p, condition) : parse_body(p);
     p.grammar.most_parameters = std::max(
         p.grammar.most_parameters, rule.parameter_count + static_cast<std::uint32_t>(rule.locals.size()));
@@ -129,8 +133,7 @@ void parse_all(Parser& p, std::string_view start) {
       if (is_here(p, "(")) p.at = p.tokens.partner(p.at) + 1;
       if (take(p, "=")) p.at = end_of_value(p, p.at);
     } else if (token.kind == TokenKind::name && !begins_rule(p, p.at) && begins_statement(p, p.at)) {
-      ++p.at;
-      if (is_here(p, "(")) p.at = p.tokens.partner(p.at) + 1;
+      p.at = behind_head(p, p.at);
       if (take(p, "=")) p.at = end_of_value(p, p.at);
     } else {
       parse_rule(p, priority);

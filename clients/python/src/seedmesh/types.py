@@ -1062,6 +1062,8 @@ TreeParameters = TypedDict("TreeParameters", {
     'PrunePowerHigh': float,
     'sway': "TreeParametersSway",
     'Leaves': int,
+    'LeafDistrib': int,
+    'counting': Literal['paper', 'arbaro'],
     'LeafScale': float,
     'LeafScaleX': float,
     'LeafBend': float,
