@@ -359,7 +359,7 @@ export interface CityParametersStreetsClassesHighway {
   lanes?: number;
   /** The width of the sidewalk of each side. */
   sidewalk?: number;
-  /** The steepest grade of these streets, as rise over run. On a terrain the ground is cut and filled to keep it, and no street grows where the natural ground is a quarter steeper. */
+  /** The steepest grade of these streets, as rise over run. On a terrain the ground is cut and filled to keep it, and no street grows where the natural ground is half steeper. */
   grade?: number;
 }
 
@@ -371,7 +371,7 @@ export interface CityParametersStreetsClassesMajor {
   lanes?: number;
   /** The width of the sidewalk of each side. */
   sidewalk?: number;
-  /** The steepest grade of these streets, as rise over run. On a terrain the ground is cut and filled to keep it, and no street grows where the natural ground is a quarter steeper. */
+  /** The steepest grade of these streets, as rise over run. On a terrain the ground is cut and filled to keep it, and no street grows where the natural ground is half steeper. */
   grade?: number;
 }
 
@@ -383,7 +383,7 @@ export interface CityParametersStreetsClassesMinor {
   lanes?: number;
   /** The width of the sidewalk of each side. */
   sidewalk?: number;
-  /** The steepest grade of these streets, as rise over run. On a terrain the ground is cut and filled to keep it, and no street grows where the natural ground is a quarter steeper. */
+  /** The steepest grade of these streets, as rise over run. On a terrain the ground is cut and filled to keep it, and no street grows where the natural ground is half steeper. */
   grade?: number;
 }
 
@@ -395,7 +395,7 @@ export interface CityParametersStreetsClassesLane {
   lanes?: number;
   /** The width of the sidewalk of each side. */
   sidewalk?: number;
-  /** The steepest grade of these streets, as rise over run. On a terrain the ground is cut and filled to keep it, and no street grows where the natural ground is a quarter steeper. */
+  /** The steepest grade of these streets, as rise over run. On a terrain the ground is cut and filled to keep it, and no street grows where the natural ground is half steeper. */
   grade?: number;
 }
 
