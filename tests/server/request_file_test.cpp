@@ -83,7 +83,8 @@ TEST(RequestFile, PlacesErrorsOfARequestInTheFile) {
 TEST(RequestFile, GivesOutputsOrErrorsForAnyText) {
   const std::string whole =
       R"({"$schema": "x", "name": "é\u00e9", "output": {"lods": [1, 0.5]}, "outputs": {"a.glb": {"lods": null}}, "seed": 1e9})";
-  std::mt19937 random(7);
+  std::mt19937 engine(7);
+  const auto random = [&] { return static_cast<unsigned>(engine()); };
   int accepted = 0;
   for (int i = 0; i < 50'000; ++i) {
     std::string text = whole;

@@ -12,8 +12,17 @@ namespace {
 using lang::Token;
 using lang::TokenKind;
 
+/// Are these two or more symbols side by side, with one argument each?
+bool is_row_of_symbols(const Grammar& grammar, const Choice& choice) {
+  for (std::uint32_t i = 0; i < choice.step_count; ++i) {
+    const Step& step = grammar.steps[choice.first_step + i];
+    if (step.op != Op::symbol || step.argument_count != 1) return false;
+  }
+  return choice.step_count >= 2;
+}
+
 /// Reads `successor : weight ~> successor : weight ...` under one condition, or a body in today's notation.
-std::uint32_t parse_alternatives_2006(Parser& p, const Value& condition) {
+std::uint32_t parse_alternatives_2006(Parser& p, const Value& condition, bool may_stack) {
   if (!condition.is_given &&
       (p.tokens.is_name(p.at, "case") || p.tokens.is(p.tokens.behind_expression(p.at), "%")))
     return parse_body(p);
@@ -22,6 +31,7 @@ std::uint32_t parse_alternatives_2006(Parser& p, const Value& condition) {
   std::vector<Choice> choices;
   do {
     Choice choice = parse_successor(p);
+    choice.is_stack = may_stack && is_row_of_symbols(p.grammar, choice);
     if (take(p, ":")) choice.weight = parse_value(p);
     choices.push_back(choice);
   } while (p.tokens.is_arrow(p.at) && ++p.at);
@@ -49,6 +59,56 @@ void parse_locals(Parser& p, Rule& rule) {
   expect(p, ")", "the values of with");
 }
 
+/// Reads one parameter of a left side: a name, or a value that the parameter has to have.
+void parse_parameter(Parser& p, Rule& rule) {
+  if (rule.parameter_count == most_parameters) {
+    add_error(p, here(p), "found more than 32 parameters in one rule");
+    ++p.at;
+    return;
+  }
+  const bool is_name =
+      here(p).kind == TokenKind::name && (p.tokens.is(p.at + 1, ",") || p.tokens.is(p.at + 1, ")"));
+  if (is_name) {
+    p.names.bind_slot(std::string(here(p).text), p.grammar.first_parameter_slot + rule.parameter_count++);
+    ++p.at;
+    return;
+  }
+  const std::size_t before = p.at;
+  rule.fixed.emplace_back(rule.parameter_count++, parse_value(p));
+  if (p.at == before) ++p.at;  // the error is reported
+}
+
+/// Reads the name and the parameters of one shape of a left side.
+Joint::Left parse_left(Parser& p, Rule& rule) {
+  Joint::Left left;
+  left.first = symbol_index(p, here(p).text, offset_here(p));
+  const std::uint32_t before = rule.parameter_count;
+  ++p.at;
+  if (is_here(p, "(")) {
+    const std::size_t close = p.tokens.partner(p.at);
+    ++p.at;
+    while (p.at < close) {
+      if (!take(p, ",")) parse_parameter(p, rule);
+    }
+    p.at = std::min(close + 1, p.tokens.end());
+  }
+  left.second = rule.parameter_count - before;
+  return left;
+}
+
+/// The symbol of shapes that are joined by this left side.
+std::uint32_t joint_symbol(Parser& p, const std::vector<Joint::Left>& lefts, std::uint32_t offset) {
+  for (const Joint& joint : p.grammar.joints) {
+    if (joint.lefts == lefts) return joint.symbol;
+  }
+  std::string name;
+  for (const Joint::Left& left : lefts)
+    name += (name.empty() ? "" : " + ") + p.grammar.symbols[left.first].name;
+  const std::uint32_t symbol = symbol_index(p, name, offset);
+  p.grammar.joints.push_back({lefts, symbol});
+  return symbol;
+}
+
 void parse_rule(Parser& p, std::int32_t priority) {
   if (here(p).kind == TokenKind::number && p.tokens.is(p.at + 1, ":")) p.at += 2;  // the label of the rule
   const Token name = here(p);
@@ -61,25 +121,12 @@ void parse_rule(Parser& p, std::int32_t priority) {
     return;
   }
   Rule rule;
-  rule.symbol = symbol_index(p, name.text, static_cast<std::uint32_t>(name.offset));
   rule.offset = static_cast<std::uint32_t>(name.offset);
   rule.priority = priority;
-  ++p.at;
   const std::size_t names = p.names.size();
-  if (is_here(p, "(")) {
-    const std::size_t close = p.tokens.partner(p.at);
-    for (++p.at; p.at < close; ++p.at) {
-      if (is_here(p, ",")) continue;
-      if (here(p).kind != TokenKind::name) {
-        add_unexpected(p, "the name of a parameter");
-      } else if (rule.parameter_count == most_parameters) {
-        add_error(p, here(p), "found more than 32 parameters in one rule");
-      } else {
-        p.names.bind_slot(std::string(here(p).text), p.grammar.first_parameter_slot + rule.parameter_count++);
-      }
-    }
-    p.at = std::min(close + 1, p.tokens.end());
-  }
+  std::vector<Joint::Left> lefts{parse_left(p, rule)};
+  while (take(p, "+")) lefts.push_back(parse_left(p, rule));
+  rule.symbol = lefts.size() == 1 ? lefts[0].first : joint_symbol(p, lefts, rule.offset);
   const auto parse_with = [&] {
     if (!p.tokens.is_name(p.at, "with") || !p.tokens.is(p.at + 1, "(")) return;
     p.at += 2;
@@ -94,7 +141,9 @@ void parse_rule(Parser& p, std::int32_t priority) {
     const bool is_old = !p.tokens.is(p.at, "-->");
     ++p.at;
     parse_with();
-    rule.body = condition.is_given || is_old ? parse_alternatives_2006(p, condition) : parse_body(p);
+    const bool may_stack = is_old && rule.parameter_count == 1;
+    rule.body =
+        condition.is_given || is_old ? parse_alternatives_2006(p, condition, may_stack) : parse_body(p);
     p.grammar.most_parameters = std::max(
         p.grammar.most_parameters, rule.parameter_count + static_cast<std::uint32_t>(rule.locals.size()));
     p.grammar.symbols[rule.symbol].rules.push_back(static_cast<std::uint32_t>(p.grammar.rules.size()));

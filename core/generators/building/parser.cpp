@@ -99,6 +99,10 @@ std::uint32_t word_index(Parser& p, std::string_view word) {
 std::size_t behind_head(const Parser& p, std::size_t i) {
   ++i;
   if (p.tokens.is(i, "(")) i = p.tokens.partner(i) + 1;
+  while (p.tokens.is(i, "+") && p.tokens.at(i + 1).kind == TokenKind::name) {  // a left side of several shapes
+    i += 2;
+    if (p.tokens.is(i, "(")) i = p.tokens.partner(i) + 1;
+  }
   if (p.tokens.is_name(i, "with") && p.tokens.is(i + 1, "(")) i = p.tokens.partner(i + 1) + 1;
   return i;
 }

@@ -40,6 +40,8 @@ struct GrowthInput {
   /// Whether the ground along a segment rises half more than a grade limit allows, or is more than 5 m above or
   /// below the segment.
   bool is_too_steep(const glm::dvec2& a, const glm::dvec2& b, double grade_limit) const;
+  /// Whether a piece meets given streets only where it crosses one of them at a wide angle.
+  bool keeps_off_given(const StreetPiece& piece) const;
   /// The grade limit of a street of a kind that grows.
   double limit_of(std::uint32_t kind) const;
 };

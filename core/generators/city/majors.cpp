@@ -250,31 +250,12 @@ class NetRules final : public RoadRules {
   bool may_build(const Route& built) const {
     for (const StreetPiece& piece : built.pieces) {
       if (input_.is_blocked(in_cm(piece.a), in_cm(piece.b), input_.limit_of(piece.kind))) return false;
-      if (input_.given && !keeps_off(piece)) return false;
+      if (!input_.keeps_off_given(piece)) return false;
     }
     for (const BridgeLine& bridge : built.bridges) {
       for (const BridgeLine& other : route.bridges) {
         if (segments_meet(bridge.line[0], bridge.line[1], other.line[0], other.line[1])) return false;
       }
-    }
-    return true;
-  }
-
-  /// Whether a piece meets given streets only where it crosses one of them at a wide angle.
-  bool keeps_off(const StreetPiece& piece) const {
-    constexpr double near = 1400, least_cross_sine = 0.77;
-    const dvec2 p = in_cm(piece.a), q = in_cm(piece.b), along = q - p;
-    for (const StreetPiece& other : input_.given->pieces) {
-      const dvec2 a = in_cm(other.a), b = in_cm(other.b), across = b - a;
-      const double apart = std::min({distance_to_segment(p, a, b), distance_to_segment(q, a, b),
-                                     distance_to_segment(a, p, q), distance_to_segment(b, p, q)});
-      if (!segments_meet(piece.a, piece.b, other.a, other.b)) {
-        if (apart < near) return false;
-        continue;
-      }
-      const double sine = std::abs(along.x * across.y - along.y * across.x) /
-                          (distance(piece.a, piece.b) * distance(other.a, other.b));
-      if (sine < least_cross_sine || apart < near) return false;
     }
     return true;
   }

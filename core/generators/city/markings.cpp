@@ -35,8 +35,23 @@ struct Kerbs {
   }
 };
 
-bool has_crossing(const CityPlan& plan, std::uint32_t node) {
-  return plan.graph.is_border[node] == 0 && plan.graph.street_ends(node) >= 3;
+/// Whether traffic on a half-edge stops before its start: at junctions, but not on the through street of one with three
+/// arms.
+bool has_crossing(const CityPlan& plan, std::uint32_t half) {
+  constexpr double straight = -0.9;  // cosine between the arms of a through street
+  const StreetGraph& graph = plan.graph;
+  const std::uint32_t node = start_of(graph.edges, half);
+  if (graph.is_border[node] != 0 || graph.degree(node) < 3 || graph.is_on_ring(node)) return false;
+  if (graph.degree(node) > 3) return true;
+  const auto direction = [&](std::uint32_t arm) {
+    const dvec2 along = in_cm(graph.nodes[end_of(graph.edges, arm)]) - in_cm(graph.nodes[node]);
+    return along / glm::length(along);
+  };
+  const auto arms = graph.arms.of(node);
+  return std::none_of(arms.begin(), arms.end(), [&](std::uint32_t arm) {
+    return arm != half && graph.is_street(arm / 2) && glm::dot(direction(arm), direction(half)) < straight &&
+           graph.edges[arm / 2].tag <= graph.edges[half / 2].tag;
+  });
 }
 
 }  // namespace
@@ -56,11 +71,11 @@ StreetStrips strips_of_street(const CityPlan& plan, std::uint32_t edge) {
   const double begin = std::max(left[0], right[0]), end = std::min(left[1], right[1]);
   if (end - begin < 3 * least_strip) return {};
   const CrossSection& section = plan.class_of(edge);
-  const auto is_marked = [&](std::uint32_t node, std::size_t side) {
-    return section.width >= least_width && has_crossing(plan, node) &&
+  const auto is_marked = [&](std::uint32_t half, std::size_t side) {
+    return section.width >= least_width && has_crossing(plan, half) &&
            std::abs(left[side] - right[side]) < perpendicular;
   };
-  bool at_start = is_marked(graph.edges[edge].from, 0), at_end = is_marked(graph.edges[edge].to, 1);
+  bool at_start = is_marked(2 * edge, 0), at_end = is_marked(2 * edge + 1, 1);
   if (end - begin < stop_end * ((at_start ? 1 : 0) + (at_end ? 1 : 0)) + least_between)
     at_start = at_end = false;
   std::vector<Cut> cuts;

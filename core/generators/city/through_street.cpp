@@ -7,7 +7,6 @@
 
 #include "core/base/math.h"
 #include "core/generators/city/growth.h"
-#include "core/generators/city/landform.h"
 #include "generated/params/city.h"
 
 namespace seedmesh::city {
@@ -127,39 +126,6 @@ std::vector<StreetPiece> through_street(const GrowthInput& input, const Job& job
   OneRoad road(input);
   input.grammar.grow({{0, 0, 0, 1}}, road, 1000, job);
   return std::move(road.pieces);
-}
-
-double GrowthInput::limit_of(std::uint32_t kind) const {
-  const CityClasses& classes = streets.classes;
-  if (kind == static_cast<std::uint32_t>(EdgeClass::highway)) return classes.highway.grade;
-  return kind == static_cast<std::uint32_t>(EdgeClass::minor) ? classes.minor.grade : classes.major.grade;
-}
-
-bool GrowthInput::is_too_steep(const dvec2& a, const dvec2& b, double grade_limit) const {
-  constexpr double excess = 1.5, deepest = 5;  // m
-  if (!landform) return false;
-  const dvec2 along = b - a;
-  const double length = std::sqrt(along.x * along.x + along.y * along.y) / 100;
-  const double from = landform->at(a / 100.0), to = landform->at(b / 100.0);
-  if (std::abs(to - from) > excess * grade_limit * length) return true;
-  const std::int32_t count = math::to_int32(length / 10) + 1;
-  for (std::int32_t n = 1; n < count; ++n) {
-    const double share = static_cast<double>(n) / count;
-    if (std::abs(landform->at((a + along * share) / 100.0) - from - (to - from) * share) > deepest)
-      return true;
-  }
-  return false;
-}
-
-bool GrowthInput::is_blocked(const dvec2& a, const dvec2& b, double grade_limit) const {
-  if (is_too_steep(a, b, grade_limit)) return true;
-  if (!obstacles) return false;
-  const dvec2 along = b - a;
-  const std::int32_t count = math::to_int32(std::sqrt(along.x * along.x + along.y * along.y) / 400) + 1;
-  for (std::int32_t n = 0; n <= count; ++n) {
-    if (is_blocked((a + along * (static_cast<double>(n) / count)) / 100.0)) return true;
-  }
-  return false;
 }
 
 }  // namespace seedmesh::city

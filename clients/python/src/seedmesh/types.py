@@ -104,6 +104,16 @@ class BuildingParametersShapeGrammar(_BuildingParametersShapeGrammarRequired, to
     marker_size: float
 
 
+class _BuildingParametersEditsItemRequired(TypedDict):
+    shape: str
+
+
+class BuildingParametersEditsItem(_BuildingParametersEditsItemRequired, total=False):
+    attributes: Dict[str, Union[float, str, bool]]
+    rule: str
+    remove: bool
+
+
 class BuildingParametersDerivation(TypedDict, total=False):
     order: Literal['breadth', 'depth']
     mode: Literal['parallel', 'sequential']
@@ -114,6 +124,14 @@ class _EmissionRequired(TypedDict):
 
 
 class Emission(_EmissionRequired, total=False):
+    strength: float
+
+
+class _SpecularRequired(TypedDict):
+    color: str
+
+
+class Specular(_SpecularRequired, total=False):
     strength: float
 
 
@@ -130,6 +148,7 @@ class BuildingParametersMaterialsValue(TypedDict, total=False):
     metallic: float
     opacity: float
     emission: "Emission"
+    specular: "Specular"
     tile: List[float]
     images: "Images"
     texture: Literal['auto', 'none', 'brick', 'plaster', 'roof_tile', 'slate', 'planks', 'ashlar', 'concrete', 'sheet']
@@ -150,6 +169,7 @@ class BuildingParameters(TypedDict, total=False):
     size: List[float]
     footprint: List[List[List[float]]]
     attributes: Dict[str, Union[float, str, bool]]
+    edits: List["BuildingParametersEditsItem"]
     iterations: int
     derivation: "BuildingParametersDerivation"
     repeat: Literal['nearest', 'ceil']
@@ -475,11 +495,14 @@ class FractalParameters(TypedDict, total=False):
     stages: List[int]
     columns: int
     text: str
+    smallest: float
     surface: Literal['faces', 'merged', 'pieces']
     size: float
     color: str
+    specular: "Specular"
     palette: List[str]
     points: int
+    start: Literal['element', 'cube']
     drop: int
     cloud: Literal['points', 'elements', 'voxels']
     voxels: int
@@ -597,6 +620,7 @@ class LsystemParametersMaterialsItem(TypedDict, total=False):
     metallic: float
     opacity: float
     emission: "Emission"
+    specular: "Specular"
     texture: "Texture"
     texture_seed: int
     images: "Images"
@@ -648,6 +672,7 @@ class LsystemParameters(_LsystemParametersRequired, total=False):
     sides: int
     stacks: int
     taper: Literal['linear', 'none']
+    share: Literal['auto', 'always', 'never']
     levels: Literal['outline', 'slices']
     adapt: bool
     weld: bool
@@ -862,6 +887,7 @@ class SceneParameters(TypedDict, total=False):
     competition: float
     camera: "SceneParametersCamera"
     chunks: int
+    words: bool
 
 
 class TerrainParametersLayersItem(TypedDict, total=False):
@@ -957,14 +983,14 @@ class TerrainParametersHeightmap(TypedDict, total=False):
 
 
 class TerrainParameters(TypedDict, total=False):
-    algorithm: Literal['fault_formation', 'poisson_faulting', 'triangular_edge', 'diamond_square', 'square_square', 'fbm', 'image', 'expression']
+    algorithm: Literal['fault_formation', 'poisson_faulting', 'triangular_edge', 'diamond_square', 'square_square', 'fbm', 'brownian', 'image', 'expression']
     expression: str
     layers: List["TerrainParametersLayersItem"]
     iterations: int
     extra_iterations: int
     resolution: int
     size: float
-    shape: Literal['plane', 'sphere']
+    shape: Literal['plane', 'sphere', 'profile']
     amplitude: float
     hurst: float
     corners: List[float]
@@ -993,6 +1019,7 @@ class TerrainParameters(TypedDict, total=False):
     skirt: float
     base: float
     palette: Literal['alpine', 'desert', 'tropical', 'arctic', 'volcanic', 'moon', 'grey', 'none']
+    specular: "Specular"
     water_level: float
     texture: int
     onto: "TerrainParametersOnto"
@@ -1031,6 +1058,7 @@ class TreeParametersLeaf(TypedDict, total=False):
     color: str
     autumn: str
     evergreen: bool
+    specular: "Specular"
     images: "Images"
 
 
@@ -1135,6 +1163,7 @@ TreeParameters = TypedDict("TreeParameters", {
     'bark_color': str,
     'bark_seed': int,
     'bark_images': "Images",
+    'bark_specular': "Specular",
     'age': float,
     'mature_age': float,
     'season': Literal['spring', 'summer', 'autumn', 'winter'],
