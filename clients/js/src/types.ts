@@ -295,6 +295,8 @@ export interface CityParametersMaps {
   water?: string | Polygons;
   /** Where no street may grow, as an expression, an image or polygons: from 0.5 upwards. Nothing is built on lots there. */
   obstacles?: string | Polygons;
+  /** The height of the natural ground in metres, instead of a terrain: an expression over x (east) and y (north) in metres. */
+  height?: string;
 }
 
 /** A LineString or MultiLineString in metres, east and north. */
@@ -349,7 +351,7 @@ export interface CityParametersGiven {
   water?: CityParametersGivenWater;
 }
 
-/** The cross section of given streets of this class. */
+/** The cross section of highways, which given streets can be, and lines of the net with highway_spacing. */
 export interface CityParametersStreetsClassesHighway {
   /** The width of the carriageway. */
   width?: number;
@@ -357,6 +359,8 @@ export interface CityParametersStreetsClassesHighway {
   lanes?: number;
   /** The width of the sidewalk of each side. */
   sidewalk?: number;
+  /** The steepest grade of these streets, as rise over run. On a terrain the ground is cut and filled to keep it, and no street grows where the natural ground is half steeper. */
+  grade?: number;
 }
 
 /** The cross section of this class of streets. */
@@ -367,6 +371,8 @@ export interface CityParametersStreetsClassesMajor {
   lanes?: number;
   /** The width of the sidewalk of each side. */
   sidewalk?: number;
+  /** The steepest grade of these streets, as rise over run. On a terrain the ground is cut and filled to keep it, and no street grows where the natural ground is half steeper. */
+  grade?: number;
 }
 
 /** The cross section of this class of streets. */
@@ -377,6 +383,8 @@ export interface CityParametersStreetsClassesMinor {
   lanes?: number;
   /** The width of the sidewalk of each side. */
   sidewalk?: number;
+  /** The steepest grade of these streets, as rise over run. On a terrain the ground is cut and filled to keep it, and no street grows where the natural ground is half steeper. */
+  grade?: number;
 }
 
 /** The cross section of given streets of this class. */
@@ -387,11 +395,13 @@ export interface CityParametersStreetsClassesLane {
   lanes?: number;
   /** The width of the sidewalk of each side. */
   sidewalk?: number;
+  /** The steepest grade of these streets, as rise over run. On a terrain the ground is cut and filled to keep it, and no street grows where the natural ground is half steeper. */
+  grade?: number;
 }
 
 /** The cross sections of the streets. */
 export interface CityParametersStreetsClasses {
-  /** The cross section of given streets of this class. */
+  /** The cross section of highways, which given streets can be, and lines of the net with highway_spacing. */
   highway?: CityParametersStreetsClassesHighway;
   /** The cross section of this class of streets. */
   major?: CityParametersStreetsClassesMajor;
@@ -403,8 +413,8 @@ export interface CityParametersStreetsClasses {
 
 /** A base field. */
 export interface CityParametersStreetsTensorFieldsItem {
-  /** grid: one direction. radial: along and across the rays from the position. boundary: along the nearest shore, or the nearest border of an area without water. polyline: along the nearest piece of a line. */
-  type?: "grid" | "radial" | "boundary" | "polyline";
+  /** grid: one direction. radial: along and across the rays from the position. boundary: along the nearest shore, or the nearest border of an area without water. polyline: along the nearest piece of a line. height: along the contours of the ground, the stronger the steeper it is. */
+  type?: "grid" | "radial" | "boundary" | "polyline" | "height";
   /** The centre of the field, east and north. */
   position?: [number, number];
   /** The direction of a grid, counter-clockwise from east. */
@@ -445,16 +455,18 @@ export interface CityParametersStreets {
   method?: "growth" | "tensor" | "wards" | "given";
   /** The productions of the street L-system, in the notation of the generator lsystem. The modules are R(delay, rule), the tip of a road; B(delay, rule, road), a delayed branch; and I(road, state), the query that checks a proposed road. States are UNASSIGNED, SUCCEED and FAILED. { globalGoals(rule, road) } sets pDel0 to pDel2, pRule0 to pRule2 and pRoad0 to pRoad2: straight on, to the left, to the right. { localConstraints(road) } sets state. Default: those of Parish and Müller. */
   productions?: string[];
-  /** The pattern of the major streets. organic: an irregular net. raster: right angles, also for minor streets unless minor_pattern says otherwise. radial: rings and rays about the centre. */
-  pattern?: "organic" | "raster" | "radial";
+  /** The pattern of the major streets. organic: an irregular net. raster: right angles, also for minor streets unless minor_pattern says otherwise. radial: rings and rays about the centre. slope: along the contours of the ground and straight up its slope; a raster on level ground. */
+  pattern?: "organic" | "raster" | "radial" | "slope";
   /** The pattern of the minor streets between the major ones. Default: that of the major streets. */
-  minor_pattern?: "organic" | "raster" | "radial";
+  minor_pattern?: "organic" | "raster" | "radial" | "slope";
   /** The direction of the raster, counter-clockwise from east. */
   angle?: number;
   /** The centre of the net of major streets, east and north, and the position where growth starts. */
   centre?: [number, number];
   /** The distance between neighbouring major streets. */
   major_spacing?: number;
+  /** The distance between highways, which are lines of the net of major streets: those through the centre and others at this distance. They are always built. 0: no highways. Not for tensor fields, wards and the pattern slope. */
+  highway_spacing?: number;
   /** The spacing of the streets of a raster across and along its direction. */
   block?: [number, number];
   /** The share of the streets of a raster, and of the major streets, that are built. */
@@ -481,6 +493,10 @@ export interface CityParametersStreets {
   dead_ends?: number;
   /** The share of the connections to major streets that minor streets on both sides prefer alike, so that they form crossings instead of T-junctions. */
   crossings?: number;
+  /** The share of the junctions of major streets, where there is space around them, that become roundabouts. Not for wards. */
+  roundabouts?: number;
+  /** The radius of the middle of their carriageway. */
+  roundabout_radius?: number;
   /** The cross sections of the streets. */
   classes?: CityParametersStreetsClasses;
   /** The greatest length of a bridge. 0: no bridges. */
@@ -549,6 +565,8 @@ export interface CityParametersBuildings {
 export interface CityParameters {
   /** The area that is partitioned. */
   area?: CityParametersArea;
+  /** The natural ground: a request of the generator terrain (a plane), with its centre at the origin. Beyond its border the ground has the height of the border. Default: level ground at height 0. */
+  terrain?: Child;
   /** Quantities that vary over the area. */
   maps?: CityParametersMaps;
   /** Existing parts of the city as GeoJSON in local metres. They stay as they are, and the rest grows from them. */
@@ -1739,6 +1757,10 @@ export interface TreeParameters {
   sway?: TreeParametersSway;
   /** Largest number of leaves on a limb of the last level. A negative number puts that many in a fan at its end. */
   Leaves?: number;
+  /** How the number of leaves of a limb depends on its place along the parent: the number of a crown shape (Shape). The paper has 4. */
+  LeafDistrib?: number;
+  /** How stems that split are counted. paper: a stem and its clones share its branches and leaves, and a split makes further splits half as likely. arbaro: as Arbaro counts: clones bear as many per segment as their stem and split as often, numbers of branches are rounded down, and pruned limbs stay. */
+  counting?: "paper" | "arbaro";
   /** Length of a leaf. */
   LeafScale?: number;
   /** Width of a leaf as a share of its length. */

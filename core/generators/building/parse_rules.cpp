@@ -41,9 +41,10 @@ std::uint32_t parse_alternatives_2006(Parser& p, const Value& condition, bool ma
   return static_cast<std::uint32_t>(p.grammar.bodies.size()) - 1;
 }
 
-/// with ( name := value  name := value ): values that the successor reads. The closing bracket is read too.
+/// with ( name := value  name := value ): values that the successor reads. The closing bracket is read too. It stands
+/// before the arrow, or behind it.
 void parse_locals(Parser& p, Rule& rule) {
-  while (here(p).kind == TokenKind::name && p.tokens.is(p.at + 1, ":") && p.tokens.is(p.at + 2, "=")) {
+  while (begins_local(p, p.at)) {
     const std::string name(here(p).text);
     p.at += 3;
     const std::size_t number = rule.parameter_count + rule.locals.size();
@@ -53,7 +54,7 @@ void parse_locals(Parser& p, Rule& rule) {
     }
     rule.locals.push_back(parse_value(p));
     p.names.bind_slot(name, p.grammar.first_parameter_slot + static_cast<std::uint32_t>(number));
-    take(p, ",");
+    if (!take(p, ",")) take(p, ";");
   }
   expect(p, ")", "the values of with");
 }
@@ -126,6 +127,12 @@ void parse_rule(Parser& p, std::int32_t priority) {
   std::vector<Joint::Left> lefts{parse_left(p, rule)};
   while (take(p, "+")) lefts.push_back(parse_left(p, rule));
   rule.symbol = lefts.size() == 1 ? lefts[0].first : joint_symbol(p, lefts, rule.offset);
+  const auto parse_with = [&] {
+    if (!p.tokens.is_name(p.at, "with") || !p.tokens.is(p.at + 1, "(")) return;
+    p.at += 2;
+    parse_locals(p, rule);
+  };
+  parse_with();
   Value condition;
   if (take(p, ":")) condition = parse_value(p);
   if (!p.tokens.is_arrow(p.at)) {
@@ -133,10 +140,7 @@ void parse_rule(Parser& p, std::int32_t priority) {
   } else {
     const bool is_old = !p.tokens.is(p.at, "-->");
     ++p.at;
-    if (p.tokens.is_name(p.at, "with") && p.tokens.is(p.at + 1, "(")) {
-      p.at += 2;
-      parse_locals(p, rule);
-    }
+    parse_with();
     const bool may_stack = is_old && rule.parameter_count == 1;
     rule.body =
         condition.is_given || is_old ? parse_alternatives_2006(p, condition, may_stack) : parse_body(p);
@@ -178,8 +182,7 @@ void parse_all(Parser& p, std::string_view start) {
       if (is_here(p, "(")) p.at = p.tokens.partner(p.at) + 1;
       if (take(p, "=")) p.at = end_of_value(p, p.at);
     } else if (token.kind == TokenKind::name && !begins_rule(p, p.at) && begins_statement(p, p.at)) {
-      ++p.at;
-      if (is_here(p, "(")) p.at = p.tokens.partner(p.at) + 1;
+      p.at = behind_head(p, p.at);
       if (take(p, "=")) p.at = end_of_value(p, p.at);
     } else {
       parse_rule(p, priority);

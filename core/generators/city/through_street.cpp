@@ -7,6 +7,7 @@
 
 #include "core/base/math.h"
 #include "core/generators/city/growth.h"
+#include "core/generators/city/landform.h"
 #include "generated/params/city.h"
 
 namespace seedmesh::city {
@@ -59,6 +60,25 @@ std::vector<dvec2> lattice_of(const Region& region) {
 
 namespace {
 
+std::vector<StreetPiece> pieces_between(const std::array<CmPoint, 2>& ends) {
+  const dvec2 start = in_cm(ends[0]), along = in_cm(ends[1]) - start;
+  const int count = std::max(1, math::to_int32(distance(ends[0], ends[1]) / piece_length));
+  std::vector<StreetPiece> pieces;
+  CmPoint last = ends[0];
+  for (int n = 1; n <= count; ++n) {
+    const CmPoint next = rounded_cm(start + along * (static_cast<double>(n) / count));
+    pieces.push_back({last, next, static_cast<std::uint32_t>(EdgeClass::major)});
+    last = next;
+  }
+  return pieces;
+}
+
+bool is_too_steep(const GrowthInput& input, const std::vector<StreetPiece>& pieces) {
+  return std::any_of(pieces.begin(), pieces.end(), [&](const StreetPiece& piece) {
+    return input.is_too_steep(in_cm(piece.a), in_cm(piece.b), input.streets.classes.major.grade);
+  });
+}
+
 std::vector<StreetPiece> longest_line(const GrowthInput& input) {
   std::vector<std::pair<double, dvec2>> from;
   for (const dvec2& p : lattice_of(input.region)) {
@@ -73,20 +93,12 @@ std::vector<StreetPiece> longest_line(const GrowthInput& input) {
       for (int k = 0; k < directions; ++k) {
         const math::SinCos turn = math::sincos_degrees(input.streets.angle + 180.0 * k / directions);
         const auto ends = line_through(input.region, p, {turn.cos, turn.sin}, least_sine);
+        if (ends && is_too_steep(input, pieces_between(*ends))) continue;
         if (ends && (!best || distance((*ends)[0], (*ends)[1]) > distance((*best)[0], (*best)[1])))
           best = ends;
       }
       if (!best) continue;
-      const dvec2 start = in_cm((*best)[0]), along = in_cm((*best)[1]) - start;
-      const int count = std::max(1, math::to_int32(distance((*best)[0], (*best)[1]) / piece_length));
-      std::vector<StreetPiece> pieces;
-      CmPoint last = (*best)[0];
-      for (int n = 1; n <= count; ++n) {
-        const CmPoint next = rounded_cm(start + along * (static_cast<double>(n) / count));
-        pieces.push_back({last, next, static_cast<std::uint32_t>(EdgeClass::major)});
-        last = next;
-      }
-      return pieces;
+      return pieces_between(*best);
     }
   }
   return {};
@@ -117,7 +129,30 @@ std::vector<StreetPiece> through_street(const GrowthInput& input, const Job& job
   return std::move(road.pieces);
 }
 
-bool GrowthInput::is_blocked(const dvec2& a, const dvec2& b) const {
+double GrowthInput::limit_of(std::uint32_t kind) const {
+  const CityClasses& classes = streets.classes;
+  if (kind == static_cast<std::uint32_t>(EdgeClass::highway)) return classes.highway.grade;
+  return kind == static_cast<std::uint32_t>(EdgeClass::minor) ? classes.minor.grade : classes.major.grade;
+}
+
+bool GrowthInput::is_too_steep(const dvec2& a, const dvec2& b, double grade_limit) const {
+  constexpr double excess = 1.5, deepest = 5;  // m
+  if (!landform) return false;
+  const dvec2 along = b - a;
+  const double length = std::sqrt(along.x * along.x + along.y * along.y) / 100;
+  const double from = landform->at(a / 100.0), to = landform->at(b / 100.0);
+  if (std::abs(to - from) > excess * grade_limit * length) return true;
+  const std::int32_t count = math::to_int32(length / 10) + 1;
+  for (std::int32_t n = 1; n < count; ++n) {
+    const double share = static_cast<double>(n) / count;
+    if (std::abs(landform->at((a + along * share) / 100.0) - from - (to - from) * share) > deepest)
+      return true;
+  }
+  return false;
+}
+
+bool GrowthInput::is_blocked(const dvec2& a, const dvec2& b, double grade_limit) const {
+  if (is_too_steep(a, b, grade_limit)) return true;
   if (!obstacles) return false;
   const dvec2 along = b - a;
   const std::int32_t count = math::to_int32(std::sqrt(along.x * along.x + along.y * along.y) / 400) + 1;

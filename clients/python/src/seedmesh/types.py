@@ -196,6 +196,7 @@ class CityParametersMaps(TypedDict, total=False):
     density: Union[str, "Polygons"]
     water: Union[str, "Polygons"]
     obstacles: Union[str, "Polygons"]
+    height: str
 
 
 class CityParametersGivenStreetsFeaturesItemGeometry(TypedDict):
@@ -240,24 +241,28 @@ class CityParametersStreetsClassesHighway(TypedDict, total=False):
     width: float
     lanes: int
     sidewalk: float
+    grade: float
 
 
 class CityParametersStreetsClassesMajor(TypedDict, total=False):
     width: float
     lanes: int
     sidewalk: float
+    grade: float
 
 
 class CityParametersStreetsClassesMinor(TypedDict, total=False):
     width: float
     lanes: int
     sidewalk: float
+    grade: float
 
 
 class CityParametersStreetsClassesLane(TypedDict, total=False):
     width: float
     lanes: int
     sidewalk: float
+    grade: float
 
 
 class CityParametersStreetsClasses(TypedDict, total=False):
@@ -268,7 +273,7 @@ class CityParametersStreetsClasses(TypedDict, total=False):
 
 
 class CityParametersStreetsTensorFieldsItem(TypedDict, total=False):
-    type: Literal['grid', 'radial', 'boundary', 'polyline']
+    type: Literal['grid', 'radial', 'boundary', 'polyline', 'height']
     position: List[float]
     angle: float
     size: float
@@ -292,11 +297,12 @@ class CityParametersStreetsWards(TypedDict, total=False):
 class CityParametersStreets(TypedDict, total=False):
     method: Literal['growth', 'tensor', 'wards', 'given']
     productions: List[str]
-    pattern: Literal['organic', 'raster', 'radial']
-    minor_pattern: Literal['organic', 'raster', 'radial']
+    pattern: Literal['organic', 'raster', 'radial', 'slope']
+    minor_pattern: Literal['organic', 'raster', 'radial', 'slope']
     angle: float
     centre: List[float]
     major_spacing: float
+    highway_spacing: float
     block: List[float]
     fill: float
     length: float
@@ -310,6 +316,8 @@ class CityParametersStreets(TypedDict, total=False):
     minimal_angle: float
     dead_ends: float
     crossings: float
+    roundabouts: float
+    roundabout_radius: float
     classes: "CityParametersStreetsClasses"
     bridge_length: float
     tensor: "CityParametersStreetsTensor"
@@ -348,6 +356,7 @@ class CityParametersBuildings(TypedDict, total=False):
 
 class CityParameters(TypedDict, total=False):
     area: "CityParametersArea"
+    terrain: "Child"
     maps: "CityParametersMaps"
     given: "CityParametersGiven"
     streets: "CityParametersStreets"
@@ -1082,6 +1091,8 @@ TreeParameters = TypedDict("TreeParameters", {
     'PrunePowerHigh': float,
     'sway': "TreeParametersSway",
     'Leaves': int,
+    'LeafDistrib': int,
+    'counting': Literal['paper', 'arbaro'],
     'LeafScale': float,
     'LeafScaleX': float,
     'LeafBend': float,
