@@ -11,7 +11,7 @@ using Words = std::set<std::string>;
 
 const Words annotations = {
     "$schema", "title",    "description", "default",    "examples",        "x-unit",    "x-group",
-    "x-step",  "x-order",  "x-short",     "x-advanced", "x-cpp-name",      "x-grammar", "x-widget",
+    "x-step",  "x-order",  "x-short",     "x-advanced", "x-cpp-name",      "x-grammar", "x-widget", "x-files",
     "x-steps", "x-params", "x-formats",   "x-full",     "x-formats-where", "x-motions", "x-applies-when"};
 
 /// The keywords that each type of value allows, without annotations.
