@@ -55,7 +55,7 @@ test('a click on a plant shows its word, and its request is saved', { timeout: 3
   const page = await open(browser, at(request));
   await page.click('#hint-away');
   await page.click('#tab-result');
-  await page.waitForSelector('.plants');
+  await page.waitForSelector('.standing');
   const box = await page.locator('#picture').boundingBox();
   await page.mouse.click(box.x + box.width * 0.5, box.y + box.height * 0.55);
   await page.waitForSelector('#save-plant');

@@ -29,7 +29,7 @@ const debounce = 200;
  * `lead` moves the cursor to a line of the rules; `has_rules` tells whether the shown request contains rules. `acts.open`
  * opens another request, such as that of a building of a city.
  */
-export function wire_result(overlay: Overlay | null, lead: (line: number) => void, has_rules: () => boolean, acts: { edited: Edited; plants: PlantActs; open: (request: Request, title: string) => void }): Result {
+export function wire_result(overlay: Overlay | null, lead: (line: number) => void, has_rules: () => boolean, acts: { edited: Edited; plants: PlantActs; open: (request: Request, title: string) => void; with_all(request: Request): Request }): Result {
   const page = part('result');
   let request: Request | null = null;
   let shown_for: Request | null = null;
@@ -50,7 +50,7 @@ export function wire_result(overlay: Overlay | null, lead: (line: number) => voi
     is_unanswered = false;
     page.dataset['for'] = '';
     try {
-      const answer = await derive(asked.generator === 'scene' ? { ...asked, parameters: { ...asked.parameters, words: true } } : asked, signal);
+      const answer = await derive(acts.with_all(asked), signal);
       shown_for = asked;
       draw(answer);
     } catch (error) {
@@ -87,7 +87,7 @@ export function wire_result(overlay: Overlay | null, lead: (line: number) => voi
     if (is_scene(rest)) {
       plants = new PlantList(rest, overlay, acts.plants);
       parts.push(plants.element);
-      delete rest['words'];
+      delete (rest as Partial<typeof rest>).words;
     }
     const figures = figures_of(rest);
     parts.push(figures.length > 0 ? el('dl', { class: 'figures' }, ...figures.map(([name, value]) => el('div', {}, el('dt', {}, name), el('dd', {}, value)))) : null);

@@ -99,10 +99,6 @@ std::uint32_t word_index(Parser& p, std::string_view word) {
 std::size_t behind_head(const Parser& p, std::size_t i) {
   ++i;
   if (p.tokens.is(i, "(")) i = p.tokens.partner(i) + 1;
-  while (p.tokens.is(i, "+") && p.tokens.at(i + 1).kind == TokenKind::name) {  // a left side of several shapes
-    i += 2;
-    if (p.tokens.is(i, "(")) i = p.tokens.partner(i) + 1;
-  }
   if (p.tokens.is_name(i, "with") && p.tokens.is(i + 1, "(")) i = p.tokens.partner(i + 1) + 1;
   return i;
 }
@@ -115,6 +111,8 @@ bool begins_local(const Parser& p, std::size_t i) {
 bool begins_rule(const Parser& p, std::size_t i) {
   if (p.tokens.at(i).kind != TokenKind::name) return false;
   i = behind_head(p, i);
+  // a left side of several shapes
+  while (p.tokens.is(i, "+") && p.tokens.at(i + 1).kind == TokenKind::name) i = behind_head(p, i + 1);
   if (p.tokens.is_arrow(i)) return true;
   if (!p.tokens.is(i, ":")) return false;
   const std::size_t behind = p.tokens.behind_expression(i + 1);

@@ -1,7 +1,7 @@
 /** Lists the shapes of a derivation, draws their scopes as boxes over the model, and describes the selected one. */
 import { el, grouped, rounded } from '../dom';
-import { is_members, type Members } from '../form/schema';
-import { edit_at, with_edit } from './edits';
+import { is_members } from '../form/schema';
+import { edit_at, with_edit, type Edit, type ShapeChange } from './edits';
 import type { Overlay } from './overlay';
 import type { ScopeBox } from '../viewer/boxes';
 
@@ -10,8 +10,8 @@ export interface Shape { id: number; path?: string | null; parent?: number | nul
 export const is_shapes = (value: unknown): value is Shape[] =>
   Array.isArray(value) && value.length > 0 && value.every((each) => is_members(each) && 'symbol' in each && is_members(each['scope']));
 
-/** The parameters that the list changes. */
-export interface Edited { parameters(): Members; write(parameters: Members): void }
+/** The changes of single shapes in the request; null if its generator has none. */
+export interface Edited { edits(): Edit[] | null; write(edits: Edit[]): void }
 
 /** More boxes would hide the model and each other. */
 const most = 20_000;
@@ -96,20 +96,21 @@ export class ShapeList {
       ...(shape.path ? [row('Path', shape.path)] : []),
       row('Size', shape.scope.size.map(rounded).join(' × ') + ' m'),
       row('Corner', shape.scope.origin.map(rounded).join(', ') + ' m'),
-      ...(shape.parameters !== undefined && JSON.stringify(shape.parameters) !== '{}' && JSON.stringify(shape.parameters) !== '[]' ? [row('Parameters', JSON.stringify(shape.parameters))] : [])), ...(shape.path ? [this.changes(shape.path, shape)] : []));
+      ...(shape.parameters !== undefined && JSON.stringify(shape.parameters) !== '{}' && JSON.stringify(shape.parameters) !== '[]' ? [row('Parameters', JSON.stringify(shape.parameters))] : [])), ...(shape.path && this.edited.edits() ? [this.changes(shape.path, shape)] : []));
   }
 
   /** Buttons that change the selected shape alone. Only symbols whose rule has been used are offered. */
   private changes(path: string, shape: Shape): HTMLElement {
-    const { parameters, write } = this.edited;
-    const present = edit_at(parameters(), path);
+    const edits = (): Edit[] => this.edited.edits() ?? [];
+    const change = (to: ShapeChange): void => this.edited.write(with_edit(edits(), path, to));
+    const present = edit_at(edits(), path);
     const rules = [...new Set(this.shapes.filter((each) => each.rule !== undefined).map((each) => each.symbol))].filter((symbol) => symbol !== shape.symbol);
-    const rule = el('select', { id: 'edit-rule' }, el('option', { value: '' }, 'its own'), ...rules.map((symbol) => el('option', { value: symbol, selected: symbol === present?.['rule'] }, symbol)));
-    rule.addEventListener('change', () => write(with_edit(parameters(), path, rule.value ? { rule: rule.value } : null)));
+    const rule = el('select', { id: 'edit-rule' }, el('option', { value: '' }, 'its own'), ...rules.map((symbol) => el('option', { value: symbol, selected: symbol === present?.rule }, symbol)));
+    rule.addEventListener('change', () => change(rule.value ? { rule: rule.value } : null));
     return el('div', { class: 'changes', role: 'group', 'aria-label': 'Change this shape' }, el('h4', {}, 'Change this shape'),
       el('div', { class: 'row' }, el('label', { for: 'edit-rule' }, 'Rule'), rule),
       el('div', { class: 'row' },
-        el('button', { type: 'button', id: 'edit-remove', onclick: () => write(with_edit(parameters(), path, { remove: true })) }, 'Remove'),
-        ...(present ? [el('button', { type: 'button', id: 'edit-undo', onclick: () => write(with_edit(parameters(), path, null)) }, 'Undo the change')] : [])));
+        el('button', { type: 'button', id: 'edit-remove', onclick: () => change({ remove: true }) }, 'Remove'),
+        ...(present ? [el('button', { type: 'button', id: 'edit-undo', onclick: () => change(null) }, 'Undo the change')] : [])));
   }
 }

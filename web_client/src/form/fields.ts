@@ -20,7 +20,7 @@ function list_for({ items, minItems, maxItems }: Schema): Draw {
 
 /** Draws the field that fits the schema. */
 function field_for(schema: Schema): Draw {
-  if (schema.enum) return schema['x-widget'] === 'texture' ? texture_field : choice_field;
+  if (schema.enum) return schema['x-widget'] === 'texture-picture' ? texture_field : choice_field;
   if (schema.oneOf) {
     const types = schema.oneOf.map((one) => one.type);
     return types.every((type) => type === 'number' || type === 'integer' || type === 'string') ? word_field : variant_field;
