@@ -101,7 +101,7 @@ class RemoteSource final : public ModelSource {
   SourceAnswer make(const std::string& request, const std::string& known, int,
                     const std::stop_token& stop) override {
     const std::string link = permalink_of(request);
-    const httplib::Result result =
+    httplib::Result result =
         link.empty() ? ask("/v1/generate", &request, "", stop) : ask(link, nullptr, known, stop);
     SourceAnswer answer;
     if (stop.stop_requested()) {

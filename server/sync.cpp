@@ -8,11 +8,11 @@
 #include <chrono>
 #include <condition_variable>
 #include <cstdio>
-#include <cstring>
 #include <filesystem>
 #include <mutex>
 #include <optional>
 #include <set>
+#include <system_error>
 #include <thread>
 
 #include "server/files.h"
@@ -31,6 +31,8 @@ using Kind = SourceAnswer::Kind;
 constexpr std::chrono::milliseconds signal_interval{100};  ///< between two looks for SIGINT and SIGTERM
 constexpr std::chrono::seconds lock_interval{1};  ///< between two writes of the lock file during a run
 constexpr int remote_jobs = 4;                    ///< requests to a server at the same time
+
+std::string reason_of(int error) { return std::generic_category().message(error); }
 
 void print(const char* word, const std::string& line) { std::printf("%s %s\n", word, line.c_str()); }
 
@@ -85,7 +87,7 @@ class SyncRun {
     }
     const bool is_complete = make_all(engine.version);
     forget();
-    if (!write_lock()) return fail(path_in(options_.directory, lock_file_name) + ": " + std::strerror(errno));
+    if (!write_lock()) return fail(path_in(options_.directory, lock_file_name) + ": " + reason_of(errno));
     if (!failure_.empty()) return fail(failure_);
     std::printf("%zu made, %zu same, %zu refused%s\n", made_, same_, refused_,
                 is_complete ? "" : ", interrupted");
@@ -219,7 +221,7 @@ class SyncRun {
         break;
     }
     if (!write_file_atomically(path, answer.payload, part_suffix))
-      return {Kind::unreachable, {}, {}, path + ": " + std::strerror(errno)};
+      return {Kind::unreachable, {}, {}, path + ": " + reason_of(errno)};
     return {
         Kind::made, {answer.payload.size(), engine, answer.etag, http::hex(sha256(answer.payload))}, {}, ""};
   }

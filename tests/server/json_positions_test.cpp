@@ -79,7 +79,7 @@ class Writer {
           space();
           put(":", 1);
         }
-        value(pointer + "/" + token, depth + 1);
+        value(std::string(pointer).append("/").append(token), depth + 1);
       }
       space();
       put(is_object ? "}" : "]", 1);
