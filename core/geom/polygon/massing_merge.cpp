@@ -25,7 +25,8 @@ std::vector<std::uint32_t> first_equal(const std::vector<glm::dvec3>& points) {
 
 /// The corners in order, and whether the triangle turns the other way than they do.
 std::pair<Triangle, bool> unturned(Triangle t) {
-  std::ranges::rotate(t, std::ranges::min_element(t));
+  std::rotate(t.begin(), std::min_element(t.begin(), t.end()),
+              t.end());  // no std::ranges: clang 14 lacks subrange
   const bool is_turned = t[1] > t[2];
   if (is_turned) std::swap(t[1], t[2]);
   return {t, is_turned};
