@@ -9,10 +9,11 @@ namespace {
 
 using Words = std::set<std::string>;
 
-const Words annotations = {
-    "$schema", "title",    "description", "default",    "examples",        "x-unit",    "x-group",
-    "x-step",  "x-order",  "x-short",     "x-advanced", "x-cpp-name",      "x-grammar", "x-widget",
-    "x-steps", "x-params", "x-formats",   "x-full",     "x-formats-where", "x-motions", "x-applies-when"};
+const Words annotations = {"$schema",    "title",         "description", "default",  "examples",
+                           "x-unit",     "x-group",       "x-step",      "x-order",  "x-short",
+                           "x-advanced", "x-cpp-name",    "x-grammar",   "x-widget", "x-files",
+                           "x-steps",    "x-params",      "x-formats",   "x-full",   "x-formats-where",
+                           "x-motions",  "x-applies-when"};
 
 /// The keywords that each type of value allows, without annotations.
 Words keywords_for(const std::string& type) {

@@ -42,7 +42,9 @@ const aims = {
   // Cities: total seconds.
   'city plan of 1 km2': { seconds: 0.01 },
   'city plan of 16 km2': { seconds: 0.15 },
+  'city plan of 144 km2': { seconds: 2 },
   'city of 16 km2 to GLB': { seconds: 3, megabytes: 60 },
+  'city of 26,000 houses to GLB': { seconds: 2, triangles: 3e6 },
 };
 /** The programs that print figures, a line each, and what runs beside them. */
 const figures = { lsystem: 'lindenmayer', request: null, terrain: 'terrain', fractal: 'manifold', tree: 'ez_tree', scene: 'scene', city: null };
@@ -88,6 +90,7 @@ function print_rate(row, peer, copying) {
   if (aim?.seconds) cells.push(`${(row.seconds * 1e3).toFixed(1)} ms (aim ${(aim.seconds * 1e3).toFixed(0)}): ${verdict(row.seconds <= aim.seconds)}`);
   if (row.cores) cells.push(`${(row.cores * 1e3).toFixed(1)} ms of all cores`);
   if (aim?.megabytes) cells.push(`${(row.bytes / 1e6).toFixed(1)} MB (aim ${aim.megabytes}): ${verdict(row.bytes <= aim.megabytes * 1e6)}`);
+  if (aim?.triangles) cells.push(`${(row.triangles / 1e6).toFixed(2)} M triangles (aim ${aim.triangles / 1e6}): ${verdict(row.triangles <= aim.triangles)}`);
   if (row.bytes && copying) cells.push(`${(row.seconds / (row.bytes / copying)).toFixed(1)} times copying`);
   if (peer) {
     const ratio = rate / (peer.amount / peer.seconds);

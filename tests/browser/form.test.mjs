@@ -284,7 +284,9 @@ test('the client source contains no parameter name', () => {
     // Annotations of CityEngine.
     'order', 'angle', 'length', 'distance',
     // A notation of the editor, an attribute and a class name of elements.
-    'expression', 'class', 'colors']);
+    'expression', 'class', 'colors',
+    // A method of elements, and a module of the page.
+    'remove', 'words']);
   assert.ok(names.has('productions'));
   for (const name of names) {
     assert.doesNotMatch(source, new RegExp(`parameters(\\.|\\[['"])${name}\\b`), name);

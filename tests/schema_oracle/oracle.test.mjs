@@ -11,7 +11,7 @@ import { Dice, draw, spoil } from './draw.mjs';
 const root = path.resolve(import.meta.dirname, '../..');
 const build = process.env.SEEDMESH_BUILD ?? path.join(root, 'build/release');
 const openapi = JSON.parse(fs.readFileSync(path.join(build, 'generated/openapi.json'), 'utf8'));
-const annotations = ['x-unit', 'x-group', 'x-step', 'x-order', 'x-advanced', 'x-grammar', 'x-cpp-name', 'x-widget', 'x-steps', 'x-full', 'x-short', 'x-formats', 'x-formats-where', 'x-motions', 'x-applies-when'];
+const annotations = ['x-unit', 'x-group', 'x-step', 'x-order', 'x-advanced', 'x-grammar', 'x-cpp-name', 'x-widget', 'x-steps', 'x-full', 'x-short', 'x-formats', 'x-formats-where', 'x-files', 'x-motions', 'x-applies-when'];
 
 const document_count = 2000;
 const schemas = ['lsystem', 'tree', 'fractal', 'terrain', 'scene', 'output', 'request'];

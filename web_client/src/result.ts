@@ -1,10 +1,12 @@
-/** The intermediate result of the generator (POST /v1/derive): figures, texts, height maps and shapes. */
+/** The intermediate result of the generator (POST /v1/derive): figures, texts, height maps, plans and shapes. */
 import { Refusal, derive, type Request } from './api';
 import { el, grouped, part, rounded } from './dom';
 import { is_members, type Members } from './form/schema';
 import type { State } from './state';
-import { draw_map, is_heights } from './derived/height_map';
-import { ShapeList, is_shapes } from './derived/shape_list';
+import { CityPlanView, is_plan } from './derived/city_plan';
+import { draw_map, draw_profile, is_heights } from './derived/height_map';
+import { PlantList, is_scene, type PlantActs } from './derived/plant_list';
+import { ShapeList, is_shapes, type Edited } from './derived/shape_list';
 import type { Overlay } from './derived/overlay';
 
 export interface Result {
@@ -14,6 +16,8 @@ export interface Result {
   /** Another model is drawn, so the overlay of the previous one is removed. */
   drawn(): void;
   picked(index: number): void;
+  /** The user has clicked at this point of the ground. */
+  touched(x: number, z: number): void;
 }
 
 /** Longer texts are shortened on the page. The full text is in the server's response. */
@@ -21,14 +25,19 @@ const longest = 4000;
 /** The server is asked after changes have paused for this long, in milliseconds. */
 const debounce = 200;
 
-/** `lead` moves the cursor to a line of the rules; `has_rules` tells whether the shown request contains rules. */
-export function wire_result(overlay: Overlay | null, lead: (line: number) => void, has_rules: () => boolean): Result {
+/**
+ * `lead` moves the cursor to a line of the rules; `has_rules` tells whether the shown request contains rules. `acts.open`
+ * opens another request, such as that of a building of a city.
+ */
+export function wire_result(overlay: Overlay | null, lead: (line: number) => void, has_rules: () => boolean, acts: { edited: Edited; plants: PlantActs; open: (request: Request, title: string) => void; with_all(request: Request): Request }): Result {
   const page = part('result');
   let request: Request | null = null;
   let shown_for: Request | null = null;
   let in_sight = false;
   let running = new AbortController();
   let shapes: ShapeList | null = null;
+  let plan: CityPlanView | null = null;
+  let plants: PlantList | null = null;
   let is_unanswered = false;
   let timer = 0;
 
@@ -41,12 +50,12 @@ export function wire_result(overlay: Overlay | null, lead: (line: number) => voi
     is_unanswered = false;
     page.dataset['for'] = '';
     try {
-      const answer = await derive(asked, signal);
+      const answer = await derive(acts.with_all(asked), signal);
       shown_for = asked;
       draw(answer);
     } catch (error) {
       if (signal.aborted) return;
-      shapes = null;
+      shapes = plan = null;
       is_unanswered = !(error instanceof Refusal);
       page.replaceChildren(head(), el('p', { class: 'soft' }, error instanceof Refusal ? `Nothing to show: ${error.message}` : 'The server does not respond.'));
     }
@@ -56,17 +65,29 @@ export function wire_result(overlay: Overlay | null, lead: (line: number) => voi
   function draw(answer: Members): void {
     const rest = { ...answer };
     const parts: (HTMLElement | null)[] = [];
-    const before = shapes;
-    shapes = null;
+    const before = shapes, plan_before = plan;
+    shapes = plan = null;
+    plants = null;
+    if (is_plan(rest['plan'])) {
+      plan = new CityPlanView(rest['plan'], acts.open);
+      if (plan_before) plan.take_over(plan_before);
+      parts.push(plan.element);
+      delete rest['plan'];
+    }
     if (is_heights(rest)) {
-      parts.push(draw_map(rest));
+      parts.push(rest.height === 1 ? draw_profile(rest) : draw_map(rest));
       delete (rest as Members)['heights'];
     }
     if (is_shapes(rest['shapes'])) {
-      shapes = new ShapeList(rest['shapes'], overlay, has_rules() ? lead : null);
+      shapes = new ShapeList(rest['shapes'], overlay, has_rules() ? lead : null, acts.edited);
       if (before) shapes.take_over(before);
       parts.push(shapes.element);
       delete rest['shapes'];
+    }
+    if (is_scene(rest)) {
+      plants = new PlantList(rest, overlay, acts.plants);
+      parts.push(plants.element);
+      delete (rest as Partial<typeof rest>).words;
     }
     const figures = figures_of(rest);
     parts.push(figures.length > 0 ? el('dl', { class: 'figures' }, ...figures.map(([name, value]) => el('div', {}, el('dt', {}, name), el('dd', {}, value)))) : null);
@@ -78,7 +99,7 @@ export function wire_result(overlay: Overlay | null, lead: (line: number) => voi
     open(now) { in_sight = now; void ask(); },
     follow(state, is_new) {
       request = state.request;
-      if (is_new) shapes = null;
+      if (is_new) shapes = plants = plan = null;
       clearTimeout(timer);
       timer = window.setTimeout(() => void ask(), debounce);
     },
@@ -89,6 +110,7 @@ export function wire_result(overlay: Overlay | null, lead: (line: number) => voi
       if (is_unanswered) void ask();
     },
     picked(index) { shapes?.pick(index); },
+    touched(x, z) { if (in_sight) plants?.pick(x, z); },
   };
 }
 

@@ -3,9 +3,11 @@
  * help. It is a separate chunk, loaded while the server generates that model.
  */
 import type { Issue, Request } from './api';
-import { save_picture, save_request, wire_copies, wire_downloads } from './actions';
+import { save_picture, save_proctree, save_request, wire_copies, wire_downloads } from './actions';
 import { own_format } from './commands';
 import { part } from './dom';
+import type { Edit } from './derived/edits';
+import type { GroundClick } from './form/planting';
 import type { Schema } from './form/schema';
 import type { Motion } from './for_view';
 import { wire_growth, type GrowthAsk } from './growth';
@@ -82,7 +84,36 @@ export function wire_tools(core: Core): Tools {
   const result = wire_result(viewer, (line) => {
     tabs.open('parameters');
     part('parameters').querySelector(`[data-pointer="/parameters/${rules_name()}"]`)?.dispatchEvent(new CustomEvent('go-line', { detail: line }));
-  }, () => typeof store.current?.request.parameters[rules_name() ?? ''] === 'string');
+  }, () => typeof store.current?.request.parameters[rules_name() ?? ''] === 'string', {
+    edited: {
+      edits() {
+        const name = named('shape-edits');
+        const edits = name === undefined ? null : store.current?.request.parameters[name] ?? [];
+        return Array.isArray(edits) ? edits as Edit[] : null;
+      },
+      write(edits) {
+        const name = named('shape-edits');
+        if (!store.current || name === undefined) return;
+        const { [name]: _, ...others } = store.current.request.parameters;
+        store.write({ ...store.current.request, parameters: edits.length > 0 ? { ...others, [name]: edits } : others });
+      },
+    },
+    with_all(request) {
+      const name = named('derived');
+      return name === undefined ? request : { ...request, parameters: { ...request.parameters, [name]: true } };
+    },
+    open: (request, title) => core.open(request, title),
+    plants: { save: (request, name) => save_request(request, actions, name), open: (request, title) => core.open(request, title) },
+  });
+  part('picture').addEventListener('ground-click', (event) => {
+    const { x, z, button } = (event as CustomEvent<GroundClick>).detail;
+    if (button === 0) result.touched(x, z);
+  });
+  /** The parameter with this widget. */
+  const named = (widget: string): string | undefined => Object.entries(rules_schema?.properties ?? {}).find(([, member]) => member['x-widget'] === widget)?.[0];
+  const is_proctree = (request: Request): boolean => Object.values(rules_schema?.['x-files'] ?? {}).some((where) =>
+    Object.entries(where).every(([name, value]) => (request.parameters[name] ?? rules_schema?.properties?.[name]?.default) === value));
+  part('save-proctree').addEventListener('click', () => { const request = actions.request(); if (request) void save_proctree(request, actions); });
   const steps = wire_steps({
     edit(name, value) {
       const { [name]: _, ...others } = store.current?.request.parameters ?? {};
@@ -137,6 +168,7 @@ export function wire_tools(core: Core): Tools {
       part<HTMLButtonElement>('undo').disabled = !store.can_undo;
       part<HTMLButtonElement>('redo').disabled = !store.can_redo;
       growth.leave();
+      part('save-proctree').hidden = !is_proctree(state.request);
       if (own !== own_format(state.request)) wire_downloads(formats, actions);
       own = own_format(state.request);
       steps.follow(state);
@@ -150,6 +182,7 @@ export function wire_tools(core: Core): Tools {
     explain(schema) {
       rules_schema = schema;
       steps.take(schema);
+      if (store.current) part('save-proctree').hidden = !is_proctree(store.current.request);
       if (store.current) steps.follow(store.current);
     },
     shown(model, triangles) {

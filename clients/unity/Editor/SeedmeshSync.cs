@@ -11,7 +11,7 @@ using UnityEngine;
 namespace Seedmesh.Editor
 {
     /// <summary>
-    /// Makes the GLB file beside each request file that changed. An importer of Unity has to give the same result on every machine,
+    /// Makes the GLB file, or the prefab of a scene, beside each request file that changed. An importer of Unity has to give the same result on every machine,
     /// so requests are sent by this menu and by the command line, never during an import:
     ///   Unity -batchmode -quit -projectPath . -executeMethod Seedmesh.Editor.SeedmeshSync.FromCommandLine
     /// </summary>
@@ -39,7 +39,7 @@ namespace Seedmesh.Editor
             foreach (var path in Directory.EnumerateFiles("Assets", "*.seedmesh", SearchOption.AllDirectories))
             {
                 var text = File.ReadAllText(path, Encoding.UTF8);
-                var model = Path.ChangeExtension(path, ".glb");
+                var model = Path.ChangeExtension(path, SeedmeshPlacements.IsWanted(text) ? ".prefab" : ".glb");
                 var hash = path + ".sha256";
                 var digest = Digest(text);
                 if (File.Exists(model) && File.Exists(hash) && File.ReadAllText(hash) == digest) continue;
@@ -52,29 +52,42 @@ namespace Seedmesh.Editor
 
         static bool Make(string path, string text, string model)
         {
-            using var request = new HttpRequestMessage(HttpMethod.Post, Url.TrimEnd('/') + "/v1/generate");
-            request.Content = new StringContent(text, Encoding.UTF8, "application/json");
-            var key = System.Environment.GetEnvironmentVariable("SEEDMESH_KEY");
-            if (!string.IsNullOrEmpty(key)) request.Headers.Authorization = new AuthenticationHeaderValue("Bearer", key);
             try
             {
-                using var answer = Client.SendAsync(request).GetAwaiter().GetResult();
-                var body = answer.Content.ReadAsByteArrayAsync().GetAwaiter().GetResult();
-                if (answer.StatusCode != HttpStatusCode.OK)
+                using (var request = RequestOf(text))
+                using (var answer = Client.SendAsync(request).GetAwaiter().GetResult())
                 {
-                    Debug.LogError($"{path}: {Explained(Encoding.UTF8.GetString(body))}");
-                    return false;
+                    var body = answer.Content.ReadAsByteArrayAsync().GetAwaiter().GetResult();
+                    if (answer.StatusCode != HttpStatusCode.OK)
+                    {
+                        Debug.LogError($"{path}: {Explained(Encoding.UTF8.GetString(body))}");
+                        return false;
+                    }
+                    if (SeedmeshPlacements.IsWanted(text))
+                    {
+                        SeedmeshPlacements.Make(path, body);
+                        return true;
+                    }
+                    File.WriteAllBytes(model + ".part", body);
+                    if (File.Exists(model)) File.Delete(model);
+                    File.Move(model + ".part", model);
+                    return true;
                 }
-                File.WriteAllBytes(model + ".part", body);
-                if (File.Exists(model)) File.Delete(model);
-                File.Move(model + ".part", model);
-                return true;
             }
             catch (HttpRequestException error)
             {
                 Debug.LogError($"{path}: no server at {Url}: {error.Message}");
                 return false;
             }
+        }
+
+        static HttpRequestMessage RequestOf(string text)
+        {
+            var request = new HttpRequestMessage(HttpMethod.Post, Url.TrimEnd('/') + "/v1/generate");
+            request.Content = new StringContent(text, Encoding.UTF8, "application/json");
+            var key = System.Environment.GetEnvironmentVariable("SEEDMESH_KEY");
+            if (!string.IsNullOrEmpty(key)) request.Headers.Authorization = new AuthenticationHeaderValue("Bearer", key);
+            return request;
         }
 
         [System.Serializable] class Problem { public string title = ""; public string detail = ""; public List<Entry> errors = new List<Entry>(); }
@@ -93,8 +106,10 @@ namespace Seedmesh.Editor
 
         static string Digest(string text)
         {
-            using var sha = SHA256.Create();
-            return System.BitConverter.ToString(sha.ComputeHash(Encoding.UTF8.GetBytes(text))).Replace("-", "").ToLowerInvariant();
+            using (var sha = SHA256.Create())
+            {
+                return System.BitConverter.ToString(sha.ComputeHash(Encoding.UTF8.GetBytes(text))).Replace("-", "").ToLowerInvariant();
+            }
         }
     }
 }

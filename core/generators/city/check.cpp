@@ -5,6 +5,8 @@
 #include "core/generators/city/city.h"
 #include "core/generators/city/density.h"
 #include "core/generators/city/given.h"
+#include "core/generators/city/house_requests.h"
+#include "core/generators/city/landform.h"
 #include "core/generators/city/productions.h"
 #include "core/generators/city/zoning.h"
 #include "core/geom/polygon/plan.h"
@@ -63,11 +65,14 @@ void check_rules(const CityParams& params, std::vector<Issue>& issues) {
     check_range(rule.density, pointer + "/density", issues);
     check_range(rule.distance, pointer + "/distance", issues);
     check_range(rule.lot, pointer + "/lot", issues);
+    check_range(rule.frontage, pointer + "/frontage", issues);
     check_range(rule.depth, pointer + "/depth", issues);
+    check_range(rule.width, pointer + "/width", issues);
     const std::array<int, 2> floors = {rule.floors[0], rule.floors[1]};
     check_range({static_cast<double>(floors[0]), static_cast<double>(floors[1])}, pointer + "/floors",
                 issues);
     const std::array<int, 2> taken = floors_of(text_of(rule.blueprint));
+    if (rule.building) continue;
     if (taken[1] > 0 && (floors[0] < taken[0] || floors[1] > taken[1]))
       issues.push_back({IssueKind::conflict, pointer + "/floors",
                         "found " + std::to_string(floors[0]) + " to " + std::to_string(floors[1]) +
@@ -83,6 +88,9 @@ std::vector<Issue> check(const CityParams& params, const CheckContext& context) 
   check_area(params, context.job, issues);
   check_lots(params.lots, issues);
   check_rules(params, issues);
+  check_house_requests(params, context, issues);
+  for (std::size_t i = 0; i < params.maps.zones.size(); ++i)
+    polygons_of(params.maps.zones[i].polygons, "/maps/zones/" + std::to_string(i) + "/area", issues);
   const StreetGrammar grammar(params.streets.productions, "/streets/productions", issues);
   const auto check_map = [&](const MapValue& value, const char* pointer) {
     FieldMap::read(value, pointer, {-1, -1}, {1, 1}, context.job, issues);
@@ -90,6 +98,7 @@ std::vector<Issue> check(const CityParams& params, const CheckContext& context) 
   check_map(params.maps.density, "/maps/density");
   if (params.maps.water) check_map(*params.maps.water, "/maps/water");
   if (params.maps.obstacles) check_map(*params.maps.obstacles, "/maps/obstacles");
+  check_landform(params, context.job, issues);
   given_water(params, issues);
   std::vector<CrossSection> sections = classes_of(params);
   std::vector<Issue> of_streets;

@@ -3,7 +3,6 @@
 /// shared meshes.
 #include "core/generators/api.h"
 #include "core/generators/city/plan.h"
-#include "core/schema/child.h"
 
 namespace seedmesh {
 struct CityParams;
@@ -11,22 +10,14 @@ struct CityParams;
 
 namespace seedmesh::city {
 
-constexpr double kerb_height = 0.13;  // m
+class Surface;
 
-/// A building that stands in the city, once or often.
-struct SharedHouse {
-  Child request;
-  std::vector<std::uint32_t> lots;
-};
-
-/// The different requests of all houses, in the order of their first lots.
-std::vector<SharedHouse> shared_houses(const CityPlan& plan, const CityParams& params);
-
-/// Triangles of the ground of a plan.
-std::uint64_t ground_triangles(const CityPlan& plan);
+/// Triangles of the ground of a plan and of its foundations, which are made for it.
+std::uint64_t ground_triangles(const CityPlan& plan, const Surface& surface, Job& job);
 
 /// Nodes: "city" > "ground" > one node and mesh for each kind of part ("asphalt", "junction", ..., "lot");
-/// "city" > "buildings" > one node for each shared building. Charges Resource::triangles.
+/// "city" > "buildings" > one node for each shared building; "city" > "landmarks", "furniture", "trees", "borders". With
+/// chunks, these groups are below a node for each chunk. Charges Resource::triangles.
 Result<Model> city_model(const CityPlan& plan, const CityParams& params, const GenerateContext& context);
 
 }  // namespace seedmesh::city

@@ -75,13 +75,34 @@ void Division::cut(const Job& job) {
       cut(piece, 0);
     }
   }
-  if (!first.empty() && is_partition()) return;
-  // Without strips, or where rounding has folded one of them.
+  const std::size_t long_strips = first.empty() || !is_partition() ? pieces_.size() + 1 : long_pieces();
+  if (long_strips == 0) return;
+  // Without strips, where rounding has folded one of them, and where no cut shortens one of them.
+  std::vector<Piece> strips = std::move(pieces_);
+  std::vector<SharedEdge> edges = edges_;
+  const std::uint32_t inner = inner_;
   reset();
   cut(whole_, 0);
-  if (is_partition()) return;
+  const bool is_sound = is_partition();
+  if (is_sound && long_pieces() < long_strips) return;
+  if (long_strips <= strips.size()) {
+    pieces_ = std::move(strips);
+    edges_ = std::move(edges);
+    inner_ = inner;
+    return;
+  }
+  if (is_sound) return;
   reset();
   pieces_.push_back(whole_);
+}
+
+/// How many pieces with access are longer than lots may be.
+std::size_t Division::long_pieces() const {
+  const double most = lots_.division == CityDivision::burgage ? 12 : 6;
+  return static_cast<std::size_t>(std::count_if(pieces_.begin(), pieces_.end(), [most](const Piece& piece) {
+    const LeastBox box = least_box(piece.ring);
+    return box.long_side > most * box.short_side;
+  }));
 }
 
 /// Simple outlines whose edges cancel, except those of the block, cover each point of it once.
@@ -131,24 +152,28 @@ double Division::frontage(const Piece& piece) const {
   return sum;
 }
 
+bool Division::has_size(const Piece& piece) const {
+  return static_cast<double>(doubled_area(piece.ring)) >= 2e4 * lots_.area[0] &&
+         frontage(piece) >= least_width();
+}
+
+double Division::least_width() const { return lots_.width * 100 + 3; }
+
 bool Division::is_fit(const Piece& piece, double angle, double aspect) const {
-  const double width = lots_.width * 100 + 3;
-  if (static_cast<double>(doubled_area(piece.ring)) < 2e4 * lots_.area[0]) return false;
-  if (frontage(piece) < width) return false;
+  if (!has_size(piece)) return false;
   if (sharpest_cosine(piece.ring) > math::cos(math::radians(angle))) return false;
   const LeastBox box = least_box(piece.ring);
-  return box.narrowest >= width && box.long_side <= aspect * box.short_side;
+  return box.narrowest >= least_width() && box.long_side <= aspect * box.short_side;
 }
 
 /// Whether a piece is to be cut.
-bool Division::is_large(const Piece& piece, Rng& draw) const {
+bool Division::is_large(const Piece& piece, const LeastBox& box, Rng& draw) const {
   const double area = static_cast<double>(doubled_area(piece.ring)) / 2e4;
   const double most = lots_.area[1] * draw.uniform(0.75, 1);
   if (lots_.division == CityDivision::burgage && frontage(piece) > lots_.width * 100 * draw.uniform(2.1, 2.6))
     return true;
   if (area > most) return true;
   // Strips are cut until they are no longer than lots.
-  const LeastBox box = least_box(piece.ring);
   const double aspect = lots_.division == CityDivision::burgage ? burgage_aspect : greatest_aspect;
   return box.long_side > aspect * box.short_side;
 }
@@ -156,9 +181,14 @@ bool Division::is_large(const Piece& piece, Rng& draw) const {
 void Division::cut(const Piece& piece, int depth) {
   Rng draw = rng_.at(piece.key);
   Piece left, right;
+  const LeastBox box = least_box(piece.ring);
+  const double usual = lots_.division == CityDivision::burgage ? burgage_aspect : greatest_aspect;
+  // A piece of a strip may be long while it is shorter than the strip.
+  cut_aspect_ = std::max(usual, 0.8 * box.long_side / box.short_side);
   const bool is_across = lots_.division == CityDivision::skeleton || lots_.division == CityDivision::burgage;
-  if (depth < deepest && is_large(piece, draw) &&
-      ((is_across && find_cut_across_front(piece, draw, left, right)) || find_cut(piece, draw, left, right) ||
+  if (depth < deepest && is_large(piece, box, draw) &&
+      ((is_across && find_cut_across_front(piece, draw, left, right)) ||
+       find_cut(piece, box, draw, left, right) ||
        (!is_across && find_cut_across_front(piece, draw, left, right)))) {
     left.key = key_at(piece.key, 0);
     right.key = key_at(piece.key, 1);
@@ -191,8 +221,7 @@ bool Division::find_cut_across_front(const Piece& piece, Rng& draw, Piece& left,
   return false;
 }
 
-bool Division::find_cut(const Piece& piece, Rng& draw, Piece& left, Piece& right) {
-  const LeastBox box = least_box(piece.ring);
+bool Division::find_cut(const Piece& piece, const LeastBox& box, Rng& draw, Piece& left, Piece& right) {
   const dvec2 along = box.long_direction, across(-along.y, along.x);
   const std::array<double, 8> shares = {
       0.5 + lots_.irregularity * 0.5 * (draw.unit() - 0.5), 0.5, 0.4, 0.6, 1 / 3.0, 2 / 3.0, 0.25, 0.75};
@@ -241,7 +270,8 @@ bool Division::try_cut(const Piece& piece, const dvec2& origin, const dvec2& dir
                        Piece& right) {
   const std::size_t count = piece.ring.size();
   const dvec2 normal(-direction.y, direction.x);
-  std::vector<double> off;
+  std::vector<double>& off = offsets_;
+  off.clear();
   for (const CmPoint& p : piece.ring) off.push_back(glm::dot(in_cm(p) - origin, normal));
   std::vector<Meeting> meetings;
   for (std::size_t i = 0; i < count; ++i) {
@@ -268,12 +298,10 @@ bool Division::try_cut(const Piece& piece, const dvec2& origin, const dvec2& dir
   left = side_of(piece, meetings[0], meetings[1]);
   right = side_of(piece, meetings[1], meetings[0]);
   if (left.ring.size() < 3 || right.ring.size() < 3) return false;
-  // A piece of a strip may be long while it is shorter than the strip.
-  const LeastBox box = least_box(piece.ring);
-  const double usual = lots_.division == CityDivision::burgage ? burgage_aspect : greatest_aspect;
-  const double aspect = std::max(usual, 0.8 * box.long_side / box.short_side);
-  if (!is_simple(left.ring) || !is_simple(right.ring) || !is_fit(left, least_angle, aspect) ||
-      !is_fit(right, least_angle, aspect))
+  // The cheapest conditions come first, since most cuts fail by area or frontage.
+  if (!has_size(left) || !has_size(right)) return false;
+  if (!is_fit(left, least_angle, cut_aspect_) || !is_fit(right, least_angle, cut_aspect_) ||
+      !is_simple(left.ring) || !is_simple(right.ring))
     return false;
   const auto edge = static_cast<std::uint32_t>(edges_.size());
   edges_.push_back({meetings[0].at, meetings[1].at, no_index, no_index, {}});
@@ -289,6 +317,8 @@ bool Division::try_cut(const Piece& piece, const dvec2& origin, const dvec2& dir
 Piece Division::side_of(const Piece& piece, const Meeting& from, const Meeting& to) {
   const std::size_t count = piece.ring.size();
   Piece part;
+  part.ring.reserve(count + 2);
+  part.edges.reserve(count + 2);
   part.ring.push_back(from.at);
   part.edges.push_back(piece.edges[from.corner]);
   std::size_t i = (from.corner + 1) % count;

@@ -6,6 +6,7 @@
 #include "core/base/job.h"
 #include "core/generators/city/plan.h"
 #include "core/generators/city/ribbons.h"
+#include "core/generators/city/shape.h"
 
 namespace seedmesh {
 struct CityLots;
@@ -60,9 +61,12 @@ class Division {
   struct Meeting;
   void cut(const Piece& piece, int depth);
   void reset();
+  bool has_size(const Piece& piece) const;  ///< its least area and frontage
+  double least_width() const;               ///< centimetres, with a margin for rounding
   bool is_partition() const;
-  bool is_large(const Piece& piece, Rng& draw) const;
-  bool find_cut(const Piece& piece, Rng& draw, Piece& left, Piece& right);
+  std::size_t long_pieces() const;
+  bool is_large(const Piece& piece, const LeastBox& box, Rng& draw) const;
+  bool find_cut(const Piece& piece, const LeastBox& box, Rng& draw, Piece& left, Piece& right);
   bool find_cut_across_front(const Piece& piece, Rng& draw, Piece& left, Piece& right);
   bool try_cut(const Piece& piece, const glm::dvec2& origin, const glm::dvec2& direction, Piece& left,
                Piece& right);
@@ -77,6 +81,8 @@ class Division {
   std::vector<SharedEdge> edges_;
   std::vector<Piece> pieces_;
   std::uint32_t inner_ = no_index;
+  double cut_aspect_ = 0;        ///< the greatest aspect of the pieces of the cut that is sought
+  std::vector<double> offsets_;  ///< of the corners from a cut; kept for its memory
 };
 
 /// The pieces along the streets of a block by its straight skeleton (Vanegas et al. 2012), and, where `depth` (cm) is

@@ -56,10 +56,20 @@ std::uint64_t block_key(const CityPlan& plan, const BlockOutline& outline) {
   return key_at(key, side_key(plan, outline));
 }
 
+/// Whether a block is the middle of a roundabout.
+bool is_island(const StreetGraph& graph, const BlockOutline& outline) {
+  return !graph.ring_nodes.empty() &&
+         std::all_of(outline.edges.begin(), outline.edges.end(), [&](const BlockEdge& edge) {
+           if (edge.street == no_index) return false;
+           const PlanarEdge& street = graph.edges[edge.street];
+           return graph.is_on_ring(street.from) && graph.is_on_ring(street.to);
+         });
+}
+
 /// How a block was divided, made by one thread.
 struct Divided {
   std::optional<Division> division;
-  bool is_park = false, is_square = false;
+  bool is_park = false, is_square = false, is_island = false;
   std::string zone;
 };
 
@@ -106,6 +116,21 @@ glm::dvec2 middle_of(const CmRing& ring) {
   return sum / static_cast<double>(ring.size());
 }
 
+/// The name of the first zone around a position in metres; empty outside of all.
+std::string zone_at(const std::vector<NamedZone>& zones, const glm::dvec2& metres) {
+  for (const NamedZone& zone : zones) {
+    if (is_in_any(zone.polygons, metres * 100.0)) return zone.name;
+  }
+  return {};
+}
+
+/// Whether a landmark keeps a block whole.
+bool keeps_whole(const std::vector<Landmark>& landmarks, const BlockOutline& outline) {
+  return std::any_of(landmarks.begin(), landmarks.end(), [&](const Landmark& each) {
+    return each.is_block_whole && is_inside(outline.ring, each.position * 100.0);
+  });
+}
+
 /// Adds the corners that cuts have added to the outline of a block to the part on its other side.
 void add_to_part(Part& part, const SharedEdge& edge) {
   const std::vector<CmPoint> added = edge.between(edge.b, edge.a);
@@ -149,7 +174,7 @@ void add_block(CityPlan& plan, const BlockOutline& outline, const Divided& divid
   if (divided.is_park) {
     Part part;
     const bool is_small = area_of(block.rings) < 1500;
-    part.kind = is_small || divided.is_square ? PartKind::square : PartKind::park;
+    part.kind = (is_small && !divided.is_island) || divided.is_square ? PartKind::square : PartKind::park;
     part.block = number;
     part.rings = block.rings;
     plan.parts.push_back(std::move(part));
@@ -168,7 +193,7 @@ void add_block(CityPlan& plan, const BlockOutline& outline, const Divided& divid
     Lot lot = lot_of(plan, division, piece);
     lot.part = static_cast<std::uint32_t>(plan.parts.size());
     lot.density = density.at(middle_of(piece.ring));
-    lot.zone = divided.zone;
+    lot.zone = divided.zone.empty() ? zone_at(plan.zones, middle_of(piece.ring)) : divided.zone;
     Part part;
     part.kind = PartKind::lot;
     part.block = number;
@@ -208,12 +233,15 @@ void divide_blocks(CityPlan& plan, const std::vector<BlockOutline>& outlines, co
       Divided& each = divided[i];
       const Ward* ward = ward_at(plan.wards, position_in(outline.ring));
       if (ward) each.zone = ward->zone;
-      each.division.emplace(outline, each.zone == zone_citadel ? whole : lots, key, rng);
+      const bool is_whole = keeps_whole(plan.landmarks, outline);
+      each.division.emplace(outline, is_whole || each.zone == zone_citadel ? whole : lots, key, rng);
       each.is_square = each.zone == zone_square;
       const bool is_outside = !plan.wards.empty() && !ward;
       const bool is_empty = density.at(middle_of(outline.ring)) < 0.1;
-      each.is_park = !outline.holes.empty() || is_empty || is_outside || each.is_square ||
-                     !each.division->holds_lots() || rng.at("park").at(key).unit() < lots.park_share;
+      const bool is_drawn = !is_whole && rng.at("park").at(key).unit() < lots.park_share;
+      each.is_island = is_island(plan.graph, outline);
+      each.is_park = each.is_island || !outline.holes.empty() || is_empty || is_outside || each.is_square ||
+                     !each.division->holds_lots() || is_drawn;
       if (!each.is_park) each.division->cut(job);
     }
   });

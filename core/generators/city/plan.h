@@ -1,6 +1,7 @@
 #pragma once
 /// The plan of a city: the street graph and the partition of the area that is cut along it. Points are whole
 /// centimetres, x east and y north; lengths and areas are metres unless a name says otherwise.
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <memory>
@@ -10,10 +11,13 @@
 #include <vector>
 
 #include "core/base/job.h"
+#include "core/generators/city/grades.h"
+#include "core/generators/city/landform.h"
 #include "core/generators/city/network.h"
 #include "core/generators/city/region.h"
 #include "core/geom/polygon/cm_point.h"
 #include "core/geom/polygon/planar_graph.h"
+#include "core/schema/child.h"
 
 namespace seedmesh::city {
 
@@ -58,6 +62,7 @@ struct StreetGraph {
   std::vector<std::uint64_t> node_key, edge_key;  ///< identities by position
   std::vector<std::uint8_t> is_border;            ///< by node: on the border of the area or on a shore
   std::vector<Bridge> bridges;
+  std::vector<CmPoint> ring_nodes;         ///< of roundabouts, sorted
   std::vector<std::uint32_t> bridge_ends;  ///< by node: ends of bridges there; empty without bridges
 
   bool is_street(std::uint32_t edge) const { return is_street_tag(edges[edge].tag); }
@@ -67,6 +72,9 @@ struct StreetGraph {
       if (edges[half / 2].tag == static_cast<std::uint32_t>(EdgeClass::border)) return true;
     }
     return false;
+  }
+  bool is_on_ring(std::uint32_t node) const {
+    return std::binary_search(ring_nodes.begin(), ring_nodes.end(), nodes[node]);
   }
   /// Ends of streets of all levels.
   std::uint32_t street_ends(std::uint32_t node) const {
@@ -102,6 +110,24 @@ struct Ward {
 /// Zones without minor streets: the first is a square, and the second one lot.
 constexpr const char *zone_square = "square", *zone_citadel = "citadel";
 
+/// A zone of the request: its polygons have a name.
+struct NamedZone {
+  std::string name;
+  std::vector<std::vector<CmRing>> polygons;
+};
+
+/// A model at a given position.
+struct Landmark {
+  Child request;  ///< with its seed
+  std::string pointer;
+  glm::dvec2 position{0};  ///< metres east and north
+  double turn = 0;         ///< degrees, counter-clockwise from above
+  double radius = 15;      ///< where no tree of a park stands
+  bool is_block_whole = false, replaces_house = true;
+  bool is_too_large = false;                      ///< for its lot, which then has no building in the plan
+  std::uint32_t lot = no_index, part = no_index;  ///< on which it stands; no_index: none
+};
+
 /// A house that stands on a lot.
 struct House {
   std::uint32_t rule = 0;
@@ -123,6 +149,9 @@ struct Lot {
   CmRing corners;    ///< without the corners of neighbours in between
   CmPoint front_start, front_end;
   std::optional<House> house;
+  std::uint32_t landmark = no_index;  ///< into CityPlan::landmarks; such lots have no house
+
+  bool is_built() const { return house.has_value() || landmark != no_index; }
 };
 
 struct Block {
@@ -161,7 +190,14 @@ struct CityPlan {
   std::vector<CrossSection> classes;  ///< by EdgeClass, then those of given streets
   std::vector<Ward> wards;            ///< empty unless the method is wards
   std::vector<CmPoint> gates;         ///< nodes where streets pass a town wall
+  std::vector<NamedZone> zones;
+  std::vector<Landmark> landmarks;
   StreetGraph graph;
+  /// By edge: the start and end of the straight kerbs, left and then right; equal points without them.
+  std::vector<std::array<CmPoint, 4>> kerbs;
+  std::vector<double> holds;  ///< by half-edge: how far the corners at its start reach along it, metres
+  std::shared_ptr<const Landform> landform;  ///< never null after plan_of()
+  StreetHeights heights;
   std::vector<Part> parts;
   std::vector<Block> blocks;
   std::vector<Lot> lots;

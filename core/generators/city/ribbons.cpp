@@ -7,6 +7,7 @@
 
 #include "core/base/parallel.h"
 #include "core/generators/city/corners.h"
+#include "core/generators/city/kerb_sides.h"
 #include "core/generators/city/shape.h"
 
 namespace seedmesh::city {
@@ -17,17 +18,6 @@ using glm::dvec2;
 constexpr double least_progress = 30;   // of a kerb between two corners, cm
 constexpr double least_straight = 300;  // of a carriageway between perpendicular ends, cm
 constexpr std::size_t faces_a_chunk = 64;
-
-/// What is left of a half-edge, by its number.
-struct KerbSide {
-  std::vector<CmPoint> corner;        ///< at its start, after the half-edge before it; the kerb
-  std::vector<CmPoint> outer_corner;  ///< the same for the border of the block
-  CmPoint to{};                       ///< where the kerb ends
-  CmPoint cut_from{}, cut_to{};       ///< where the carriageway begins and ends
-  std::uint32_t before = no_index, after = no_index;  ///< half-edges of the same outline
-  bool is_laid_out = false;                           ///< its face is part of the area
-  const CmPoint& from() const { return corner.back(); }
-};
 
 /// One outline of a face.
 struct Outline {
@@ -40,12 +30,6 @@ struct FaceLayout {
   bool is_used = false, has_walks = false;
   std::vector<Outline> outlines;
 };
-
-dvec2 unit_of(const StreetGraph& graph, std::uint32_t half) {
-  const dvec2 along =
-      in_cm(graph.nodes[end_of(graph.edges, half)]) - in_cm(graph.nodes[start_of(graph.edges, half)]);
-  return along / std::sqrt(along.x * along.x + along.y * along.y);
-}
 
 void append_new(CmRing& ring, const CmPoint& p) {
   if (ring.empty() || ring.back() != p) ring.push_back(p);
@@ -67,6 +51,7 @@ class StreetSpace {
       for (std::size_t i = begin; i < end; ++i) lay_out_face(faces, faces.faces[i], layouts[i]);
     });
     cut_carriageways();
+    plan_.holds = corner_reaches(graph_, sides_);
     add_junctions();
     add_carriageways();
     std::vector<BlockOutline> blocks;
@@ -233,6 +218,7 @@ class StreetSpace {
       if (cuts_end && right_end - end > same) right.cut_from = on_kerb(right.from(), right.to, end);
     }
   }
+
   bool is_cut(std::uint32_t node) const { return graph_.is_border[node] == 0 && graph_.degree(node) >= 3; }
 
   void add_part(PartKind kind, CmRing ring, std::uint32_t street, std::uint32_t node) {
@@ -280,6 +266,7 @@ class StreetSpace {
   }
 
   void add_carriageways() {
+    plan_.kerbs.assign(graph_.edges.size(), {});
     for (std::uint32_t edge = 0; edge < graph_.edges.size(); ++edge) {
       if (!graph_.is_street(edge)) continue;
       const KerbSide &left = sides_[2 * edge], &right = sides_[2 * edge + 1];
@@ -297,6 +284,8 @@ class StreetSpace {
       close(ring);
       if (ring.size() < 3 || doubled_area(ring) == 0) continue;
       add_part(PartKind::carriageway, std::move(ring), edge, no_index);
+      if (left.is_laid_out && right.is_laid_out)
+        plan_.kerbs[edge] = {left.cut_from, left.cut_to, right.cut_to, right.cut_from};
     }
   }
 

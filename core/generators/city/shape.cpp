@@ -9,6 +9,24 @@ namespace seedmesh::city {
 
 using glm::dvec2;
 
+namespace {
+
+/// Whether a ring is strictly convex: it turns left everywhere, and once around.
+bool is_convex(std::span<const CmPoint> ring) {
+  const std::size_t count = ring.size();
+  if (count < 3) return false;
+  std::size_t lowest = 0;  // corners before both neighbours in the order of points
+  for (std::size_t i = 0; i < count; ++i) {
+    const CmPoint &a = ring[i], &p = ring[i + 1 < count ? i + 1 : 0];
+    const CmPoint& b = ring[i + 2 < count ? i + 2 : i + 2 - count];
+    if (cross(a, p, b) <= 0) return false;
+    lowest += p < a && p < b ? 1 : 0;
+  }
+  return lowest == 1;
+}
+
+}  // namespace
+
 CmRing hull_of(std::span<const CmPoint> ring) {
   CmRing sorted(ring.begin(), ring.end()), hull;
   std::sort(sorted.begin(), sorted.end());
@@ -27,10 +45,17 @@ CmRing hull_of(std::span<const CmPoint> ring) {
 }
 
 LeastBox least_box(std::span<const CmPoint> ring) {
-  const CmRing hull = hull_of(ring);
+  CmRing hull;
+  if (is_convex(ring)) {  // as most lots are
+    hull.assign(ring.begin(), ring.end());
+    std::rotate(hull.begin(), std::min_element(hull.begin(), hull.end()), hull.end());
+  } else {
+    hull = hull_of(ring);
+  }
   LeastBox best;
   double least = std::numeric_limits<double>::infinity();
   std::vector<std::pair<double, double>> boxes;  // area and short side
+  boxes.reserve(hull.size());
   for (std::size_t i = 0; i < hull.size(); ++i) {
     const dvec2 a = in_cm(hull[i]), edge = in_cm(hull[(i + 1) % hull.size()]) - a;
     const dvec2 d = edge / std::sqrt(edge.x * edge.x + edge.y * edge.y), n(-d.y, d.x);

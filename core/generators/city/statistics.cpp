@@ -154,8 +154,8 @@ void add_areas(const CityPlan& plan, Json& result) {
   result["area"] = area_of(plan.area);
   result["blocks"] = plan.blocks.size();
   result["lots"] = plan.lots.size();
-  result["buildings"] = std::count_if(plan.lots.begin(), plan.lots.end(),
-                                      [](const Lot& each) { return each.house.has_value(); });
+  result["buildings"] =
+      std::count_if(plan.lots.begin(), plan.lots.end(), [](const Lot& each) { return each.is_built(); });
   result["street_area"] = street;
   result["lot_area"] = lot;
   result["park_area"] = park;

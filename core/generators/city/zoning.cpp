@@ -4,11 +4,9 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <nlohmann/json.hpp>
 
 #include "core/base/math.h"
 #include "core/base/parallel.h"
-#include "core/schema/json.h"
 #include "generated/params/city.h"
 
 namespace seedmesh::city {
@@ -16,7 +14,6 @@ namespace {
 
 using glm::dvec2;
 
-constexpr double least_width = 4.5;   // of a house, m
 constexpr double inset = 0.03;        // keeps rounded walls on the lot, m
 constexpr double side_inset = 0.005;  // the same where houses touch, m
 // Widths are whole metres and depths have steps of two, so that few models serve many lots.
@@ -81,14 +78,15 @@ std::optional<House> fit(const Lot& lot, const FrontFrame& frame, const CityBuil
       if (!range) continue;
       const double side = std::max(rule.side, side_inset);
       double low = (*range)[0] + side, high = (*range)[1] - side;
-      const double most = rule.share * lot.area / depth;
+      const double most = std::min(rule.share * lot.area / depth, rule.width[1]);
       if (high - low > most) {
         const double centre = (low + high) / 2;
         low = centre - most / 2;
         high = centre + most / 2;
       }
-      const double width = std::floor(high - low);
-      if (width < least_width || width * 6 < depth) continue;
+      const double step = rule.shared_walls ? 0.01 : 1;
+      const double width = std::floor((high - low) / step) * step;
+      if (width < rule.width[0] || width * 6 < depth) continue;
       if (best && width * depth <= best->width * best->depth) continue;
       const dvec2 centre =
           frame.origin + frame.along * ((low + high) / 2) + frame.inward * (front + depth / 2);
@@ -113,6 +111,7 @@ std::vector<CityBuildingRule> built_in_rules() {
   house.rear = 5;
   house.depth = {8, 12};
   house.share = 0.5;
+  house.width = {4.5, 18};
   CityBuildingRule terrace;
   terrace.blueprint = CityBlueprint::terraced_house;
   terrace.density = {0.3, 0.8};
@@ -137,22 +136,32 @@ std::vector<CityBuildingRule> built_in_rules() {
   return {house, terrace, office, block};
 }
 
-bool applies(const CityBuildingRule& rule, const Lot& lot, double distance) {
+/// What the conditions of rules compare.
+struct Site {
+  const Lot& lot;
+  const std::string& street_class;
+  double distance = 0;  ///< from the centre of the streets
+};
+
+bool applies(const CityBuildingRule& rule, const Site& site) {
   const auto holds = [](const std::array<double, 2>& range, double value) {
     return range[0] <= value && value <= range[1];
   };
+  const Lot& lot = site.lot;
   const bool is_zone =
       rule.zones.empty() || std::find(rule.zones.begin(), rule.zones.end(), lot.zone) != rule.zones.end();
-  return is_zone && holds(rule.density, lot.density) && holds(rule.distance, distance) &&
-         holds(rule.lot, lot.area);
+  const auto is_class = [&](CityClass each) { return text_of(each) == site.street_class; };
+  const bool is_street =
+      rule.streets.empty() || std::any_of(rule.streets.begin(), rule.streets.end(), is_class);
+  return is_zone && is_street && holds(rule.density, lot.density) && holds(rule.distance, site.distance) &&
+         holds(rule.lot, lot.area) && holds(rule.frontage, lot.frontage);
 }
 
 /// The rules that apply, in an order drawn by their weights (Efraimidis and Spirakis 2006).
-std::vector<std::uint32_t> order_of(const std::vector<CityBuildingRule>& rules, const Lot& lot,
-                                    double distance, Rng rng) {
+std::vector<std::uint32_t> order_of(const std::vector<CityBuildingRule>& rules, const Site& site, Rng rng) {
   std::vector<std::pair<double, std::uint32_t>> drawn;
   for (std::uint32_t i = 0; i < rules.size(); ++i) {
-    if (!applies(rules[i], lot, distance)) continue;
+    if (!applies(rules[i], site)) continue;
     Rng draw = rng.at(i);
     drawn.emplace_back(math::log(1 - draw.unit()) / rules[i].weight, i);
   }
@@ -207,7 +216,8 @@ void place_houses(CityPlan& plan, const CityParams& params, const FieldMap* obst
       const FrontFrame frame = frame_of(lot);
       const dvec2 off = frame.origin - centre;
       const Rng key = rng.at(lot.key);
-      for (const std::uint32_t number : order_of(rules, lot, std::sqrt(glm::dot(off, off)), key.at("rule"))) {
+      const Site site{lot, plan.class_of(lot.street).name, std::sqrt(glm::dot(off, off))};
+      for (const std::uint32_t number : order_of(rules, site, key.at("rule"))) {
         lot.house = fit(lot, frame, rules[number]);
         if (lot.house && obstacles && is_on_obstacle(*lot.house, *obstacles)) lot.house.reset();
         if (!lot.house) continue;
@@ -221,21 +231,6 @@ void place_houses(CityPlan& plan, const CityParams& params, const FieldMap* obst
       }
     }
   });
-}
-
-Child request_of(const House& house, const CityParams& params) {
-  const CityBuildingRule& rule = rules_of(params)[house.rule];
-  const std::string_view blueprint = text_of(rule.blueprint);
-  Json attributes = {{"lod", params.buildings.detail}};
-  if (blueprint == "skyscraper") {
-    attributes["height"] = house.floors * 3.8;
-  } else if (floors_of(blueprint)[1] > 0) {
-    attributes["floors"] = house.floors;
-  }
-  const Json body = {{"blueprint", blueprint},
-                     {"size", {house.width, 0, house.depth}},
-                     {"attributes", std::move(attributes)}};
-  return {"building", house.seed, canonical_text(body)};
 }
 
 }  // namespace seedmesh::city

@@ -6,7 +6,6 @@
 #include "core/base/job.h"
 #include "core/generators/city/density.h"
 #include "core/generators/city/plan.h"
-#include "core/schema/child.h"
 
 namespace seedmesh {
 struct CityBuildingRule;
@@ -20,9 +19,6 @@ const std::vector<CityBuildingRule>& rules_of(const CityParams& params);
 
 /// Gives each lot a house where one of the rules applies and fits. `obstacles` may be null.
 void place_houses(CityPlan& plan, const CityParams& params, const FieldMap* obstacles, Job& job);
-
-/// The request of a house. Made alone it gives the same building as in the city.
-Child request_of(const House& house, const CityParams& params);
 
 /// The least and the greatest number of floors that a blueprint takes; 0, 0 for those without floors.
 std::array<int, 2> floors_of(std::string_view blueprint);

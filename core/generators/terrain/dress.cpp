@@ -65,7 +65,7 @@ class Dressing {
     Node root;
     root.name = "terrain";
     model.nodes.push_back(std::move(root));
-    const int ground = add_material(model, ground_material());
+    const int ground = add_material(model, ground_material(params_.specular));
     if (params_.texture > 0) {
       add_pictures(model, ground);
     } else if (params_.palette != TerrainPalette::none &&

@@ -61,32 +61,46 @@ std::int64_t doubled_area(std::span<const CmPoint> ring) {
   return sum;
 }
 
+namespace {
+
+/// Whether edges i and k of a ring, i != k, meet except at the common end of neighbours.
+bool do_edges_meet(std::span<const CmPoint> ring, std::size_t i, std::size_t k) {
+  const auto next = [count = ring.size()](std::size_t n) { return n + 1 == count ? 0 : n + 1; };
+  const CmPoint &a = ring[i], &b = ring[next(i)], &c = ring[k], &d = ring[next(k)];
+  if (next(i) != k && next(k) != i) return segments_meet(a, b, c, d);
+  // Neighbours share one point; they overlap if both leave it in one direction.
+  const CmPoint &shared = next(i) == k ? b : a, &before = next(i) == k ? a : c, &after = next(i) == k ? d : b;
+  return cross(shared, before, after) == 0 &&
+         (is_between(before, shared, after) || is_between(after, shared, before));
+}
+
+}  // namespace
+
 bool is_simple(std::span<const CmPoint> ring) {
+  constexpr std::size_t few = 12;  // sorting takes longer than comparing all pairs
   const std::size_t count = ring.size();
   if (count < 3) return false;
+  const auto next = [count](std::size_t i) { return i + 1 == count ? 0 : i + 1; };
+  for (std::size_t i = 0; i < count; ++i) {
+    if (ring[i] == ring[next(i)]) return false;
+  }
+  if (count <= few) {
+    for (std::size_t i = 0; i < count; ++i) {
+      for (std::size_t k = i + 1; k < count; ++k) {
+        if (do_edges_meet(ring, i, k)) return false;
+      }
+    }
+    return true;
+  }
   std::vector<std::uint32_t> order(count);
   std::iota(order.begin(), order.end(), 0U);
-  const auto next = [count](std::size_t i) { return i + 1 == count ? 0 : i + 1; };
   const auto left = [&](std::uint32_t i) { return std::min(ring[i].x, ring[next(i)].x); };
   std::sort(order.begin(), order.end(),
             [&](std::uint32_t i, std::uint32_t k) { return left(i) != left(k) ? left(i) < left(k) : i < k; });
   for (std::size_t n = 0; n < count; ++n) {
     const std::size_t i = order[n];
-    const CmPoint &a = ring[i], &b = ring[next(i)];
-    if (a == b) return false;
-    for (std::size_t m = n + 1; m < count && left(order[m]) <= std::max(a.x, b.x); ++m) {
-      const std::size_t k = order[m];
-      const CmPoint &c = ring[k], &d = ring[next(k)];
-      if (next(i) == k || next(k) == i) {
-        // Neighbours share one point; they overlap if both leave it in one direction.
-        const CmPoint &shared = next(i) == k ? b : a, &before = next(i) == k ? a : c,
-                      &after = next(i) == k ? d : b;
-        if (cross(shared, before, after) == 0 &&
-            (is_between(before, shared, after) || is_between(after, shared, before)))
-          return false;
-        continue;
-      }
-      if (segments_meet(a, b, c, d)) return false;
+    for (std::size_t m = n + 1; m < count && left(order[m]) <= std::max(ring[i].x, ring[next(i)].x); ++m) {
+      if (do_edges_meet(ring, i, order[m])) return false;
     }
   }
   return true;

@@ -106,7 +106,7 @@ class Describer {
       any_unlit = any_unlit || material.unlit;
       any_strength = any_strength || emissive_strength(material) != 1;
       any_transmission = any_transmission || material.transmission > 0;
-      any_specular = any_specular || material.specular < 1;
+      any_specular = any_specular || material.has_specular();
     }
     if (textures_.needs_webp()) {
       require("EXT_texture_webp");

@@ -35,6 +35,7 @@ export interface Schema {
   /** In the output schema: the formats of all models. In a generator's schema: its additional formats. */
   'x-formats'?: string[];
   /** The formats that require a certain parameter value. */
+  'x-files'?: Record<string, Record<string, unknown>>;
   'x-formats-where'?: Record<string, Record<string, unknown>>;
   /** In a generator's schema: the output members that animate its models. */
   'x-motions'?: string[];

@@ -105,6 +105,16 @@ class BuildingParametersShapeGrammar(_BuildingParametersShapeGrammarRequired, to
     marker_size: float
 
 
+class _BuildingParametersEditsItemRequired(TypedDict):
+    shape: str
+
+
+class BuildingParametersEditsItem(_BuildingParametersEditsItemRequired, total=False):
+    attributes: Dict[str, Union[float, str, bool]]
+    rule: str
+    remove: bool
+
+
 class BuildingParametersDerivation(TypedDict, total=False):
     order: Literal['breadth', 'depth']
     mode: Literal['parallel', 'sequential']
@@ -115,6 +125,14 @@ class _EmissionRequired(TypedDict):
 
 
 class Emission(_EmissionRequired, total=False):
+    strength: float
+
+
+class _SpecularRequired(TypedDict):
+    color: str
+
+
+class Specular(_SpecularRequired, total=False):
     strength: float
 
 
@@ -131,6 +149,7 @@ class BuildingParametersMaterialsValue(TypedDict, total=False):
     metallic: float
     opacity: float
     emission: "Emission"
+    specular: "Specular"
     tile: List[float]
     images: "Images"
     texture: Literal['auto', 'none', 'brick', 'plaster', 'roof_tile', 'slate', 'planks', 'ashlar', 'concrete', 'sheet']
@@ -151,6 +170,7 @@ class BuildingParameters(TypedDict, total=False):
     size: List[float]
     footprint: List[List[List[float]]]
     attributes: Dict[str, Union[float, str, bool]]
+    edits: List["BuildingParametersEditsItem"]
     iterations: int
     derivation: "BuildingParametersDerivation"
     repeat: Literal['nearest', 'ceil']
@@ -173,10 +193,17 @@ class Polygons(TypedDict):
     coordinates: List[List[List[Union[float, List[float]]]]]
 
 
+class CityParametersMapsZonesItem(TypedDict):
+    zone: str
+    area: "Polygons"
+
+
 class CityParametersMaps(TypedDict, total=False):
     density: Union[str, "Polygons"]
     water: Union[str, "Polygons"]
     obstacles: Union[str, "Polygons"]
+    zones: List["CityParametersMapsZonesItem"]
+    height: str
 
 
 class CityParametersGivenStreetsFeaturesItemGeometry(TypedDict):
@@ -221,24 +248,28 @@ class CityParametersStreetsClassesHighway(TypedDict, total=False):
     width: float
     lanes: int
     sidewalk: float
+    grade: float
 
 
 class CityParametersStreetsClassesMajor(TypedDict, total=False):
     width: float
     lanes: int
     sidewalk: float
+    grade: float
 
 
 class CityParametersStreetsClassesMinor(TypedDict, total=False):
     width: float
     lanes: int
     sidewalk: float
+    grade: float
 
 
 class CityParametersStreetsClassesLane(TypedDict, total=False):
     width: float
     lanes: int
     sidewalk: float
+    grade: float
 
 
 class CityParametersStreetsClasses(TypedDict, total=False):
@@ -249,7 +280,7 @@ class CityParametersStreetsClasses(TypedDict, total=False):
 
 
 class CityParametersStreetsTensorFieldsItem(TypedDict, total=False):
-    type: Literal['grid', 'radial', 'boundary', 'polyline']
+    type: Literal['grid', 'radial', 'boundary', 'polyline', 'height']
     position: List[float]
     angle: float
     size: float
@@ -273,11 +304,12 @@ class CityParametersStreetsWards(TypedDict, total=False):
 class CityParametersStreets(TypedDict, total=False):
     method: Literal['growth', 'tensor', 'wards', 'given']
     productions: List[str]
-    pattern: Literal['organic', 'raster', 'radial']
-    minor_pattern: Literal['organic', 'raster', 'radial']
+    pattern: Literal['organic', 'raster', 'radial', 'slope']
+    minor_pattern: Literal['organic', 'raster', 'radial', 'slope']
     angle: float
     centre: List[float]
     major_spacing: float
+    highway_spacing: float
     block: List[float]
     fill: float
     length: float
@@ -291,6 +323,8 @@ class CityParametersStreets(TypedDict, total=False):
     minimal_angle: float
     dead_ends: float
     crossings: float
+    roundabouts: float
+    roundabout_radius: float
     classes: "CityParametersStreetsClasses"
     bridge_length: float
     tensor: "CityParametersStreetsTensor"
@@ -308,32 +342,126 @@ class CityParametersLots(TypedDict, total=False):
 
 class BuildingRule(TypedDict, total=False):
     blueprint: Literal['church', 'factory', 'house', 'office_tower', 'parisian_block', 'skyscraper', 'temple', 'terraced_house', 'villa', 'warehouse']
+    building: "Child"
+    attributes: Dict[str, Union[float, str, bool]]
+    floors_as: str
     weight: float
     density: List[float]
     distance: List[float]
     lot: List[float]
+    frontage: List[float]
+    streets: List[Literal['highway', 'major', 'minor', 'lane']]
     floors: List[int]
     front: float
     side: float
+    shared_walls: bool
     rear: float
+    width: List[float]
     depth: List[float]
     share: float
     zones: List[str]
+
+
+class _CityParametersBuildingsLandmarksItemRequired(TypedDict):
+    model: "Child"
+    position: List[float]
+
+
+class CityParametersBuildingsLandmarksItem(_CityParametersBuildingsLandmarksItemRequired, total=False):
+    turn: float
+    plot: Literal['lot', 'block', 'free']
+    radius: float
 
 
 class CityParametersBuildings(TypedDict, total=False):
     rules: List["BuildingRule"]
     variants: int
     detail: int
+    landmarks: List["CityParametersBuildingsLandmarksItem"]
+
+
+class CityParametersFurnitureLamps(TypedDict, total=False):
+    spacing: float
+    share: float
+    models: List["Child"]
+
+
+class CityParametersFurnitureTrees(TypedDict, total=False):
+    spacing: float
+    share: float
+    models: List["Child"]
+
+
+class CityParametersFurnitureBenches(TypedDict, total=False):
+    spacing: float
+    share: float
+    models: List["Child"]
+
+
+class CityParametersFurnitureBins(TypedDict, total=False):
+    spacing: float
+    share: float
+    models: List["Child"]
+
+
+class CityParametersFurnitureSigns(TypedDict, total=False):
+    share: float
+    models: List["Child"]
+
+
+class CityParametersFurnitureCars(TypedDict, total=False):
+    spacing: float
+    share: float
+    models: List["Child"]
+
+
+class CityParametersFurniture(TypedDict, total=False):
+    lamps: "CityParametersFurnitureLamps"
+    trees: "CityParametersFurnitureTrees"
+    benches: "CityParametersFurnitureBenches"
+    bins: "CityParametersFurnitureBins"
+    signs: "CityParametersFurnitureSigns"
+    cars: "CityParametersFurnitureCars"
+
+
+class CityParametersParks(TypedDict, total=False):
+    spacing: float
+    models: List["Child"]
+
+
+class CityParametersYards(TypedDict, total=False):
+    trees: float
+    models: List["Child"]
+    border: Literal['none', 'hedge', 'fence', 'wall']
+    height: float
+
+
+class CityParametersChunks(TypedDict, total=False):
+    by: Literal['blocks', 'squares']
+    size: float
+
+
+class _CityParametersCameraRequired(TypedDict):
+    position: List[float]
+
+
+class CityParametersCamera(_CityParametersCameraRequired, total=False):
+    field_of_view: float
 
 
 class CityParameters(TypedDict, total=False):
     area: "CityParametersArea"
+    terrain: "Child"
     maps: "CityParametersMaps"
     given: "CityParametersGiven"
     streets: "CityParametersStreets"
     lots: "CityParametersLots"
     buildings: "CityParametersBuildings"
+    furniture: "CityParametersFurniture"
+    parks: "CityParametersParks"
+    yards: "CityParametersYards"
+    chunks: "CityParametersChunks"
+    camera: "CityParametersCamera"
 
 
 class FractalParametersInstructions2Item(TypedDict, total=False):
@@ -368,11 +496,14 @@ class FractalParameters(TypedDict, total=False):
     stages: List[int]
     columns: int
     text: str
+    smallest: float
     surface: Literal['faces', 'merged', 'pieces']
     size: float
     color: str
+    specular: "Specular"
     palette: List[str]
     points: int
+    start: Literal['element', 'cube']
     drop: int
     cloud: Literal['points', 'elements', 'voxels']
     voxels: int
@@ -490,6 +621,7 @@ class LsystemParametersMaterialsItem(TypedDict, total=False):
     metallic: float
     opacity: float
     emission: "Emission"
+    specular: "Specular"
     texture: "Texture"
     texture_seed: int
     images: "Images"
@@ -541,6 +673,7 @@ class LsystemParameters(_LsystemParametersRequired, total=False):
     sides: int
     stacks: int
     taper: Literal['linear', 'none']
+    share: Literal['auto', 'always', 'never']
     levels: Literal['outline', 'slices']
     adapt: bool
     weld: bool
@@ -755,6 +888,7 @@ class SceneParameters(TypedDict, total=False):
     competition: float
     camera: "SceneParametersCamera"
     chunks: int
+    words: bool
 
 
 class TerrainParametersLayersItem(TypedDict, total=False):
@@ -850,14 +984,14 @@ class TerrainParametersHeightmap(TypedDict, total=False):
 
 
 class TerrainParameters(TypedDict, total=False):
-    algorithm: Literal['fault_formation', 'poisson_faulting', 'triangular_edge', 'diamond_square', 'square_square', 'fbm', 'image', 'expression']
+    algorithm: Literal['fault_formation', 'poisson_faulting', 'triangular_edge', 'diamond_square', 'square_square', 'fbm', 'brownian', 'image', 'expression']
     expression: str
     layers: List["TerrainParametersLayersItem"]
     iterations: int
     extra_iterations: int
     resolution: int
     size: float
-    shape: Literal['plane', 'sphere']
+    shape: Literal['plane', 'sphere', 'profile']
     amplitude: float
     hurst: float
     corners: List[float]
@@ -886,6 +1020,7 @@ class TerrainParameters(TypedDict, total=False):
     skirt: float
     base: float
     palette: Literal['alpine', 'desert', 'tropical', 'arctic', 'volcanic', 'moon', 'grey', 'none']
+    specular: "Specular"
     water_level: float
     texture: int
     onto: "TerrainParametersOnto"
@@ -924,6 +1059,7 @@ class TreeParametersLeaf(TypedDict, total=False):
     color: str
     autumn: str
     evergreen: bool
+    specular: "Specular"
     images: "Images"
 
 
@@ -1028,6 +1164,7 @@ TreeParameters = TypedDict("TreeParameters", {
     'bark_color': str,
     'bark_seed': int,
     'bark_images': "Images",
+    'bark_specular': "Specular",
     'age': float,
     'mature_age': float,
     'season': Literal['spring', 'summer', 'autumn', 'winter'],
@@ -1054,6 +1191,8 @@ TreeParameters = TypedDict("TreeParameters", {
     'PrunePowerHigh': float,
     'sway': "TreeParametersSway",
     'Leaves': int,
+    'LeafDistrib': int,
+    'counting': Literal['paper', 'arbaro'],
     'LeafScale': float,
     'LeafScaleX': float,
     'LeafBend': float,

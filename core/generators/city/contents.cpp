@@ -1,0 +1,338 @@
+#include "core/generators/city/contents.h"
+
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <map>
+
+#include "core/base/math.h"
+#include "core/base/parallel.h"
+#include "core/generators/child.h"
+#include "core/generators/city/city_model.h"
+#include "core/generators/city/furniture_models.h"
+#include "core/generators/city/house_requests.h"
+#include "core/generators/city/model_copies.h"
+#include "core/generators/city/objects.h"
+#include "core/generators/city/solid_builder.h"
+#include "core/generators/scene/model_levels.h"
+#include "generated/params/city.h"
+
+namespace seedmesh::city {
+namespace {
+
+using glm::dvec2;
+
+constexpr float border_depth = 0.25F;  // of hedges and fences below the ground, m
+constexpr double post_spacing = 2.6;
+constexpr std::uint64_t bytes_a_copy = 150;
+
+Transform transform_at(const dvec2& position, double height, double turn, double scale = 1) {
+  Transform at;
+  at.translation = {static_cast<float>(position.x), static_cast<float>(height),
+                    static_cast<float>(0 - position.y)};
+  const math::SinCos half = math::sincos_degrees(turn / 2);
+  at.rotation = glm::quat(static_cast<float>(half.cos), 0, static_cast<float>(half.sin), 0);
+  at.scale = glm::vec3(static_cast<float>(scale));
+  return at;
+}
+
+/// A model with its copies: a request, or a built-in model.
+struct Contents {
+  std::string name;
+  const char* group = "";
+  const Child* request = nullptr;  ///< null: the built-in model `number` of `kind`
+  std::string pointer, kind;
+  std::uint32_t number = 0;
+  std::uint64_t key = 0;  ///< of a request without a seed
+  std::vector<Copy> copies;
+};
+
+Result<Model> model_of(const Contents& each, const Demand& demand, const GenerateContext& context) {
+  if (!each.request) return built_in_model(each.kind, each.number, context.job);
+  return generate_child(*each.request, each.pointer, Rng(each.key), context, demand);
+}
+
+/// All contents that are not houses, in order.
+std::vector<Contents> other_contents(const Surface& surface, const CityParams& params, const Chunks& chunks,
+                                     const Job& job) {
+  const CityPlan& plan = surface.plan();
+  std::vector<Contents> all;
+  for (const Landmark& landmark : plan.landmarks) {
+    Contents each;
+    each.name = "landmark_" + std::to_string(all.size());
+    each.group = "landmarks";
+    each.request = &landmark.request;
+    each.pointer = landmark.pointer + "/model";
+    const std::uint32_t block = landmark.part == no_index ? no_index : plan.parts[landmark.part].block;
+    const double height = landmark.part == no_index ? 0 : surface.height(landmark.part, landmark.position);
+    each.copies.push_back(
+        {transform_at(landmark.position, height, landmark.turn), chunks.at(landmark.position, block)});
+    all.push_back(std::move(each));
+  }
+  std::vector<ObjectKind> kinds = street_furniture(plan, params, job);
+  const std::size_t furniture = kinds.size();
+  for (ObjectKind& kind : trees_of(plan, params, job)) kinds.push_back(std::move(kind));
+  for (std::size_t k = 0; k < kinds.size(); ++k) {
+    const ObjectKind& kind = kinds[k];
+    const std::size_t first = all.size();
+    for (std::uint32_t model = 0; model < kind.model_count(); ++model) {
+      Contents each;
+      each.name = kind.name + "_" + std::to_string(model);
+      each.group = k < furniture ? "furniture" : "trees";
+      each.kind = kind.name;
+      each.number = model;
+      if (!kind.models.empty()) each.request = &kind.models[model];
+      each.pointer = kind.pointer + "/" + std::to_string(model);
+      each.key = job.rng().at(kind.name).at(model).key();
+      all.push_back(std::move(each));
+    }
+    for (const CityObject& object : kind.objects) {
+      all[first + object.model].copies.push_back(
+          {transform_at(object.position, surface.height(object.part, object.position), object.turn,
+                        object.scale),
+           chunks.at(object.position, plan.parts[object.part].block)});
+    }
+  }
+  std::erase_if(all, [](const Contents& each) { return each.copies.empty(); });
+  return all;
+}
+
+std::vector<Copy> copies_of(const SharedHouse& house, const Surface& surface, const Chunks& chunks) {
+  const CityPlan& plan = surface.plan();
+  std::vector<Copy> copies;
+  for (const std::uint32_t number : house.lots) {
+    const Lot& lot = plan.lots[number];
+    double lowest = 0;
+    copies.push_back({transform_at(lot.house->position, surface.floor_height(lot, lowest), lot.house->turn),
+                      chunks.at(lot.house->position, plan.parts[lot.part].block)});
+  }
+  return copies;
+}
+
+bool has_parts(const Contents& each, const GenerateContext& context) {
+  const Generator* generator =
+      each.request ? find_generator(context.generators, each.request->generator) : nullptr;
+  return generator && generator->parts;
+}
+
+/// Makes models on all threads and adds them in order.
+template <class Make, class Add>
+std::optional<Error> make_and_add(Job& job, std::size_t count, const Make& make, const Add& add) {
+  // Models of one batch are in memory at the same time.
+  constexpr std::size_t batch = 256;
+  for (std::size_t begin = 0; begin < count; begin += batch) {
+    const std::size_t size = std::min(batch, count - begin);
+    std::vector<std::optional<Result<Model>>> made(size);
+    parallel_for(job, size, 1,
+                 [&](std::size_t i, std::size_t, std::size_t) { made[i].emplace(make(begin + i)); });
+    for (std::size_t i = 0; i < size; ++i) {
+      if (!*made[i]) return std::move(*made[i]).error();
+      add(begin + i, std::move(**made[i]));
+      made[i].reset();
+    }
+  }
+  return std::nullopt;
+}
+
+/// A hedge or a wall, or the panel and the posts of a fence, along a border. `ground` has the heights of the ground
+/// at its ends.
+void add_border(SolidBuilder& solid, const BorderPiece& piece, const std::array<double, 2>& ground,
+                CityBorder kind, double height) {
+  const dvec2 run = piece.b - piece.a;
+  const double length = glm::length(run);
+  const dvec2 along = run / length, side(-along.y, along.x);
+  const auto corner = [&](double s, double offset) {
+    const dvec2 p = piece.a + along * s + side * offset;
+    return glm::vec2(static_cast<float>(p.x), static_cast<float>(0 - p.y));
+  };
+  const auto base = [&](double s) {
+    return static_cast<float>(ground[0] + (ground[1] - ground[0]) * s / length);
+  };
+  const auto add = [&](double from, double to, double half, float low, float high) {
+    const float a = base(from), b = base(to);
+    solid.add_slab({corner(from, -half), corner(to, -half), corner(to, half), corner(from, half)},
+                   {a + low, b + low, b + low, a + low}, {a + high, b + high, b + high, a + high});
+  };
+  const auto top = static_cast<float>(height);
+  if (kind != CityBorder::fence) {
+    add(0, length, kind == CityBorder::hedge ? 0.3 : 0.15, 0 - border_depth, top);
+    return;
+  }
+  add(0, length, 0.02, 0.1F, top);
+  const int posts = 1 + math::to_int32(std::floor(length / post_spacing));
+  for (int i = 0; i <= posts; ++i) {
+    const double at = 0.06 + (length - 0.12) * i / posts;
+    add(at - 0.05, at + 0.05, 0.05, 0 - border_depth, top + 0.08F);
+  }
+}
+
+SolidLook look_of(CityBorder kind) {
+  if (kind == CityBorder::hedge) return {"hedge", {0x45, 0x5e, 0x33}, 1, 0};
+  if (kind == CityBorder::wall) return {"yard_wall", {0xb9, 0xae, 0x9a}, 0.95F, 0};
+  return {"fence", {0x8a, 0x76, 0x5e}, 0.9F, 0};
+}
+
+std::uint64_t border_triangles(const BorderPiece& piece, CityBorder kind) {
+  if (kind != CityBorder::fence) return 12;
+  const int posts = 1 + math::to_int32(std::floor(glm::length(piece.b - piece.a) / post_spacing));
+  return 12 + 12 * static_cast<std::uint64_t>(posts + 1);
+}
+
+/// The borders; on a terrain in short pieces, 2 cm apart, that follow the ground.
+std::vector<BorderPiece> borders_of(const Surface& surface, const CityParams& params, const Job& job) {
+  constexpr double longest = 6, gap = 0.02;
+  if (!params.yards || params.yards->border == CityBorder::none) return {};
+  std::vector<BorderPiece> whole = lot_borders(surface.plan(), job);
+  if (surface.is_level()) return whole;
+  std::vector<BorderPiece> pieces;
+  for (const BorderPiece& each : whole) {
+    const dvec2 run = each.b - each.a;
+    const double length = glm::length(run);
+    const int count = math::to_int32(std::ceil(length / longest));
+    for (int i = 0; i < count; ++i) {
+      const double end = i + 1 < count ? (i + 1.0) / count - gap / length : 1;
+      pieces.push_back({each.a + run * (static_cast<double>(i) / count), each.a + run * end, each.part});
+    }
+  }
+  return pieces;
+}
+
+void add_borders(Model& model, ChunkNodes& nodes, const Chunks& chunks, const Surface& surface,
+                 const CityParams& params, Job& job) {
+  const CityPlan& plan = surface.plan();
+  std::map<std::uint32_t, SolidBuilder> by_chunk;
+  for (const BorderPiece& piece : borders_of(surface, params, job)) {
+    job.spend(Resource::triangles, border_triangles(piece, params.yards->border));
+    const std::uint32_t chunk = chunks.at((piece.a + piece.b) / 2.0, plan.parts[piece.part].block);
+    const std::array<double, 2> ground = {surface.height(piece.part, piece.a),
+                                          surface.height(piece.part, piece.b)};
+    add_border(by_chunk.try_emplace(chunk, job).first->second, piece, ground, params.yards->border,
+               params.yards->height);
+  }
+  if (by_chunk.empty()) return;
+  const auto material = static_cast<int>(model.materials.size());
+  const SolidLook look = look_of(params.yards->border);
+  model.materials.push_back(material_of(look));
+  for (auto& [chunk, solid] : by_chunk) {
+    MeshGroup group;
+    group.name = look.name;
+    Primitive primitive;
+    primitive.mesh = solid.take(job);
+    primitive.material = material;
+    group.primitives.push_back(std::move(primitive));
+    const int node = add_node(model, look.name, nodes.group(chunk, "borders"));
+    model.nodes[static_cast<std::size_t>(node)].mesh = static_cast<int>(model.meshes.size());
+    model.meshes.push_back(std::move(group));
+  }
+}
+
+/// Adds what all copies of a model add to an estimate.
+void add_copies(Estimate& estimate, const LevelInfo& info, std::uint64_t bytes, const ViewPoint& view,
+                const std::vector<Copy>& copies) {
+  for (const Copy& copy : copies) estimate.triangles += info.triangles[view.level(info, copy.at)];
+  estimate.bytes += bytes + bytes_a_copy * copies.size();
+}
+
+/// A house that was made, from which others of the same rule and number of floors are estimated.
+struct HouseSample {
+  double width = 0, depth = 0;
+  LevelInfo info;
+  std::uint64_t bytes = 0;
+};
+
+/// The levels of another house: what has windows grows with its walls, the mass alone does not.
+LevelInfo scaled(const HouseSample& sample, const House& house) {
+  constexpr std::uint64_t most_of_a_mass = 300;
+  LevelInfo info = sample.info;
+  const double own = house.width * house.width + house.depth * house.depth;
+  const double made = sample.width * sample.width + sample.depth * sample.depth;
+  info.radius = std::sqrt(std::max(0.0, info.radius * info.radius + (own - made) / 4));
+  const double walls = (house.width + house.depth) / (sample.width + sample.depth);
+  for (std::uint64_t& each : info.triangles) {
+    if (each > most_of_a_mass)
+      each = static_cast<std::uint64_t>(math::to_uint32(static_cast<double>(each) * walls));
+  }
+  return info;
+}
+
+}  // namespace
+
+std::optional<Error> add_contents(Model& model, ChunkNodes& nodes, const Chunks& chunks,
+                                  const Surface& surface, const CityParams& params,
+                                  const GenerateContext& context) {
+  Job& job = context.job;
+  const CityPlan& plan = surface.plan();
+  const ViewPoint view(params);
+  CopyWriter writer(model, nodes, view, context);
+  Demand demand;
+  demand.lods = level_count(view, context.demand);
+  const std::vector<SharedHouse> houses = shared_houses(plan, params);
+  auto error = make_and_add(
+      job, houses.size(),
+      [&](std::size_t i) { return generate_child(houses[i].request, "/buildings", Rng(0), context, demand); },
+      [&](std::size_t i, Model made) {
+        scene::separate_bodies(made);
+        writer.add(std::move(made), "building_" + std::to_string(model.meshes.size()), "buildings",
+                   copies_of(houses[i], surface, chunks), CopyWriter::Bodies::boxes);
+      });
+  if (error) return error;
+  const std::vector<Contents> others = other_contents(surface, params, chunks, job);
+  error = make_and_add(
+      job, others.size(), [&](std::size_t i) { return model_of(others[i], demand, context); },
+      [&](std::size_t i, Model made) {
+        if (has_parts(others[i], context)) scene::separate_bodies(made);
+        const bool is_landmark = others[i].kind.empty();
+        for (Warning& each : made.warnings) model.warnings.push_back(std::move(each));
+        writer.add(std::move(made), others[i].name, others[i].group, others[i].copies,
+                   is_landmark ? CopyWriter::Bodies::boxes : CopyWriter::Bodies::none);
+      });
+  if (error) return error;
+  add_borders(model, nodes, chunks, surface, params, job);
+  return std::nullopt;
+}
+
+std::optional<Error> estimate_contents(Estimate& estimate, const Surface& surface, const CityParams& params,
+                                       const GenerateContext& context) {
+  Job& job = context.job;
+  const CityPlan& plan = surface.plan();
+  const Chunks chunks(plan, params);
+  const ViewPoint view(params);
+  Demand demand;
+  demand.lods = level_count(view, context.demand);
+  const auto measured = [&](Result<Model> made) {
+    const ModelCounts counts = count(*made);
+    return std::pair<LevelInfo, std::uint64_t>(level_info_of(*std::move(made), job), counts.bytes);
+  };
+  // With a camera, the levels of houses depend on their sizes.
+  const auto width_class = [&view](const House& house) {
+    return view.is_given() ? math::to_int32(house.width / 4) : 0;
+  };
+  std::map<std::array<int, 3>, HouseSample> samples;
+  for (const SharedHouse& shared : shared_houses(plan, params)) {
+    const House& house = *plan.lots[shared.lots[0]].house;
+    const auto [sample, is_new] =
+        samples.try_emplace({static_cast<int>(house.rule), house.floors, width_class(house)});
+    if (is_new) {
+      Result<Model> made = generate_child(shared.request, "/buildings", Rng(0), context, demand);
+      if (!made) return made.error();
+      auto [info, bytes] = measured(std::move(made));
+      sample->second = {house.width, house.depth, std::move(info), bytes};
+    }
+    const LevelInfo info = scaled(sample->second, house);
+    add_copies(estimate, info, sample->second.bytes, view, copies_of(shared, surface, chunks));
+  }
+  for (const Contents& each : other_contents(surface, params, chunks, job)) {
+    Result<Model> made = model_of(each, demand, context);
+    if (!made) return made.error();
+    const auto [info, bytes] = measured(std::move(made));
+    add_copies(estimate, info, bytes, view, each.copies);
+  }
+  for (const BorderPiece& piece : borders_of(surface, params, job)) {
+    const std::uint64_t triangles = border_triangles(piece, params.yards->border);
+    estimate.triangles += triangles;
+    estimate.bytes += 50 * triangles;
+  }
+  return std::nullopt;
+}
+
+}  // namespace seedmesh::city

@@ -1,0 +1,21 @@
+#pragma once
+/// Built-in models of street furniture and trees, made of closed bodies. Metres, +Y up; the front faces +Z, the foot
+/// is at height 0, and what stands in the ground goes below it.
+#include <string_view>
+
+#include "core/base/job.h"
+#include "core/model/model.h"
+
+namespace seedmesh::city {
+
+/// The number of built-in models of a kind: "lamps", "trees", "park_trees", "yard_trees", "benches", "bins", "signs"
+/// and "cars". 1 for other names.
+std::uint32_t built_in_count(std::string_view kind);
+
+/// Model number `number` of a kind: one node with one mesh of 12 to 220 triangles. Charges them to the job.
+Model built_in_model(std::string_view kind, std::uint32_t number, Job& job);
+
+/// Triangles of that model.
+std::uint64_t built_in_triangles(std::string_view kind, std::uint32_t number);
+
+}  // namespace seedmesh::city

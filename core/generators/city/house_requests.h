@@ -1,0 +1,42 @@
+#pragma once
+/// The requests of the buildings on the lots of a city.
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "core/generators/api.h"
+#include "core/generators/city/plan.h"
+#include "core/schema/child.h"
+
+namespace seedmesh {
+struct CityParams;
+}
+
+namespace seedmesh::city {
+
+/// Makes requests from the rules of a city. Does not own the parameters.
+class HouseRequests {
+ public:
+  explicit HouseRequests(const CityParams& params);
+
+  /// The request of a house. Made alone it gives the same building as in the city.
+  Child of(const House& house) const;
+
+ private:
+  const CityParams& params_;
+  std::vector<Json> bases_;  ///< by rule: the parameters without size and floors
+};
+
+/// A building that stands in the city, once or often.
+struct SharedHouse {
+  Child request;
+  std::vector<std::uint32_t> lots;
+};
+
+/// The different requests of all houses, in the order of their first lots.
+std::vector<SharedHouse> shared_houses(const CityPlan& plan, const CityParams& params);
+
+/// Errors of the requests that rules make: another generator than building, and attributes that their buildings do
+/// not have.
+void check_house_requests(const CityParams& params, const CheckContext& context, std::vector<Issue>& issues);
+
+}  // namespace seedmesh::city

@@ -1,0 +1,26 @@
+#pragma once
+/// The sides of streets while the street space is laid out.
+#include <vector>
+
+#include "core/generators/city/plan.h"
+
+namespace seedmesh::city {
+
+/// What is left of a half-edge, by its number.
+struct KerbSide {
+  std::vector<CmPoint> corner;        ///< at its start, after the half-edge before it; the kerb
+  std::vector<CmPoint> outer_corner;  ///< the same for the border of the block
+  CmPoint to{};                       ///< where the kerb ends
+  CmPoint cut_from{}, cut_to{};       ///< where the carriageway begins and ends
+  std::uint32_t before = no_index, after = no_index;  ///< half-edges of the same outline
+  bool is_laid_out = false;                           ///< its face is part of the area
+  const CmPoint& from() const { return corner.back(); }
+};
+
+/// The unit direction of a half-edge.
+glm::dvec2 unit_of(const StreetGraph& graph, std::uint32_t half);
+
+/// By half-edge: how far the corners at its start reach along it, on both sides, in metres.
+std::vector<double> corner_reaches(const StreetGraph& graph, const std::vector<KerbSide>& sides);
+
+}  // namespace seedmesh::city

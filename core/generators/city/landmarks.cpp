@@ -1,0 +1,105 @@
+#include "core/generators/city/landmarks.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "core/base/math.h"
+#include "core/schema/json.h"
+#include "generated/params/city.h"
+
+namespace seedmesh::city {
+namespace {
+
+bool is_in(const std::vector<CmRing>& rings, const glm::dvec2& metres) {
+  bool inside = false;
+  for (const CmRing& ring : rings) inside ^= is_inside(ring, metres * 100.0);
+  return inside;
+}
+
+/// The corners of a building's ground plan in its own frame, x and z; empty for other generators.
+std::vector<glm::dvec2> plan_of_building(const Child& request) {
+  if (request.generator != "building") return {};
+  const Json parameters = Json::parse(request.parameters);
+  std::vector<glm::dvec2> corners;
+  if (parameters.contains("footprint")) {
+    for (const Json& each : parameters["footprint"][0]) corners.emplace_back(each[0], each[1]);
+    return corners;
+  }
+  glm::dvec2 half(6, 5);  // the default size
+  if (parameters.contains("size"))
+    half = {parameters["size"][0].get<double>() / 2, parameters["size"][2].get<double>() / 2};
+  for (const glm::dvec2& sign : {glm::dvec2(-1, -1), {1, -1}, {1, 1}, {-1, 1}})
+    corners.push_back(sign * half);
+  return corners;
+}
+
+/// Whether all corners of a landmark's ground plan lie on a lot.
+bool fits(const Landmark& landmark, const std::vector<CmRing>& lot) {
+  const math::SinCos turn = math::sincos_degrees(landmark.turn);
+  const std::vector<glm::dvec2> corners = plan_of_building(landmark.request);
+  return std::all_of(corners.begin(), corners.end(), [&](const glm::dvec2& p) {
+    return is_in(lot, landmark.position +
+                          glm::dvec2(p.x * turn.cos + p.y * turn.sin, p.x * turn.sin - p.y * turn.cos));
+  });
+}
+
+}  // namespace
+
+std::vector<Landmark> landmarks_of(const CityParams& params, const Job& job) {
+  std::vector<Landmark> landmarks;
+  const Rng rng = job.rng().at("landmarks");
+  for (std::size_t i = 0; i < params.buildings.landmarks.size(); ++i) {
+    const CityLandmark& given = params.buildings.landmarks[i];
+    Landmark each;
+    each.request = given.model;
+    // Below 2^32, so that programs with floating-point numbers keep it.
+    if (!each.request.seed) each.request.seed = rng.at(i).key() >> 32U;
+    each.pointer = "/buildings/landmarks/" + std::to_string(i);
+    each.position = {given.position[0], given.position[1]};
+    each.turn = given.turn;
+    each.radius = given.radius;
+    each.is_block_whole = given.plot == CityPlot::block;
+    each.replaces_house = given.plot != CityPlot::free;
+    landmarks.push_back(std::move(each));
+  }
+  return landmarks;
+}
+
+void place_landmarks(CityPlan& plan) {
+  for (std::uint32_t i = 0; i < plan.landmarks.size(); ++i) {
+    Landmark& landmark = plan.landmarks[i];
+    for (std::uint32_t n = 0; n < plan.parts.size() && landmark.part == no_index; ++n) {
+      if (is_in(plan.parts[n].rings, landmark.position)) landmark.part = n;
+    }
+    const auto lot = std::find_if(plan.lots.begin(), plan.lots.end(),
+                                  [&](const Lot& each) { return each.part == landmark.part; });
+    if (lot == plan.lots.end()) continue;
+    landmark.lot = static_cast<std::uint32_t>(lot - plan.lots.begin());
+    if (!landmark.replaces_house) continue;
+    lot->house.reset();
+    landmark.is_too_large = !fits(landmark, plan.parts[landmark.part].rings);
+    if (!landmark.is_too_large && lot->landmark == no_index) lot->landmark = i;
+  }
+}
+
+std::vector<Warning> landmark_warnings(const CityPlan& plan) {
+  std::vector<Warning> warnings;
+  for (const Landmark& landmark : plan.landmarks) {
+    if (landmark.is_too_large)
+      warnings.push_back(
+          {landmark.pointer + "/model", "the building is larger than the lot on which it stands", 0, 0});
+    if (landmark.lot != no_index) continue;
+    std::string place = "outside of the area";
+    if (landmark.part != no_index) {
+      const PartKind kind = plan.parts[landmark.part].kind;
+      if (kind == PartKind::park || kind == PartKind::square) continue;
+      place = kind == PartKind::water ? "on water" : std::string("on a ") + name_of(kind);
+    }
+    warnings.push_back({landmark.pointer + "/position",
+                        "the position is " + place + "; expected one on a lot, in a park or on a square", 0,
+                        0});
+  }
+  return warnings;
+}
+
+}  // namespace seedmesh::city

@@ -1,0 +1,68 @@
+#pragma once
+/// Adds models with many copies to the model of a city: houses, landmarks, furniture and trees.
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/generators/api.h"
+#include "core/generators/city/chunks.h"
+
+namespace seedmesh::city {
+
+/// The levels of detail of a model.
+struct LevelInfo {
+  std::vector<std::uint64_t> triangles;  ///< finest first
+  double radius = 0, middle = 0;         ///< of a sphere around it, and the height of its centre, metres
+};
+
+/// A point of view: chooses a level for each copy by the share of the screen's height that it fills, as scenes do.
+class ViewPoint {
+ public:
+  explicit ViewPoint(const CityParams& params);
+
+  /// Whether the request has a camera.
+  bool is_given() const { return half_height_ > 0; }
+  /// The level of a copy; 0 without a camera. Level 0 from half of the screen's height, 1 from 0.25, 2 from 0.12, 3
+  /// from 0.06.
+  std::size_t level(const LevelInfo& info, const Transform& at) const;
+
+ private:
+  glm::dvec3 at_{0};
+  double half_height_ = 0;
+};
+
+/// The number of levels that models of a city need.
+int level_count(const ViewPoint& view, const Demand& demand);
+
+struct Copy {
+  Transform at;
+  std::uint32_t chunk = 0;
+};
+
+class CopyWriter {
+ public:
+  CopyWriter(Model& city, ChunkNodes& nodes, const ViewPoint& view, const GenerateContext& context)
+      : city_(city), nodes_(nodes), view_(view), context_(context) {}
+
+  enum class Bodies { none, boxes };
+
+  /// Adds a model below the group of each chunk. Charges the triangles of all copies but one. With Bodies::boxes, each
+  /// copy gets a collision box if the output wants collision bodies.
+  void add(Model made, const std::string& name, const char* group, const std::vector<Copy>& copies,
+           Bodies bodies);
+
+ private:
+  int add_material(Material material, const Model& made);
+  int add_level(std::string name, std::vector<Primitive> primitives, const std::vector<int>& materials);
+  void add_bodies(int mesh, const char* group, const std::vector<Copy>& copies);
+
+  Model& city_;
+  ChunkNodes& nodes_;
+  const ViewPoint& view_;
+  const GenerateContext& context_;
+};
+
+/// Measures the levels of a model and empties it.
+LevelInfo level_info_of(Model made, Job& job);
+
+}  // namespace seedmesh::city

@@ -1,0 +1,62 @@
+#pragma once
+/// Objects that stand in a city as copies of shared models: furniture along the streets, trees, landmarks. They face
+/// along local +z, as buildings do with their fronts.
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/base/job.h"
+#include "core/generators/city/plan.h"
+#include "core/schema/child.h"
+
+namespace seedmesh {
+struct CityParams;
+}
+
+namespace seedmesh::city {
+
+struct CityObject {
+  glm::dvec2 position{0};  ///< metres east and north
+  double turn = 0;         ///< degrees, counter-clockwise from above
+  double scale = 1;
+  std::uint32_t model = 0;  ///< into the models of its kind
+  std::uint32_t part = 0;   ///< of the plan, on which it stands
+};
+
+/// All objects of one kind. Without requests, it has the built-in models of its name (furniture_models.h).
+struct ObjectKind {
+  std::string name;
+  std::string pointer;            ///< of its requests
+  std::span<const Child> models;  ///< of the parameters
+  std::vector<CityObject> objects;
+
+  std::uint32_t model_count() const;
+};
+
+/// Lamps, trees, benches, bins, signs and parked cars along all streets of level 0, as far as the request asks for
+/// them. Choices depend on the key of the street, its side, and the number of the position from the end with the
+/// smaller key. Cost: linear in the lengths of the streets.
+std::vector<ObjectKind> street_furniture(const CityPlan& plan, const CityParams& params, const Job& job);
+
+/// Trees in parks and yards. Choices depend on the key of the block or the lot.
+std::vector<ObjectKind> trees_of(const CityPlan& plan, const CityParams& params, const Job& job);
+
+/// A piece of a hedge or fence, metres.
+struct BorderPiece {
+  glm::dvec2 a{0}, b{0};
+  std::uint32_t part = 0;  ///< of one of its lots
+};
+
+/// The borders between neighbouring lots of which one has a building, without the parts that pass within 0.4 m of a
+/// building. Each is there once. Cost: n log n in the edges of lots.
+std::vector<BorderPiece> lot_borders(const CityPlan& plan, const Job& job);
+
+/// The distance from a position to a ring, metres.
+double distance_to_ring(const CmRing& ring, const glm::dvec2& metres);
+
+/// A direction from the street to the lot as the turn of an object that faces the street.
+double turn_of(const glm::dvec2& inward);
+
+}  // namespace seedmesh::city

@@ -1,0 +1,481 @@
+/// What stands in a city: houses and their requests, landmarks, furniture, trees and borders.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "core/base/math.h"
+#include "core/generators/child.h"
+#include "core/generators/city/city.h"
+#include "core/generators/city/furniture_models.h"
+#include "core/generators/city/house_requests.h"
+#include "core/generators/city/model_copies.h"
+#include "core/generators/city/objects.h"
+#include "core/geom/mesh/finish.h"
+#include "generated/params/city.h"
+#include "tests/support/context.h"
+#include "tests/support/mesh_faults.h"
+
+namespace seedmesh::city {
+namespace {
+
+using glm::dvec2;
+
+CityParams params_of(const char* json) {
+  IssueList errors;
+  Job job(1, Job::Options{});
+  const Generator& city = *find_generator(generators(), "city");
+  const Generator::Params read = read_parameters(city, Json::parse(json), "", {job, generators()}, errors);
+  for (const Issue& each : errors.issues()) ADD_FAILURE() << each.pointer << ": " << each.message;
+  return *static_cast<const CityParams*>(read.get());
+}
+
+std::vector<std::string> pointers_of(const char* json) {
+  IssueList errors;
+  Job job(1, Job::Options{});
+  read_parameters(*find_generator(generators(), "city"), Json::parse(json), "", {job, generators()}, errors);
+  std::vector<std::string> pointers;
+  for (const Issue& each : errors.issues()) pointers.push_back(each.pointer);
+  return pointers;
+}
+
+CityPlan plan_with(const CityParams& params, std::uint64_t seed) {
+  Job job(seed, Job::Options{});
+  Result<CityPlan> plan = plan_of(params, job);
+  EXPECT_TRUE(plan);
+  return *std::move(plan);
+}
+
+Model model_with(const CityParams& params, std::uint64_t seed, const Demand& demand = {}) {
+  Job job(seed, Job::Options{});
+  Result<Model> model = generate(params, context_of(job, demand));
+  EXPECT_TRUE(model);
+  return *std::move(model);
+}
+
+bool is_in(const Part& part, const dvec2& metres) {
+  bool inside = false;
+  for (const CmRing& ring : part.rings) inside ^= is_inside(ring, metres * 100.0);
+  return inside;
+}
+
+/// The kinds of the parts around a position.
+std::vector<PartKind> kinds_at(const CityPlan& plan, const dvec2& metres) {
+  std::vector<PartKind> kinds;
+  for (const Part& part : plan.parts) {
+    if (is_in(part, metres)) kinds.push_back(part.kind);
+  }
+  return kinds;
+}
+
+const ObjectKind* kind_named(const std::vector<ObjectKind>& kinds, std::string_view name) {
+  const auto found =
+      std::find_if(kinds.begin(), kinds.end(), [&](const ObjectKind& k) { return k.name == name; });
+  return found == kinds.end() ? nullptr : &*found;
+}
+
+constexpr const char* furnished =
+    R"({"area": {"size": [500, 420]}, "furniture": {"lamps": {}, "trees": {}, "benches": {},
+  "bins": {}, "signs": {}, "cars": {}}, "parks": {}, "yards": {}, "lots": {"park_share": 0.2}})";
+
+TEST(CityHouses, AreTheSameBuildingsAsTheirRequestsAlone) {
+  const CityParams params =
+      params_of(R"({"area": {"size": [260, 240]}, "buildings": {"variants": 3, "detail": 1}})");
+  const CityPlan plan = plan_with(params, 4);
+  const Model city = model_with(params, 4);
+  std::map<std::string, int> meshes;
+  for (const Node& node : city.nodes) {
+    if (node.mesh >= 0) meshes[node.name] = node.mesh;
+  }
+  const std::vector<SharedHouse> houses = shared_houses(plan, params);
+  ASSERT_GT(houses.size(), 20U);
+  std::size_t compared = 0;
+  auto mesh = meshes.begin();
+  while (mesh != meshes.end() && !mesh->first.starts_with("building_")) ++mesh;
+  std::vector<std::pair<std::uint64_t, Box>> in_city, alone;
+  for (; mesh != meshes.end() && mesh->first.starts_with("building_"); ++mesh) {
+    std::uint64_t triangles = 0;
+    Box box{glm::vec3(1e9F), glm::vec3(-1e9F)};
+    for (const Primitive& each : city.meshes[static_cast<std::size_t>(mesh->second)].primitives) {
+      triangles += each.mesh.elements();
+      const Box own = bounds_of(each.mesh);
+      box = {glm::min(box.min, own.min), glm::max(box.max, own.max)};
+    }
+    in_city.emplace_back(triangles, box);
+  }
+  for (const SharedHouse& each : houses) {
+    Job job(*each.request.seed, Job::Options{});
+    const Result<Model> made = generate_child(each.request, "", Rng(0), context_of(job));
+    ASSERT_TRUE(made);
+    alone.emplace_back(count(*made).triangles, bounds_of(*made));
+  }
+  ASSERT_EQ(in_city.size(), alone.size());
+  for (const auto& [triangles, box] : alone) {
+    const auto same =
+        std::find_if(in_city.begin(), in_city.end(), [&, &own = box, &number = triangles](const auto& each) {
+          return each.first == number && glm::length(each.second.min - own.min) < 0.02F &&
+                 glm::length(each.second.max - own.max) < 0.02F;
+        });
+    ASSERT_NE(same, in_city.end());
+    in_city.erase(same);
+    ++compared;
+  }
+  EXPECT_EQ(compared, houses.size());
+}
+
+TEST(CityHouses, FollowRulesByStreetFrontageAndZone) {
+  const CityParams params = params_of(R"({"area": {"size": [600, 500]},
+    "maps": {"zones": [{"zone": "east", "area": {"type": "Polygon",
+      "coordinates": [[[0, -250], [300, -250], [300, 250], [0, 250], [0, -250]]]}}]},
+    "buildings": {"rules": [{"blueprint": "villa", "zones": ["east"], "front": 2}, {"blueprint": "warehouse",
+      "streets": ["major"], "frontage": [20, 1000], "front": 2, "side": 1}]}})");
+  const CityPlan plan = plan_with(params, 9);
+  std::size_t villas = 0, warehouses = 0;
+  for (const Lot& lot : plan.lots) {
+    if (!lot.house) continue;
+    if (lot.house->rule == 0) {
+      ++villas;
+      EXPECT_EQ(lot.zone, "east");
+    } else {
+      ++warehouses;
+      EXPECT_EQ(plan.class_of(lot.street).name, "major");
+      EXPECT_GE(lot.frontage, 20);
+    }
+  }
+  EXPECT_GT(villas, 20U);
+  EXPECT_GT(warehouses, 5U);
+}
+
+TEST(CityHouses, FillTheirLotsToACentimetreWithSharedWalls) {
+  const char* text =
+      R"({"area": {"size": [500, 400]}, "streets": {"pattern": "raster"}, "lots": {"irregularity": 0.7},
+    "buildings": {"rules": [{"blueprint": "terraced_house", "floors": [2, 3], "front": 1, "share": 1, "shared_walls": true}]}})";
+  const CityPlan plan = plan_with(params_of(text), 2);
+  std::size_t houses = 0, whole = 0;
+  for (const Lot& lot : plan.lots) {
+    if (!lot.house || lot.is_corner) continue;
+    ++houses;
+    const double rest = lot.house->width - std::floor(lot.house->width);
+    whole += rest < 0.005 || rest > 0.995 ? 1 : 0;
+  }
+  ASSERT_GT(houses, 100U);
+  EXPECT_LT(whole, houses / 10);  // a hundredth would be whole metres by chance
+}
+
+TEST(CityHouses, PassTheNumberOfFloorsToTheNamedAttribute) {
+  const CityParams params =
+      params_of(R"({"area": {"size": [300, 300]}, "buildings": {"rules": [{"floors": [2, 5],
+    "floors_as": "levels", "building": {"generator": "building", "seed": 7, "parameters": {
+      "rules": "attr levels = 1\nLot --> extrude(levels * 3) Mass."}}}]}})");
+  const CityPlan plan = plan_with(params, 3);
+  const HouseRequests requests(params);
+  std::size_t houses = 0;
+  for (const Lot& lot : plan.lots) {
+    if (!lot.house) continue;
+    const Child request = requests.of(*lot.house);
+    Job job(*request.seed, Job::Options{});
+    const Result<Model> made = generate_child(request, "", Rng(0), context_of(job));
+    ASSERT_TRUE(made);
+    const Box box = bounds_of(*made);
+    EXPECT_NEAR(static_cast<double>(box.max.y), 3.0 * lot.house->floors, 1e-4);
+    EXPECT_NEAR(static_cast<double>(box.max.x - box.min.x), lot.house->width, 1e-4);
+    EXPECT_NEAR(static_cast<double>(box.max.z - box.min.z), lot.house->depth, 1e-4);
+    if (++houses == 20) break;
+  }
+  EXPECT_EQ(houses, 20U);
+}
+
+TEST(CityHouses, RefuseAttributesAndGeneratorsThatTheirBuildingsDoNotHave) {
+  using testing::Contains;
+  EXPECT_THAT(
+      pointers_of(R"({"buildings": {"rules": [{"blueprint": "house", "attributes": {"roof": "dome"}}]}})"),
+      Contains("/buildings/rules/0/attributes/roof"));
+  EXPECT_THAT(
+      pointers_of(R"({"buildings": {"rules": [{"blueprint": "house", "attributes": {"colour": 1}}]}})"),
+      Contains("/buildings/rules/0/attributes/colour"));
+  EXPECT_THAT(pointers_of(R"({"buildings": {"rules": [{"building": {"generator": "tree"}}]}})"),
+              Contains("/buildings/rules/0/building/generator"));
+  EXPECT_THAT(
+      pointers_of(R"({"buildings": {"rules": [{"floors_as": "levels", "building": {"preset": "house"}}]}})"),
+      Contains("/buildings/rules/0/floors_as"));
+  EXPECT_THAT(pointers_of(R"({"buildings": {"rules": [{"building": {"generator": "building",
+    "parameters": {"rules": "Lot --> extrude("}}}]}})"),
+              Contains("/buildings/rules/0/building/parameters/rules"));
+}
+
+TEST(Landmarks, ReplaceTheBuildingOfTheirLotOrKeepTheirBlockWhole) {
+  const CityPlan plain = plan_with(params_of(R"({"area": {"size": [500, 400]}})"), 5);
+  const auto built = std::find_if(plain.lots.begin(), plain.lots.end(),
+                                  [](const Lot& lot) { return lot.house.has_value(); });
+  ASSERT_NE(built, plain.lots.end());
+  const dvec2 place = built->house->position;
+  for (const std::string plot : {"lot", "block"}) {
+    Json json = {{"area", {{"size", {500, 400}}}}};
+    json["buildings"]["landmarks"] = Json::array({{{"model", {{"preset", "koch_snowflake"}}},
+                                                   {"position", {place.x, place.y}},
+                                                   {"turn", 30},
+                                                   {"plot", plot}}});
+    const CityParams params = params_of(json.dump().c_str());
+    const CityPlan plan = plan_with(params, 5);
+    ASSERT_EQ(plan.landmarks.size(), 1U);
+    ASSERT_NE(plan.landmarks[0].lot, no_index);
+    const Lot& lot = plan.lots[plan.landmarks[0].lot];
+    EXPECT_FALSE(lot.house);
+    EXPECT_EQ(lot.landmark, 0U);
+    EXPECT_EQ(plan.graph.edge_key, plain.graph.edge_key) << "landmarks move no street";
+    EXPECT_EQ(plan.lots.size() < plain.lots.size(), plot == "block");
+    const double block = area_of(plan.blocks[plan.parts[lot.part].block].rings);
+    EXPECT_EQ(std::abs(lot.area - block) < 1e-6, plot == "block");
+    const Model model = model_with(params, 5);
+    const auto node = std::find_if(model.nodes.begin(), model.nodes.end(), [](const Node& each) {
+      return each.name == "landmark_0" && each.mesh >= 0;
+    });
+    ASSERT_NE(node, model.nodes.end());
+    EXPECT_NEAR(static_cast<double>(node->transform.translation.x), place.x, 1e-4);
+    EXPECT_NEAR(static_cast<double>(node->transform.translation.z), -place.y, 1e-4);
+  }
+}
+
+TEST(Landmarks, AreNotInThePlanWhereTheyAreLargerThanTheirLot) {
+  const CityPlan plain = plan_with(params_of(R"({"area": {"size": [500, 400]}})"), 5);
+  const auto built = std::find_if(plain.lots.begin(), plain.lots.end(),
+                                  [](const Lot& lot) { return lot.house.has_value(); });
+  ASSERT_NE(built, plain.lots.end());
+  const dvec2 place = built->house->position;
+  for (const double size : {2.0, 120.0}) {
+    Json json = {{"area", {{"size", {500, 400}}}}};
+    json["buildings"]["landmarks"] =
+        Json::array({{{"model",
+                       {{"generator", "building"},
+                        {"parameters", {{"blueprint", "warehouse"}, {"size", {size, 0, size}}}}}},
+                      {"position", {place.x, place.y}}}});
+    const CityPlan plan = plan_with(params_of(json.dump().c_str()), 5);
+    const Lot& lot = plan.lots[plan.landmarks[0].lot];
+    EXPECT_EQ(lot.landmark == no_index, size > 100);
+    EXPECT_EQ(plan.landmarks[0].is_too_large, size > 100);
+    EXPECT_FALSE(lot.house);
+  }
+}
+
+TEST(Landmarks, WarnWhereTheyStandOnAStreetOrOutside) {
+  const CityParams params = params_of(R"({"area": {"size": [400, 400]}, "streets": {"method": "given"},
+    "given": {"streets": {"type": "FeatureCollection", "features": [{"type": "Feature", "properties": {},
+      "geometry": {"type": "LineString", "coordinates": [[-200, 0], [200, 0]]}}]}},
+    "buildings": {"rules": [], "landmarks": [{"model": {"preset": "koch_snowflake"}, "position": [0, 0]},
+      {"model": {"preset": "koch_snowflake"}, "position": [900, 0]}]}})");
+  Job job(1, Job::Options{});
+  const Result<Json> derived = derive(params, context_of(job));
+  ASSERT_TRUE(derived);
+  std::vector<std::string> pointers;
+  for (const Json& each : (*derived)["warnings"]) pointers.push_back(each["pointer"]);
+  EXPECT_THAT(pointers, testing::Contains("/buildings/landmarks/0/position"));
+  EXPECT_THAT(pointers, testing::Contains("/buildings/landmarks/1/position"));
+}
+
+TEST(Furniture, StandsOnSidewalksAndCarsOnCarriageways) {
+  const CityParams params = params_of(furnished);
+  std::map<std::string, std::size_t> counts;
+  for (std::uint64_t seed = 0; seed < 6; ++seed) {
+    const CityPlan plan = plan_with(params, seed);
+    Job job(seed, Job::Options{});
+    for (const ObjectKind& kind : street_furniture(plan, params, job)) {
+      counts[kind.name] += kind.objects.size();
+      for (const CityObject& each : kind.objects) {
+        const std::vector<PartKind> around = kinds_at(plan, each.position);
+        ASSERT_EQ(around.size(), 1U) << kind.name;
+        if (kind.name == "cars") {
+          ASSERT_EQ(around[0], PartKind::carriageway) << "seed " << seed;
+        } else {
+          ASSERT_TRUE(around[0] == PartKind::sidewalk || around[0] == PartKind::verge)
+              << kind.name << ", seed " << seed;
+        }
+      }
+    }
+  }
+  for (const char* name : {"lamps", "trees", "benches", "bins", "signs", "cars"})
+    EXPECT_GT(counts[name], 40U) << name;
+}
+
+TEST(Furniture, KeepsCarsOneLengthApartAndTreesEightMetresFromJunctions) {
+  const CityParams params = params_of(furnished);
+  const CityPlan plan = plan_with(params, 8);
+  Job job(8, Job::Options{});
+  const std::vector<ObjectKind> kinds = street_furniture(plan, params, job);
+  const ObjectKind* cars = kind_named(kinds, "cars");
+  ASSERT_NE(cars, nullptr);
+  for (std::size_t i = 0; i < cars->objects.size(); ++i) {
+    for (std::size_t k = 0; k < i; ++k)
+      ASSERT_GT(glm::length(cars->objects[i].position - cars->objects[k].position), 1.9);
+  }
+  const ObjectKind* trees = kind_named(kinds, "trees");
+  ASSERT_NE(trees, nullptr);
+  for (const CityObject& tree : trees->objects) {
+    for (std::uint32_t node = 0; node < plan.graph.nodes.size(); ++node) {
+      if (plan.graph.street_ends(node) <= 2) continue;
+      ASSERT_GT(glm::length(in_metres(plan.graph.nodes[node]) - tree.position), 8);
+    }
+  }
+}
+
+TEST(Furniture, DoesNotDependOnLotsAndBuildings) {
+  Json json = Json::parse(furnished);
+  const CityParams before = params_of(json.dump().c_str());
+  json["lots"]["area"] = {300, 1200};
+  json["buildings"]["rules"] = Json::array();
+  const CityParams after = params_of(json.dump().c_str());
+  const CityPlan plan = plan_with(before, 6), other = plan_with(after, 6);
+  Job job(6, Job::Options{}), again(6, Job::Options{});
+  const auto a = street_furniture(plan, before, job), b = street_furniture(other, after, again);
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    ASSERT_EQ(a[i].objects.size(), b[i].objects.size()) << a[i].name;
+    for (std::size_t k = 0; k < a[i].objects.size(); ++k)
+      EXPECT_EQ(a[i].objects[k].position, b[i].objects[k].position);
+  }
+}
+
+TEST(FurnitureModels, AreClosedBodiesWithoutDefects) {
+  for (const char* name : {"lamps", "trees", "benches", "bins", "signs", "cars", "park_trees"}) {
+    for (std::uint32_t number = 0; number < built_in_count(name); ++number) {
+      Job job(0, Job::Options{});
+      Model model = built_in_model(name, number, job);
+      EXPECT_EQ(count(model).triangles, built_in_triangles(name, number));
+      finish(model, job);
+      for (const std::string& each : faults(model)) ADD_FAILURE() << name << " " << number << ": " << each;
+      for (const Primitive& each : model.meshes[0].primitives) {
+        const MeshMeasures measures = measure({&each.mesh});
+        EXPECT_EQ(measures.open_edges, 0U) << name;
+        EXPECT_GT(measures.volume, 0) << name;
+      }
+    }
+  }
+}
+
+TEST(CityTrees, StandInParksAndInYardsBesideTheHouses) {
+  const CityParams params = params_of(furnished);
+  std::size_t in_parks = 0, in_yards = 0;
+  for (std::uint64_t seed = 0; seed < 4; ++seed) {
+    const CityPlan plan = plan_with(params, seed);
+    Job job(seed, Job::Options{});
+    for (const ObjectKind& kind : trees_of(plan, params, job)) {
+      const bool is_park = kind.name == "park_trees";
+      (is_park ? in_parks : in_yards) += kind.objects.size();
+      for (const CityObject& each : kind.objects) {
+        const std::vector<PartKind> around = kinds_at(plan, each.position);
+        ASSERT_EQ(around.size(), 1U);
+        ASSERT_EQ(around[0], is_park ? PartKind::park : PartKind::lot);
+        for (const Lot& lot : plan.lots) {
+          if (!lot.house) continue;
+          const double half = std::min(lot.house->width, lot.house->depth) / 2;
+          ASSERT_GT(glm::length(lot.house->position - each.position), half);
+        }
+      }
+    }
+  }
+  EXPECT_GT(in_parks, 100U);
+  EXPECT_GT(in_yards, 100U);
+}
+
+TEST(LotBorders, AreEachThereOnceAndPassNoHouse) {
+  const CityParams params = params_of(furnished);
+  const CityPlan plan = plan_with(params, 3);
+  Job job(3, Job::Options{});
+  const std::vector<BorderPiece> pieces = lot_borders(plan, job);
+  ASSERT_GT(pieces.size(), 100U);
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    for (double share = 0; share <= 1; share += 0.05) {
+      const dvec2 p = pieces[i].a + (pieces[i].b - pieces[i].a) * share;
+      for (const Lot& lot : plan.lots) {
+        if (!lot.house) continue;
+        const math::SinCos turn = math::sincos_degrees(lot.house->turn);
+        const dvec2 off = p - lot.house->position;
+        const double x = off.x * turn.cos + off.y * turn.sin, y = off.y * turn.cos - off.x * turn.sin;
+        // A border may end at the corner of a third lot, 0.6 m from its house.
+        ASSERT_FALSE(std::abs(x) < lot.house->width / 2 + 0.2 && std::abs(y) < lot.house->depth / 2 + 0.2);
+      }
+    }
+    for (std::size_t k = 0; k < i; ++k) {
+      const dvec2 gap = (pieces[i].a + pieces[i].b - pieces[k].a - pieces[k].b) / 2.0;
+      ASSERT_GT(glm::length(gap), 0.01) << "a border is there twice";
+    }
+  }
+}
+
+TEST(Chunks, DivideAModelWithoutChangingItsTriangles) {
+  Json json = Json::parse(furnished);
+  const Model whole = model_with(params_of(json.dump().c_str()), 5);
+  for (const char* by : {"blocks", "squares"}) {
+    json["chunks"] = {{"by", by}};
+    if (std::string(by) == "squares") json["chunks"]["size"] = 120;
+    const Model divided = model_with(params_of(json.dump().c_str()), 5);
+    EXPECT_EQ(count(divided).triangles, count(whole).triangles) << by;
+    EXPECT_EQ(bounds_of(divided).min, bounds_of(whole).min);
+    std::size_t chunks = 0;
+    for (const Node& node : divided.nodes) chunks += node.parent == 0 && node.mesh < 0 ? 1 : 0;
+    EXPECT_GE(chunks, 12U) << by;
+  }
+}
+
+TEST(CityCamera, ShowsCoarserModelsFarAway) {
+  Json json = Json::parse(R"({"area": {"size": [400, 400]}, "buildings": {"detail": 0,
+    "rules": [{"blueprint": "house", "floors": [1, 2]}]}})");
+  const std::uint64_t finest = count(model_with(params_of(json.dump().c_str()), 2)).triangles;
+  std::uint64_t before = finest;
+  for (const double height : {15.0, 250.0}) {
+    json["camera"] = {{"position", {0, 0, height}}};
+    const std::uint64_t triangles = count(model_with(params_of(json.dump().c_str()), 2)).triangles;
+    EXPECT_LT(triangles, before) << height;
+    before = triangles;
+  }
+}
+
+TEST(CityCollision, HasABoxAroundEachHouse) {
+  const CityParams params = params_of(R"({"area": {"size": [300, 300]}})");
+  Demand demand;
+  demand.collision = CollisionNames::plain;
+  const CityPlan plan = plan_with(params, 2);
+  const Model model = model_with(params, 2, demand);
+  std::size_t houses = 0, bodies = 0;
+  for (const Lot& lot : plan.lots) houses += lot.house ? 1 : 0;
+  for (const Node& node : model.nodes) bodies += node.collision == CollisionShape::convex ? 1 : 0;
+  ASSERT_GT(houses, 20U);
+  EXPECT_EQ(bodies, houses);
+}
+
+TEST(CityEstimate, IsWithinAFifthOfTheTriangles) {
+  for (const std::string& text :
+       {std::string(furnished), std::string(R"({"area": {"size": [600, 500]}})"),
+        std::string(R"({"area": {"size": [400, 400]}, "camera": {"position": [0, 0, 80]},
+                                    "buildings": {"detail": 0}})")}) {
+    const CityParams params = params_of(text.c_str());
+    Job job(3, Job::Options{});
+    const Result<Appraisal> appraisal = appraise(params, context_of(job));
+    ASSERT_TRUE(appraisal && appraisal->estimate);
+    const double made = static_cast<double>(count(model_with(params, 3)).triangles);
+    EXPECT_NEAR(static_cast<double>(appraisal->estimate->triangles) / made, 1, 0.2) << text;
+  }
+}
+
+TEST(CityInAScene, IsAModelOfALayer) {
+  const Json town = {{"area", {{"size", {200, 180}}}}, {"furniture", {{"lamps", Json::object()}}}};
+  const std::uint64_t alone = count(model_with(params_of(town.dump().c_str()), 5)).triangles;
+  Json layer = {{"name", "town"}, {"model", {{"generator", "city"}, {"seed", 5}, {"parameters", town}}}};
+  layer["place"] = {{"method", "positions"}, {"positions", {{{"at", {-200, 0}}}, {{"at", {250, 100}}}}}};
+  const Json scene = {{"ground", {{"outline", "none"}}}, {"layers", Json::array({layer})}};
+  const Generator& generator = *find_generator(generators(), "scene");
+  IssueList errors;
+  Job job(1, Job::Options{});
+  const Generator::Params read = read_parameters(generator, scene, "", {job, generators()}, errors);
+  ASSERT_TRUE(errors.empty());
+  const Result<Model> model = generator.generate(read, context_of(job));
+  ASSERT_TRUE(model);
+  // The variant of the layer has a seed of its own, so its town differs a little.
+  EXPECT_NEAR(static_cast<double>(count(*model).triangles), 2.0 * static_cast<double>(alone),
+              0.1 * 2 * static_cast<double>(alone));
+}
+
+}  // namespace
+}  // namespace seedmesh::city

@@ -1,0 +1,156 @@
+/// What stays when a request changes a little, and how fast a bad request is refused.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "core/pipeline.h"
+#include "core/schema/json.h"
+
+namespace seedmesh {
+namespace {
+
+Request request_of(const Json& parameters, std::uint64_t seed) {
+  const Json body = {{"generator", "city"}, {"seed", seed}, {"parameters", parameters}};
+  Result<Request> request = read_request(body.dump(), Limits{});
+  EXPECT_TRUE(request);
+  return *std::move(request);
+}
+
+Json plan_of(const Json& parameters, std::uint64_t seed) {
+  const Result<std::string> text = derive(request_of(parameters, seed), {});
+  EXPECT_TRUE(text);
+  return Json::parse(*text)["plan"]["features"];
+}
+
+std::string bytes_of(const Json& parameters, int threads) {
+  Job::Options options;
+  options.threads = threads;
+  const Result<Product> product = produce(request_of(parameters, 4), options);
+  EXPECT_TRUE(product);
+  std::string bytes;
+  for (const auto& slice : product->payload.pieces())
+    bytes.append(reinterpret_cast<const char*>(slice.data()), slice.size());
+  return bytes;
+}
+
+/// Streets by their lines, without regard to their direction.
+std::set<std::string> lines_of(const Json& features, double east = -1e9, double north = -1e9) {
+  std::set<std::string> lines;
+  for (const Json& each : features) {
+    if (each["properties"]["kind"] != "street") continue;
+    Json line = each["geometry"]["coordinates"];
+    bool is_far = true;
+    for (const Json& p : line) {
+      const double off_east = std::max(0.0, east - p[0].get<double>()),
+                   off_north = std::max(0.0, north - p[1].get<double>());
+      is_far &= east < -1e8 || std::hypot(off_east, off_north) > 300;
+    }
+    if (!is_far) continue;
+    if (line.back() < line.front()) std::reverse(line.begin(), line.end());
+    lines.insert(line.dump());
+  }
+  return lines;
+}
+
+double kept_share(const std::set<std::string>& before, const std::set<std::string>& after) {
+  const auto kept = std::count_if(before.begin(), before.end(),
+                                  [&](const std::string& each) { return after.contains(each); });
+  return static_cast<double>(kept) / static_cast<double>(before.size());
+}
+
+const Json grown = Json::parse(R"({"area": {"size": [1600, 1600]}, "maps": {"density": "0.55"},
+  "streets": {"pattern": "organic", "branch_probability": 0.4}, "lots": {"method": "none"}, "buildings": {"rules": []}})");
+
+TEST(CityStability, GivesTheSameBytesWithOneTwoAndEightThreads) {
+  const Json furnished =
+      Json::parse(R"({"area": {"size": [500, 400]}, "furniture": {"lamps": {}, "trees": {}, "cars": {}},
+    "parks": {}, "yards": {}, "chunks": {"size": 150}, "maps": {"water": "abs(y + 90) < 12"},
+    "buildings": {"variants": 4, "landmarks": [{"model": {"preset": "temple"}, "position": [60, 60], "plot": "block"}]}})");
+  const std::string one = bytes_of(furnished, 1);
+  ASSERT_GT(one.size(), 100'000U);
+  EXPECT_TRUE(one == bytes_of(furnished, 2));
+  EXPECT_TRUE(one == bytes_of(furnished, 8));
+}
+
+TEST(CityStability, KeepsNearlyAllStreetsFarFromAQuarterThatBecomesDenser) {
+  for (const std::uint64_t seed : {3U, 11U}) {
+    Json denser = grown;
+    denser["maps"]["density"] = "0.55 + 0.3 * (x > 200 && y > 200)";
+    const auto far = lines_of(plan_of(grown, seed), 200, 200);
+    ASSERT_GT(far.size(), 100U);
+    EXPECT_GE(kept_share(far, lines_of(plan_of(denser, seed))), 0.95);
+  }
+}
+
+TEST(CityStability, KeepsMostStreetsAtASlightlyGreaterBranchProbability) {
+  for (const std::uint64_t seed : {3U, 11U}) {
+    Json more = grown;
+    more["streets"]["branch_probability"] = 0.41;
+    EXPECT_GE(kept_share(lines_of(plan_of(grown, seed)), lines_of(plan_of(more, seed))), 0.6);
+  }
+}
+
+TEST(CityStability, MovesNoStreetForLotsAndNoLotForBuildingsAndFurniture) {
+  Json town = grown;
+  town["area"]["size"] = {700, 600};
+  town["lots"] = Json::object();
+  const auto geometry = [](const Json& features, const std::string& kind) {
+    std::set<std::string> found;
+    for (const Json& each : features) {
+      if (each["properties"]["kind"] == kind) found.insert(each["geometry"].dump());
+    }
+    return found;
+  };
+  const Json before = plan_of(town, 7);
+  Json lots = town, houses = town;
+  lots["lots"] = {{"area", {300, 900}}, {"irregularity", 0.7}, {"method", "skeleton"}};
+  houses["buildings"] = {{"rules", {{{"blueprint", "villa"}, {"front", 5}}}}, {"detail", 0}};
+  houses["furniture"] = {{"lamps", Json::object()}};
+  EXPECT_EQ(geometry(before, "street"), geometry(plan_of(lots, 7), "street"));
+  EXPECT_NE(geometry(before, "lot"), geometry(plan_of(lots, 7), "lot"));
+  EXPECT_EQ(geometry(before, "street"), geometry(plan_of(houses, 7), "street"));
+  EXPECT_EQ(geometry(before, "lot"), geometry(plan_of(houses, 7), "lot"));
+}
+
+TEST(BadCities, AreRefusedWithinATenthOfASecondWithTheirPointers) {
+  const std::pair<const char*, const char*> cases[] = {
+      {R"({"area": {"size": [0, 500]}})", "/parameters/area/size/0"},
+      {R"({"area": {"polygon": [[[0, 0], [500, 500], [500, 0], [0, 500]]]}})", "/parameters/area/polygon"},
+      {R"({"lots": {"area": [800, 200]}})", "/parameters/lots/area"},
+      {R"({"lots": {"area": [40, 90], "width": 60}})", "/parameters/lots/width"},
+      {R"({"maps": {"density": "x +* 2"}})", "/parameters/maps/density"},
+      {R"({"maps": {"density": "data:image/png;base64,iVBORw0KGgoAAAANSUhEUg=="}})",
+       "/parameters/maps/density"},
+      {R"({"maps": {"zones": [{"zone": "a", "area": {"type": "Polygon", "coordinates": [[[0, 0], [1, 1]]]}}]}})",
+       "/parameters/maps/zones/0"},
+      {R"({"streets": {"method": "given"}, "given": {"streets": {"type": "FeatureCollection", "features": [
+          {"type": "Feature", "properties": {}, "geometry": {"type": "LineString", "coordinates": [[-200, 0], [200, 0]]}},
+          {"type": "Feature", "properties": {}, "geometry": {"type": "LineString", "coordinates": [[0, -200], [0, 200]]}}]}}})",
+       "/parameters/given/streets/features/1"},
+      {R"({"furniture": {"cars": {"spacing": 2}}})", "/parameters/furniture/cars/spacing"},
+      {R"({"furniture": {"lamps": {"models": [{"preset": "no_such_lamp"}]}}})",
+       "/parameters/furniture/lamps/models/0"},
+      {R"({"buildings": {"landmarks": [{"position": [0, 0]}]}})", "/parameters/buildings/landmarks/0"},
+      {R"({"buildings": {"rules": [{"frontage": [40, 10]}]}})", "/parameters/buildings/rules/0/frontage"}};
+  for (const auto& [parameters, pointer] : cases) {
+    const std::string body = std::string(R"({"generator": "city", "parameters": )") + parameters + "}";
+    const auto start = std::chrono::steady_clock::now();
+    const Result<Request> request = read_request(body, Limits{});
+    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
+    ASSERT_FALSE(request) << parameters;
+    const auto& issues = request.error().issues;
+    const auto points = [&, &wanted = pointer](const Issue& each) {
+      return each.pointer.starts_with(wanted);
+    };
+    EXPECT_TRUE(std::any_of(issues.begin(), issues.end(), points))
+        << parameters << ": " << issues.front().pointer;
+    EXPECT_LT(took.count(), 0.1) << parameters;
+  }
+}
+
+}  // namespace
+}  // namespace seedmesh
