@@ -192,10 +192,8 @@ Library library_of(const Model& model, const Job& job) {
       if (key.first < 0 || library.contains(key)) return;
       const Image& image = *model.textures[static_cast<std::size_t>(key.first)];
       if (image.mime != "image/png" && image.mime != "image/webp") return;
-      const auto bytes = std::as_bytes(std::span(image.bytes));
-      const Result<Picture> picture =
-          image.mime == "image/png" ? decode_png(bytes, {}, job) : decode_webp(bytes, {}, job);
-      if (picture) library.emplace(key, Texels(*picture, key.second, job));
+      const Result<Decoded> decoded = decode_picture(std::as_bytes(std::span(image.bytes)), {}, job);
+      if (decoded && decoded->picture) library.emplace(key, Texels(*decoded->picture, key.second, job));
     });
   }
   return library;
