@@ -76,6 +76,22 @@ struct Product {
 Result<Product> produce(const Request& request, const Job::Options& options,
                         TextureStore* texture_store = nullptr);
 
+/// How a picture of a model is taken: square, from a direction in degrees (azimuth 0 is +Z and 90 is +X).
+struct PictureWish {
+  enum class Ground { auto_, none, plane };
+  std::uint32_t size = 512;  ///< pixels a side, from 16 to 1024
+  double azimuth = 35, elevation = 18;
+  Ground ground = Ground::auto_;  ///< auto_: a plane below plants, buildings and fractals
+  std::string text() const;       ///< the same wish gives the same text
+};
+/// Takes `size`, `view` and `ground` out of a query. Code::invalid holds every error, with the pointer "/<key>".
+Result<PictureWish> read_picture_wish(Overrides& query);
+
+/// A picture of the model of a request as WebP, drawn in software, with textures of at most 256 texels. Levels of
+/// detail, animation and format of the request have no effect. Its bytes are the same on every machine.
+Result<Product> draw_picture(const Request& request, const PictureWish& wish, const Job::Options& options,
+                             TextureStore* texture_store = nullptr);
+
 /// The image of a generated texture. `name` is the part after the engine version in the links that
 /// `output.textures: "links"` writes (core/texture/link.h). An unknown name is Code::invalid.
 Result<std::shared_ptr<const Image>> make_texture(std::string_view name, const Job::Options& options,

@@ -107,12 +107,6 @@ http::Response json_response(int status, std::string text) {
   return response;
 }
 
-std::string origin_of(const Call& call) {
-  const bool is_secure =
-      call.service.config.tls || call.request.header("X-Forwarded-Proto").starts_with("https");
-  return (is_secure ? "https://" : "http://") + call.request.header("Host");
-}
-
 }  // namespace
 
 http::Response post_mcp(Call& call) {

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "core/base/base64url.h"
 #include "core/base/token.h"
 #include "server/files.h"
 #include "server/mcp.h"
@@ -14,6 +15,7 @@ namespace {
 
 constexpr std::size_t longest_text = 12'000;  ///< characters of a derivation
 constexpr std::size_t most_differences = 100;
+constexpr std::uint32_t picture_size = 384;  ///< about 10 KB, which a context holds
 
 std::string dumped(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
 
@@ -90,6 +92,16 @@ Json statistics_of(const CachedModel& made) {
           {"warnings", statistics.warnings}};
 }
 
+/// A picture of the model as image content; nothing where it cannot be drawn, as for worlds.
+std::optional<Json> picture_content(Context& context, const Request& request) {
+  const Cache::Answer answer = picture_of(context.call, request, {.size = picture_size});
+  const auto* entry = std::get_if<Cache::Entry>(&answer.outcome);
+  if (!entry) return std::nullopt;
+  return Json{{"type", "image"},
+              {"data", base64((*entry)->payload->text())},
+              {"mimeType", (*entry)->product.media_type}};
+}
+
 Json generate(Context& context, const Json& arguments) {
   auto read = read_request_in(context, arguments);
   if (const auto* refusal = std::get_if<http::Response>(&read)) return refused(*refusal);
@@ -113,6 +125,8 @@ Json generate(Context& context, const Json& arguments) {
                                  {"name", file},
                                  {"mimeType", made.product.media_type},
                                  {"size", made.payload->size()}});
+  if (std::optional<Json> picture = picture_content(context, wanted.request))
+    result["content"].push_back(*std::move(picture));
   return result;
 }
 
@@ -280,7 +294,9 @@ constexpr Tool tools[] = {
      "Checks a request and estimates triangles and bytes without making a model. Errors name a JSON Pointer.",
      request_schema, check},
     {"generate", "Generate a model",
-     "Makes the model of a request. Returns its link and statistics. The same request gives the same bytes.",
+     "Makes the model of a request. Returns its link, statistics and a picture. The same request gives the "
+     "same "
+     "bytes.",
      request_schema, generate},
     {"derive", "Derive a request",
      "Shows the generator's result before geometry, such as the word of an L-system. Long parts are cut.",

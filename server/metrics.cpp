@@ -136,6 +136,7 @@ struct Metrics::Series {
       counters_by("seedmesh_key_requests_total", "Requests admitted with an API key, by its name.");
   Counter& bytes = counters_by("seedmesh_response_bytes_total", "Bytes sent, with heads.").Add({});
   Counter& models = counters_by("seedmesh_models_total", "Models generated.").Add({});
+  Counter& pictures = counters_by("seedmesh_pictures_total", "Pictures of models drawn.").Add({});
   Counter& triangles = counters_by("seedmesh_triangles_total", "Triangles generated.").Add({});
   Counter& vertices = counters_by("seedmesh_vertices_total", "Vertices generated.").Add({});
 
@@ -211,6 +212,8 @@ void Metrics::used(std::string_view key) { series_->used.Add({{"key", std::strin
 void Metrics::spent(std::string_view span, double seconds) {
   series_->spans.Add({{"span", std::string(span)}}, answer_seconds).Observe(seconds);
 }
+
+void Metrics::drawn() { series_->pictures.Increment(); }
 
 void Metrics::made(const Statistics& statistics) {
   series_->models.Increment();

@@ -29,10 +29,12 @@ class Metrics {
   void cancelled(std::string_view reason);
   /// Counts a request that was admitted with an API key. The names come from the configuration.
   void used(std::string_view key);
-  /// Records the time of a part of a generation: "queue", "derive", "mesh", "encode", "compress".
+  /// Records the time of a part of a generation: "queue", "derive", "mesh", "encode", "render", "compress".
   void spent(std::string_view span, double seconds);
   /// Counts a generated model.
   void made(const Statistics& statistics);
+  /// Counts a picture that was drawn.
+  void drawn();
 
   /// Values at the time of a request for /metrics.
   struct Levels {

@@ -25,6 +25,7 @@ struct Route {
 constexpr Route table[] = {
     {"POST", "/v1/generate", post_generate, Guard::closed},
     {"GET", "/v1/models/{token}", get_model, Guard::closed, Query::read},
+    {"GET", "/m/{token}", get_card, Guard::closed},
     {"GET", "/v1/textures/{name}", get_texture, Guard::closed},
     {"GET", "/v1/worlds/{file*}", get_world, Guard::open, Query::read},
     {"GET", "/v1/presets", get_presets},

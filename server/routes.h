@@ -1,5 +1,6 @@
 #pragma once
 /// Routing: one table of patterns, methods and functions.
+#include "server/caching.h"
 #include "server/service.h"
 
 namespace seedmesh {
@@ -11,6 +12,15 @@ http::Response route(Service& service, const http::Request& request);
 http::Response post_generate(Call& call);  // routes_models.cpp
 http::Response get_model(Call& call);
 http::Response get_preset(Call& call);
+
+/// Whether a query may have keys beside those of a picture.
+enum class RestOfQuery { refused, kept };
+/// Takes the keys of a picture out of a query. Returns the response on an error (routes_pictures.cpp).
+std::variant<PictureWish, http::Response> read_wish(const Call& call, Overrides& query, RestOfQuery rest);
+/// A picture of the model of a request.
+http::Response picture_answer(Call& call, const Request& request, const PictureWish& wish, Caching caching);
+
+http::Response get_card(Call& call);  // routes_card.cpp
 
 http::Response get_texture(Call& call);  // routes_textures.cpp
 

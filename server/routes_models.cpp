@@ -162,7 +162,11 @@ std::pair<std::string, std::string> split_extension(const std::string& name) {
   return {name.substr(0, dot), name.substr(dot + 1)};
 }
 
-bool is_extension(std::string_view text) { return text == "json" || format_with_extension(text) != nullptr; }
+constexpr std::string_view picture_extension = "webp";
+
+bool is_extension(std::string_view text) {
+  return text == "json" || text == picture_extension || format_with_extension(text) != nullptr;
+}
 
 /// The request in the format that the extension of a URL names.
 Result<Request> in_format(const Request& request, std::string_view extension) {
@@ -180,8 +184,27 @@ std::optional<Result<Request>> preset_in_format(const Call& call, const std::str
   return read_preset(name, overrides, call.service.config.limits);
 }
 
+http::Response picture_of_permalink(Call& call, const Request& request, Caching caching) {
+  auto query = parse_query(call);
+  if (auto* refusal = std::get_if<http::Response>(&query)) return std::move(*refusal);
+  auto wish = read_wish(call, std::get<Overrides>(query), RestOfQuery::refused);
+  if (auto* refusal = std::get_if<http::Response>(&wish)) return std::move(*refusal);
+  return picture_answer(call, request, std::get<PictureWish>(wish), caching);
+}
+
+http::Response picture_of_preset(Call& call, const std::string& name, Overrides query) {
+  auto wish = read_wish(call, query, RestOfQuery::kept);
+  if (auto* refusal = std::get_if<http::Response>(&wish)) return std::move(*refusal);
+  auto read = read_preset(name, query, call.service.config.limits);
+  if (!read) return refuse(call, problem(404, no_preset(name)));
+  if (!*read) return refuse(call, problem_of(read->error()));
+  if (auto refusal = check_allowed(call, **read)) return std::move(*refusal);
+  return picture_answer(call, **read, std::get<PictureWish>(wish), Caching::revalidate);
+}
+
 http::Response redirect_to_own(const Call& call, const Request& request, const std::string& extension) {
-  const std::string own = permalink(write_token(request.canonical(), engine_version()), extension);
+  std::string own = permalink(write_token(request.canonical(), engine_version()), extension);
+  if (extension == picture_extension && !call.query().empty()) own.append("?").append(call.query());
   http::Response response;
   response.status = 307;
   response.set("Location", call.service.access.signed_until(call.grant, own));
@@ -205,7 +228,7 @@ http::Response post_generate(Call& call) {
 }
 
 http::Response get_model(Call& call) {
-  if (!call.query().empty())
+  if (!call.query().empty() && !call.name.ends_with(".webp"))
     return refuse(call,
                   problem_of({Code::invalid, {{IssueKind::unknown_key, "", "A permalink has no query."}}}));
   auto [text, extension] = split_extension(call.name);
@@ -216,7 +239,8 @@ http::Response get_model(Call& call) {
   if (auto remembered = call.service.targets.find(target))
     return model_answer(call, *remembered, Caching::immutable);
   if (!is_extension(extension))
-    return refuse(call, problem(404, "A permalink ends with " + output_extension_list({"json"}) + "."));
+    return refuse(call,
+                  problem(404, "A permalink ends with " + output_extension_list({"json", "webp"}) + "."));
 
   Result<Token> token = read_token(text, std::min(call.service.config.body_limit, largest_token_text));
   if (!token) return refuse(call, problem_of(token.error()));
@@ -227,6 +251,7 @@ http::Response get_model(Call& call) {
     return redirect_to_own(call, *request, for_proctree ? "proctree.json" : extension);
   // Without an engine version, a later version may answer with other bytes.
   const Caching caching = token->engine ? Caching::immutable : Caching::revalidate;
+  if (extension == picture_extension) return picture_of_permalink(call, *request, caching);
   if (for_proctree) {
     Job::Options options;
     options.limits = call.service.config.limits;
@@ -254,11 +279,12 @@ http::Response get_preset(Call& call) {
   if (auto remembered = call.service.targets.find(target))
     return model_answer(call, *remembered, Caching::revalidate);
   if (!extension.empty() && !is_extension(extension))
-    return refuse(call, problem(404, "The name of a preset ends with " + output_extension_list({"json"}) +
-                                         ", or has no extension."));
+    return refuse(call, problem(404, "The name of a preset ends with " +
+                                         output_extension_list({"json", "webp"}) + ", or has no extension."));
   auto query = parse_query(call);
   if (auto* refusal = std::get_if<http::Response>(&query)) return std::move(*refusal);
   const Overrides overrides = std::get<Overrides>(std::move(query));
+  if (extension == picture_extension) return picture_of_preset(call, name, overrides);
   auto read = preset_in_format(call, name, overrides, extension);
   if (!read) return refuse(call, problem(404, no_preset(name)));
   if (!*read) return refuse(call, problem_of(read->error()));

@@ -25,14 +25,12 @@ Problem not_admitted(Service& service, Admission::Refused why) {
   return problem(503, "The service cannot accept the request.");
 }
 
-Cache::Outcome generate(const Call& call, const TaggedRequest& wanted, const std::stop_token& stop,
-                        const Job::Progress& progress) {
-  SharedCache& shared = call.service.shared;
-  if (Cache::Entry entry = shared.get(wanted.request.canonical(), token_of(wanted.request))) return entry;
+/// Makes a product with a worker, and records its times.
+Cache::Outcome made_by(const Call& call, const std::stop_token& stop, std::string token,
+                       const std::function<Result<Product>(Job::Options)>& make) {
   Cache::Outcome outcome;
   const auto work = [&](Job::Options options) {
-    options.progress = progress;
-    Result<Product> product = produce(wanted.request, options, &call.service.textures);
+    Result<Product> product = make(std::move(options));
     if (!product) {
       outcome = problem_of(product.error());
       return;
@@ -41,14 +39,27 @@ Cache::Outcome generate(const Call& call, const TaggedRequest& wanted, const std
     made->product = std::move(*product);
     made->payload = std::make_shared<const Payload>(std::move(made->product.payload));
     made->product.warnings.clear();  // they are inside the model
-    made->token = token_of(wanted.request);
-    call.service.metrics.made(made->product.statistics);
+    made->token = std::move(token);
     for (const Product::Span& span : made->product.timing)
       call.service.metrics.spent(span.name, span.milliseconds / 1e3);
     outcome = Cache::Entry(std::move(made));
   };
   if (auto refused = with_worker(call, stop, work)) return std::move(*refused);
-  if (const auto* entry = std::get_if<Cache::Entry>(&outcome)) shared.put(wanted.request.canonical(), *entry);
+  return outcome;
+}
+
+Cache::Outcome generate(const Call& call, const TaggedRequest& wanted, const std::stop_token& stop,
+                        const Job::Progress& progress) {
+  SharedCache& shared = call.service.shared;
+  if (Cache::Entry entry = shared.get(wanted.request.canonical(), token_of(wanted.request))) return entry;
+  Cache::Outcome outcome = made_by(call, stop, token_of(wanted.request), [&](Job::Options options) {
+    options.progress = progress;
+    return produce(wanted.request, options, &call.service.textures);
+  });
+  if (const auto* entry = std::get_if<Cache::Entry>(&outcome)) {
+    call.service.metrics.made((*entry)->product.statistics);
+    shared.put(wanted.request.canonical(), *entry);
+  }
   return outcome;
 }
 
@@ -102,6 +113,12 @@ void TargetCache::insert(const std::string& target, const TaggedRequest& wanted)
 Clock::time_point deadline_of(const Call& call) {
   return call.request.arrived + std::chrono::duration_cast<Clock::duration>(
                                     std::chrono::duration<double>(call.service.config.time_limit));
+}
+
+std::string origin_of(const Call& call) {
+  const bool is_secure =
+      call.service.config.tls || call.request.header("X-Forwarded-Proto").starts_with("https");
+  return (is_secure ? "https://" : "http://") + call.request.header("Host");
 }
 
 Job::Options options_without_worker(const Call& call) {
@@ -160,6 +177,19 @@ Cache::Answer model_of(const Call& call, const TaggedRequest& wanted, const Job:
   return call.service.cache.get(
       wanted.request.canonical(), call.request.gone,
       [&](const std::stop_token& stop) { return generate(call, wanted, stop, progress); });
+}
+
+Cache::Answer picture_of(const Call& call, const Request& request, const PictureWish& wish) {
+  // No canonical request ends with a line.
+  return call.service.cache.get(request.canonical() + '\n' + wish.text(), call.request.gone,
+                                [&](const std::stop_token& stop) {
+                                  Cache::Outcome outcome = made_by(call, stop, {}, [&](Job::Options options) {
+                                    return draw_picture(request, wish, options, &call.service.textures);
+                                  });
+                                  if (std::holds_alternative<Cache::Entry>(outcome))
+                                    call.service.metrics.drawn();
+                                  return outcome;
+                                });
 }
 
 std::shared_ptr<const StaticText> StaticTexts::get(const std::string& path, Coding coding,

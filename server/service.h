@@ -121,6 +121,9 @@ struct Call {
 using Clock = std::chrono::steady_clock;
 Clock::time_point deadline_of(const Call& call);
 
+/// "https://host:port" as the client wrote it.
+std::string origin_of(const Call& call);
+
 /// The options of work without a worker: limits, stop and deadline of the request.
 Job::Options options_without_worker(const Call& call);
 
@@ -135,6 +138,9 @@ std::optional<Problem> with_tile_worker(const Call& call, int level, const std::
 
 /// The model of a request, from a cache or generated now.
 Cache::Answer model_of(const Call& call, const TaggedRequest& wanted, const Job::Progress& progress);
+
+/// A picture of the model of a request, from the cache or drawn now.
+Cache::Answer picture_of(const Call& call, const Request& request, const PictureWish& wish);
 
 /// Waits until the memory of responses in flight is below its limit. False after two seconds or the deadline.
 bool wait_for_memory(const Call& call);

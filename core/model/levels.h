@@ -2,6 +2,7 @@
 /// Queries on the levels of detail of a model.
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
 #include "core/model/model.h"
 
@@ -13,6 +14,10 @@ std::size_t levels_of(const Model& model);
 /// The mesh that `node` shows at `level` (0 is the finest), or -1 where it shows none. A node with fewer
 /// levels shows its coarsest.
 int mesh_at(const Node& node, std::size_t level);
+
+/// Shares of the screen's height below which each of the `coarser` levels of a node is shown, falling; the coarsest is
+/// shown from 0 on. An impostor takes over where it is about as large as its texture is sharp.
+std::vector<float> screen_shares(const Node& node, std::size_t coarser);
 
 /// Triangles of all primitives of `group`.
 std::uint64_t triangles_of(const MeshGroup& group);

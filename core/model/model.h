@@ -20,7 +20,9 @@ struct Image {
   std::string name;
   std::string mime = "image/png";
   std::vector<std::uint8_t> bytes;
-  std::string uri;  ///< where the bytes are; empty: here
+  std::string uri;                         ///< where the bytes are; empty: here
+  bool is_given = false;                   ///< it came with the request, and keeps its format
+  std::shared_ptr<const Image> webp = {};  ///< the same as WebP, for readers of EXT_texture_webp; null: none
 };
 
 struct TextureUse {
@@ -113,8 +115,10 @@ struct Node {
   std::string name;
   int parent = -1;
   Transform transform;
-  int mesh = -1;              ///< into Model::meshes
-  std::vector<int> lods;      ///< coarser meshes than `mesh`, finest first; -1: the node is hidden there
+  int mesh = -1;          ///< into Model::meshes
+  std::vector<int> lods;  ///< coarser meshes than `mesh`, finest first; -1: the node is hidden there
+  /// Shares of the screen's height below which each of `lods` is shown, falling; empty: the usual ones.
+  std::vector<float> screen;
   bool has_impostor = false;  ///< at the last of `lods`, an impostor replaces the model
   int skin = -1;
   Instances instances;  ///< empty: the mesh is shown once, at the node

@@ -120,6 +120,8 @@ Detail detail_of(const Model& model, const SimplifyLimits& limits) {
   return {step * step * step * step, piece * piece};
 }
 
+}  // namespace
+
 MeshGroup copy_of(const MeshGroup& group) {
   MeshGroup out;
   out.name = group.name;
@@ -127,8 +129,6 @@ MeshGroup copy_of(const MeshGroup& group) {
     out.primitives.push_back({copy_of(each.mesh), each.material, each.variant_materials});
   return out;
 }
-
-}  // namespace
 
 std::uint64_t drawn_at(const Model& model, std::size_t level) {
   std::uint64_t drawn = 0;

@@ -12,6 +12,9 @@ namespace seedmesh {
 /// The triangles that a level draws, with all copies.
 std::uint64_t drawn_at(const Model& model, std::size_t level);
 
+/// A copy with the same name, materials and triangles. Its memory is charged to the request.
+MeshGroup copy_of(const MeshGroup& group);
+
 /// What simplification may remove.
 struct SimplifyLimits {
   /// Separate sheets are leaves: some may be removed and the others grow.

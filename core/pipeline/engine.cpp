@@ -13,6 +13,7 @@
 
 #include "core/base/rng.h"
 #include "core/pipeline.h"
+#include "core/texture/webp_write.h"
 
 namespace seedmesh {
 namespace {
@@ -31,6 +32,7 @@ std::string made_version() {
       part("zlib", ZLIB_VER_MAJOR, ZLIB_VER_MINOR, ZLIB_VER_REVISION) +
       part("libpng", PNG_LIBPNG_VER_MAJOR, PNG_LIBPNG_VER_MINOR, PNG_LIBPNG_VER_RELEASE) +
       part("libdeflate", LIBDEFLATE_VERSION_MAJOR, LIBDEFLATE_VERSION_MINOR) +
+      part("libwebp", texture::webp_encoder_version()) +
       part("json", NLOHMANN_JSON_VERSION_MAJOR, NLOHMANN_JSON_VERSION_MINOR, NLOHMANN_JSON_VERSION_PATCH);
   std::array<char, 16> digits{};
   const std::uint64_t fingerprint = Rng(0).at(libraries).key() & 0xFFFFFFFFU;

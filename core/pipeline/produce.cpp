@@ -1,21 +1,18 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "core/geom/mesh/copies.h"
 #include "core/geom/mesh/finish.h"
 #include "core/geom/mesh/tangents.h"
 #include "core/gltf/content_names.h"
 #include "core/gltf/write/write.h"
-#include "core/model/row.h"
 #include "core/pipeline/body.h"
-#include "core/pipeline/fit.h"
 #include "core/pipeline/guarded.h"
+#include "core/pipeline/level_list.h"
+#include "core/pipeline/make_model.h"
 #include "core/pipeline/names.h"
 #include "core/pipeline/profiles.h"
 #include "core/registry/tile_extent.h"
 #include "core/schema/warning_list.h"
-#include "core/texture/impostor.h"
-#include "core/texture/paint.h"
 
 namespace seedmesh {
 namespace {
@@ -55,11 +52,6 @@ void point_into_request(std::vector<Warning>& warnings) {
   for (Warning& warning : warnings) warning.pointer = in_request(std::move(warning.pointer));
 }
 
-Json seed_json(std::uint64_t seed) {
-  constexpr std::uint64_t exact_in_javascript = (std::uint64_t{1} << 53U) - 1;
-  return seed <= exact_in_javascript ? Json(seed) : Json(std::to_string(seed));
-}
-
 /// Names the model and its parts for the profile.
 void name_model(Model& model, const Request& request, const Job& job) {
   const OutputProfile profile = request.body().output.profile;
@@ -81,21 +73,6 @@ void sign(Model& model, const Request& request, const std::vector<Extra>& origin
   add_to_root(model, origin);
   shorten(model.warnings);
   point_into_request(model.warnings);
-}
-
-static_assert(static_cast<int>(OutputCollision::godot) == static_cast<int>(CollisionNames::godot));
-
-constexpr int linked_texture_size = 512;
-
-int texture_size(const OutputParams& output) {
-  if (const auto* size = std::get_if<std::int32_t>(&output.textures)) return *size;
-  return std::get<OutputTextures>(output.textures) == OutputTextures::links ? linked_texture_size : 0;
-}
-
-texture::Linking linking_of(const OutputParams& output) {
-  const auto* choice = std::get_if<OutputTextures>(&output.textures);
-  const bool is_linked = choice && *choice == OutputTextures::links;
-  return {is_linked, "/v1/textures/" + std::string(engine_version()) + "."};
 }
 
 double milliseconds(Job::Clock::duration span) {
@@ -131,70 +108,6 @@ Result<Product> produce_own(const Request& request, Job& job) {
   return product;
 }
 
-/// Beyond this number of copies, the parts of one object are merged by material.
-constexpr std::uint64_t most_parts = 400;
-
-static_assert(static_cast<int>(OutputInstancing::merge) == static_cast<int>(CopyForm::merge));
-
-Demand demand_of(const OutputParams& output, const Generator& generator) {
-  const bool budget_here =
-      output.max_triangles && !generator.keeps_budget && (output.lods > 1 || !generator.joins_triangles);
-  return {
-      .lods = budget_here ? levels_to_choose_from : output.lods,
-      .two_sided_leaves = output.profile == OutputProfile::unreal || output.profile == OutputProfile::unity,
-      .share_organs =
-          output.instancing == OutputInstancing::nodes || output.instancing == OutputInstancing::gpu,
-      .growth = output.animation == OutputParams::Animation::growth,
-      .wind = output.wind == OutputWind::weights,
-      .collision = static_cast<CollisionNames>(output.collision),
-      .textures = texture_size(output),
-      // Otherwise a later stage changes or merges the meshes first.
-      .tangents = output.tangents == OutputTangents::auto_ && !output.max_triangles && output.variants == 1 &&
-                  output.lods == 1 && !output.impostor && output.instancing != OutputInstancing::merge,
-      .impostor = output.impostor,
-      .copies = static_cast<CopyForm>(output.instancing),
-      .most_triangles = static_cast<std::uint64_t>(output.max_triangles.value_or(0)),
-      // Otherwise fit(), row_of() or merge_copies() read the meshes again.
-      .packs = profile_of(output.profile).compressed && !output.max_triangles && output.variants == 1 &&
-               output.instancing != OutputInstancing::merge};
-}
-
-/// The model of one seed.
-Result<Model> generate(const Request& request, Job& job) {
-  const OutputParams& output = request.body().output;
-  const Generator& generator = *request.body().generator;
-  Result<Model> model =
-      generator.generate(request.body().params, {job, demand_of(output, generator), generators()});
-  if (!model) return in_request(std::move(model).error());
-  return model;
-}
-
-/// One model, or the models of output.variants seeds side by side.
-Result<Model> generate_all(const Request& request, Job& job) {
-  const int variants = request.body().output.variants;
-  if (variants == 1) return generate(request, job);
-  std::vector<Model> models;
-  for (int i = 0; i < variants; ++i) {
-    job.progress("derive", static_cast<double>(i) / variants);
-    const std::uint64_t seed = request.seed() + static_cast<std::uint64_t>(i);
-    Job own = job.for_child(seed);
-    Result<Model> model = generate(request, own);
-    if (!model) return std::move(model).error();
-    model->name += "_seed_" + std::to_string(seed);
-    model->extras.push_back({"seed", seed_json(seed).dump()});
-    models.push_back(*std::move(model));
-  }
-  return row_of(std::move(models));
-}
-
-/// Merges copies into meshes where the output asks for it, or where there are too many parts.
-void merge_where_wanted(Model& model, const Request& request, Job& job) {
-  const OutputInstancing instancing = request.body().output.instancing;
-  const bool has_too_many = instancing == OutputInstancing::auto_ && request.body().generator->parts &&
-                            count_copies(model) > most_parts;
-  if (instancing == OutputInstancing::merge || has_too_many) merge_copies(model, job);
-}
-
 /// Predicts whether merge_where_wanted() will find too many parts in the variants side by side. A copy with
 /// its share of a mesh takes about 200 bytes.
 bool is_merged_as_a_row(const Appraisal& appraisal, const OutputParams& output) {
@@ -202,68 +115,6 @@ bool is_merged_as_a_row(const Appraisal& appraisal, const OutputParams& output) 
   if (output.variants == 1 || output.instancing != OutputInstancing::auto_ || !appraisal.estimate)
     return false;
   return appraisal.estimate->bytes / bytes_of_copy * static_cast<std::uint64_t>(output.variants) > most_parts;
-}
-
-bool is_empty(const Model& model) {
-  return std::ranges::all_of(model.meshes, [](const MeshGroup& group) {
-    return std::ranges::all_of(group.primitives,
-                               [](const Primitive& each) { return each.mesh.elements() == 0; });
-  });
-}
-
-/// Adds impostors as the coarsest level where the output asks for them, and draws those of a scene.
-std::optional<Issue> add_impostors(Model& model, const Request& request, Job& job) {
-  const OutputParams& output = request.body().output;
-  const int size = texture_size(output);
-  const bool is_scene = request.body().generator->keeps_budget;
-  if (output.impostor && !is_scene && is_empty(model))
-    return Issue{IssueKind::not_available, "/output/impostor",
-                 "the model is empty, and an empty model has no impostor"};
-  if (output.impostor && !is_scene && texture::add_impostor_levels(model, job) == 0) {
-    return Issue{
-        IssueKind::not_available, "/output/impostor",
-        "the model has no static mesh of its own that an impostor could replace; expected `instancing` "
-        "auto"};
-  }
-  texture::draw_impostors(model, is_scene ? std::max(size / 2, 64) : size, job);
-  return std::nullopt;
-}
-
-/// Walls are sheets too, and must not be thinned out like leaves.
-SimplifyLimits simplify_limits(const Generator& generator) {
-  constexpr double detail = 0.004;
-  return generator.parts ? SimplifyLimits{.leaves = false, .detail = detail} : SimplifyLimits{};
-}
-
-/// Adds how a request gets more levels to a message about a model that has one.
-std::string with_hint(std::string message, const Generator& generator) {
-  if (!generator.own_levels.empty()) message.append("; ").append(generator.own_levels);
-  return message;
-}
-
-/// Gives the model the wanted levels of detail within the budget; an error where that is impossible.
-std::optional<Error> make_levels(Model& model, const Request& request, Job& job) {
-  const OutputParams& output = request.body().output;
-  const Generator& generator = *request.body().generator;
-  const SimplifyLimits limits = simplify_limits(generator);
-  const bool has_one = levels_of(model) == 1;
-  const auto refused = [&](Code code, Issue issue) {
-    if (has_one) issue.message = with_hint(std::move(issue.message), generator);
-    return Error{code, {std::move(issue)}};
-  };
-  if (output.max_triangles) {
-    const auto most = static_cast<std::uint64_t>(*output.max_triangles);
-    const int pictures = output.impostor && generator.keeps_budget ? 1 : 0;
-    if (std::optional<Issue> issue = fit(model, most, output.lods + pictures, limits, job))
-      return refused(Code::limit, *std::move(issue));
-  }
-  if (output.lods < 2) return std::nullopt;
-  const std::size_t before = model.warnings.size();
-  if (std::optional<Issue> issue = add_levels(model, output.lods, limits, job))
-    return refused(Code::invalid, *std::move(issue));
-  if (has_one && model.warnings.size() > before)
-    model.warnings.back().message = with_hint(std::move(model.warnings.back().message), generator);
-  return std::nullopt;
 }
 
 WriteOptions write_options(const Request& request) {
@@ -276,7 +127,9 @@ WriteOptions write_options(const Request& request) {
           .dialect = {.compressed = profile.compressed,
                       .gpu_instances = profile_default || output.instancing == OutputInstancing::gpu,
                       .lods_inside = profile.lods_inside,
-                      .quantized = profile.quantized},
+                      .quantized = profile.quantized,
+                      .physics = output.profile == OutputProfile::godot,
+                      .single_root = output.profile == OutputProfile::godot},
           .image_stem = name_stem(request.body()),
           .least_extent = tile_extent(*request.body().generator, request.body().params)};
 }
@@ -288,16 +141,8 @@ Result<Product> produce(const Request& request, const Job::Options& options, Tex
     Job job(request.seed(), options);
     if (own_format_of(request) != nullptr) return produce_own(request, job);
     const OutputParams& output = request.body().output;
-    Result<Model> model = generate_all(request, job);
+    Result<Model> model = make_model(request, texture_store, job);
     if (!model) return std::move(model).error();
-    if (model->warnings.empty() && is_empty(*model)) {
-      model->warnings.push_back({"", "the model is empty: it has no triangles, lines or points", 0, 0});
-    }
-    if (std::optional<Error> error = make_levels(*model, request, job)) return *std::move(error);
-    merge_where_wanted(*model, request, job);
-    texture::paint(*model, texture_size(output), linking_of(output), texture_store, job);
-    if (std::optional<Issue> issue = add_impostors(*model, request, job))
-      return Error{Code::invalid, {*std::move(issue)}};
     if (output.tangents == OutputTangents::auto_) add_tangents(*model, job);
     finish(*model, job);
     name_model(*model, request, job);
@@ -335,7 +180,8 @@ Result<std::string> derive(const Request& request, const Job::Options& options) 
 
 /// Does the output hold exactly the triangles of the generator?
 static bool leaves_meshes(const OutputParams& output) {
-  return !profile_of(output.profile).quantized && output.lods == 1 && !output.impostor;
+  return !profile_of(output.profile).quantized && level_count(output) == 1 && !has_listed_levels(output) &&
+         !output.impostor;
 }
 
 /// A warning where simplification to the budget takes seconds.

@@ -11,13 +11,15 @@
 namespace seedmesh {
 namespace {
 
-constexpr std::array<Profile, 7> profiles = {{{OutputProfile::core, false, false, false, false, false},
-                                              {OutputProfile::web, true, true, true, true, true},
-                                              {OutputProfile::tiles, true, false, true, true, false},
-                                              {OutputProfile::unity, false, false, true, false, true},
-                                              {OutputProfile::unreal, false, false, false, false, false},
-                                              {OutputProfile::godot, false, false, false, false, false},
-                                              {OutputProfile::blender, false, false, true, false, false}}};
+constexpr bool yes = true, no = false;
+
+constexpr std::array<Profile, 7> profiles = {{{OutputProfile::core, no, no, no, no, no, yes, no},
+                                              {OutputProfile::web, yes, yes, yes, yes, yes, yes, yes},
+                                              {OutputProfile::tiles, yes, no, yes, yes, no, yes, no},
+                                              {OutputProfile::unity, no, no, yes, no, yes, no, no},
+                                              {OutputProfile::unreal, no, no, no, no, no, no, no},
+                                              {OutputProfile::godot, no, no, no, no, no, yes, no},
+                                              {OutputProfile::blender, no, no, yes, no, no, yes, no}}};
 
 constexpr std::size_t longest_in_blender = 63;
 

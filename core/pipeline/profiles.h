@@ -17,6 +17,8 @@ struct Profile {
   bool gpu_instances;  ///< reads EXT_mesh_gpu_instancing
   bool prefers_gpu;    ///< gets it where output.instancing is auto
   bool lods_inside;    ///< reads MSFT_lod
+  bool reads_webp;     ///< reads EXT_texture_webp
+  bool prefers_webp;   ///< gets it where output.image_format is auto
 };
 
 const Profile& profile_of(OutputProfile name);

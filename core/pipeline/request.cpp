@@ -7,6 +7,7 @@
 #include "core/generators/child.h"
 #include "core/pipeline/body.h"
 #include "core/pipeline/guarded.h"
+#include "core/pipeline/level_list.h"
 #include "core/pipeline/names.h"
 #include "core/pipeline/profiles.h"
 #include "core/schema/nearest.h"
@@ -98,9 +99,9 @@ void check_format(const Generator& generator, const OutputParams& output, IssueL
 void check_profile(const OutputParams& output, IssueList& errors) {
   const Profile& profile = profile_of(output.profile);
   const std::string named = "the profile " + std::string(text_of(output.profile));
-  if (output.lods > 1 && output.format != OutputFormat::zip && !profile.lods_inside) {
+  if (level_count(output) > 1 && output.format != OutputFormat::zip && !profile.lods_inside) {
     errors.add({IssueKind::not_available, "/output/lods",
-                "found " + std::to_string(output.lods) + " levels of detail in the format " +
+                "found " + std::to_string(level_count(output)) + " levels of detail in the format " +
                     std::string(text_of(output.format)) + " with " + named +
                     ", which hold one; expected the format zip, or one of the profiles " +
                     profiles_where(&Profile::lods_inside)});
@@ -111,6 +112,12 @@ void check_profile(const OutputParams& output, IssueList& errors) {
                     std::string(text_of(output.format)) + " with " + named +
                     ", which hold one; expected the format zip, or one of the profiles " +
                     profiles_where(&Profile::lods_inside)});
+  }
+  if (output.image_format == OutputImageFormat::webp && !profile.reads_webp) {
+    errors.add({IssueKind::not_available, "/output/image_format",
+                "found webp with " + named +
+                    ", which does not read it; expected png or both, or one of the profiles " +
+                    profiles_where(&Profile::reads_webp)});
   }
   if (output.instancing == OutputInstancing::gpu && !profile.gpu_instances) {
     errors.add({IssueKind::not_available, "/output/instancing",
@@ -150,6 +157,11 @@ void check_links(const OutputParams& output, IssueList& errors) {
                 "found links in the format " + std::string(text_of(output.format)) +
                     "; expected the format glb or gltf, or textures inside the file"});
   }
+  if (output.image_format == OutputImageFormat::webp || output.image_format == OutputImageFormat::both) {
+    errors.add(
+        {IssueKind::conflict, "/output/image_format",
+         "found " + std::string(text_of(output.image_format)) + " with linked textures, which are PNG"});
+  }
   if (output.impostor) {
     errors.add({IssueKind::conflict, "/output/textures",
                 "found links and an impostor, which is drawn of the textures; expected their size, as 512"});
@@ -169,6 +181,7 @@ void check_output(const OutputParams& output, std::uint64_t seed, IssueList& err
                 "found " + std::to_string(output.variants) + " seeds, of which some would be 2^64 or more"});
   }
   check_links(output, errors);
+  if (!errors.covers("/output/lods")) check_level_list(output, errors);
   if (is_model(output)) check_profile(output, errors);  // other formats have none of these options
 }
 

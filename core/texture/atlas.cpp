@@ -6,30 +6,13 @@
 
 #include "core/base/math.h"
 #include "core/texture/png.h"
+#include "core/texture/srgb.h"
 
 namespace seedmesh::texture {
 namespace {
 
 constexpr std::uint8_t middle = 128;  ///< the alpha of Atlas::cutoff
 constexpr int widest_spread = 24;     ///< texels; beyond, the mean colour of the picture
-
-/// The nearest sRGB byte of a linear colour.
-std::uint8_t srgb_of(std::uint32_t linear) {
-  static const std::array<std::uint8_t, 4096> table = [] {
-    std::array<std::uint8_t, 4096> made{};
-    std::uint8_t byte = 0;
-    for (std::size_t i = 0; i < made.size(); ++i) {
-      const double share = static_cast<double>(i) / 4095;
-      while (byte < 255 &&
-             share * 2 > static_cast<double>(linear_of_srgb(byte)) +
-                             static_cast<double>(linear_of_srgb(static_cast<std::uint8_t>(byte + 1))))
-        ++byte;
-      made[i] = byte;
-    }
-    return made;
-  }();
-  return table[std::min(linear, 65'535U) >> 4U];
-}
 
 struct Texel {
   std::uint32_t count = 0;  ///< of samples that are covered

@@ -144,6 +144,7 @@ Result<std::shared_ptr<const Image>> image_of_data_uri(std::string_view text, co
   auto image = std::make_shared<Image>();
   image->name = name;
   image->mime = is_png ? "image/png" : "image/jpeg";
+  image->is_given = true;
   image->bytes = std::move(*bytes);
   return std::shared_ptr<const Image>(std::move(image));
 }

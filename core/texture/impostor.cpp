@@ -10,6 +10,7 @@
 #include "core/base/math.h"
 #include "core/base/parallel.h"
 #include "core/texture/atlas.h"
+#include "core/texture/decode.h"
 #include "core/texture/raster.h"
 
 namespace seedmesh::texture {
@@ -174,7 +175,7 @@ bool add_level(Model& model, const Places& places, std::size_t root, Job& job) {
 
 // --- Pictures
 
-/// The textures that recipes need, decoded once. Images that are not PNG are left out.
+/// The textures that recipes need, decoded once. JPEG images are left out.
 using Library = std::map<std::pair<int, float>, Texels>;
 
 std::pair<int, float> key_of(const Material& material) {
@@ -190,9 +191,9 @@ Library library_of(const Model& model, const Job& job) {
       const auto key = key_of(model.materials[static_cast<std::size_t>(primitive.material)]);
       if (key.first < 0 || library.contains(key)) return;
       const Image& image = *model.textures[static_cast<std::size_t>(key.first)];
-      if (image.mime != "image/png") return;
-      const Result<Picture> picture = decode_png(std::as_bytes(std::span(image.bytes)), {}, job);
-      if (picture) library.emplace(key, Texels(*picture, key.second, job));
+      if (image.mime != "image/png" && image.mime != "image/webp") return;
+      const Result<Decoded> decoded = decode_picture(std::as_bytes(std::span(image.bytes)), {}, job);
+      if (decoded && decoded->picture) library.emplace(key, Texels(*decoded->picture, key.second, job));
     });
   }
   return library;

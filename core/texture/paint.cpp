@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/base/parallel.h"
 #include "core/texture/leaf.h"
 #include "core/texture/link.h"
 #include "core/texture/wall.h"
@@ -41,6 +42,43 @@ std::shared_ptr<const Maps> linked_maps(const TextureRecipe& recipe, int size, c
   return std::make_shared<const Maps>(Maps{linked(Channel::color, "_color"),
                                            linked(Channel::normal, "_normal"),
                                            linked(Channel::surface, "_surface")});
+}
+
+/// A generated PNG image in another form.
+std::shared_ptr<const Image> in_form(const std::shared_ptr<const Image>& image, ImageForm form,
+                                     WebpQuality quality, const Job& job) {
+  if (form == ImageForm::png) return image;
+  const Result<Picture> picture = decode_png(std::as_bytes(std::span(image->bytes)), {}, job);
+  if (!picture) return image;
+  const Array<std::uint8_t> file = encode_webp(picture->view(), quality, job);
+  auto webp = std::make_shared<Image>();
+  webp->name = image->name;
+  webp->mime = "image/webp";
+  webp->bytes.assign(file.begin(), file.end());
+  if (form == ImageForm::webp) return webp;
+  auto both = std::make_shared<Image>(*image);
+  both->webp = std::move(webp);
+  return both;
+}
+
+/// The images of a recipe in any form.
+std::shared_ptr<const Maps> formed_maps(const TextureRecipe& recipe, int size, ImageForm form,
+                                        TextureStore* store, const Job& job) {
+  if (form == ImageForm::png) return maps_of(recipe, size, store, job);
+  const std::string key = key_of(recipe, size) + (form == ImageForm::webp ? " webp" : " both");
+  if (store) {
+    if (const std::shared_ptr<const void> kept = store->find(key))
+      return std::static_pointer_cast<const Maps>(kept);
+  }
+  const std::shared_ptr<const Maps> plain = maps_of(recipe, size, store, job);
+  auto maps = std::make_shared<Maps>();
+  parallel_for(job, 3, 1, [&](std::size_t begin, std::size_t, std::size_t) {
+    if (begin == 0) maps->color = in_form(plain->color, form, WebpQuality::usual, job);
+    if (begin == 1) maps->normal = in_form(plain->normal, form, WebpQuality::fine, job);
+    if (begin == 2) maps->surface = in_form(plain->surface, form, WebpQuality::usual, job);
+  });
+  if (store) store->keep(key, maps, maps->bytes());
+  return maps;
 }
 
 void strip(Model& model) {
@@ -117,7 +155,7 @@ std::shared_ptr<const Maps> maps_of(const TextureRecipe& recipe, int size, Textu
   return maps;
 }
 
-void paint(Model& model, int size, const Linking& linking, TextureStore* store, const Job& job) {
+void paint(Model& model, int size, const ImageStyle& style, TextureStore* store, const Job& job) {
   if (size == 0) return strip(model);
   std::map<std::string, Places> made;
   std::map<std::string, Places> uncolored;  // the relief of a wall is the same in every colour
@@ -126,9 +164,9 @@ void paint(Model& model, int size, const Linking& linking, TextureStore* store, 
     const std::string key = key_of(material.recipe, size);
     const auto [place, is_new] = made.try_emplace(key);
     if (is_new) {
-      const std::shared_ptr<const Maps> maps = linking.is_linked
-                                                   ? linked_maps(material.recipe, size, linking.prefix)
-                                                   : maps_of(material.recipe, size, store, job);
+      const std::shared_ptr<const Maps> maps =
+          style.is_linked ? linked_maps(material.recipe, size, style.prefix)
+                          : formed_maps(material.recipe, size, style.form, store, job);
       const auto first = static_cast<int>(model.textures.size());
       place->second = {first, first + 1, first + 2};
       model.textures.push_back(maps->color);
@@ -145,6 +183,23 @@ void paint(Model& model, int size, const Linking& linking, TextureStore* store, 
     dress(material, place->second, is_repeating_kind(material.recipe.kind));
     material.recipe = {};
   }
+}
+
+void form_images(Model& model, ImageForm form, const Job& job) {
+  if (form == ImageForm::png) return;
+  std::vector<bool> is_normal(model.textures.size(), false);
+  for (const Material& material : model.materials) {
+    if (material.normal_texture.texture >= 0)
+      is_normal[static_cast<std::size_t>(material.normal_texture.texture)] = true;
+  }
+  parallel_for(job, model.textures.size(), 1, [&](std::size_t begin, std::size_t end, std::size_t) {
+    for (std::size_t i = begin; i < end; ++i) {
+      std::shared_ptr<const Image>& image = model.textures[i];
+      const bool is_done =
+          image->is_given || image->bytes.empty() || image->mime != "image/png" || image->webp;
+      if (!is_done) image = in_form(image, form, is_normal[i] ? WebpQuality::fine : WebpQuality::usual, job);
+    }
+  });
 }
 
 }  // namespace seedmesh::texture

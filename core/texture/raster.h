@@ -6,6 +6,7 @@
 
 #include "core/base/array.h"
 #include "core/model/mesh.h"
+#include "core/texture/scan.h"
 #include "core/texture/texels.h"
 
 namespace seedmesh::texture {
@@ -49,8 +50,8 @@ class Canvas {
  private:
   /// A projected vertex.
   struct Corner {
-    std::int64_t x = 0, y = 0;  ///< in 16ths of a sample, y down
-    double depth = 0;           ///< greater is nearer
+    ScanPoint point;
+    double depth = 0;  ///< greater is nearer
     double light = 1;
     glm::dvec3 normal{0, 0, 1};  ///< right, up, towards the viewer
     glm::dvec2 uv{0};

@@ -54,7 +54,12 @@ struct Finish {
 /// of glTF), and occlusion, roughness and metallic (RGB, as glTF packs them; metallic is 0).
 struct Maps {
   std::shared_ptr<const Image> color, normal, surface;
-  std::size_t bytes() const { return color->bytes.size() + normal->bytes.size() + surface->bytes.size(); }
+  std::size_t bytes() const { return bytes_of(*color) + bytes_of(*normal) + bytes_of(*surface); }
+
+ private:
+  static std::size_t bytes_of(const Image& image) {
+    return image.bytes.size() + (image.webp ? image.webp->bytes.size() : 0);
+  }
 };
 
 /// The width and height of the third image beside others of `size`: half of it, as light shows no more of it, and at

@@ -1,5 +1,3 @@
-/// Code lengths by the two-queue method (van Leeuwen, "On the construction of Huffman trees", 1976), limited as zlib
-/// limits them: codes that are too long are shortened, and others become longer until the codes fit again.
 #include "core/texture/run_deflate.h"
 
 #include <libdeflate.h>
@@ -9,7 +7,8 @@
 #include <bit>
 #include <cassert>
 #include <cstring>
-#include <vector>
+
+#include "core/texture/huffman.h"
 
 namespace seedmesh::texture {
 namespace {
@@ -95,125 +94,9 @@ Counts count(const Pixels& pixels) {
   return counts;
 }
 
-/// The depths of the leaves of a Huffman tree over weights in ascending order.
-std::vector<int> depths_of(const std::vector<std::uint64_t>& weights) {
-  const std::size_t leaves = weights.size();
-  std::vector<std::uint64_t> weight(weights);
-  std::vector<std::size_t> parent(2 * leaves - 1, 0);
-  std::size_t leaf = 0, node = leaves;
-  const auto take_least = [&] {
-    const bool is_leaf = leaf < leaves && (node >= weight.size() || weight[leaf] <= weight[node]);
-    return is_leaf ? leaf++ : node++;
-  };
-  while (weight.size() < 2 * leaves - 1) {
-    const std::size_t a = take_least(), b = take_least();
-    parent[a] = parent[b] = weight.size();
-    weight.push_back(weight[a] + weight[b]);
-  }
-  std::vector<int> depth(2 * leaves - 1, 0);
-  for (std::size_t i = depth.size() - 1; i-- > 0;) depth[i] = depth[parent[i]] + 1;
-  depth.resize(leaves);
-  return depth;
-}
-
-/// Makes the codes fit `most` bits: Kraft's sum of 2^-length must be exactly 1, as decoders demand. Lengths fall with
-/// the weight.
-void limit(std::vector<int>& lengths, int most) {
-  const auto share = [most](int length) { return std::int64_t{1} << (most - length); };
-  std::int64_t rest = share(0);
-  for (int& length : lengths) {
-    length = std::min(length, most);
-    rest -= share(length);
-  }
-  // The rarest symbols that can still become longer come first.
-  for (std::size_t i = 0; rest < 0; i = i + 1 < lengths.size() ? i + 1 : 0) {
-    if (lengths[i] == most) continue;
-    rest += share(lengths[i] + 1);
-    ++lengths[i];
-  }
-  // What is left over goes to the most frequent symbols that it suffices for.
-  for (std::size_t i = lengths.size(); rest > 0; i = i > 1 ? i : lengths.size()) {
-    --i;
-    if (lengths[i] == 1 || share(lengths[i]) > rest) continue;
-    rest -= share(lengths[i]);
-    --lengths[i];
-  }
-}
-
-/// The length of each symbol's code, 0 for symbols that do not occur.
-template <std::size_t size>
-std::array<std::uint8_t, size> code_lengths(const std::array<std::uint32_t, size>& counts, int most) {
-  std::vector<std::size_t> used;
-  for (std::size_t i = 0; i < size; ++i) {
-    if (counts[i] > 0) used.push_back(i);
-  }
-  // A tree needs two leaves.
-  for (std::size_t i = 0; used.size() < 2; ++i) {
-    if (counts[i] == 0) used.push_back(i);
-  }
-  std::stable_sort(used.begin(), used.end(),
-                   [&](std::size_t a, std::size_t b) { return counts[a] < counts[b]; });
-  std::vector<std::uint64_t> weights;
-  for (const std::size_t symbol : used) weights.push_back(std::max(counts[symbol], 1U));
-  std::vector<int> lengths = depths_of(weights);
-  limit(lengths, most);
-  std::array<std::uint8_t, size> made{};
-  for (std::size_t i = 0; i < used.size(); ++i) made[used[i]] = static_cast<std::uint8_t>(lengths[i]);
-  return made;
-}
-
-struct Code {
-  std::uint32_t bits = 0;  ///< the first bit of the code is the lowest
-  std::uint32_t length = 0;
-};
-
-/// Codes of one length are consecutive (RFC 1951, 3.2.2).
-template <std::size_t size>
-std::array<Code, size> codes_of(const std::array<std::uint8_t, size>& lengths) {
-  std::array<Code, size> codes{};
-  std::uint32_t next = 0;
-  for (std::uint32_t length = 1; length <= longest_code; ++length) {
-    for (std::size_t i = 0; i < size; ++i) {
-      if (lengths[i] != length) continue;
-      std::uint32_t reversed = 0;
-      for (std::uint32_t bit = 0; bit < length; ++bit) reversed |= ((next >> bit) & 1U) << (length - 1 - bit);
-      codes[i] = {reversed, length};
-      ++next;
-    }
-    next <<= 1U;
-  }
-  return codes;
-}
-
-class BitWriter {
- public:
-  explicit BitWriter(std::uint8_t* out) : out_(out) {}
-  /// Between two calls of flush(), at most 56 bits.
-  void put(std::uint64_t bits, std::uint32_t length) {
-    held_ |= bits << count_;
-    count_ += length;
-  }
-  void put(const Code& code) { put(code.bits, code.length); }
-  void flush() {
-    for (std::size_t i = 0; i < word; ++i) out_[i] = static_cast<std::uint8_t>(held_ >> (8 * i));
-    out_ += count_ / 8;
-    held_ >>= count_ & ~7U;
-    count_ &= 7U;
-  }
-  std::uint8_t* finish() {
-    flush();
-    return count_ > 0 ? out_ + 1 : out_;
-  }
-
- private:
-  std::uint8_t* out_;
-  std::uint64_t held_ = 0;
-  std::uint32_t count_ = 0;
-};
-
 /// The head of a block with its own codes: the lengths of 286 symbols, and of distances up to `distance`, of which
 /// only the last has a code. Runs of equal lengths are not shortened.
-void put_head(BitWriter& bits, const std::array<std::uint8_t, symbols>& lengths, std::uint32_t distance) {
+void put_head(BitWriter& bits, std::span<const std::uint8_t> lengths, std::uint32_t distance) {
   constexpr std::array<std::uint8_t, 19> order = {16, 17, 18, 0, 8,  7, 9,  6, 10, 5,
                                                   11, 4,  12, 3, 13, 2, 14, 1, 15};
   std::array<std::uint32_t, 19> counts{};
@@ -241,7 +124,7 @@ void put_head(BitWriter& bits, const std::array<std::uint8_t, symbols>& lengths,
   bits.flush();
 }
 
-void put_data(BitWriter& bits, const Pixels& pixels, const std::array<Code, symbols>& codes) {
+void put_data(BitWriter& bits, const Pixels& pixels, std::span<const Code> codes) {
   walk(
       pixels,
       [&](const std::uint8_t* at, std::size_t size) {

@@ -151,6 +151,13 @@ test('an agent makes an error, reads its pointer, and corrects it', async () => 
   const made = await call('generate', request);
   assert.equal(made.isError, undefined);
   assert.ok(made.structuredContent.triangles > 0);
+  const picture = made.content.find((part) => part.type === 'image');
+  assert.equal(picture.mimeType, 'image/webp');
+  const bytes = Buffer.from(picture.data, 'base64');
+  assert.equal(bytes.subarray(8, 12).toString(), 'WEBP');
+  assert.ok(bytes.length < 60_000, `${bytes.length}`);
+  const same = await server.get(`${made.structuredContent.permalink.replace(/glb$/, 'webp')}?size=384`);
+  assert.deepEqual(same.bytes, bytes);
 });
 
 test('presets are found by words, and arguments are checked', async () => {

@@ -1,6 +1,8 @@
 // Models that name their generated textures by URL, and the route that answers with these textures.
 import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
+import { validateBytes } from 'gltf-validator';
+import sharp from 'sharp';
 import { is_problem } from './contract.mjs';
 import { program, serve } from './support.mjs';
 
@@ -51,4 +53,40 @@ test('links are refused in files that stand alone, and beside impostors', async 
   const impostor = await server.generate({ preset: 'oak', output: { profile: 'web', impostor: true, textures: 'links' } });
   is_problem(impostor, 422);
   assert.equal(impostor.json.errors[0].pointer, '/output/textures');
+});
+
+test('images as WebP are far smaller, and hold the same pictures', async () => {
+  const images = async (image_format) => {
+    const file = JSON.parse((await server.generate({ preset: 'oak', output: { format: 'gltf', image_format } })).bytes);
+    const buffer = Buffer.from(file.buffers[0].uri.split(',')[1], 'base64');
+    return file.images.map(({ bufferView, mimeType }) => {
+      const { byteOffset = 0, byteLength } = file.bufferViews[bufferView];
+      return { mimeType, bytes: buffer.subarray(byteOffset, byteOffset + byteLength) };
+    });
+  };
+  const [before_it, after_it] = [await images('png'), await images('webp')];
+  assert.equal(after_it.length, before_it.length);
+  const [png, webp] = [before_it, after_it].map((files) => files.reduce((sum, { bytes }) => sum + bytes.length, 0));
+  assert.ok(webp < 0.25 * png, `${webp} bytes of images instead of ${png}`);
+  console.log(`oak: ${png} bytes of PNG, ${webp} of WebP`);
+  for (const [i, { mimeType, bytes }] of after_it.entries()) {
+    assert.equal(mimeType, 'image/webp');
+    const [a, b] = await Promise.all([before_it[i].bytes, bytes].map((file) => sharp(file).ensureAlpha().raw().toBuffer()));
+    assert.equal(a.length, b.length);
+    let sum = 0;
+    for (let k = 0; k < a.length; k += 1) {
+      if (k % 4 === 3) assert.equal(a[k], b[k], 'alpha');
+      sum += Math.abs(a[k] - b[k]);
+    }
+    assert.ok(sum / a.length < 6, `image ${i} differs by ${sum / a.length} on average`);
+  }
+});
+
+test('the validator of Khronos accepts every form of images, bodies for Godot, and levels', async () => {
+  for (const output of [{ image_format: 'webp' }, { image_format: 'both' }, { profile: 'web' }, { profile: 'web', impostor: true }, { profile: 'godot', collision: 'godot' }, { profile: 'unity', lods: [1, 0.2, 0.03] }]) {
+    const model = await server.generate({ preset: 'bush', output: { textures: 64, ...output } });
+    assert.equal(model.status, 200, model.text);
+    const { issues } = await validateBytes(new Uint8Array(model.bytes), { maxIssues: 0 });
+    assert.deepEqual([issues.numErrors, issues.numWarnings], [0, 0], JSON.stringify({ output, messages: issues.messages.slice(0, 3) }));
+  }
 });

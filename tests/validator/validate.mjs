@@ -5,7 +5,7 @@ import path from 'node:path';
 import validator from 'gltf-validator';
 
 // Extensions that the validator does not know. What only they refer to (copies, coarser levels) it takes for unused.
-const unknown = /EXT_meshopt_compression|EXT_mesh_gpu_instancing|MSFT_lod|KHR_materials_diffuse_transmission/;
+const unknown = /EXT_meshopt_compression|EXT_mesh_gpu_instancing|MSFT_lod|KHR_materials_diffuse_transmission|OMI_physics|GODOT_single_root/;
 
 // Remarks on what we do on purpose: texture coordinates for lightmaps, wind and the user's own materials are read by engines
 // and not by the materials of the file; tangents are left to the importer where the request says so.

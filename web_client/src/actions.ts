@@ -2,7 +2,7 @@
 import { Busy, Gone, generate, get_text, in_format, type Request } from './api';
 import { curl_of, endings, javascript_of, own_format, python_of } from './commands';
 import { el, part, sentence } from './dom';
-import { fragment_of, link_to, longest_link } from './link';
+import { card_of, fragment_of, link_to, longest_link } from './link';
 
 export interface Context {
   request(): Request | null;
@@ -56,6 +56,11 @@ export function wire_copies(context: Context): void {
     }
     const warning = link.length > long_link ? `. It has ${link.length} characters: some programs cut it. The request as JSON is safer` : '';
     await copy(link, `The link is copied${warning}`, context);
+  });
+  on('copy-card', async (request) => {
+    const link = await card_of(request);
+    if (link === null) context.fail('This request is too long for an address of the service. Copy the link instead.');
+    else await copy(link, 'The link is copied', context);
   });
   on('copy-curl', (request) => copy(curl_of(request), 'The command is copied', context));
   on('copy-python', (request) => copy(python_of(request), 'The Python program is copied', context));

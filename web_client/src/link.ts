@@ -38,6 +38,15 @@ export async function unpack(fragment: string): Promise<Request> {
   return complete(given);
 }
 
+/** Longer addresses of the service are refused. */
+const longest_card = 8_000;
+
+/** The address of the service for a request, which programs show with a picture; null if the request is too long. */
+export async function card_of(request: Request): Promise<string | null> {
+  const token = await pack(request);
+  return token.length > longest_card ? null : new URL(`./m/${token}`, location.href).href;
+}
+
 export async function link_to(request: Request, preset: string | null): Promise<string> {
   const address = new URL(location.href);
   address.search = '';

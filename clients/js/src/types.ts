@@ -14,8 +14,10 @@ export interface Output {
   animation?: "none" | "growth";
   /** The width and height of generated textures in texels, a power of two. Images of leaves have half of it, and those of occlusion and roughness half of that of their material. none leaves out all textures, including those of the request. links names generated textures of 512 texels by URLs of this service, which are immutable and shared by all models; the formats are glb and gltf, without an impostor. */
   textures?: number | "none" | "links";
-  /** The number of levels of detail, each coarser than the one before. More than one level requires the format zip, which has a file for each, or the profile web or unity, which have them in one file (MSFT_lod). */
-  lods?: number;
+  /** The file format of generated images. png: every reader. webp: about a tenth of the size, for readers of EXT_texture_webp, which the file then requires. both: WebP, and PNG for readers without it. auto: webp in the profile web, else png. Images of the request keep their format. */
+  image_format?: "auto" | "png" | "webp" | "both";
+  /** The number of levels of detail, each coarser than the one before, or a list of their triangles: shares of the whole model up to 1, or numbers of triangles above 1, falling. The first entry is the finest level, as in [1, 0.5, 0.15, 0.03] or [20000, 5000, 800]. More than one level requires the format zip, which has a file for each, or the profile web or unity, which have them in one file (MSFT_lod). */
+  lods?: number | number[];
   /** Adds an impostor of each plant as its coarsest level of detail: 12 triangles and a texture of the size `textures`, or half of it in a scene. It requires the format zip, or the profile web or unity. */
   impostor?: boolean;
   /** weights writes the values that a shader needs to move a plant in the wind: TEXCOORD_2 = (bend of the trunk, bend of the branch), TEXCOORD_3 = (phase of the branch, flutter of the leaf), each from 0 to 1. Adjacent vertices have similar values, so that no gap opens. */

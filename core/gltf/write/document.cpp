@@ -11,9 +11,11 @@
 #include "core/base/array.h"
 #include "core/gltf/compress/compress.h"
 #include "core/gltf/json_writer.h"
+#include "core/gltf/write/asset.h"
 #include "core/gltf/write/lists.h"
 #include "core/gltf/write/materials.h"
 #include "core/gltf/write/nodes.h"
+#include "core/model/transform.h"
 
 namespace seedmesh::gltf {
 namespace {
@@ -31,7 +33,7 @@ class Describer {
         job_(job),
         accessors_(options.dialect.compressed ? Packing::tight : Packing::aligned),
         meshes_(model.meshes.size()),
-        images_(model.textures.size()),
+        images_(2 * model.textures.size()),
         skins_(model.skins.size()),
         materials_{Numbering(model.materials.size())} {}
 
@@ -45,12 +47,20 @@ class Describer {
       shown.meshes.push_back(meshes_.use(mesh));
       if (mesh >= 0) skins_.use(node.skin);
       if (options_.dialect.lods_inside) shown.lods.push_back(lods_of(node, mesh));
+      if (options_.dialect.physics) add_shape(node, shown);
       if (node.parent < 0) roots_.push_back(static_cast<int>(i));
     }
     shown.skins = skins_.numbers();
     if (std::any_of(shown.lods.begin(), shown.lods.end(), [](const auto& lods) { return !lods.empty(); })) {
       extensions_used_.emplace_back("MSFT_lod");
     }
+    shape_meshes_ = shown.shape_meshes;
+    if (!shape_meshes_.empty()) {
+      extensions_used_.emplace_back("OMI_physics_body");
+      extensions_used_.emplace_back("OMI_physics_shape");
+    }
+    const bool is_single = roots_.size() == 1 && roots_[0] == 0 && is_identity(model_.nodes[0].transform);
+    if (options_.dialect.single_root && is_single) extensions_used_.emplace_back("GODOT_single_root");
     return shown;
   }
 
@@ -88,7 +98,7 @@ class Describer {
   void add_materials() {
     bool any_unlit = false, any_strength = false, any_transmission = false, any_specular = false;
     const TextureNumber texture_number = [this](const TextureUse& use) {
-      return textures_.number(use, images_);
+      return textures_.number(use, model_, images_);
     };
     for (const std::size_t used : materials_.numbering.used()) {
       const Material& material = model_.materials[used];
@@ -97,6 +107,11 @@ class Describer {
       any_strength = any_strength || emissive_strength(material) != 1;
       any_transmission = any_transmission || material.transmission > 0;
       any_specular = any_specular || material.has_specular();
+    }
+    if (textures_.needs_webp()) {
+      require("EXT_texture_webp");
+    } else if (textures_.has_webp()) {
+      extensions_used_.emplace_back("EXT_texture_webp");
     }
     if (any_transmission) extensions_used_.emplace_back("KHR_materials_diffuse_transmission");
     if (any_strength) extensions_used_.emplace_back("KHR_materials_emissive_strength");
@@ -116,11 +131,12 @@ class Describer {
   /// Adds the images, and their bytes to the buffer unless they have uris.
   void add_images() {
     for (const std::size_t used : images_.used()) {
-      const std::shared_ptr<const Image>& image = model_.textures[used];
+      const std::shared_ptr<const Image> image = image_numbered(model_, used);
       JsonWriter json(image_list_);
       json.object([&] {
         json.member("mimeType", image->mime);
-        const std::string& name = options_.image_names.empty() ? image->name : options_.image_names[used];
+        const std::string& name =
+            options_.image_names.empty() ? image->name : options_.image_names[used % model_.textures.size()];
         if (!name.empty()) json.member("name", name);
         if (!image->uri.empty()) {
           json.member("uri", image->uri);
@@ -153,9 +169,10 @@ class Describer {
   /// Appends the members that need no node list. Ordered by name, but for views and the lists that may be
   /// long.
   void append_members(JsonWriter& json, std::string& out) const {
-    append_asset(json);
+    append_asset(json, model_, options_.generator);
     json.list("bufferViews", view_list_);
-    if (materials_.any_variants) append_variants(json);
+    append_extensions(json, materials_.any_variants ? model_.variants : std::vector<std::string>(),
+                      shape_meshes_);
     append_names(json, "extensionsRequired", extensions_required_);
     append_names(json, "extensionsUsed", extensions_used_);
     json.list("materials", material_list_);
@@ -163,7 +180,7 @@ class Describer {
     json.member("scene", 0);
     json.array("scenes", [&] {
       json.object([&] {
-        append_scene_extras(json);
+        append_extras(json, options_.scene_extras);
         json.member("name", model_.name.empty() ? "scene" : model_.name);
         if (!roots_.empty()) json.values("nodes", roots_);
       });
@@ -186,61 +203,18 @@ class Describer {
   const std::vector<std::size_t>& images() const { return images_.used(); }
 
  private:
-  void append_asset(JsonWriter& json) const {
-    json.object("asset", [&] {
-      append_extras(json);
-      if (!options_.generator.empty()) json.member("generator", options_.generator);
-      json.member("version", "2.0");
-    });
-  }
-
-  void append_scene_extras(JsonWriter& json) const {
-    if (options_.scene_extras.empty()) return;
-    json.object("extras", [&] {
-      for (const Extra& extra : options_.scene_extras) {
-        json.key(extra.name);
-        json.json(extra.json);
-      }
-    });
-  }
-
-  /// Model::extras and the warnings.
-  void append_extras(JsonWriter& json) const {
-    if (model_.extras.empty() && model_.warnings.empty()) return;
-    json.object("extras", [&] {
-      for (const Extra& extra : model_.extras) {
-        json.key(extra.name);
-        json.json(extra.json);
-      }
-      if (!model_.warnings.empty()) {
-        json.array("warnings", [&] {
-          for (const Warning& warning : model_.warnings) {
-            json.object([&] {
-              json.member("pointer", warning.pointer);
-              json.member("message", warning.message);
-              if (warning.line > 0) json.member("line", warning.line);
-              if (warning.column > 0) json.member("column", warning.column);
-            });
-          }
-        });
-      }
-    });
-  }
-
-  void append_variants(JsonWriter& json) const {
-    json.object("extensions", [&] {
-      json.object("KHR_materials_variants", [&] {
-        json.array("variants", [&] {
-          for (const std::string& name : model_.variants) {
-            json.object([&] { json.member("name", name); });
-          }
-        });
-      });
-    });
-  }
-
   static void append_names(JsonWriter& json, std::string_view key, const std::vector<std::string>& names) {
     if (!names.empty()) json.values(key, names);
+  }
+
+  /// Turns the mesh of a collision shape, which the node showed, into a shape.
+  static void add_shape(const Node& node, Shown& shown) {
+    int& mesh = shown.meshes.back();
+    const bool is_shape = node.collision != CollisionShape::none && mesh >= 0;
+    shown.shapes.push_back(is_shape ? static_cast<int>(shown.shape_meshes.size()) : -1);
+    if (!is_shape) return;
+    shown.shape_meshes.push_back(mesh);
+    mesh = -1;
   }
 
   void require(const char* extension) {
@@ -328,7 +302,7 @@ class Describer {
   Accessors accessors_;
   Numbering meshes_, images_, skins_;
   MaterialUse materials_;
-  std::vector<int> roots_;
+  std::vector<int> roots_, shape_meshes_;
   std::vector<std::string> extensions_used_, extensions_required_;
   // Lists without brackets.
   std::string mesh_list_, animation_list_, image_list_, view_list_, material_list_, skin_list_;
@@ -339,6 +313,11 @@ class Describer {
 };
 
 }  // namespace
+
+const std::shared_ptr<const Image>& image_numbered(const Model& model, std::size_t number) {
+  const std::size_t count = model.textures.size();
+  return number < count ? model.textures[number] : model.textures[number - count]->webp;
+}
 
 Document describe(Model& model, Columns& columns, const DocumentOptions& options, Job& job) {
   Describer describer(model, columns, options, job);

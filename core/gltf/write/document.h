@@ -13,15 +13,18 @@ namespace seedmesh::gltf {
 /// The JSON in two pieces. Between them goes the address of the first buffer, `,"uri":"..."`, or nothing.
 struct Document {
   std::string head, tail;
-  std::vector<std::size_t> images;  ///< the used elements of Model::textures
+  std::vector<std::size_t> images;  ///< the numbers of the used images, see image_numbered()
   Bin bin;                          ///< arranged; where it is empty, nothing goes between head and tail
 };
+
+/// An image of the model by number: the elements of Model::textures, and after them their forms as WebP.
+const std::shared_ptr<const Image>& image_numbered(const Model& model, std::size_t number);
 
 struct DocumentOptions {
   std::string generator = {};
   std::size_t lod = 0;  ///< nodes with fewer levels show their coarsest
   std::vector<std::string> image_uris =
-      {};  ///< parallel to Model::textures; empty: the images go into the buffer
+      {};  ///< by number of image_numbered(); empty: the images go into the buffer
   std::vector<std::string> image_names = {};  ///< parallel to Model::textures; empty: their own
   std::vector<Extra> scene_extras = {};
   Dialect dialect = {};  ///< `compressed` or `quantized`: `columns` are quantized

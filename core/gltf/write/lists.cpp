@@ -219,15 +219,25 @@ int TextureList::sampler(bool repeat) {
   return place->second;
 }
 
-int TextureList::number(const TextureUse& use, Numbering& images) {
+int TextureList::number(const TextureUse& use, const Model& model, Numbering& images) {
   if (use.texture < 0) return -1;
   const auto [place, is_new] =
       textures_.try_emplace({use.texture, use.repeat}, static_cast<int>(textures_.size()));
   if (!is_new) return place->second;
+  const Image& image = *model.textures[static_cast<std::size_t>(use.texture)];
+  const bool is_webp = image.mime == "image/webp";
+  has_webp_ = has_webp_ || is_webp || image.webp;
+  needs_webp_ = needs_webp_ || is_webp;
   JsonWriter json(texture_list_);
   json.object([&] {
+    if (is_webp || image.webp) {
+      const int offset = is_webp ? 0 : static_cast<int>(model.textures.size());
+      json.object("extensions", [&] {
+        json.object("EXT_texture_webp", [&] { json.member("source", images.use(use.texture + offset)); });
+      });
+    }
     json.member("sampler", sampler(use.repeat));
-    json.member("source", images.use(use.texture));
+    if (!is_webp) json.member("source", images.use(use.texture));
   });
   return place->second;
 }

@@ -72,8 +72,11 @@ void append_skin(std::string& out, const Skin& skin, int matrices);
 /// A texture is an image with a wrap mode. Each of the two wrap modes has one sampler.
 class TextureList {
  public:
-  /// The number of the texture for a use, -1 for none; numbers its image.
-  int number(const TextureUse& use, Numbering& images);
+  /// The number of the texture for a use, -1 for none. Numbers its image, and with an offset of the number of
+  /// textures its form as WebP (EXT_texture_webp).
+  int number(const TextureUse& use, const Model& model, Numbering& images);
+  bool has_webp() const { return has_webp_; }      ///< a texture is WebP, or has such a form
+  bool needs_webp() const { return needs_webp_; }  ///< a texture is nothing else
 
   // Lists without brackets.
   const std::string& samplers() const { return sampler_list_; }
@@ -85,6 +88,7 @@ class TextureList {
   std::map<std::pair<int, bool>, int> textures_;
   std::map<bool, int> samplers_;
   std::string sampler_list_, texture_list_;
+  bool has_webp_ = false, needs_webp_ = false;
 };
 
 /// Appends the views of a buffer that has been arranged: a list without brackets. `has_strides`: every view of vertices

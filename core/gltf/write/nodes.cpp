@@ -7,6 +7,7 @@
 #include <unordered_set>
 
 #include "core/gltf/json_writer.h"
+#include "core/model/levels.h"
 
 namespace seedmesh::gltf {
 namespace {
@@ -46,15 +47,12 @@ std::string_view name_of(CollisionShape shape) {
   return "none";
 }
 
-/// Shares of the screen's height below which the next level is shown; the coarsest is shown from 0 on. An
-/// impostor takes over where it is about as large as its texture is sharp.
 void append_coverage(JsonWriter& json, const Node& node, std::size_t levels) {
-  constexpr std::array<std::string_view, 5> shares = {"0.5", "0.25", "0.12", "0.06", "0.03"};
-  constexpr std::size_t of_impostor = 2;
   json.array([&] {
-    for (std::size_t i = 0; i + 1 < levels; ++i) {
-      const bool is_last = node.has_impostor && i + 2 == levels;
-      json.json(shares[std::min(is_last ? std::max(i, of_impostor) : i, shares.size() - 1)]);
+    for (const float share : screen_shares(node, levels - 1)) {
+      std::string text;
+      append_number(text, share);
+      json.json(text);
     }
     json.value(0);
   });
@@ -100,6 +98,7 @@ class NodeWriter {
  public:
   NodeWriter(std::string& out, const Model& model, const Shown& shown)
       : json_(out), model_(model), shown_(shown), family_(family_of(model)), next_copy_(model.nodes.size()) {
+    find_bodies();
     next_level_ = next_copy_;
     for (std::size_t i = 0; i < model.nodes.size(); ++i) next_level_ += copies(i);
     const auto is_copied = [](const Node& node) {
@@ -118,7 +117,7 @@ class NodeWriter {
       append_transform(json_, node.transform, shown_.exact);
       if (shows) append_shown(number, shown_.meshes[number]);
       append_children(number);
-      append_extensions(number, shows, coarser);
+      append_extensions(number, shows, coarser, true);
       append_extras(json_, node, 1 + coarser);
     });
   }
@@ -127,6 +126,7 @@ class NodeWriter {
     const Node& node = model_.nodes[number];
     Node extras;  // of a copy: only those of its levels
     extras.has_impostor = node.has_impostor;
+    extras.screen = node.screen;
     for (std::size_t i = 0; i < copies(number); ++i) {
       json_.object([&] {
         json_.member("name", copy_name(node.name, i));
@@ -182,9 +182,11 @@ class NodeWriter {
   }
 
   /// `itself`: with the copies that are arrays. `coarser`: the number of coarser levels.
-  void append_extensions(std::size_t number, bool itself, std::size_t coarser) {
+  void append_extensions(std::size_t number, bool itself, std::size_t coarser, bool itself_of_model = false) {
     const auto found = itself ? shown_.copies.find(number) : shown_.copies.end();
-    if (found == shown_.copies.end() && coarser == 0) return;
+    const bool has_body = itself_of_model && is_body_[number];
+    const int shape = itself_of_model && !shown_.shapes.empty() ? shown_.shapes[number] : -1;
+    if (found == shown_.copies.end() && coarser == 0 && !has_body && shape < 0) return;
     json_.object("extensions", [&] {
       if (found != shown_.copies.end()) append_instancing(found->second);
       if (coarser > 0) {
@@ -194,7 +196,26 @@ class NodeWriter {
           });
         });
       }
+      if (has_body || shape >= 0) append_body(has_body, shape);
     });
+  }
+
+  /// A static body, a shape of the body around it, or both in one node.
+  void append_body(bool has_body, int shape) {
+    json_.object("OMI_physics_body", [&] {
+      if (shape >= 0) json_.object("collider", [&] { json_.member("shape", shape); });
+      if (has_body) json_.object("motion", [&] { json_.member("type", "static"); });
+    });
+  }
+
+  /// The parents of shapes are bodies, and shapes without a parent.
+  void find_bodies() {
+    is_body_.assign(model_.nodes.size(), false);
+    for (std::size_t i = 0; i < shown_.shapes.size(); ++i) {
+      if (shown_.shapes[i] < 0) continue;
+      const int parent = model_.nodes[i].parent;
+      is_body_[parent < 0 ? i : static_cast<std::size_t>(parent)] = true;
+    }
   }
 
   void append_instancing(const CopyAccessors& accessors) {
@@ -248,6 +269,7 @@ class NodeWriter {
   const Model& model_;
   const Shown& shown_;
   Family family_;
+  std::vector<bool> is_body_;
   std::size_t next_copy_, next_level_ = 0;      ///< numbers of the next nodes after those of the model
   std::unordered_set<std::string_view> names_;  ///< of the model's nodes, if any node is copied
 };

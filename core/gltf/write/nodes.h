@@ -21,7 +21,10 @@ struct Shown {
       lods;                ///< the same for its coarser levels; empty without Dialect::lods_inside
   std::vector<int> skins;  ///< for each skin of the model, its number in the document
   std::map<std::size_t, CopyAccessors> copies;  ///< for nodes whose copies are arrays
-  bool exact = false;  ///< translations and scales are written as doubles, without rounding
+  /// For each node the number of its shape in OMI_physics_shape, or -1; empty without Dialect::physics.
+  std::vector<int> shapes;
+  std::vector<int> shape_meshes;  ///< for each shape its mesh in the document
+  bool exact = false;             ///< translations and scales are written as doubles, without rounding
 };
 
 /// Appends the JSON array of all nodes: the nodes of the model in their order; then the copies of nodes as

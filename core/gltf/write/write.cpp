@@ -90,15 +90,24 @@ void add_files(std::vector<gltf::ZipEntry>& files, const std::string& stem, Docu
   if (document.bin.size() > 0) files.push_back({stem + ".bin", gltf::raw(std::move(document.bin), job)});
 }
 
-/// A file name for each image of the model, unique, in the folder `textures`.
+std::string extension_of(std::string_view mime) {
+  return mime == "image/jpeg" ? ".jpg" : mime == "image/webp" ? ".webp" : ".png";
+}
+
+/// A file name for each image of the model by its number, unique, in the folder `textures`.
 std::vector<std::string> image_files(const Model& model, const std::vector<std::string>& image_names) {
   std::vector<std::string> names;
   std::set<std::string> taken;
-  for (std::size_t number = 0; number < model.textures.size(); ++number) {
-    const auto& image = model.textures[number];
-    const std::string& own = image_names.empty() ? image->name : image_names[number];
+  const std::size_t count = model.textures.size();
+  for (std::size_t number = 0; number < 2 * count; ++number) {
+    const auto& image = gltf::image_numbered(model, number);
+    if (!image) {
+      names.emplace_back();
+      continue;
+    }
+    const std::string& own = image_names.empty() ? image->name : image_names[number % count];
     const std::string stem = "textures/" + (own.empty() ? "texture" : file_stem(own));
-    const std::string extension = image->mime == "image/jpeg" ? ".jpg" : ".png";
+    const std::string extension = extension_of(image->mime);
     std::string name = stem + extension;
     for (int i = 2; !taken.insert(name).second; ++i) {
       name = stem;
@@ -140,7 +149,7 @@ Payload write_zip(Model& model, Columns& columns, gltf::DocumentOptions options,
     add_files(files, stem + suffix, std::move(document), job);
   }
   for (const std::size_t used : images) {
-    const std::shared_ptr<const Image>& image = model.textures[used];
+    const std::shared_ptr<const Image>& image = gltf::image_numbered(model, used);
     job.spend(Resource::output_bytes, image->bytes.size());
     Payload payload;
     payload.add(image, std::as_bytes(std::span(image->bytes)));

@@ -9,7 +9,7 @@
 namespace seedmesh {
 
 /// glb: one binary file. gltf: one JSON file with buffer and images as base64. zip: name.gltf, name.bin and
-/// textures/*.png without compression, where name is Model::name in characters of file names. Models with
+/// textures/* without compression, where name is Model::name in characters of file names. Models with
 /// levels of detail also have name_LOD1.gltf, name_LOD1.bin and so on, which share the textures.
 enum class Container { glb, gltf, zip };
 
@@ -29,6 +29,10 @@ struct Dialect {
   /// with 16 bits for each axis, texture coordinates with 16 bits, or floats outside 0..1. Meshes with copies
   /// keep float positions, so that the translation of a copy is the position of its origin.
   bool quantized = false;
+  /// OMI_physics_shape and OMI_physics_body: collision shapes are no visible meshes, but shapes of a static body, their
+  /// parent. Optional.
+  bool physics = false;
+  bool single_root = false;  ///< GODOT_single_root where the scene has one root without a transform; optional
 };
 
 struct WriteOptions {

@@ -49,7 +49,7 @@ TEST(TextureLink, LeadsToTheBytesThatAModelWouldHold) {
   }
   const Job job = any_job();
   paint(embedded, 64, {}, nullptr, job);
-  paint(linked, 64, {true, "/v1/textures/9-abc."}, nullptr, job);
+  paint(linked, 64, {.is_linked = true, .prefix = "/v1/textures/9-abc."}, nullptr, job);
   ASSERT_EQ(embedded.textures.size(), linked.textures.size());
   for (std::size_t i = 0; i < linked.textures.size(); ++i) {
     const Image& image = *linked.textures[i];

@@ -9,7 +9,8 @@ class Output(TypedDict, total=False):
     provenance: Literal['full', 'none']
     animation: Literal['none', 'growth']
     textures: Union[int, Literal['none', 'links']]
-    lods: int
+    image_format: Literal['auto', 'png', 'webp', 'both']
+    lods: Union[int, List[float]]
     impostor: bool
     wind: Literal['none', 'weights']
     collision: Literal['none', 'plain', 'unreal', 'godot']

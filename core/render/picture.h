@@ -1,0 +1,20 @@
+#pragma once
+/// A picture of a model, drawn in software: sun with soft shadows, light of the sky, cut-out textures, two by two
+/// samples a pixel. The same model gives the same pixels on every machine and with any number of threads.
+#include "core/render/camera.h"
+#include "core/texture/png.h"
+
+namespace seedmesh::render {
+
+struct PictureOptions {
+  std::uint32_t size = 512;  ///< pixels a side, from 16 to 2048
+  View view;
+  bool ground = true;  ///< the model stands on a plane that catches its shadow
+};
+
+/// RGB with 8 bits a channel, opaque. Textures are those of the model: its recipes were painted. Coarser levels and
+/// collision shapes are not shown, and a skin is in its rest pose. Cost at 512 pixels: about 15 ms on two threads,
+/// and 0.1 us a triangle.
+texture::Picture draw_picture(const Model& model, const PictureOptions& options, const Job& job);
+
+}  // namespace seedmesh::render

@@ -1,0 +1,228 @@
+/// Pictures of models against closed forms: the disc of a sphere, the shadow of a box, the light of the sun.
+#include "core/render/picture.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "core/base/rng.h"
+#include "core/render/samples.h"
+
+namespace seedmesh::render {
+namespace {
+
+Job job_of(int threads = 1) { return Job(1, Job::Options{.threads = threads}); }
+
+void add_vertex(Mesh& mesh, const glm::vec3& position, const glm::vec3& normal) {
+  mesh.position.push_back(position);
+  mesh.normal.push_back(normal);
+}
+
+Mesh empty_mesh(const Job& job) {
+  Mesh mesh;
+  mesh.position = Array<glm::vec3>(job);
+  mesh.normal = Array<glm::vec3>(job);
+  mesh.index.wide = Array<std::uint32_t>(job);
+  return mesh;
+}
+
+Model model_of(Mesh mesh) {
+  Model model;
+  Material material;
+  material.base_color = {0.5F, 0.5F, 0.5F, 1};
+  model.materials.push_back(material);
+  model.meshes.push_back({"mesh", {}});
+  model.meshes.back().primitives.push_back({std::move(mesh), 0, {}});
+  Node node;
+  node.mesh = 0;
+  model.nodes.push_back(node);
+  return model;
+}
+
+/// A sphere of radius 1 around the origin, of `rows` rings.
+Model sphere(int rows, const Job& job) {
+  Mesh mesh = empty_mesh(job);
+  const int columns = 2 * rows;
+  for (int i = 0; i <= rows; ++i) {
+    for (int j = 0; j <= columns; ++j) {
+      const double down = 3.14159265358979 * i / rows, around = 2 * 3.14159265358979 * j / columns;
+      const glm::vec3 p(std::sin(down) * std::sin(around), std::cos(down), std::sin(down) * std::cos(around));
+      add_vertex(mesh, p, p);
+    }
+  }
+  for (int i = 0; i < rows; ++i) {
+    for (int j = 0; j < columns; ++j) {
+      const auto a = static_cast<std::uint32_t>(i * (columns + 1) + j),
+                 b = a + static_cast<std::uint32_t>(columns) + 1;
+      for (const std::uint32_t corner : {a, b, b + 1, a, b + 1, a + 1}) mesh.index.wide.push_back(corner);
+    }
+  }
+  return model_of(std::move(mesh));
+}
+
+/// Adds a box as six faces that look outwards.
+void add_box(Mesh& mesh, const glm::vec3& low, const glm::vec3& high) {
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const float side : {-1.0F, 1.0F}) {
+      glm::vec3 normal(0), u(0), v(0);
+      normal[axis] = side;
+      u[(axis + 1) % 3] = 1;
+      v[(axis + 2) % 3] = side;
+      const auto first = static_cast<std::uint32_t>(mesh.position.size());
+      for (const glm::vec2 at : {glm::vec2(-1, -1), {1, -1}, {1, 1}, {-1, 1}})
+        add_vertex(mesh, 0.5F * (low + high) + 0.5F * (high - low) * (normal + at.x * u + at.y * v), normal);
+      for (const std::uint32_t corner : {0U, 1U, 2U, 0U, 2U, 3U}) mesh.index.wide.push_back(first + corner);
+    }
+  }
+}
+
+Samples samples_of(const Model& model, const View& view, std::uint32_t size, const Job& job) {
+  const Items items = items_of(model, job);
+  return draw_samples(model, items, Surfaces(model, job), camera_for(model, items, view), size, job);
+}
+
+TEST(Picture, ShowsASphereAsTheDiscThatFitsTheFrame) {
+  const Job job = job_of();
+  const Model model = sphere(64, job);
+  for (const View view : {View{0, 0}, View{35, 18}, View{200, -40}, View{90, 89}}) {
+    const Samples samples = samples_of(model, view, 400, job);
+    std::size_t covered = 0;
+    for (const Sample& sample : samples.of) covered += sample.near > 0 ? 1 : 0;
+    // The sides of the frame stand off by 6 %.
+    const double share = static_cast<double>(covered) / (400.0 * 400.0),
+                 disc = 3.14159265 / 4 / (1.06 * 1.06);
+    EXPECT_NEAR(share, disc, 0.01 * disc) << view.azimuth;
+  }
+}
+
+TEST(Picture, HasTheNormalsOfASphereInTheMiddle) {
+  const Job job = job_of();
+  const Model model = sphere(64, job);
+  const View view{35, 18};
+  const Samples samples = samples_of(model, view, 200, job);
+  const Sample& middle = samples.of[std::size_t{100} * 200 + 100];
+  const glm::dvec3 normal = glm::dvec3(glm::i8vec3(middle.normal)) / 127.0, towards = frame_of(view).towards;
+  EXPECT_GT(glm::dot(normal, towards), 0.995);
+}
+
+TEST(Picture, DrawsNoBackOfAClosedSurface) {
+  const Job job = job_of();
+  Model model = sphere(32, job);
+  const auto before = samples_of(model, {}, 200, job);
+  Array<std::uint32_t>& index = model.meshes[0].primitives[0].mesh.index.wide;
+  for (std::size_t i = 0; i < index.size(); i += 3) std::swap(index[i + 1], index[i + 2]);
+  const auto inside_out = samples_of(model, {}, 200, job);
+  const std::size_t middle = std::size_t{100} * 200 + 100;
+  EXPECT_GT(before.of[middle].near, inside_out.of[middle].near);  // the far side is seen
+  // By the rules of glTF, a mirrored node turns the winding of its mesh, too.
+  model.nodes[0].transform.scale = {-1, 1, 1};
+  EXPECT_EQ(samples_of(model, {}, 200, job).of[middle].near, inside_out.of[middle].near);
+}
+
+/// Whether a ray from `from` along `towards` meets the box.
+bool meets(const glm::dvec3& from, const glm::dvec3& towards, const glm::dvec3& low, const glm::dvec3& high) {
+  double near = 0, far = 1e9;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double a = (low[axis] - from[axis]) / towards[axis], b = (high[axis] - from[axis]) / towards[axis];
+    near = std::max(near, std::min(a, b));
+    far = std::min(far, std::max(a, b));
+  }
+  return near < far;
+}
+
+TEST(Picture, CastsTheShadowOfABox) {
+  const Job job = job_of();
+  Mesh mesh = empty_mesh(job);
+  const glm::vec3 low(-0.5F, 0, -0.4F), high(0.5F, 2, 0.4F);
+  add_box(mesh, low, high);
+  const Model model = model_of(std::move(mesh));
+  const Items items = items_of(model, job);
+  const View sun{-40, 48};
+  const ShadowMap map = draw_shadows(model, items, Surfaces(model, job), sun, 512, job);
+  const glm::dvec3 towards = frame_of(sun).towards;
+  std::size_t wrong = 0, dark = 0;
+  for (std::uint64_t i = 0; i < 100'000; ++i) {
+    const Rng rng = Rng::of_seed(i);
+    const glm::dvec3 p(6 * rng.at(0).unit() - 3, -0.02, 6 * rng.at(1).unit() - 3);
+    const bool expected = meets(p, towards, glm::dvec3(low), glm::dvec3(high));
+    dark += expected ? 1 : 0;
+    wrong += expected != map.is_dark(p, glm::dvec2(0)) ? 1 : 0;
+  }
+  EXPECT_GT(dark, 5'000U);
+  EXPECT_LT(wrong, 400U);  // points within a texel of the border
+}
+
+double brightness(const texture::Picture& picture, std::uint32_t x, std::uint32_t y) {
+  const std::size_t at = 3 * (std::size_t{y} * picture.width + x);
+  return picture.bytes[at] + picture.bytes[at + 1] + picture.bytes[at + 2];
+}
+
+TEST(Picture, LightsTheSideOfTheSun) {
+  const Job job = job_of();
+  const texture::Picture picture = draw_picture(sphere(48, job), {128, {35, 18}, false}, job);
+  ASSERT_EQ(picture.width, 128U);
+  // The sun stands to the upper left of the camera.
+  EXPECT_GT(brightness(picture, 44, 44), 1.5 * brightness(picture, 92, 84));
+}
+
+TEST(Picture, ShowsTheGroundWhereItIsAsked) {
+  const Job job = job_of();
+  const Model model = sphere(24, job);
+  const texture::Picture with = draw_picture(model, {128, {35, 18}, true}, job);
+  const texture::Picture without = draw_picture(model, {128, {35, 18}, false}, job);
+  EXPECT_EQ(brightness(with, 64, 40), brightness(without, 64, 40));    // the sphere
+  EXPECT_NE(brightness(with, 10, 120), brightness(without, 10, 120));  // beside it
+}
+
+TEST(Picture, CutsHolesWhereATextureIsEmpty) {
+  const Job job = job_of();
+  Mesh mesh = empty_mesh(job);
+  mesh.uv[0] = Array<glm::vec2>(job);
+  for (const glm::vec2 at : {glm::vec2(0, 0), {1, 0}, {1, 1}, {0, 1}}) {
+    add_vertex(mesh, {at.x - 0.5F, at.y, 0}, {0, 0, 1});
+    mesh.uv[0].push_back({at.x, 1 - at.y});
+  }
+  for (const std::uint32_t corner : {0U, 1U, 2U, 0U, 2U, 3U}) mesh.index.wide.push_back(corner);
+  Model model = model_of(std::move(mesh));
+  // The left half of the texture is empty.
+  Array<std::uint8_t> pixels(job);
+  for (int i = 0; i < 64; ++i) {
+    for (const int channel : {200, 100, 50, i % 8 < 4 ? 0 : 255})
+      pixels.push_back(static_cast<std::uint8_t>(channel));
+  }
+  const auto file =
+      texture::encode_png({8, 8, 4, 8, std::as_bytes(pixels.span())}, texture::PngEffort::small, job);
+  auto image = std::make_shared<Image>();
+  image->bytes.assign(file.begin(), file.end());
+  model.textures.push_back(image);
+  model.materials[0].base_color_texture = {0, 0, false};
+  model.materials[0].alpha_mode = AlphaMode::mask;
+  const Samples samples = samples_of(model, {0, 0}, 200, job);
+  EXPECT_EQ(samples.of[std::size_t{100} * 200 + 60].near, 0);
+  EXPECT_GT(samples.of[std::size_t{100} * 200 + 140].near, 0);
+}
+
+TEST(Picture, IsTheSameWithAnyNumberOfThreads) {
+  const Job one = job_of(), four = job_of(4);
+  const texture::Picture a = draw_picture(sphere(40, one), {150, {}, true}, one);
+  const texture::Picture b = draw_picture(sphere(40, four), {150, {}, true}, four);
+  EXPECT_TRUE(std::equal(a.bytes.begin(), a.bytes.end(), b.bytes.begin(), b.bytes.end()));
+}
+
+TEST(Picture, OfAnEmptyModelIsTheBackground) {
+  const Job job = job_of();
+  const texture::Picture picture = draw_picture(Model{}, {32, {}, true}, job);
+  EXPECT_EQ(picture.bytes.size(), 3U * 32 * 32);
+  EXPECT_EQ(brightness(picture, 3, 16), brightness(picture, 28, 16));
+}
+
+TEST(Picture, EndsWhereTheRequestHasEnded) {
+  std::stop_source stop;
+  const Job job(1, Job::Options{.stop = stop.get_token()});
+  const Model model = sphere(40, job);
+  stop.request_stop();
+  EXPECT_THROW(draw_picture(model, {64, {}, true}, job), Stop);
+}
+
+}  // namespace
+}  // namespace seedmesh::render
