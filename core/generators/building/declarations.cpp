@@ -33,9 +33,10 @@ void collect_locals(Parser& p, std::size_t i, RuleFunction& function) {
     }
     i = p.tokens.is(local.to, ",") || p.tokens.is(local.to, ";") ? local.to + 1 : local.to;
   }
-  if (i < close)
+  if (i < close) {
     add_error(p, p.tokens.at(i),
               "found " + in_quotes(p.tokens.at(i)) + ", expected `name := value` or the end of with");
+  }
 }
 
 /// The arguments or parameters in the brackets that open at token `open`.
@@ -70,9 +71,9 @@ void separate_overloads(Parser& p) {
     if (found == counts.end() || begins_rule(p, i)) continue;
     const std::size_t count = count_arguments(p, i + 1);
     const auto place = std::ranges::find(found->second, count);
-    if (place != found->second.end() && place != found->second.begin())
-      p.tokens.rename(i,
-                      *p.made_texts.emplace(std::string(found->first) + "/" + std::to_string(count)).first);
+    if (place == found->second.end() || place == found->second.begin()) continue;
+    const std::string own = std::string(found->first) + "/" + std::to_string(count);
+    p.tokens.rename(i, *p.made_texts.emplace(own).first);
   }
 }
 

@@ -56,10 +56,11 @@ TaggedValue read_material(Evaluation& at, ValueArguments a) {
   const std::string path = text_in(at, a[0]);
   std::string name = path.substr(path.find_last_of('/') + 1);
   name = name.substr(0, name.find_last_of('.'));
-  if (!std::ranges::binary_search(at.d.task.files, name))
+  if (!std::ranges::binary_search(at.d.task.files, name)) {
     warn(at.d, at.offset,
          "the request has no material " + lang::in_quotes(name) + ", which would stand for " +
              lang::in_quotes(path) + "; shapes have the plain material of this name");
+  }
   ValueArray out;
   out.columns = 2;
   add_row(at, out, "name", name);
