@@ -9,6 +9,7 @@
 #include "core/pipeline/body.h"
 #include "core/pipeline/guarded.h"
 #include "core/pipeline/tileset.h"
+#include "core/pipeline/world_assets.h"
 #include "core/schema/json.h"
 
 namespace seedmesh {
@@ -42,7 +43,8 @@ tiles::BoundsOf bounds_in(const world::World& world, Job& job) {
 template <class T, class Work>
 Result<T> made(const OpenWorld& open, const Job::Options& options, const Work& work) {
   return guarded<T>([&]() -> Result<T> {
-    const world::World& world = open.body().world;
+    world::World world = open.body().world;
+    world.make_asset = asset_maker(options);
     Job job(world.seed, options);
     return work(world, job);
   });

@@ -2167,6 +2167,14 @@ export interface WorldParametersColors {
   water?: string;
 }
 
+/** House */
+export interface WorldParametersSettlementsHousesItem {
+  /** A request of the generator building. */
+  model: Child;
+  /** How often this house stands, by the sum of all shares. */
+  share?: number;
+}
+
 /** Villages where the ground is level, mild and near water. */
 export interface WorldParametersSettlements {
   /** The share of suitable locations that have a village. There is at most one in 6 km. */
@@ -2177,6 +2185,8 @@ export interface WorldParametersSettlements {
   wall?: string;
   /** The colour of roofs. */
   roof?: string;
+  /** Houses of villages by requests of the generator building. Without one, houses have walls and a gable roof. */
+  houses?: WorldParametersSettlementsHousesItem[];
 }
 
 /** Roads between villages, with a grade of at most 10 %. */
@@ -2189,12 +2199,26 @@ export interface WorldParametersRoads {
   color?: string;
 }
 
+/** Fields around villages, where the ground is level and dry. Nothing else grows on them. */
+export interface WorldParametersFields {
+  /** The share of suitable ground around a village that is fields. */
+  share?: number;
+  /** The mean side of a field. */
+  size?: number;
+  /** How far from the middle of a village there are fields, by the radius of the village. */
+  reach?: number;
+  /** The colours of crops. */
+  colors?: string[];
+}
+
 /** Class */
 export interface WorldParametersPlantsItem {
   /** The name of the class in the map. */
   class: string;
-  /** The form of the plant. */
+  /** The form of the plant where it has no model, and of woods seen from far away. */
   form?: "conifer" | "broadleaf" | "palm" | "shrub" | "cactus" | "fungus";
+  /** A request of the generator tree or lsystem. Its model is scaled to the height. Near the camera it has 1,500 triangles, or more where it cannot be simplified so far; farther away stands its impostor. */
+  model?: Child;
   /** The mean height. Copies have 0.7 to 1.3 times this height. */
   height?: number;
   /** The least distance between two plants of the class. */
@@ -2207,6 +2231,10 @@ export interface WorldParametersPlantsItem {
   temperature?: [number, number];
   /** The steepest ground that the class grows on. */
   slope?: number;
+  /** The least and the greatest height above the sea level at which the class grows. */
+  heights?: [number, number];
+  /** The biomes in which the class grows. Without one, it grows in all. Biomes follow from temperature and moisture. */
+  biomes?: ("ice" | "tundra" | "taiga" | "steppe" | "grassland" | "forest" | "desert" | "savanna" | "rainforest")[];
   /** The colour of leaves. */
   color?: string;
   /** The colour of stems. */
@@ -2233,6 +2261,8 @@ export interface WorldParameters {
   settlements?: WorldParametersSettlements;
   /** Roads between villages, with a grade of at most 10 %. */
   roads?: WorldParametersRoads;
+  /** Fields around villages, where the ground is level and dry. Nothing else grows on them. */
+  fields?: WorldParametersFields;
   /** Classes of plants. Copies of one class keep their spacing, also across the borders of tiles. */
   plants?: WorldParametersPlantsItem[];
 }

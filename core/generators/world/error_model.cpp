@@ -1,31 +1,130 @@
 #include "core/generators/world/error_model.h"
 
 #include <algorithm>
+#include <cmath>
+
+#include "core/base/math.h"
+#include "core/generators/world/gullies.h"
+#include "core/generators/world/roads.h"
 
 namespace seedmesh::world {
 namespace {
 
-constexpr double ridge_side = 8192;  ///< metres; from here, samples are too far apart for valleys and ridges
-constexpr double valley_side =
-    2048;  ///< metres; from here, samples are too far apart for the flats of valleys
-constexpr double border_share = 0.45;  ///< the greatest deviation along a line, by that of the whole tile
+constexpr double deviation_share = 0.93;  ///< fitted to walks through worlds with random parameters
+
+/// The deviation of an octave of noise of amplitude 1; `q` is the distance of samples by the wavelength.
+double of_noise(double q) {
+  const double square = q * q;
+  return std::min(1.46, 2.75 * square / (1 + 1.35 * square));
+}
+
+/// The deviation of squared crests of amplitude 1 that are rounded within `k`.
+double of_crest(double q, double k) {
+  const double round = 3.1 * q * q / k, sharp = 3 * q;
+  return std::min(0.97, round * sharp / std::sqrt(round * round + sharp * sharp));
+}
+
+/// A norm of degree 1.5.
+class Sum {
+ public:
+  void add(double part) { sum_ += part * std::sqrt(part); }
+  double value() const { return math::cbrt(sum_ * sum_); }
+
+ private:
+  double sum_ = 0;
+};
+
+void add_octaves(Sum& sum, double spacing, double wavelength, int count, double amplitude) {
+  for (int n = 0; n < count; ++n, wavelength *= 0.5, amplitude *= 0.5)
+    sum.add(amplitude * of_noise(spacing / wavelength));
+}
+
+void add_ranges(Sum& sum, const WorldRelief& relief, double spacing, const Roughness& rough) {
+  const double k = 0.02 + 0.35 * (1 - relief.ridges);
+  double total = 0, amplitude = 1;
+  for (int n = 0; n < range_octaves; ++n, amplitude *= range_fall) total += amplitude;
+  amplitude = 1.6 * relief.mountains / total;
+  double wavelength = range_wavelength;
+  for (const double ridge : rough.ridges) {
+    sum.add(amplitude * ridge * of_crest(spacing / wavelength, k));
+    amplitude *= range_fall;
+    wavelength *= 0.5;
+  }
+  // the belts in which mountains stand
+  sum.add(1.1 * relief.mountains * rough.ruggedness * of_noise(spacing / 32000));
+}
+
+/// Stripes bend where the direction of the slope changes, so they deviate by half more than straight ones.
+void add_gullies(Sum& sum, const WorldRelief& relief, double spacing, double slope) {
+  const double strength = relief.gullies * smooth_step(1.15 * slope + 0.02, 0.04, 0.45);
+  double wavelength = widest_gully;
+  for (int n = 0; n < gully_octaves; ++n, wavelength *= gully_fall)
+    sum.add(2.1 * strength * gully_depth * wavelength * of_noise(spacing / wavelength));
+}
+
+/// Valley sides meet the land and the flat beside the water with an angle.
+void add_valley(Sum& sum, double spacing, const Roughness& rough) {
+  if (rough.valley <= 0) return;
+  // sides are steeper the deeper the valley; where samples are far apart, both sides lie between two of them
+  const double angle = 0.16 + 0.36 * rough.ruggedness + 0.0025 * rough.valley + 0.5 * rough.slope;
+  const double bent = angle * spacing / 4 * (1 + spacing / (spacing + 300)), rounded = bent * bent / 6;
+  sum.add(std::min(rough.valley, std::min(bent, rounded)));
+  // the bed and its banks
+  sum.add(std::min({0.12 * spacing, 0.35 * rough.valley, 4.5}));
+}
 
 }  // namespace
 
-double error_of(const World& world, double side, const Roughness& roughness) {
-  const WorldRelief& relief = world.params.relief;
-  const double mountains = relief.mountains / 1000 * roughness.ruggedness, hills = relief.hills / 100;
-  const bool is_coarse = side >= ridge_side;
-  const double detail = 0.0012 * std::min(1.0, relief.mountains / 900) * roughness.ruggedness;
-  const double terraces = relief.terraces * (0.001 * hills + 0.002 * mountains);
-  double share = 0.0005 + 0.0007 * hills + (is_coarse ? 0.0068 : 0.0036) * mountains + detail + terraces;
-  if (roughness.is_near_water) share += is_coarse ? 0.0055 : side >= valley_side ? 0.0045 : 0.0018;
-  const double most = 2.2 * relief.mountains + 2 * relief.hills + 500, rise = share * side;
-  return rise / (1 + rise / (1.2 * most));
+void Roughness::add(const GroundSample& sample) {
+  ruggedness = std::max(ruggedness, sample.land.ruggedness);
+  for (std::size_t n = 0; n < ridges.size(); ++n)
+    ridges[n] = std::max(ridges[n], static_cast<double>(sample.land.ridges[n]));
+  const Slope& h = sample.land.height;
+  slope = std::max(slope, std::sqrt(h.east * h.east + h.north * h.north));
+  has_sea_floor |= sample.land.coast < 0.05;
+  valley = std::max(valley, sample.cut + (sample.shore < 60 ? 3 : 0));
+  works = std::max(works, sample.works);
 }
 
-double skirt_depth(const World& world, double side) {
-  return border_share * error_of(world, 8 * side, {1, true}) + 0.25;
+void Roughness::add(const Roughness& other) {
+  ruggedness = std::max(ruggedness, other.ruggedness);
+  for (std::size_t n = 0; n < ridges.size(); ++n) ridges[n] = std::max(ridges[n], other.ridges[n]);
+  slope = std::max(slope, other.slope);
+  has_sea_floor |= other.has_sea_floor;
+  valley = std::max(valley, other.valley);
+  works = std::max(works, other.works);
+}
+
+Roughness roughest(const World& world) {
+  Roughness rough;
+  rough.ruggedness = world.params.relief.mountains > 0 ? 1 : 0;
+  rough.ridges.fill(rough.ruggedness);
+  rough.slope = 2;
+  rough.has_sea_floor = true;
+  rough.valley =
+      20 + 0.4 * (2 * sea_fall + 3 * world.params.relief.mountains + 3 * world.params.relief.hills);
+  rough.works = most_works;
+  return rough;
+}
+
+double deviation_of(const World& world, double spacing, const Roughness& rough) {
+  const WorldRelief& relief = world.params.relief;
+  Sum sum;
+  const double coast = (rough.has_sea_floor ? sea_fall : land_rise) * 1.5 / 1.875;
+  add_octaves(sum, spacing, relief.continents, 4, coast);
+  if (rough.ruggedness > 0) add_ranges(sum, relief, spacing, rough);
+  add_octaves(sum, spacing, hill_wavelength, hill_octaves, 1.5 / 1.75 * relief.hills);
+  const double steps = spacing * rough.slope / terrace_step;
+  sum.add(relief.terraces * terrace_step * std::min(0.22, 1.45 * steps * steps));
+  const double fine = relief.terraces > 0 ? 1 + 0.6 * relief.terraces : 1;
+  add_octaves(sum, spacing, detail_wavelength, detail_octaves,
+              fine * detail_share(world, rough.ruggedness) * detail_wavelength);
+  add_gullies(sum, relief, spacing, rough.slope);
+  add_valley(sum, spacing, rough);
+  sum.add(std::min(rough.works, 0.2 * spacing));
+  // parts saturate where samples are farther apart than their wavelengths
+  const double far = spacing > 1024 ? 1 + 0.12 * (spacing / (spacing + 8192)) : 1;
+  return deviation_share * far * sum.value();
 }
 
 }  // namespace seedmesh::world

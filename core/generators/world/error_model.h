@@ -1,20 +1,32 @@
 #pragma once
-/// How far the ground can be from the terrain of a tile, as a function of the tile's side and of the ground around.
-/// The numbers are bounds of deviations that were measured on walks through all presets.
-#include "core/generators/world/world_parameters.h"
+/// How far the ground can be from triangles between samples of it: the sum of what each part of the ground adds, by
+/// the ratio of the distance of samples to the wavelength of the part and by its amplitude in the place.
+///
+/// The deviations of single octaves of noise were measured with 40 grids of 32 x 32 cells for each ratio. Parts do
+/// not reach their greatest deviation at one position, so they are added with a norm of degree 1.5.
+#include <array>
+
+#include "core/generators/world/ground.h"
 
 namespace seedmesh::world {
 
-/// What the ground of a tile is like.
+/// What the ground of an area is like: the greatest values over the area.
 struct Roughness {
-  double ruggedness = 0;      ///< the greatest of Land::ruggedness
-  bool is_near_water = true;  ///< a river or lake is in the tile or close to it
+  double ruggedness = 0;                       ///< of Land
+  std::array<double, range_octaves> ridges{};  ///< of Land
+  double slope = 0;                            ///< of the land
+  bool has_sea_floor = false;
+  double valley = 0;  ///< metres that rivers and lakes cut into the land; 0 without water nearby
+  double works = 0;   ///< metres that roads are above or below the ground
+
+  void add(const GroundSample& sample);
+  void add(const Roughness& other);
 };
 
-/// Metres; rises with the side. Saturates where a tile is wider than the widest mountains.
-double error_of(const World& world, double side, const Roughness& roughness);
+/// The roughest ground that a world can have.
+Roughness roughest(const World& world);
 
-/// Metres that the skirt of a tile hangs down: the deviation of borders of tiles three levels coarser.
-double skirt_depth(const World& world, double side);
+/// Metres between the ground and triangles through samples `spacing` apart. Rises with the spacing.
+double deviation_of(const World& world, double spacing, const Roughness& roughness);
 
 }  // namespace seedmesh::world

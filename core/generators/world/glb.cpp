@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstring>
 
+#include "core/generators/world/asset.h"
+
 namespace seedmesh::world {
 namespace {
 
@@ -17,6 +19,21 @@ int append(Json& list, Json value) {
 
 void append_word(std::string& out, std::uint32_t word) {
   for (unsigned shift = 0; shift < 32; shift += 8) out += static_cast<char>((word >> shift) & 255U);
+}
+
+constexpr const char* lists_of_assets[] = {"bufferViews", "accessors", "images", "samplers",
+                                           "textures",    "materials", "meshes"};
+
+/// Adds to the numbers of textures in a material: of each object whose name ends with "Texture".
+void move_textures(Json& value, int by) {
+  if (value.is_array()) {
+    for (Json& each : value) move_textures(each, by);
+  }
+  if (!value.is_object()) return;
+  for (auto& [name, each] : value.items()) {
+    if (name.ends_with("Texture") && each.contains("index")) each["index"] = each["index"].get<int>() + by;
+    move_textures(each, by);
+  }
 }
 
 }  // namespace
@@ -48,6 +65,47 @@ int Glb::add_material(std::string_view name, double roughness, bool two_sided) {
 
 int Glb::add_shared_buffer(std::string uri, std::size_t bytes) {
   return append(json_["buffers"], {{"uri", std::move(uri)}, {"byteLength", bytes}});
+}
+
+std::vector<int> Glb::add_asset(const Asset& asset, std::string_view folder) {
+  if (const auto known = assets_.find(asset.hash); known != assets_.end()) return known->second;
+  const int buffer = add_shared_buffer(std::string(folder) + "a/" + asset.hash + ".bin", asset.file.size());
+  std::map<std::string, int> first;
+  for (const char* list : lists_of_assets)
+    first[list] = json_.contains(list) ? static_cast<int>(json_[list].size()) : 0;
+  const auto move = [&](Json& object, const char* key, const char* list) {
+    if (object.contains(key)) object[key] = object[key].get<int>() + first[list];
+  };
+  std::vector<int> meshes;
+  for (const char* list : lists_of_assets) {
+    if (!asset.parts.contains(list)) continue;
+    for (Json part : asset.parts[list]) {
+      move(part, "bufferView", "bufferViews");
+      if (part.contains("buffer")) part["buffer"] = buffer;
+      if (std::string_view(list) == "textures") {
+        move(part, "source", "images");
+        move(part, "sampler", "samplers");
+      }
+      if (std::string_view(list) == "materials") move_textures(part, first["textures"]);
+      if (std::string_view(list) == "meshes") {
+        for (Json& primitive : part["primitives"]) {
+          for (auto& [name, accessor] : primitive["attributes"].items())
+            accessor = accessor.get<int>() + first["accessors"];
+          move(primitive, "indices", "accessors");
+          move(primitive, "material", "materials");
+        }
+        meshes.push_back(static_cast<int>(json_["meshes"].size()));
+      }
+      json_[list].push_back(std::move(part));
+    }
+  }
+  if (asset.parts.contains("extensionsUsed")) {
+    for (const Json& name : asset.parts["extensionsUsed"]) {
+      Json& used = json_["extensionsUsed"];
+      if (std::find(used.begin(), used.end(), name) == used.end()) used.push_back(name);
+    }
+  }
+  return assets_[asset.hash] = std::move(meshes);
 }
 
 int Glb::add_view(int buffer, std::size_t offset, std::size_t bytes, std::size_t stride, int target) {

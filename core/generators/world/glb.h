@@ -2,6 +2,7 @@
 /// A small writer of binary glTF for tiles. Tiles have double translations and quantized attributes by a step that
 /// the level fixes, which the writer of models does not offer.
 #include <cstdint>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
@@ -10,6 +11,8 @@
 #include "core/schema/json.h"
 
 namespace seedmesh::world {
+
+struct Asset;
 
 struct TileVertex {
   std::int16_t x = 0, y = 0, z = 0;  ///< in steps; +Y up
@@ -35,6 +38,8 @@ class Glb {
   void add_mesh(std::string_view name, const TileMesh& mesh, int material, double step, double height);
   /// A buffer in a file of its own, which tiles share.
   int add_shared_buffer(std::string uri, std::size_t bytes);
+  /// The meshes of a shared model, whose file is in the directory "a" of `folder`. The same asset twice is added once.
+  std::vector<int> add_asset(const Asset& asset, std::string_view folder);
   int add_view(int buffer, std::size_t offset, std::size_t bytes, std::size_t stride, int target);
   /// Appends bytes to the file's own buffer; the index of their view. Aligned to 4 bytes.
   int add_bytes(const void* data, std::size_t bytes, std::size_t stride, int target);
@@ -48,6 +53,7 @@ class Glb {
  private:
   Json json_;
   std::string bytes_;
+  std::map<std::string, std::vector<int>> assets_;  ///< meshes by hash
 };
 
 }  // namespace seedmesh::world

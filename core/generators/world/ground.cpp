@@ -141,7 +141,9 @@ GroundSample Ground::at(double east, double north) const {
     }
     waters.bank = std::min(waters.bank, beyond);
   }
+  const double uncut = land.height.value;
   land.height = lesser(land.height, waters.valley);
+  sample.cut = uncut - land.height.value;
   const double dry = smooth_step(waters.bank, 6, 160);
   double height = land.height.value + dry * detail_at(*world_, land, east, north);
   for (const Lake& lake : lakes_) {
@@ -152,6 +154,7 @@ GroundSample Ground::at(double east, double north) const {
   sample.height = with_river(height, waters);
   sample.shore = waters.bank;
   if (!pieces_.empty() || !houses_.empty()) add_works(sample, east, north);
+  if (!farmland_.empty()) add_field(sample, east, north);
   return sample;
 }
 

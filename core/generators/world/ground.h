@@ -25,6 +25,10 @@ struct GroundSample {
                                                 ///< 0 in its water
   double road = std::numeric_limits<double>::infinity();   ///< metres to the edge of the nearest road
   double house = std::numeric_limits<double>::infinity();  ///< metres to the nearest house
+  double cut = 0;                                          ///< metres that valleys lower the land
+  double works = 0;       ///< metres that roads are above or below the ground
+  int field = -1;         ///< of WorldFields::colors; -1 outside of fields
+  bool is_hedge = false;  ///< at the border of a field
 };
 
 /// A piece of a road.
@@ -32,10 +36,16 @@ struct RoadPiece {
   double from_east = 0, from_north = 0, from_height = 0, to_east = 0, to_north = 0, to_height = 0;
   double width = 0;
   bool is_bridge = false;
+  double from_works = 0, to_works = 0;  ///< metres above or below the ground
 };
 
 /// Where a house stands, as a disc.
 struct HouseMark {
+  double east = 0, north = 0, radius = 0;
+};
+
+/// A village with fields around it.
+struct Farmland {
   double east = 0, north = 0, radius = 0;
 };
 
@@ -50,7 +60,7 @@ class Ground {
   /// Without rivers and lakes.
   explicit Ground(const World& world) : world_(&world) {}
   Ground(const World& world, const Rectangle& rectangle, Job& job, double reach = valley_reach);
-  /// With the earthworks of roads, which reach 56 m.
+  /// With fields and the earthworks of roads, which reach 56 m.
   static Ground with_roads(const World& world, const Rectangle& rectangle, Job& job);
   /// With roads and houses.
   static Ground with_works(const World& world, const Rectangle& rectangle, Job& job);
@@ -63,12 +73,14 @@ class Ground {
 
  private:
   void add_works(GroundSample& sample, double east, double north) const;
+  void add_field(GroundSample& sample, double east, double north) const;
 
   const World* world_;
   std::vector<Reach> reaches_;
   std::vector<Lake> lakes_;
   std::vector<RoadPiece> pieces_;
   std::vector<HouseMark> houses_;
+  std::vector<Farmland> farmland_;
 };
 
 }  // namespace seedmesh::world

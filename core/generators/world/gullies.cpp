@@ -7,9 +7,6 @@
 namespace seedmesh::world {
 namespace {
 
-constexpr int octaves = 3;
-constexpr double widest = 420;         ///< metres between gullies of the first octave
-constexpr double depth_share = 0.055;  ///< depth of a gully by its distance from the next
 constexpr float turn = 6.28318531F;
 
 /// Stripes in the direction (x, y), about -1 to 1. Cells are as wide as one and a half stripes.
@@ -46,11 +43,11 @@ double gullies_at(std::uint64_t key, const Slope& slope, double east, double nor
   if (strength <= 0) return 0;
   // across the slope
   const auto x = static_cast<float>(-slope.north / steepness), y = static_cast<float>(slope.east / steepness);
-  double sum = 0, wavelength = widest;
-  for (int n = 0; n < octaves; ++n, wavelength *= 0.47) {
+  double sum = 0, wavelength = widest_gully;
+  for (int n = 0; n < gully_octaves; ++n, wavelength *= gully_fall) {
     const float s =
         stripes(key_at(key, static_cast<std::uint64_t>(n)), east / wavelength, north / wavelength, x, y);
-    sum += (static_cast<double>(s) - 0.3) * depth_share * wavelength;
+    sum += (static_cast<double>(s) - 0.3) * gully_depth * wavelength;
   }
   return sum * strength;
 }

@@ -7,6 +7,11 @@
 
 namespace seedmesh::world {
 
+constexpr int gully_octaves = 3;
+constexpr double widest_gully = 420;   ///< metres between gullies of the first octave
+constexpr double gully_fall = 0.47;    ///< distance of gullies by that of the octave before
+constexpr double gully_depth = 0.055;  ///< depth of a gully by its distance from the next
+
 /// Metres to add to the ground, mostly negative. `slope`: the ground with its derivative. Discontinuous only where
 /// the slope is.
 double gullies_at(std::uint64_t key, const Slope& slope, double east, double north);

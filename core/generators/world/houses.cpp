@@ -4,13 +4,13 @@
 #include <cmath>
 
 #include "core/base/math.h"
-#include "core/generators/world/palette.h"
-#include "core/generators/world/terrain_mesh.h"
 
 namespace seedmesh::world {
 namespace {
 
-constexpr double lot = 23;         ///< metres along a road for a house
+constexpr double lot = 23;                             ///< metres along a road for a house
+constexpr double plain_reach = 13, plain_height = 14;  ///< of houses without a model
+constexpr double model_reach = 20, model_height = 30;
 constexpr double most_uneven = 3;  ///< metres that the ground below a house may rise
 
 /// Places houses one after the other, each apart from those before.
@@ -22,7 +22,10 @@ class Planner {
         box_{site.east - site.radius - 40, site.north - site.radius - 40, site.east + site.radius + 40,
              site.north + site.radius + 40},
         ground_(Ground::with_roads(world, box_, job)),
-        roads_(roads_near(world, box_, 0, job)) {}
+        roads_(roads_near(world, box_, 0, job)) {
+    for (std::size_t k = 0; world.make_asset && k < world.params.settlements.houses.size(); ++k)
+      models_.push_back(house_asset(world, static_cast<int>(k), job));
+  }
 
   Plan make() {
     for (const auto& road : roads_) {
@@ -47,6 +50,8 @@ class Planner {
     House house;
     house.length = rng.uniform(4.5, 8);
     house.depth = rng.uniform(3.5, 5);
+    double tall = 0;
+    if (!models_.empty()) tall = choose_model(house, rng);
     const double away = world_.params.roads.width / 2 + house.depth + rng.uniform(2.5, 7);
     const double walls = rng.uniform(2.8, 5.5), roof = house.depth * rng.uniform(0.7, 1.1);
     const double share = rng.unit();
@@ -73,15 +78,45 @@ class Planner {
     }
     if (high - low > most_uneven) return;
     house.low = low - 0.6;
-    house.eaves = high + walls;
-    house.ridge = house.eaves + roof;
+    house.eaves = high + (tall > 0 ? 0.7 * tall : walls);
+    house.ridge = tall > 0 ? high + tall : house.eaves + roof;
+    house.floor = high + 0.05;
+    turn_to(house, side * y, -side * x);
     plan_.houses.push_back(house);
+  }
+
+  /// Takes a model and its size; returns its height.
+  double choose_model(House& house, Rng& rng) const {
+    double sum = 0;
+    for (const WorldHouse& each : world_.params.settlements.houses) sum += each.share;
+    double left = sum * rng.unit();
+    std::size_t k = 0;
+    for (; k + 1 < models_.size() && left >= world_.params.settlements.houses[k].share; ++k)
+      left -= world_.params.settlements.houses[k].share;
+    const Asset& model = *models_[k];
+    const double wide = model.high[0] - model.low[0], deep = model.high[2] - model.low[2],
+                 tall = model.high[1] - model.low[1];
+    const HouseExtent most = house_extent(world_);
+    house.model = static_cast<int>(k);
+    house.scale = std::min({1.0, 2 * most.across / std::max(1e-6, std::sqrt(wide * wide + deep * deep)),
+                            (most.up - most_uneven - 0.1) / std::max(1e-6, tall)});
+    house.length = house.scale * wide / 2;
+    house.depth = house.scale * deep / 2;
+    return house.scale * tall;
+  }
+
+  /// Turns the front of the model, +Z, to a direction east and north.
+  static void turn_to(House& house, double east, double north) {
+    const double sine = east, cosine = -north;
+    const double w = std::sqrt(std::max(0.0, (1 + cosine) / 2));
+    const double y = w > 1e-4 ? sine / (2 * w) : 1;
+    house.turn = {static_cast<float>(y), static_cast<float>(w)};
   }
 
   bool is_apart(const House& house) const {
     return std::none_of(plan_.houses.begin(), plan_.houses.end(), [&](const House& other) {
       const double x = house.east - other.east, y = house.north - other.north;
-      const double least = house.length + other.length + 1.5;
+      const double least = std::max(house.length, house.depth) + std::max(other.length, other.depth) + 1.5;
       return x * x + y * y < least * least;
     });
   }
@@ -91,72 +126,27 @@ class Planner {
   Rectangle box_;
   Ground ground_;
   std::vector<std::shared_ptr<const Road>> roads_;
+  std::vector<std::shared_ptr<const Asset>> models_;
   Plan plan_;
 };
 
-using Point = glm::dvec3;
-
-class HouseMesh {
- public:
-  HouseMesh(const World& world, const TileFrame& frame, double base)
-      : frame_(frame),
-        base_(base),
-        wall_(linear_color(world.params.settlements.wall)),
-        roof_(linear_color(world.params.settlements.roof)) {}
-
-  void add(const House& h) {
-    const auto at = [&](double u, double v, double z) {
-      return Point(h.east + u * h.length * h.x - v * h.depth * h.y,
-                   h.north + u * h.length * h.y + v * h.depth * h.x, z);
-    };
-    const Point along(h.x, h.y, 0), across(-h.y, h.x, 0);
-    for (const double s : {-1.0, 1.0}) {
-      add_face({at(-s, s, h.low), at(s, s, h.low), at(s, s, h.eaves), at(-s, s, h.eaves)}, across * s, wall_);
-      add_face({at(s, -s, h.low), at(s, s, h.low), at(s, s, h.eaves), at(s, 0, h.ridge), at(s, -s, h.eaves)},
-               along * s, wall_);
-      const double rise = (h.ridge - h.eaves) / h.depth, length = std::sqrt(1 + rise * rise);
-      add_face({at(-s, s, h.eaves), at(s, s, h.eaves), at(s, 0, h.ridge), at(-s, 0, h.ridge)},
-               (across * s * rise + Point(0, 0, 1)) / length, roof_);
-    }
-  }
-
-  TileMesh take() { return std::move(mesh_); }
-
- private:
-  /// A polygon that faces along `normal`; its corners are turned if they run the other way.
-  void add_face(std::vector<Point> corners, const Point& normal, const std::array<std::uint8_t, 4>& color) {
-    const Point area = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
-    if (glm::dot(area, normal) < 0) std::reverse(corners.begin(), corners.end());
-    const auto first = static_cast<std::uint32_t>(mesh_.vertices.size());
-    const auto steps = [&](double metres) {
-      return static_cast<std::int16_t>(math::to_int32(std::floor(metres / frame_.step + 0.5)));
-    };
-    const auto byte = [](double v) {
-      return static_cast<std::int8_t>(math::to_int32(std::floor(v * 127 + 0.5)));
-    };
-    for (const Point& p : corners) {
-      TileVertex vertex;
-      vertex.x = steps(p.x - frame_.middle_east);
-      vertex.y = steps_of(p.z, base_, frame_.step);
-      vertex.z = steps(frame_.middle_north - p.y);
-      vertex.normal[0] = byte(normal.x);
-      vertex.normal[1] = byte(normal.z);
-      vertex.normal[2] = byte(-normal.y);
-      std::copy(color.begin(), color.end(), vertex.color);
-      mesh_.vertices.push_back(vertex);
-    }
-    for (std::uint32_t k = 2; k < corners.size(); ++k) {
-      for (const std::uint32_t corner : {first, first + k - 1, first + k}) mesh_.indices.push_back(corner);
-    }
-  }
-
-  const TileFrame& frame_;
-  double base_;
-  std::array<std::uint8_t, 4> wall_, roof_;
-  TileMesh mesh_;
-};
-
 }  // namespace
+
+HouseExtent house_extent(const World& world) {
+  if (world.params.settlements.density <= 0) return {};
+  const bool has_models = world.make_asset && !world.params.settlements.houses.empty();
+  return has_models ? HouseExtent{model_reach, model_height} : HouseExtent{plain_reach, plain_height};
+}
+
+std::shared_ptr<const Asset> house_asset(const World& world, int number, Job& job) {
+  if (!world.make_asset) return nullptr;
+  return world.store->get<Asset>({world.id, Store::Layer::file, number, 2, 0}, job, [&] {
+    const std::uint64_t seed = key_at(world.key ^ 0x484F555345U, static_cast<std::uint64_t>(number));
+    const Child& model = world.params.settlements.houses[static_cast<std::size_t>(number)].model;
+    return std::make_shared<const Asset>(world.make_asset(
+        model, AssetForm::near, seed, "/settlements/houses/" + std::to_string(number) + "/model", job));
+  });
+}
 
 std::shared_ptr<const Plan> plan_of(const World& world, const Site& site, Job& job) {
   return world.store->get<Plan>({world.id, Store::Layer::plan, site.cell.x, site.cell.y, 0}, job, [&] {
@@ -175,18 +165,6 @@ std::vector<House> houses_near(const World& world, const Rectangle& box, double 
     }
   }
   return found;
-}
-
-TileMesh house_mesh(const World& world, const TileFrame& frame, const std::vector<House>& houses,
-                    double base) {
-  HouseMesh mesh(world, frame, base);
-  for (const House& house : houses) {
-    if (house.east >= frame.west && house.east < frame.west + frame.side && house.north >= frame.south &&
-        house.north < frame.south + frame.side) {
-      mesh.add(house);
-    }
-  }
-  return mesh.take();
 }
 
 }  // namespace seedmesh::world

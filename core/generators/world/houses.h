@@ -1,8 +1,11 @@
 #pragma once
 /// Houses of a settlement, in rows along its roads. A house belongs to the tile that holds its middle.
+#include <array>
 #include <memory>
+#include <string_view>
 #include <vector>
 
+#include "core/generators/world/asset.h"
 #include "core/generators/world/glb.h"
 #include "core/generators/world/roads.h"
 #include "core/generators/world/tile_frame.h"
@@ -14,11 +17,22 @@ struct House {
   double x = 1, y = 0;                   ///< direction of the ridge, east and north
   double length = 0, depth = 0;          ///< half of the plan along and across the ridge
   double low = 0, eaves = 0, ridge = 0;  ///< heights; `low` is below the ground
+  int model = -1;                        ///< of WorldSettlements::houses; -1: walls and a gable roof
+  double scale = 1, floor = 0;           ///< of the model, and the height of its foot
+  std::array<float, 2> turn{0, 1};       ///< of the model, as Instances::add() takes it
 };
 
-constexpr double house_reach = 13;   ///< metres from the middle of a house to its corners at most
-constexpr double most_cellar = 4;    ///< metres from the ground at its middle to its lowest corner at most
-constexpr double house_height = 14;  ///< metres from the ground at its middle to its ridge at most
+constexpr double most_cellar = 4;  ///< metres from the ground at its middle to its lowest corner at most
+
+/// Bounds of the houses of a world: metres from the middle to the corners, and from the ground there to the ridge.
+/// Greater models are scaled down. 0 in a world without settlements.
+struct HouseExtent {
+  double across = 0, up = 0;
+};
+HouseExtent house_extent(const World& world);
+
+/// The model of a house, from the store or made now.
+std::shared_ptr<const Asset> house_asset(const World& world, int number, Job& job);
 
 struct Plan {
   std::vector<House> houses;
@@ -30,8 +44,9 @@ std::shared_ptr<const Plan> plan_of(const World& world, const Site& site, Job& j
 /// Houses with their middle within `reach` of a rectangle.
 std::vector<House> houses_near(const World& world, const Rectangle& box, double reach, Job& job);
 
-/// Walls and a gable roof for each house whose middle is in the tile.
-TileMesh house_mesh(const World& world, const TileFrame& frame, const std::vector<House>& houses,
-                    double base);
+/// The houses whose middle is in the tile. Tiles of up to 128 m have the models of houses, or walls and a gable roof;
+/// up to 512 m all have walls and roof, up to 2 km boxes, up to 8 km one prism for the houses of each 128 m.
+void add_houses(Glb& glb, const World& world, const TileFrame& frame, double base, Job& job,
+                std::string_view folder);
 
 }  // namespace seedmesh::world

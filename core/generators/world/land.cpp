@@ -8,14 +8,7 @@
 namespace seedmesh::world {
 namespace {
 
-constexpr double range_wavelength = 22000;  ///< metres; of the widest mountain ridges
-constexpr int range_octaves = 5;
-constexpr double hill_wavelength = 5200;
-constexpr int hill_octaves = 3;
-constexpr double detail_wavelength = 720;
-constexpr int detail_octaves = 7;
-constexpr double detail_slope = 0.035;             ///< amplitude of an octave by its wavelength
-constexpr double land_rise = 170, sea_fall = 520;  ///< metres at a coast value of 1
+constexpr double detail_slope = 0.035;  ///< amplitude of an octave by its wavelength
 
 enum class Noise : std::uint64_t { coast = 1, belts, ranges, hills, detail, gullies, moisture, temperature };
 
@@ -44,11 +37,12 @@ Slope crest(const Slope& n, double k) {
 }
 
 /// Mountain ranges, about 0 to 1. Finer ridges are stronger where coarser ones are high.
-Slope ranges_at(const World& world, double east, double north) {
+Slope ranges_at(const World& world, double east, double north, std::array<float, range_octaves>& weights) {
   const double k = 0.02 + 0.35 * (1 - world.params.relief.ridges);
   Slope sum, weight = constant(1);
   double amplitude = 1, wavelength = range_wavelength, total = 0;
-  for (int n = 0; n < range_octaves; ++n, amplitude *= 0.48, wavelength *= 0.5) {
+  for (int n = 0; n < range_octaves; ++n, amplitude *= range_fall, wavelength *= 0.5) {
+    weights[static_cast<std::size_t>(n)] = static_cast<float>(weight.value);
     const Slope c = crest(octave(key_of(world, Noise::ranges, n), east, north, wavelength), k);
     const Slope part = c * c * weight;
     sum = sum + part * amplitude;
@@ -61,7 +55,7 @@ Slope ranges_at(const World& world, double east, double north) {
 /// Steps of layered rock: flat and steep parts in turn.
 Slope terraced(const Slope& h, double share) {
   if (share <= 0) return h;
-  constexpr double step = 60;
+  constexpr double step = terrace_step;
   const double level = std::floor(h.value / step), t = h.value / step - level;
   const double s = t * t * t * (t * (t * 6 - 15) + 10), ds = 30 * t * t * (t * (t - 2) + 1);
   return h * (1 - share) + applied(h, step * (level + s), ds) * share;
@@ -76,9 +70,10 @@ Land land_at(const World& world, double east, double north) {
   const Slope on_land = smooth_step(coast, -0.04, 0.3);
   const Slope belt = sum_of_octaves(world, Noise::belts, 64000, 2, east, north);
   const Slope rugged = smooth_step(belt, -0.25, 0.55) * on_land;
+  Land land{{}, rugged.value, coast.value, {}};
   Slope height = coast * (coast.value < 0 ? sea_fall : land_rise);
   if (relief.mountains > 0 && rugged.value > 0) {
-    height = height + ranges_at(world, east, north) * rugged * (1.6 * relief.mountains);
+    height = height + ranges_at(world, east, north, land.ridges) * rugged * (1.6 * relief.mountains);
   }
   if (relief.hills > 0) {
     const Slope hills = sum_of_octaves(world, Noise::hills, hill_wavelength, hill_octaves, east, north);
@@ -86,14 +81,20 @@ Land land_at(const World& world, double east, double north) {
   }
   height = terraced(height, relief.terraces);
   height.value += relief.sea_level;
-  return {height, rugged.value, coast.value};
+  for (float& ridge : land.ridges) ridge *= static_cast<float>(rugged.value);
+  land.height = height;
+  return land;
+}
+
+double detail_share(const World& world, double ruggedness) {
+  const WorldRelief& relief = world.params.relief;
+  return detail_slope * (0.06 + 0.94 * ruggedness * std::min(1.0, relief.mountains / 900) +
+                         0.3 * std::min(1.0, relief.hills / 150));
 }
 
 double detail_at(const World& world, const Land& land, double east, double north) {
   const WorldRelief& relief = world.params.relief;
-  const double strength =
-      detail_slope * (0.06 + 0.94 * land.ruggedness * std::min(1.0, relief.mountains / 900) +
-                      0.3 * std::min(1.0, relief.hills / 150));
+  const double strength = detail_share(world, land.ruggedness);
   double sum = 0, wavelength = detail_wavelength;
   for (int n = 0; n < detail_octaves; ++n, wavelength *= 0.5) {
     sum += octave(key_of(world, Noise::detail, n), east, north, wavelength).value * wavelength;
@@ -103,6 +104,19 @@ double detail_at(const World& world, const Land& land, double east, double north
   return sum * strength + 1.4 * relief.gullies * gullies;
 }
 
+Biome biome_of(const Climate& climate) {
+  const auto [moisture, temperature] = climate;
+  if (temperature < -8) return Biome::ice;
+  if (temperature < -1) return Biome::tundra;
+  if (temperature < 5) return moisture < 0.25 ? Biome::steppe : Biome::taiga;
+  if (temperature < 20)
+    return moisture < 0.2    ? Biome::desert
+           : moisture < 0.35 ? Biome::steppe
+           : moisture < 0.48 ? Biome::grassland
+                             : Biome::forest;
+  return moisture < 0.25 ? Biome::desert : moisture < 0.6 ? Biome::savanna : Biome::rainforest;
+}
+
 Climate climate_at(const World& world, double east, double north, double height) {
   const WorldClimate& climate = world.params.climate;
   const double wet = sum_of_octaves(world, Noise::moisture, 31000, 3, east, north).value;
@@ -110,16 +124,6 @@ Climate climate_at(const World& world, double east, double north, double height)
   const double above = std::max(0.0, height - world.params.relief.sea_level);
   return {std::clamp(climate.moisture + 0.55 * climate.variation * wet, 0.0, 1.0),
           climate.temperature + 9 * climate.variation * warm - 0.0065 * above};
-}
-
-double lowest_ground(const World& world) {
-  const WorldRelief& relief = world.params.relief;
-  return relief.sea_level - 2.6 * sea_fall - 1.5 * relief.hills - 400;
-}
-
-double highest_ground(const World& world) {
-  const WorldRelief& relief = world.params.relief;
-  return relief.sea_level + 2.6 * land_rise + 2.2 * relief.mountains + 2 * relief.hills + 400;
 }
 
 }  // namespace seedmesh::world

@@ -3,18 +3,35 @@
 /// function of the position alone, so land has no borders.
 ///
 /// Ridged noise after Musgrave (in Ebert et al. 2003, "Texturing and Modeling", chapter 16).
+#include <array>
+
 #include "core/generators/world/noise.h"
 #include "core/generators/world/world_parameters.h"
 
 namespace seedmesh::world {
+
+constexpr int range_octaves = 5;
+constexpr double range_wavelength = 22000;  ///< metres; of the widest mountain ridges
+constexpr double range_fall = 0.48;         ///< amplitude of a ridge by that of one twice as wide
+constexpr double hill_wavelength = 5200;
+constexpr int hill_octaves = 3;
+constexpr double detail_wavelength = 720;
+constexpr int detail_octaves = 7;
+constexpr double land_rise = 170, sea_fall = 520;  ///< metres at a coast value of 1
+constexpr double terrace_step = 60;                ///< metres
 
 /// The land at wavelengths of 1.2 km and more, in metres above zero, and what finer wavelengths depend on.
 struct Land {
   Slope height;
   double ruggedness = 0;  ///< 0 on plains to 1 in the greatest mountains
   double coast = 0;       ///< below 0 is the sea, above 0 land; about -1 to 1
+  std::array<float, range_octaves>
+      ridges{};  ///< the share of its full amplitude that each octave of ridges has
 };
 Land land_at(const World& world, double east, double north);
+
+/// The amplitude of an octave of detail by its wavelength.
+double detail_share(const World& world, double ruggedness);
 
 /// What gullies and finer wavelengths add. `land` is the ground with its slope, after rivers.
 double detail_at(const World& world, const Land& land, double east, double north);
@@ -23,10 +40,11 @@ double detail_at(const World& world, const Land& land, double east, double north
 struct Climate {
   double moisture = 0, temperature = 0;
 };
-Climate climate_at(const World& world, double east, double north, double height);
+/// In the order of the schema.
+enum class Biome { ice, tundra, taiga, steppe, grassland, forest, desert, savanna, rainforest };
+/// By temperature and moisture, roughly as in Whittaker 1975 ("Communities and Ecosystems").
+Biome biome_of(const Climate& climate);
 
-/// Bounds of the height of any ground of the world, without skirts and plants.
-double lowest_ground(const World& world);
-double highest_ground(const World& world);
+Climate climate_at(const World& world, double east, double north, double height);
 
 }  // namespace seedmesh::world

@@ -42,6 +42,10 @@ std::array<std::uint8_t, 4> ground_color(const World& world, const GroundSample&
   Shade shade = mixed(shade_of(colors.dry), shade_of(colors.grass), smooth_step(moisture, 0.22, 0.48));
   shade = mixed(shade, shade_of(colors.forest), smooth_step(moisture, 0.5, 0.8));
   shade = mixed(shade, shade_of(colors.dry), 0.6 * smooth_step(-climate.temperature + patch, -4, 2));
+  if (sample.field >= 0) {
+    const Shade crop = shade_of(world.params.fields.colors[static_cast<std::size_t>(sample.field)]);
+    shade = mixed(shade, sample.is_hedge ? shade_of(colors.forest) : crop, 0.85);
+  }
   const double bare = smooth_step(1 - steepness + 0.02 * patch, 0.1, 0.24);
   shade = mixed(shade, shade_of(colors.rock), bare);
   if (world.params.relief.sea) {

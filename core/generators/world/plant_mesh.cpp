@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/base/math.h"
+#include "core/generators/world/asset.h"
 #include "core/generators/world/palette.h"
 
 namespace seedmesh::world {
@@ -28,6 +29,7 @@ class Builder {
   void revolve(const std::vector<Ring>& rings, int sides, const Rgba& color, double uneven = 0,
                const glm::dvec2& at = {0, 0}) {
     const auto first = static_cast<std::uint32_t>(positions_.size());
+    last_sides_ = sides;
     for (std::size_t k = 0; k < rings.size(); ++k) {
       const Ring& low = rings[k == 0 ? 0 : k - 1];
       const Ring& high = rings[k + 1 == rings.size() ? k : k + 1];
@@ -68,6 +70,15 @@ class Builder {
       const std::uint32_t a = first + 2 * k;
       for (const std::uint32_t corner : {a, a + 1, a + 2, a + 1, a + 3, a + 2}) indices_.push_back(corner);
       for (const std::uint32_t corner : {a, a + 2, a + 1, a + 1, a + 2, a + 3}) indices_.push_back(corner);
+    }
+  }
+
+  /// Closes the last ring of revolve() from above.
+  void close() {
+    const auto count = static_cast<std::uint32_t>(last_sides_),
+               first = static_cast<std::uint32_t>(positions_.size()) - count;
+    for (std::uint32_t side = 2; side < count; ++side) {
+      for (const std::uint32_t corner : {first, first + side, first + side - 1}) indices_.push_back(corner);
     }
   }
 
@@ -119,6 +130,7 @@ class Builder {
   }
 
   Rng rng_;
+  int last_sides_ = 0;
   std::vector<glm::vec3> positions_;
   std::vector<glm::dvec3> normals_;
   std::vector<Rgba> colors_;
@@ -181,6 +193,40 @@ void add_form(Builder& builder, const WorldClass& plant) {
   }
 }
 
+/// The outline of a plant in few triangles.
+void add_simple_form(Builder& builder, const WorldClass& plant) {
+  const double h = plant.height;
+  const Rgba leaf = linear_color(plant.color), stem = linear_color(plant.stem);
+  switch (plant.form) {
+    case WorldForm::conifer:
+      builder.revolve({{0.02 * h, -0.02 * h}, {0.018 * h, 0.2 * h}}, 3, stem);
+      builder.revolve({{0.05 * h, 0.1 * h}, {0.19 * h, 0.16 * h}, {0.01 * h, h}}, 5, leaf, 0.2);
+      return;
+    case WorldForm::broadleaf:
+      builder.revolve({{0.03 * h, -0.02 * h}, {0.02 * h, 0.4 * h}}, 3, stem);
+      builder.revolve({{0.1 * h, 0.3 * h}, {0.33 * h, 0.52 * h}, {0.22 * h, 0.86 * h}, {0.01 * h, h}}, 5,
+                      leaf, 0.3);
+      return;
+    case WorldForm::palm:
+      builder.revolve({{0.03 * h, -0.02 * h}, {0.016 * h, 0.88 * h}}, 3, stem);
+      builder.revolve({{0.3 * h, 0.8 * h}, {0.2 * h, 0.93 * h}, {0.01 * h, h}}, 5, leaf, 0.4);
+      return;
+    case WorldForm::shrub:
+      builder.revolve({{0.4 * h, -0.05 * h}, {0.45 * h, 0.5 * h}, {0.02 * h, h}}, 5, leaf, 0.4);
+      return;
+    case WorldForm::cactus:
+      builder.revolve({{0.07 * h, -0.02 * h}, {0.08 * h, 0.6 * h}, {0.005 * h, h}}, 4, leaf);
+      return;
+    case WorldForm::fungus:
+      builder.revolve({{0.09 * h, -0.02 * h}, {0.05 * h, 0.8 * h}}, 4, stem);
+      builder.revolve({{0.05 * h, 0.7 * h}, {0.4 * h, 0.68 * h}, {0.2 * h, 0.94 * h}, {0.005 * h, h}}, 6,
+                      leaf);
+      return;
+  }
+}
+
+}  // namespace
+
 std::string hash_of(const std::string& bytes) {
   std::uint64_t hash = mix(bytes.size());
   for (const char c : bytes) hash = mix(hash ^ static_cast<unsigned char>(c)) + 0x9E3779B97F4A7C15U;
@@ -189,12 +235,21 @@ std::string hash_of(const std::string& bytes) {
   return text;
 }
 
-}  // namespace
-
-PlantFile plant_file(const World& world, int plant_class) {
+PlantFile plant_file(const World& world, int plant_class, PlantForm form) {
   const WorldClass& plant = world.params.plants[static_cast<std::size_t>(plant_class)];
   Builder builder(key_at(0x464F524DU, static_cast<std::uint64_t>(plant.form)));
-  add_form(builder, plant);
+  switch (form) {
+    case PlantForm::whole:
+      add_form(builder, plant);
+      break;
+    case PlantForm::simple:
+      add_simple_form(builder, plant);
+      break;
+    case PlantForm::clump:
+      builder.revolve({{0.5, 0}, {0.47, 0.55}, {0.24, 1}}, 6, linear_color(plant.color), 0.3);
+      builder.close();
+      break;
+  }
   PlantFile file = builder.file();
   file.hash = hash_of(file.bytes);
   return file;
@@ -204,8 +259,9 @@ PlantExtent plant_extent(const World& world) {
   PlantExtent extent;
   if (!world.has(Layer::plants)) return extent;
   for (const WorldClass& plant : world.params.plants) {
-    extent.across = std::max(extent.across, 0.8 * plant.height * greatest_size);
+    extent.across = std::max(extent.across, widest_plant * plant.height * greatest_size);
     extent.up = std::max(extent.up, 1.05 * plant.height * greatest_size);
+    extent.down = std::max(extent.down, plant_depth + deepest_root * plant.height * greatest_size);
   }
   extent.across = std::ceil(extent.across);  // whole metres, so that sums with borders are exact
   return extent;

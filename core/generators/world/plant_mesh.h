@@ -17,12 +17,20 @@ struct PlantFile {
 
 constexpr std::size_t plant_vertex_bytes = 20;
 
-/// The plant at its mean height, its foot at the origin, +Y up. Below 200 triangles.
-PlantFile plant_file(const World& world, int plant_class);
+/// whole: for leaves and the level above. simple: for tiles of 256 m. clump: the crowns of many plants from afar, in
+/// a cube of 1 m.
+enum class PlantForm { whole, simple, clump };
 
-/// The greatest distance of a part of a plant from its foot, in plan and upwards, over all copies of all classes.
+/// The plant at its mean height, its foot at the origin, +Y up. Below 200 triangles.
+PlantFile plant_file(const World& world, int plant_class, PlantForm form = PlantForm::whole);
+
+constexpr double plant_depth = 0.1;    ///< metres that the foot of a plant is below the ground
+constexpr double deepest_root = 0.06;  ///< of the height: how far a plant may reach below its foot
+constexpr double widest_plant = 0.8;   ///< of the height: how far a plant may reach from its foot in plan
+
+/// The greatest distance of a part of a plant from its foot, in plan, upwards and below the ground, over all copies of all classes.
 struct PlantExtent {
-  double across = 0, up = 0;
+  double across = 0, up = 0, down = 0;
 };
 PlantExtent plant_extent(const World& world);
 

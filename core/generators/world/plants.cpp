@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/base/math.h"
+#include "core/generators/world/plant_mesh.h"
 
 namespace seedmesh::world {
 namespace {
@@ -116,15 +117,29 @@ void thin(Field& field, double spacing, Job& job) {
   }
 }
 
+bool is_in_biome(const WorldClass& plant, const Climate& climate) {
+  return plant.biomes.empty() || std::any_of(plant.biomes.begin(), plant.biomes.end(), [&](const auto biome) {
+           return static_cast<int>(biome) == static_cast<int>(biome_of(climate));
+         });
+}
+
 double slope_of(const Slope& s) { return std::sqrt(s.east * s.east + s.north * s.north); }
 
 bool suits(const World& world, const WorldClass& plant, const GroundSample& sample, const Climate& climate,
            double steepest) {
+  if (sample.field >= 0 && !sample.is_hedge) return false;
   if (sample.shore < dry_margin || sample.road < dry_margin || sample.house < dry_margin) return false;
   if (world.params.relief.sea && sample.height < world.params.relief.sea_level + 0.8) return false;
+  const double above = sample.height - world.params.relief.sea_level;
+  if (above < plant.heights[0] || above > plant.heights[1] || !is_in_biome(plant, climate)) return false;
   return climate.moisture >= plant.moisture[0] && climate.moisture <= plant.moisture[1] &&
          climate.temperature >= plant.temperature[0] && climate.temperature <= plant.temperature[1] &&
          slope_of(sample.land.height) <= steepest;
+}
+
+double steepest_of(const WorldClass& plant) {
+  const math::SinCos angle = math::sincos_degrees(plant.slope);
+  return angle.sin / angle.cos;
 }
 
 /// Water makes the ground beside it moist.
@@ -139,8 +154,7 @@ std::vector<Plant> plants_in(const World& world, int plant_class, const Rectangl
   const WorldClass& plant = world.params.plants[static_cast<std::size_t>(plant_class)];
   Field field = field_of(key_of(world, plant_class), plant, box, reach);
   thin(field, plant.spacing, job);
-  const math::SinCos angle = math::sincos_degrees(plant.slope);
-  const double steepest = angle.sin / angle.cos;
+  const double steepest = steepest_of(plant);
   std::vector<Plant> plants;
   for (const Candidate& c : field.candidates) {
     if (c.state != Candidate::stays || c.east < box.west || c.east >= box.east || c.north < box.south ||
@@ -154,17 +168,32 @@ std::vector<Plant> plants_in(const World& world, int plant_class, const Rectangl
     climate.moisture += 0.08 * (rng.unit() - 0.5);  // edges of biomes are no lines
     climate.temperature += 1.2 * (rng.unit() - 0.5);
     if (!suits(world, plant, sample, climate, steepest)) continue;
-    plants.push_back({c.east, c.north, sample.height - 0.1, rng.uniform(0.7, 1.3), rng.unit()});
+    plants.push_back({c.east, c.north, sample.height - plant_depth, rng.uniform(0.7, 1.3), rng.unit()});
   }
   return plants;
 }
 
+double wood_cover(const World& world, int plant_class, const GroundSample& sample, double east,
+                  double north) {
+  const WorldClass& plant = world.params.plants[static_cast<std::size_t>(plant_class)];
+  const double cover = cover_at(key_of(world, plant_class), plant.density, east, north);
+  if (cover < 0.1) return 0;
+  Climate climate = climate_at(world, east, north, sample.height);
+  climate.moisture = moisture_near(climate, sample);
+  return suits(world, plant, sample, climate, steepest_of(plant)) ? cover : 0;
+}
+
 bool may_grow(const World& world, const WorldClass& plant, const GroundSample& sample, double east,
-              double north) {
+              double north, double spacing) {
   const Climate climate = climate_at(world, east, north, sample.height);
-  return climate.moisture + 0.45 >= plant.moisture[0] && climate.moisture - 0.1 <= plant.moisture[1] &&
-         climate.temperature + 2 >= plant.temperature[0] && climate.temperature - 2 <= plant.temperature[1] &&
-         (!world.params.relief.sea || sample.height > world.params.relief.sea_level - 30);
+  const double far = std::min(1.0, spacing / 400);
+  const double wetter = sample.shore < 130 + spacing || spacing > 400 ? 0.3 : 0;
+  const double moister = 0.05 + 0.1 * far + wetter, warmer = 0.7 + 3 * far;
+  return climate.moisture + moister >= plant.moisture[0] &&
+         climate.moisture - 0.05 - 0.1 * far <= plant.moisture[1] &&
+         climate.temperature + warmer >= plant.temperature[0] &&
+         climate.temperature - warmer <= plant.temperature[1] &&
+         (!world.params.relief.sea || sample.height > world.params.relief.sea_level - 2 - 40 * far);
 }
 
 }  // namespace seedmesh::world

@@ -24,8 +24,11 @@ struct Plant {
 std::vector<Plant> plants_in(const World& world, int plant_class, const Rectangle& box, const Ground& ground,
                              Job& job, double reach = thinning_rounds);
 
-/// Whether the class can grow somewhere near a sample: conditions with a tolerance.
+/// How much of the ground around a position the class covers, 0 to 1.
+double wood_cover(const World& world, int plant_class, const GroundSample& sample, double east, double north);
+
+/// Whether the class can grow within `spacing` metres of a sample: its conditions with a tolerance.
 bool may_grow(const World& world, const WorldClass& plant, const GroundSample& sample, double east,
-              double north);
+              double north, double spacing);
 
 }  // namespace seedmesh::world

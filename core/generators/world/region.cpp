@@ -273,6 +273,7 @@ class Drainage {
         course.into = lake_of(below)->id;
       }
       point.water = water;
+      point.cut = std::max(0.0, land - water);
       point.width = first_width + (last_width - first_width) * k / pieces;
       course.points.push_back(point);
     }
@@ -286,6 +287,7 @@ class Drainage {
       const double away = distance_of(p, lake);
       const double beyond = std::max(0.0, away - shore_distance(lake, p.east, p.north, away));
       water = std::min(water, std::max(lake.level, std::min(p.water, lake.level + lake_grade * beyond)));
+      p.cut += p.water - water;
       p.water = water;
     }
   }

@@ -31,6 +31,7 @@ struct RiverPoint {
   double east = 0, north = 0;  ///< absolute
   double water = 0;            ///< height of the water; never rises along a river
   double width = 0;            ///< metres
+  double cut = 0;              ///< metres that the land would be above the water
 };
 struct River {
   std::string id;

@@ -60,7 +60,7 @@ class PathFinder {
     }
     std::vector<RoadPoint> path;
     if (queue.empty()) return path;
-    for (int n = end; n >= 0; n = at(n).from) path.push_back({east_of(n), north_of(n), 0, false});
+    for (int n = end; n >= 0; n = at(n).from) path.push_back({east_of(n), north_of(n), 0, false, 0});
     std::reverse(path.begin(), path.end());
     return path;
   }
@@ -145,7 +145,7 @@ std::vector<RoadPoint> smoothed(const std::vector<RoadPoint>& path) {
   for (std::size_t k = 0; k + 1 < path.size(); ++k) {
     const RoadPoint &a = path[k], &b = path[k + 1];
     const auto between = [&](double t) {
-      return RoadPoint{a.east + t * (b.east - a.east), a.north + t * (b.north - a.north), 0, false};
+      return RoadPoint{a.east + t * (b.east - a.east), a.north + t * (b.north - a.north), 0, false, 0};
     };
     if (k > 0) out.push_back(between(0.25));
     if (k + 2 < path.size()) out.push_back(between(0.75));
@@ -180,7 +180,8 @@ bool set_heights(std::vector<RoadPoint>& points, const Ground& ground) {
   bool is_buildable = !levels.empty();
   for (std::size_t k = 0; k < levels.size(); ++k) {
     points[k].height = levels[k];
-    is_buildable &= std::abs(levels[k] - heights[k]) <= most_works;
+    points[k].works = std::abs(levels[k] - heights[k]);
+    is_buildable &= points[k].works <= most_works;
   }
   return is_buildable;
 }

@@ -11,12 +11,11 @@ namespace {
 constexpr double block_side = 2048;
 }  // namespace
 
-TerrainGrid sample_grid(const World& world, const TileFrame& frame, int cells, int halo, Job& job,
-                        Works works) {
+TerrainGrid sample_grid(const World& world, const TileFrame& frame, int cells, int halo, Job& job) {
   TerrainGrid grid{cells + 1, halo, frame.west, frame.south, frame.side / cells, {}};
   const int wide = grid.count + 2 * halo;
   grid.samples.resize(static_cast<std::size_t>(wide) * static_cast<std::size_t>(wide));
-  const bool is_coarse = works == Works::none || grid.spacing >= works_spacing;
+  const bool is_coarse = grid.spacing >= works_spacing;
   const int block = std::clamp(static_cast<int>(block_side / grid.spacing), 1, wide);
   const auto along = [&](double from, int k) { return from + (k - halo) * grid.spacing; };
   for (int row = 0; row < wide; row += block) {

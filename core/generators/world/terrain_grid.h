@@ -18,8 +18,6 @@ struct TerrainGrid {
     return samples[static_cast<std::size_t>((row + halo) * wide + column + halo)];
   }
 };
-enum class Works { none, roads };
-TerrainGrid sample_grid(const World& world, const TileFrame& frame, int cells, int halo, Job& job,
-                        Works works = Works::roads);
+TerrainGrid sample_grid(const World& world, const TileFrame& frame, int cells, int halo, Job& job);
 
 }  // namespace seedmesh::world

@@ -9,6 +9,11 @@
 namespace seedmesh::world {
 namespace {
 
+constexpr double border_share = 0.9;  ///< the greatest deviation along a line, by that of an area
+constexpr double far_share = 0.9;     ///< the same for tiles three levels coarser
+constexpr double unusual = 1.15;      ///< of the usual skirt: the deepest that was met
+constexpr double rounding_steps = 9;  ///< of heights of tiles three levels coarser
+
 TileVertex vertex_of(const World& world, const TileFrame& frame, const TerrainGrid& grid, int column, int row,
                      double base) {
   const GroundSample& sample = grid.at(column, row);
@@ -30,6 +35,11 @@ TileVertex vertex_of(const World& world, const TileFrame& frame, const TerrainGr
   const auto color = ground_color(world, sample, east, north, run / length);
   std::copy(color.begin(), color.end(), vertex.color);
   return vertex;
+}
+
+double usual_skirt(const World& world, const TileFrame& frame, const Roughness& rough) {
+  return far_share * deviation_of(world, 8 * frame.spacing, rough) +
+         border_share * deviation_of(world, frame.spacing, rough) + rounding_steps * frame.step;
 }
 
 /// Walls below the border: its vertices in turn, counter-clockwise from above, starting in the south-west.
@@ -57,6 +67,32 @@ void add_skirt(TileMesh& mesh, int count, double skirt, double step) {
 }
 
 }  // namespace
+
+double skirt_depth(const World& world, const TileFrame& frame, const TerrainGrid& grid) {
+  const int last = grid.count - 1;
+  Roughness rough;
+  double most = 0;
+  for (int side = 0; side < 4; ++side) {
+    const auto at = [&](int k) -> const GroundSample& {
+      return side < 2 ? grid.at(k, side * last) : grid.at((side - 2) * last, k);
+    };
+    for (int k = 0; k <= last; ++k) {
+      rough.add(at(k));
+      for (int stride = 2; stride <= 8; stride *= 2) {
+        const int from = k / stride * stride, to = std::min(from + stride, last);
+        if (from == k || from == to) continue;
+        const double t = static_cast<double>(k - from) / (to - from);
+        const double chord = at(from).height + t * (at(to).height - at(from).height);
+        most = std::max(most, std::abs(at(k).height - chord));
+      }
+    }
+  }
+  return std::max(most + rounding_steps * frame.step, usual_skirt(world, frame, rough));
+}
+
+double most_skirt(const World& world, const TileFrame& frame, const Roughness& rough) {
+  return unusual * usual_skirt(world, frame, rough);
+}
 
 std::int16_t steps_of(double height, double base, double step) {
   return static_cast<std::int16_t>(

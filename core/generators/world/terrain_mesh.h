@@ -1,5 +1,6 @@
 #pragma once
 /// The terrain of a tile as a quantized mesh.
+#include "core/generators/world/error_model.h"
 #include "core/generators/world/glb.h"
 #include "core/generators/world/terrain_grid.h"
 
@@ -14,6 +15,12 @@ struct TerrainMesh {
 /// are rounded to whole steps of the level and normals follow from samples of the level, so two neighbours of one
 /// level have equal borders.
 TerrainMesh terrain_mesh(const World& world, const TileFrame& frame, const TerrainGrid& grid, double skirt);
+
+/// Metres that the skirt of a tile hangs down, so that no gap shows beside tiles up to three levels coarser or finer.
+/// `grid` is that of the tile.
+double skirt_depth(const World& world, const TileFrame& frame, const TerrainGrid& grid);
+/// A bound of the depths of skirts in an area.
+double most_skirt(const World& world, const TileFrame& frame, const Roughness& roughness);
 
 /// Whole steps at `height`, relative to `base`, within 16 bits.
 std::int16_t steps_of(double height, double base, double step);

@@ -1,7 +1,8 @@
-/// Earthworks of roads, and where houses stand.
+/// Earthworks of roads, where houses stand, and fields.
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/math.h"
 #include "core/generators/world/houses.h"
 #include "core/generators/world/roads.h"
 
@@ -25,10 +26,50 @@ double distance_to(const RoadPiece& piece, double east, double north, double& sh
   return std::sqrt(dx * dx + dy * dy);
 }
 
+constexpr double steepest_field = 0.11, least_field_moisture = 0.24;
+constexpr double hedge = 2.5;  ///< metres from the border of a field
+
+/// The field around a position: a cell of the Voronoi diagram of one point in each cell of a jittered grid.
+struct Field {
+  double east = 0, north = 0;  ///< of its point
+  std::uint64_t key = 0;
+  double border = 0;  ///< about the distance of the position from the next field
+};
+
+Field field_of(const World& world, double east, double north) {
+  const double size = world.params.fields.size;
+  const auto column = math::to_int64(std::floor(east / size)), row = math::to_int64(std::floor(north / size));
+  Field found;
+  double nearest = 1e18, second = 1e18;
+  for (std::int64_t y = row - 1; y <= row + 1; ++y) {
+    for (std::int64_t x = column - 1; x <= column + 1; ++x) {
+      Rng rng(cell_key(world.key ^ 0x4649454C44U, x, y));
+      const double px = (static_cast<double>(x) + rng.uniform(0.2, 0.8)) * size,
+                   py = (static_cast<double>(y) + rng.uniform(0.2, 0.8)) * size;
+      const double square = (px - east) * (px - east) + (py - north) * (py - north);
+      if (square < nearest) {
+        second = nearest;
+        nearest = square;
+        found = {px, py, rng.key(), 0};
+      } else {
+        second = std::min(second, square);
+      }
+    }
+  }
+  found.border = (std::sqrt(second) - std::sqrt(nearest)) / 2;
+  return found;
+}
+
 }  // namespace
 
 Ground Ground::with_roads(const World& world, const Rectangle& box, Job& job) {
   Ground ground(world, box, job);
+  const WorldFields& fields = world.params.fields;
+  if (fields.share > 0 && fields.reach > 0) {
+    const double reach = fields.reach * world.params.settlements.radius + 2 * fields.size;
+    for (const auto& site : sites_near(world, box, reach, job))
+      ground.farmland_.push_back({site->east, site->north, site->radius});
+  }
   for (const auto& road : roads_near(world, box, works_reach + 16, job)) {
     for (std::size_t k = 1; k < road->points.size(); ++k) {
       const RoadPoint &a = road->points[k - 1], &b = road->points[k];
@@ -37,8 +78,8 @@ Ground Ground::with_roads(const World& world, const Rectangle& box, Job& job) {
           std::min(a.north, b.north) > box.north + reach || std::max(a.north, b.north) < box.south - reach) {
         continue;
       }
-      ground.pieces_.push_back(
-          {a.east, a.north, a.height, b.east, b.north, b.height, road->width, a.is_bridge || b.is_bridge});
+      ground.pieces_.push_back({a.east, a.north, a.height, b.east, b.north, b.height, road->width,
+                                a.is_bridge || b.is_bridge, a.works, b.works});
     }
   }
   return ground;
@@ -46,7 +87,7 @@ Ground Ground::with_roads(const World& world, const Rectangle& box, Job& job) {
 
 Ground Ground::with_works(const World& world, const Rectangle& box, Job& job) {
   Ground ground = with_roads(world, box, job);
-  for (const House& house : houses_near(world, box, 2 * house_reach, job)) {
+  for (const House& house : houses_near(world, box, 2 * house_extent(world).across, job)) {
     ground.houses_.push_back({house.east, house.north, std::max(house.length, house.depth)});
   }
   return ground;
@@ -75,7 +116,35 @@ void Ground::add_works(GroundSample& sample, double east, double north) const {
   const double shoulder = std::min(works_reach - 1 - edge, 6 + 2.5 * std::abs(height - sample.height));
   const double share = (1 - smooth_step(nearest, edge, edge + shoulder)) * away_from_pins(east, north) *
                        smooth_step(sample.shore, 1, 9);
+  sample.works = std::abs(share * (height - sample.height));
   sample.height += share * (height - sample.height);
+}
+
+void Ground::add_field(GroundSample& sample, double east, double north) const {
+  const WorldFields& fields = world_->params.fields;
+  const Slope& h = sample.land.height;
+  if (h.east * h.east + h.north * h.north > steepest_field * steepest_field || sample.shore < 15 ||
+      sample.road < 3 || sample.house < 6) {
+    return;
+  }
+  if (world_->params.relief.sea && sample.height < world_->params.relief.sea_level + 2.5) return;
+  for (const Farmland& farm : farmland_) {
+    const double most = fields.reach * farm.radius;
+    const double x = east - farm.east, y = north - farm.north, far = most + 2 * fields.size;
+    if (x * x + y * y > far * far) continue;
+    const Field field = field_of(*world_, east, north);
+    const double dx = field.east - farm.east, dy = field.north - farm.north,
+                 away = std::sqrt(dx * dx + dy * dy);
+    Rng rng(field.key);
+    const double share = fields.share * (1 - smooth_step(away, 0.5 * most, most)) *
+                         smooth_step(away, 0.3 * farm.radius, 0.7 * farm.radius);
+    if (rng.unit() >= share ||
+        climate_at(*world_, field.east, field.north, sample.height).moisture < least_field_moisture)
+      continue;
+    sample.field = static_cast<int>(rng.unit() * static_cast<double>(fields.colors.size()));
+    sample.is_hedge = field.border < hedge;
+    return;
+  }
 }
 
 }  // namespace seedmesh::world

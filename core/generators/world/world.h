@@ -2,7 +2,7 @@
 /// An endless plane of land and sea by a seed, streamed as OGC 3D Tiles 1.1. A tile is a function of the request
 /// and its address: no tile needs another tile.
 ///
-///   region (drainage, lakes) -> height of a point -> tiles: terrain, water, plants
+///   region (drainage, lakes) -> height of a point -> villages -> roads -> fields, houses -> plants -> tiles
 ///
 /// Axes of tiles and maps are those of 3D Tiles: x = east, y = north, z = up, in metres from the middle of the
 /// world. Contents are glTF: +Y up, north = -Z.
@@ -34,7 +34,8 @@ struct TileBounds {
   double geometric_error = 0;  ///< metres; falls at every level and is 0 at leaves
 };
 
-/// Cost: 289 samples of the ground, and the same once for each tile above. `key` is in the tree.
+/// Bounds of the 341 tiles of one file are made together, in some milliseconds, and stay in the store. `key` is in the
+/// tree.
 TileBounds tile_bounds(const World& world, const TileKey& key, Job& job);
 
 /// The geometric error that the root of an implicit tileset has to declare: divided by 2^level, it is at least

@@ -35,11 +35,23 @@ std::vector<Issue> issues_of(const WorldParams& params) {
       issues.emplace_back(IssueKind::duplicate_key, at + "/class",
                           "the class " + plant.class_name + " is there twice");
     }
-    for (const auto& [name, range] :
-         {std::pair{"/moisture", plant.moisture}, {"/temperature", plant.temperature}}) {
+    for (const auto& [name, range] : {std::pair{"/moisture", plant.moisture},
+                                      {"/temperature", plant.temperature},
+                                      {"/heights", plant.heights}}) {
       if (range[0] <= range[1]) continue;
       issues.emplace_back(IssueKind::conflict, at + name, "the first number is above the second");
     }
+    if (plant.model && !plant.model->generator.empty() && plant.model->generator != "tree" &&
+        plant.model->generator != "lsystem") {
+      issues.emplace_back(IssueKind::conflict, at + "/model/generator",
+                          "found \"" + plant.model->generator + "\", expected \"tree\" or \"lsystem\"");
+    }
+  }
+  for (std::size_t k = 0; k < params.settlements.houses.size(); ++k) {
+    const std::string& generator = params.settlements.houses[k].model.generator;
+    if (generator.empty() || generator == "building") continue;
+    issues.emplace_back(IssueKind::conflict, "/settlements/houses/" + std::to_string(k) + "/model/generator",
+                        "found \"" + generator + "\", expected \"building\"");
   }
   return issues;
 }

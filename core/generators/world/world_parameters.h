@@ -4,6 +4,7 @@
 #include <memory>
 #include <string_view>
 
+#include "core/generators/world/asset.h"
 #include "core/generators/world/store.h"
 #include "generated/params/world.h"
 
@@ -26,6 +27,7 @@ struct World {
   double extent = 1048576;           ///< metres
   std::int64_t east = 0, north = 0;  ///< the middle, absolute
   std::shared_ptr<Store> store;
+  MakeAsset make_asset;  ///< of plants and houses by requests; without it they have their plain forms
 
   bool has(Layer layer) const { return (layers & (1U << static_cast<unsigned>(layer))) != 0; }
   unsigned layers = 31;

@@ -7,6 +7,7 @@
 #include "core/generators/world/land.h"
 #include "core/generators/world/plants.h"
 #include "core/generators/world/region.h"
+#include "core/generators/world/roads.h"
 #include "tests/core/world/world_support.h"
 
 namespace seedmesh::world {
@@ -90,6 +91,52 @@ TEST(WorldLayers, GroundReadsWaterWithinItsReachOnly) {
     }
   }
   EXPECT_GT(differences, 0);
+}
+
+/// Roads, houses and fields around villages: from a rectangle and from one that is wider by a cell of villages.
+TEST(WorldLayers, WorksReadWhatIsWithinTheirReachOnly) {
+  WorldParams params = mountains_with_woods();
+  params.relief.mountains = 300;
+  params.settlements.density = 1;
+  params.fields.share = 0.8;
+  const World world = world_of(params);
+  Job job = test_job();
+  int built = 0, fields = 0, bare = 0;
+  std::vector<Rectangle> boxes;
+  for (const auto& site : sites_near(world, {0, 0, 60000, 60000}, 0, job)) {
+    for (int k = 0; k < 6; ++k) {
+      const double east = 64 * std::floor(site->east / 64 + 2 * k - 6),
+                   north = 64 * std::floor(site->north / 64 + 3 * k - 8);
+      boxes.push_back({east, north, east + 64, north + 64});
+    }
+  }
+  ASSERT_GE(boxes.size(), 100U);
+  boxes.resize(std::min<std::size_t>(boxes.size(), 200));
+  for (const Rectangle& box : boxes) {
+    const Rectangle wider{box.west - site_cell, box.south - site_cell, box.east + site_cell,
+                          box.north + site_cell};
+    const Ground own = Ground::with_works(world, box, job), more = Ground::with_works(world, wider, job),
+                 without(world, box, job);
+    for (const double x : {1.0, 17.0, 40.0, 63.0}) {
+      for (const double y : {2.0, 31.0, 62.0}) {
+        const GroundSample a = own.at(box.west + x, box.south + y), b = more.at(box.west + x, box.south + y);
+        ASSERT_EQ(a.height, b.height);
+        ASSERT_EQ(a.field, b.field);
+        if (a.road < 2) {
+          ASSERT_EQ(a.road, b.road);
+        }
+        if (a.house < 2) {
+          ASSERT_EQ(a.house, b.house);
+        }
+        built += a.road < 0 || a.house < 0 ? 1 : 0;
+        fields += a.field >= 0 ? 1 : 0;
+        bare += a.height != without.height(box.west + x, box.south + y) ? 1 : 0;
+      }
+    }
+  }
+  EXPECT_GT(built, 10);
+  EXPECT_GT(fields, 100);
+  EXPECT_GT(bare, 50) << "roads change the ground";
 }
 
 std::set<std::pair<double, double>> feet_of(const World& world, const Rectangle& box, double reach) {

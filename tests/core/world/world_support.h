@@ -83,4 +83,51 @@ inline Terrain terrain_of(const std::string& glb) {
   return terrain;
 }
 
+/// The least and the greatest coordinates of all vertices, instances included: east, north, up.
+struct ContentBox {
+  std::array<double, 3> low{1e12, 1e12, 1e12}, high{-1e12, -1e12, -1e12};
+  void add(double x, double y, double z) {
+    const double place[3] = {x, -z, y};
+    for (std::size_t k = 0; k < 3; ++k) {
+      low[k] = std::min(low[k], place[k]);
+      high[k] = std::max(high[k], place[k]);
+    }
+  }
+};
+inline ContentBox content_of(const std::string& glb) {
+  const GlbParts parts = parts_of(glb);
+  const Json &nodes = parts.json["nodes"], &accessors = parts.json["accessors"];
+  const auto values = [&](int accessor) {
+    const Json& view = parts.json["bufferViews"][accessors[accessor]["bufferView"].get<int>()];
+    std::vector<float> found(accessors[accessor]["count"].get<std::size_t>() * 3);
+    std::memcpy(found.data(), parts.bytes.data() + view.value("byteOffset", 0), found.size() * sizeof(float));
+    return found;
+  };
+  ContentBox box;
+  for (const Json& node : nodes) {
+    if (!node.contains("mesh")) continue;
+    for (const Json& primitive : parts.json["meshes"][node["mesh"].get<int>()]["primitives"]) {
+      const Json& p = accessors[primitive["attributes"]["POSITION"].get<int>()];
+      std::vector<float> at(3, 0.0F), size(3, 1.0F);
+      if (node.contains("extensions")) {
+        const Json& copies = node["extensions"]["EXT_mesh_gpu_instancing"]["attributes"];
+        at = values(copies["TRANSLATION"].get<int>());
+        size = values(copies["SCALE"].get<int>());
+      }
+      const std::vector<double> one{1, 1, 1}, zero{0, 0, 0};
+      const auto scale = node.value("scale", one), move = node.value("translation", zero);
+      const auto root = nodes[0].value("translation", zero);
+      for (std::size_t n = 0; n < at.size(); n += 3) {
+        for (const char* end : {"min", "max"}) {
+          std::array<double, 3> q{};
+          for (std::size_t k = 0; k < 3; ++k)
+            q[k] = p[end][k].get<double>() * scale[k] * size[n + k] + at[n + k] + move[k] + root[k];
+          box.add(q[0], q[1], q[2]);
+        }
+      }
+    }
+  }
+  return box;
+}
+
 }  // namespace seedmesh::world

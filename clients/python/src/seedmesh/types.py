@@ -1321,17 +1321,33 @@ class WorldParametersColors(TypedDict, total=False):
     water: str
 
 
+class _WorldParametersSettlementsHousesItemRequired(TypedDict):
+    model: "Child"
+
+
+class WorldParametersSettlementsHousesItem(_WorldParametersSettlementsHousesItemRequired, total=False):
+    share: float
+
+
 class WorldParametersSettlements(TypedDict, total=False):
     density: float
     radius: float
     wall: str
     roof: str
+    houses: List["WorldParametersSettlementsHousesItem"]
 
 
 class WorldParametersRoads(TypedDict, total=False):
     width: float
     longest: float
     color: str
+
+
+class WorldParametersFields(TypedDict, total=False):
+    share: float
+    size: float
+    reach: float
+    colors: List[str]
 
 
 _WorldParametersPlantsItemRequired = TypedDict("_WorldParametersPlantsItemRequired", {
@@ -1341,12 +1357,15 @@ _WorldParametersPlantsItemRequired = TypedDict("_WorldParametersPlantsItemRequir
 
 class WorldParametersPlantsItem(_WorldParametersPlantsItemRequired, total=False):
     form: Literal['conifer', 'broadleaf', 'palm', 'shrub', 'cactus', 'fungus']
+    model: "Child"
     height: float
     spacing: float
     density: float
     moisture: List[float]
     temperature: List[float]
     slope: float
+    heights: List[float]
+    biomes: List[Literal['ice', 'tundra', 'taiga', 'steppe', 'grassland', 'forest', 'desert', 'savanna', 'rainforest']]
     color: str
     stem: str
 
@@ -1361,6 +1380,7 @@ class WorldParameters(TypedDict, total=False):
     colors: "WorldParametersColors"
     settlements: "WorldParametersSettlements"
     roads: "WorldParametersRoads"
+    fields: "WorldParametersFields"
     plants: List["WorldParametersPlantsItem"]
 
 

@@ -1,0 +1,36 @@
+#pragma once
+/// What the tiles of one file of a tileset contain, found with one grid of samples: for bounds.cpp.
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include "core/generators/world/error_model.h"
+#include "core/generators/world/world.h"
+
+namespace seedmesh::world {
+
+constexpr int levels_a_block = 4;
+constexpr double coarse_spacing = 128;  ///< metres; from here, samples are of the land without valleys
+
+/// Cells of the grid of samples along the side of a link, which is a tile of the lowest level of a file. The root has
+/// the widest links and is made once.
+int cells_a_link(const World& world, int root_level);
+
+/// What was found in a square.
+struct Area {
+  double low = 1e12, high = -1e12;
+  std::array<double, 4> borders{1e12, 1e12, 1e12, 1e12};  ///< lowest at the west, south, east and north
+  double lowest = 1e12, highest = -1e12;                  ///< of water, roads and houses
+  Roughness rough;
+  bool has_plants = false;
+
+  double border() const { return *std::min_element(borders.begin(), borders.end()); }
+};
+
+/// The areas of the tiles `depth` levels below a tile: rows from the south.
+std::vector<Area> areas_below(const World& world, const TileKey& root, int depth, Job& job);
+
+/// The square of four.
+Area joined(const Area& sw, const Area& se, const Area& nw, const Area& ne);
+
+}  // namespace seedmesh::world

@@ -1,0 +1,46 @@
+#include "core/generators/world/instances.h"
+
+#include <algorithm>
+
+namespace seedmesh::world {
+namespace {
+constexpr int type_float = 5126;
+}
+
+void Instances::add(const std::array<double, 3>& at, const std::array<float, 3>& scale) {
+  const bool is_first = translations_.empty();
+  for (std::size_t k = 0; k < 3; ++k) {
+    const float value = static_cast<float>(at[k]) + 0.0F;  // -0 becomes 0
+    low_[k] = is_first ? value : std::min(low_[k], value);
+    high_[k] = is_first ? value : std::max(high_[k], value);
+    translations_.push_back(value);
+    scales_.push_back(scale[k]);
+  }
+}
+
+void Instances::add(const std::array<double, 3>& at, const std::array<float, 3>& scale,
+                    const std::array<float, 2>& turn) {
+  add(at, scale);
+  turns_.insert(turns_.end(), {0.0F, turn[0], 0.0F, turn[1]});
+}
+
+void Instances::add_to(Glb& glb, const std::string& name, const std::vector<int>& meshes) const {
+  glb.use_extension("EXT_mesh_gpu_instancing");
+  const auto values = [&](const std::vector<float>& list, const char* type) {
+    const int view = glb.add_bytes(list.data(), list.size() * sizeof(float), 0, 0);
+    return Json{{"bufferView", view}, {"componentType", type_float}, {"count", count()}, {"type", type}};
+  };
+  Json translation = values(translations_, "VEC3");
+  translation["min"] = low_;
+  translation["max"] = high_;
+  Json attributes = {{"TRANSLATION", glb.add_accessor(std::move(translation))},
+                     {"SCALE", glb.add_accessor(values(scales_, "VEC3"))}};
+  if (!turns_.empty()) attributes["ROTATION"] = glb.add_accessor(values(turns_, "VEC4"));
+  for (const int mesh : meshes) {
+    glb.add_node({{"name", name},
+                  {"mesh", mesh},
+                  {"extensions", {{"EXT_mesh_gpu_instancing", {{"attributes", attributes}}}}}});
+  }
+}
+
+}  // namespace seedmesh::world

@@ -1,0 +1,19 @@
+#pragma once
+/// The plants of a tile. Leaves and tiles of 128 m show whole plants, tiles of 256 m show simple ones, each a part of
+/// what the tiles below show. Tiles from 512 m to 8 km show clumps of crowns where woods are.
+#include <string_view>
+
+#include "core/generators/world/asset.h"
+#include "core/generators/world/glb.h"
+#include "core/generators/world/terrain_grid.h"
+
+namespace seedmesh::world {
+
+/// `grid`: the terrain of the tile. `folder`: see tile_glb().
+void add_plants(Glb& glb, const World& world, const TileKey& key, const TileFrame& frame,
+                const TerrainGrid& grid, Job& job, std::string_view folder);
+
+/// The model of a class, from the store or made now; null where the class has none.
+std::shared_ptr<const Asset> plant_asset(const World& world, int plant_class, AssetForm form, Job& job);
+
+}  // namespace seedmesh::world

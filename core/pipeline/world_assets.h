@@ -1,0 +1,12 @@
+#pragma once
+/// Plants and houses of worlds by requests of other generators.
+#include "core/base/job.h"
+#include "core/generators/world/asset.h"
+
+namespace seedmesh {
+
+/// Makes assets within `options`. near: the model with 1,500 triangles, or more where it cannot be simplified so far, and textures of 128 texels. far: an
+/// impostor of 12 triangles with a texture of 128 texels. A request that cannot be made ends the job by Stop.
+world::MakeAsset asset_maker(const Job::Options& options);
+
+}  // namespace seedmesh

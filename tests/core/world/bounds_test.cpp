@@ -1,0 +1,124 @@
+/// Boxes and errors of tiles against their contents, in worlds with random parameters.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tests/core/world/world_support.h"
+
+namespace seedmesh::world {
+namespace {
+
+/// Parameters between plains and high mountains, deserts and woods.
+WorldParams random_params(std::uint64_t seed) {
+  Rng rng = Rng::of_seed(seed).at("parameters");
+  WorldParams params;
+  params.extent = rng.unit() < 0.3 ? 32768 : rng.unit() < 0.5 ? 262144 : 1048576;
+  params.relief.mountains = rng.unit() < 0.3 ? 0 : 3500 * rng.unit() * rng.unit();
+  params.relief.hills = 400 * rng.unit() * rng.unit();
+  params.relief.ridges = rng.unit();
+  params.relief.gullies = rng.unit();
+  params.relief.terraces = rng.unit() < 0.7 ? 0 : rng.unit();
+  params.relief.land = rng.uniform(0.3, 1);
+  params.relief.sea = rng.unit() < 0.7;
+  params.relief.continents = rng.uniform(20000, 400000);
+  params.water.rivers = rng.unit();
+  params.water.width = rng.uniform(2, 60);
+  params.settlements.density = rng.unit();
+  params.roads.longest = rng.unit() < 0.3 ? 0 : 8000;
+  if (rng.unit() < 0.6) {
+    WorldClass tree;
+    tree.class_name = "tree";
+    tree.height = rng.uniform(2, 25);
+    tree.moisture = {rng.uniform(0, 0.6), 1};
+    params.plants = {tree};
+  }
+  return params;
+}
+
+/// Finer vertices from the planes of coarser triangles, as greatest distance.
+double deviation(const Terrain& coarse, double spacing, double west, double south, const Terrain& fine) {
+  double most = 0;
+  for (const auto& [at, vertex] : fine) {
+    const double x = west + std::floor((at.first - west) / spacing) * spacing,
+                 y = south + std::floor((at.second - south) / spacing) * spacing;
+    const double u = (at.first - x) / spacing, v = (at.second - y) / spacing;
+    const auto a = coarse.find({x, y}), b = coarse.find({x + spacing, y + spacing});
+    if (a == coarse.end() || b == coarse.end()) continue;
+    const auto c = u >= v ? coarse.find({x + spacing, y}) : coarse.find({x, y + spacing});
+    const double ha = a->second.top, hb = b->second.top, hc = c->second.top;
+    const double east = u >= v ? hc - ha : hb - hc, north = u >= v ? hb - hc : hc - ha;
+    const double off = std::abs(vertex.top - (ha + u * east + v * north));
+    most = std::max(most, off / std::sqrt(1 + (east * east + north * north) / (spacing * spacing)));
+  }
+  return most;
+}
+
+struct Found {
+  int tiles = 0;
+  std::vector<double> empty, ratios;  ///< shares of heights of boxes; errors by deviations
+};
+
+void walk(const World& world, std::uint64_t seed, Job& job, Found& found) {
+  Rng rng = Rng::of_seed(seed).at("walk");
+  const int last = world.levels - 1;
+  const TileKey leaf{last, static_cast<std::int64_t>(rng.unit() * std::ldexp(1, last)),
+                     static_cast<std::int64_t>(rng.unit() * std::ldexp(1, last))};
+  std::vector<Terrain> terrains;
+  std::vector<TileBounds> boxes;
+  for (int level = 0; level <= last; ++level) {
+    const TileKey key{level, leaf.x >> (last - level), leaf.y >> (last - level)};
+    const std::string glb = tile_glb(world, key, job);
+    const TileBounds box = tile_bounds(world, key, job);
+    const ContentBox content = content_of(glb);
+    ++found.tiles;
+    const bool is_inside = content.low[0] >= box.west && content.low[1] >= box.south &&
+                           content.low[2] >= box.low && content.high[0] <= box.east &&
+                           content.high[1] <= box.north && content.high[2] <= box.high;
+    EXPECT_TRUE(is_inside) << "world " << seed << " level " << level << ": content from " << content.low[2]
+                           << " to " << content.high[2] << ", box from " << box.low << " to " << box.high;
+    found.empty.push_back(1 - (content.high[2] - content.low[2]) / (box.high - box.low));
+    if (level > 0) {
+      EXPECT_GE(box.low, boxes.back().low);
+      EXPECT_LE(box.high, boxes.back().high);
+      EXPECT_LT(box.geometric_error, boxes.back().geometric_error);
+    }
+    terrains.push_back(terrain_of(glb));
+    boxes.push_back(box);
+  }
+  for (int level = 0; level < last; ++level) {
+    const double side = world.extent / std::ldexp(1, level);
+    const double west = static_cast<double>(leaf.x >> (last - level)) * side - world.extent / 2,
+                 south = static_cast<double>(leaf.y >> (last - level)) * side - world.extent / 2;
+    for (const int finer : {level + 1, level + 3, last}) {
+      if (finer > last) continue;
+      const double off = deviation(terrains[static_cast<std::size_t>(level)], side / 32, west, south,
+                                   terrains[static_cast<std::size_t>(finer)]);
+      const double said = boxes[static_cast<std::size_t>(level)].geometric_error;
+      EXPECT_LE(off, said) << "world " << seed << " level " << level << " against " << finer;
+      if (finer == level + 1 && off > 0) found.ratios.push_back(said / off);
+    }
+  }
+}
+
+double median(std::vector<double> values) {
+  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2),
+                   values.end());
+  return values[values.size() / 2];
+}
+
+/// Worlds with random parameters, each from the root to a leaf.
+TEST(WorldBounds, HoldContentsAndDeclareErrorsThatTheyHave) {
+  constexpr std::uint64_t worlds = 16;
+  Found found;
+  Job job = test_job();
+  for (std::uint64_t seed = 1; seed <= worlds; ++seed)
+    walk(world_of(random_params(seed), seed), seed, job, found);
+  EXPECT_GT(found.tiles, 160);
+  EXPECT_LE(median(found.empty), 0.3) << "half of the boxes are emptier";
+  // a tile of the next level has a quarter of the area, so it often misses what is roughest
+  EXPECT_LE(median(found.ratios), 3) << "declared errors by deviations from the next level";
+}
+
+}  // namespace
+}  // namespace seedmesh::world
