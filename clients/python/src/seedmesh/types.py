@@ -887,6 +887,7 @@ class TerrainParameters(TypedDict, total=False):
     palette: Literal['alpine', 'desert', 'tropical', 'arctic', 'volcanic', 'moon', 'grey', 'none']
     water_level: float
     texture: int
+    detail: bool
     onto: "TerrainParametersOnto"
     heightmap: "TerrainParametersHeightmap"
 
