@@ -32,9 +32,9 @@ bool write_file(const std::string& name, const Payload& payload) {
   return (file == stdout || std::fclose(file) == 0) && written;
 }
 
-bool write_file_atomically(const std::string& name, const Payload& payload) {
+bool write_file_atomically(const std::string& name, const Payload& payload, const char* suffix) {
   namespace fs = std::filesystem;
-  const fs::path path = name, partial = name + "." + std::to_string(::getpid()) + ".part";
+  const fs::path path = name, partial = name + "." + std::to_string(::getpid()) + suffix;
   std::error_code error;
   if (path.has_parent_path()) fs::create_directories(path.parent_path(), error);
   if (write_file(partial.string(), payload)) {

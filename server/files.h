@@ -14,7 +14,8 @@ std::optional<std::string> read_file(const std::string& name);
 bool write_file(const std::string& name, const Payload& payload);
 
 /// Writes a file under a temporary name, then renames it, so that a file with this name is always complete.
-/// Makes missing folders. False where it cannot be written.
-bool write_file_atomically(const std::string& name, const Payload& payload);
+/// Makes missing folders. False where it cannot be written. The temporary name is `name`, the id of the process and
+/// `suffix`.
+bool write_file_atomically(const std::string& name, const Payload& payload, const char* suffix = ".part");
 
 }  // namespace seedmesh

@@ -1,5 +1,5 @@
-/// The command line: seedmesh serve | generate | validate | derive | import | presets | manifest | tiles | mcp |
-/// sign | key | healthcheck.
+/// The command line: seedmesh serve | generate | validate | derive | import | presets | manifest | sync | tiles |
+/// mcp | sign | key | healthcheck.
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
@@ -14,6 +14,7 @@
 #include "server/manifest.h"
 #include "server/mcp.h"
 #include "server/serve.h"
+#include "server/sync.h"
 #include "server/tiles_command.h"
 
 namespace {
@@ -82,11 +83,23 @@ struct Arguments {
   std::string in, out = "-", preset, target, key_name;
   double valid_for = 0;
   ManifestOptions manifest;
+  SyncOptions sync;
   TilesOptions tiles;
   ImportFiles files{"", "-", "", ""};
   bool print_config = false;
   std::string models = ".";
 };
+
+/// Declares the arguments and settings of the command sync.
+void add_sync(CLI::App& command, SyncOptions& sync, Texts& texts) {
+  command.add_option("directory", sync.directory, "Directory with request files.")->required();
+  command.add_flag("--check", sync.check, "Write nothing; exit status 1 if a model would change.");
+  command.add_flag("--list", sync.list, "Print the paths of the models and exit.");
+  command.add_option("--server", sync.server, "Ask this server instead of making models here.")
+      ->type_name("URL");
+  command.add_option("--key", sync.key, "API key for the server.")->envname("SEEDMESH_KEY");
+  add_settings(command, texts, limits_and_textures);
+}
 
 /// Declares the arguments and settings of the command tiles.
 void add_tiles(CLI::App& command, TilesOptions& tiles, Texts& texts) {
@@ -143,6 +156,9 @@ void add_commands(CLI::App& app, Arguments& arguments, Texts& texts) {
                    "index/count: only every count-th line, starting at index (0 to count - 1).");
   many->add_flag("--times", arguments.manifest.times, "Add the time of each model to its result.");
   many->add_flag("--quiet", arguments.manifest.quiet, "Do not print progress.");
+  add_sync(*command("sync",
+                    "Make the models of the request files below a directory, and only those that changed."),
+           arguments.sync, texts);
   add_tiles(*command("tiles", "Write a part of a world as a static tileset, on all cores; can be resumed."),
             arguments.tiles, texts);
   CLI::App* agents = command("mcp", "Answer an agent program on standard input and output (MCP).");
@@ -180,6 +196,7 @@ int run(const std::string& command, Arguments& arguments, const ConfigResult& lo
   }
   if (command == "import") return import_command(config, arguments.files);
   if (command == "manifest") return manifest_command(config, arguments.manifest);
+  if (command == "sync") return sync_command(config, arguments.sync);
   if (command == "tiles") return tiles_command(config, arguments.tiles);
   if (command == "mcp") return mcp::serve_stdio(config, arguments.models);
   if (command == "sign") return sign_command(config, arguments.target, arguments.valid_for);

@@ -6,6 +6,7 @@
 #include <openssl/rand.h>
 
 #include <charconv>
+#include <memory>
 #include <new>
 #include <stdexcept>
 
@@ -75,6 +76,17 @@ std::string sha256(std::string_view bytes) {
   unsigned size = 0;
   if (EVP_Digest(bytes.data(), bytes.size(), digest, &size, EVP_sha256(), nullptr) != 1)
     throw std::bad_alloc();
+  return {reinterpret_cast<const char*>(digest), size};
+}
+
+std::string sha256(const Payload& payload) {
+  const std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> context(EVP_MD_CTX_new(), &EVP_MD_CTX_free);
+  unsigned char digest[EVP_MAX_MD_SIZE];
+  unsigned size = 0;
+  bool is_good = context && EVP_DigestInit_ex(context.get(), EVP_sha256(), nullptr) == 1;
+  for (const auto piece : payload.pieces())
+    is_good = is_good && EVP_DigestUpdate(context.get(), piece.data(), piece.size()) == 1;
+  if (!is_good || EVP_DigestFinal_ex(context.get(), digest, &size) != 1) throw std::bad_alloc();
   return {reinterpret_cast<const char*>(digest), size};
 }
 

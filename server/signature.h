@@ -13,6 +13,8 @@
 #include <string_view>
 #include <vector>
 
+#include "core/gltf/payload.h"
+
 namespace seedmesh {
 
 struct SigningKey {
@@ -37,6 +39,7 @@ std::string sign_target(std::string_view target, const SigningKey& key, std::opt
 
 /// Digests of 32 bytes.
 std::string sha256(std::string_view bytes);
+std::string sha256(const Payload& payload);
 std::string hmac_sha256(std::string_view secret, std::string_view bytes);
 
 /// Compares in a time that depends on the lengths alone.

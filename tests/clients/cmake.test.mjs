@@ -11,6 +11,7 @@ const clients = path.resolve(import.meta.dirname, '../../clients');
 const folder = fs.mkdtempSync(path.join(os.tmpdir(), 'seedmesh-cmake-'));
 const sample = path.join(folder, 'cmake/sample'), build = path.join(folder, 'build');
 const models = ['snowflake.glb', 'tree.glb', 'tree_far.glb'];
+/** PATH has no program seedmesh, so that Python is used where no PROGRAM is given. */
 const env = { PYTHONDONTWRITEBYTECODE: '1', SEEDMESH_URL: '', SEEDMESH_KEY: '' };
 const cmake = (...args) => run('cmake', args, { env });
 let server;
@@ -67,13 +68,20 @@ test('a refused request ends the build and names its line', async () => {
   fs.rmSync(path.join(sample, 'assets/island.seedmesh'));
 });
 
-test('the program itself can be the server of a build', async () => {
+test('the program makes the models of a build, or asks a server, and accepts those that Python asked for', async () => {
+  const there = path.join(folder, 'there');
+  assert.equal((await cmake('-S', sample, '-B', there, '-G', 'Ninja', `-DSEEDMESH_PROGRAM=${program}`, `-DSEEDMESH_URL=${server.url}`)).status, 0);
+  const before_build = await requests();
+  assert.match((await cmake('--build', there)).out.toString(), /0 made, 3 same, 0 refused/);
+  assert.equal((await requests()).models, before_build.models);
   for (const name of [...models, 'seedmesh.lock']) fs.rmSync(path.join(sample, 'assets', name));
-  const other = path.join(folder, 'other');
-  assert.equal((await cmake('-S', sample, '-B', other, '-G', 'Ninja', `-DSEEDMESH_PROGRAM=${program}`)).status, 0);
-  const { status, out, err } = await cmake('--build', other);
-  assert.equal(status, 0, out + err);
-  assert.match(out.toString(), /3 made, 0 same, 0 refused/);
+  const here = path.join(folder, 'here');
+  assert.equal((await cmake('-S', sample, '-B', here, '-G', 'Ninja', `-DSEEDMESH_PROGRAM=${program}`)).status, 0);
+  for (const made of [3, 0]) {
+    const { status, out, err } = await cmake('--build', here);
+    assert.equal(status, 0, out + err);
+    assert.match(out.toString(), new RegExp(`${made} made, ${3 - made} same, 0 refused`));
+  }
 });
 
 test('the script of the GitHub Action passes on current models and fails on others', async () => {
@@ -81,11 +89,14 @@ test('the script of the GitHub Action passes on current models and fails on othe
   const [step] = action.runs.steps;
   assert.deepEqual([action.runs.using, step.shell], ['composite', 'bash']);
   for (const value of Object.values(step.env)) for (const [, name] of value.matchAll(/inputs\.(\w+)/g)) assert.ok(action.inputs[name], name);
-  const act = (check) => run('bash', ['-c', step.run], { env: { ...env, DIRECTORY: path.join(sample, 'assets'), CHECK: check, PYTHONPATH: path.join(folder, 'python/src') } });
+  const act = (check, more = {}) => run('bash', ['-e', '-c', step.run], { env: { ...env, PROGRAM: '', DIRECTORY: path.join(sample, 'assets'), CHECK: check, PYTHONPATH: path.join(folder, 'python/src'), ...more } });
   const good = await act('true');
   assert.equal(good.status, 0, good.out + good.err);
   fs.appendFileSync(path.join(sample, 'assets/tree.glb'), 'x');
   const bad = await act('true');
   assert.deepEqual([bad.status, bad.out.toString()], [1, 'changed tree.glb\n1 changed, 2 same, 0 refused\n']);
   assert.equal((await act('yes')).status, 2);
+  assert.equal((await act('true', { PROGRAM: program })).status, 1);
+  assert.match((await act('false', { PROGRAM: program, SEEDMESH_URL: server.url })).out.toString(), /^made tree.glb\n1 made, 2 same/);
+  assert.equal((await act('true', { PROGRAM: program })).status, 0);
 });

@@ -63,6 +63,27 @@ test('Unity: JSON is valid, every file has a .meta of its own, and brackets matc
   }
 });
 
+const mcs = ['/usr/bin/mcs', '/usr/local/bin/mcs'].find((file) => fs.existsSync(file));
+
+test('Unity: a compiler accepts the C# against the signatures of Unity that it uses', { skip: mcs ? false : 'Mono is not installed: ./dev setup clients' }, async () => {
+  const folder = fs.mkdtempSync(path.join(os.tmpdir(), 'seedmesh-unity-'));
+  const scripts = (name) => files_of(name).filter((each) => each.endsWith('.cs')).map((each) => path.join(clients, name, each));
+  const compile = (out, sources, ...libraries) => run(mcs, ['-langversion:7', '-warnaserror', '-target:library', `-out:${path.join(folder, out)}`, ...libraries.map((each) => `-r:${each}`), ...sources]);
+  const made = (name) => path.join(folder, name);
+  try {
+    for (const [out, sources, ...libraries] of [
+      ['api.dll', [path.join(import.meta.dirname, 'unity/unity_api.cs')]],
+      ['runtime.dll', scripts('unity/Runtime'), made('api.dll')],
+      ['editor.dll', scripts('unity/Editor'), made('api.dll'), made('runtime.dll'), 'System.Net.Http.dll'],
+    ]) {
+      const { status, out: text, err } = await compile(out, sources, ...libraries);
+      assert.equal(status, 0, text + err);
+    }
+  } finally {
+    fs.rmSync(folder, { recursive: true });
+  }
+});
+
 test('Unreal: the plug-in is valid JSON, the Python runs on a stand-in, and the archive is complete', async () => {
   assert.equal(JSON.parse(read('unreal/Seedmesh.uplugin')).FileVersion, 3);
   const { status, out, err } = await run('python3', [path.join(clients, 'unreal/tests/run.py')], { env: { SEEDMESH_URL: server.url, PYTHONDONTWRITEBYTECODE: '1' } });

@@ -42,7 +42,7 @@ test('the package has its modules, types and page, and no dependency', () => {
   const { dependencies } = JSON.parse(fs.readFileSync(path.join(installed, 'package.json'), 'utf8'));
   assert.equal(dependencies, undefined);
   const names = fs.readdirSync(installed, { recursive: true });
-  for (const name of ['README.md', 'dist/index.js', 'dist/index.d.ts', 'dist/three.js', 'dist/types.d.ts']) assert.ok(names.includes(name), name);
+  for (const name of ['README.md', 'dist/index.js', 'dist/index.d.ts', 'dist/three.js', 'dist/copies.js', 'dist/types.d.ts']) assert.ok(names.includes(name), name);
   assert.ok(!names.some((name) => name.startsWith('src') || name.startsWith('tests')));
 });
 
@@ -60,7 +60,7 @@ test('the tests of the package pass against a real server', async () => {
   const { status, out } = await run(process.execPath, ['--test', '--test-reporter=tap', path.join(project, 'tests/client.test.mjs')],
     { env: { SEEDMESH_URL: server.url, NODE_TEST_CONTEXT: undefined } });
   assert.equal(status, 0, out.toString());
-  assert.match(out.toString(), /^# pass 9$/m);
+  assert.match(out.toString(), /^# pass 10$/m);
 });
 
 test('the model sways in Chromium', async () => {

@@ -43,7 +43,7 @@ const given_files = {
 /** The fenced blocks of a page: language, text, and line of the fence. */
 function blocks_of(page) {
   const text = read(page);
-  return [...text.matchAll(/^```(\w+)\n([\s\S]*?)^```$/gm)].map((match) => ({
+  return [...text.matchAll(/^```(\w+(?: request file)?)\n([\s\S]*?)^```$/gm)].map((match) => ({
     page, language: match[1], text: match[2], line: text.slice(0, match.index).split('\n').length,
   }));
 }
@@ -73,6 +73,16 @@ for (const block of blocks.filter(({ language }) => language === 'json')) {
     const made = await run(program, ['generate', '-', '-o', '-'], { input: block.text });
     assert.equal(made.status, 0, made.err);
     assert.ok(made.out.length > 100, `only ${made.out.length} bytes for ${JSON.stringify(request).slice(0, 80)}`);
+  });
+}
+
+for (const block of blocks.filter(({ language }) => language === 'json request file')) {
+  test(`${block.page}:${block.line}: sync makes every file that the request file names`, async () => {
+    const place = fs.mkdtempSync(path.join(folder, 'sync-'));
+    fs.writeFileSync(path.join(place, 'example.seedmesh'), block.text);
+    const { status, out } = await run(program, ['sync', place]);
+    assert.equal(status, 0, out.toString());
+    for (const name of Object.keys(JSON.parse(block.text).outputs)) assert.ok(fs.statSync(path.join(place, name)).size > 1000, name);
   });
 }
 

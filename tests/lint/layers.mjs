@@ -13,7 +13,7 @@ const longest_file = 400;
 const unfinished = new RegExp(['TO' + 'DO', 'FIX' + 'ME', 'X' + 'XX'].map((word) => `\\b${word}\\b`).join('|'));
 // The headers of a library, and the only paths that may include them.
 const seams = [
-  [/^httplib\.h$/, /^server\/healthcheck\.cpp$/],
+  [/^httplib\.h$/, /^server\/(healthcheck|remote_source)\.cpp$/],
   [/^tiny_?gltf\.h$/, /^core\/gltf\//],
   [/^spdlog\//, /^server\//],
   [/^sleef\.h$/, /^core\/(base\/math|pipeline\/engine)\.cpp$/],

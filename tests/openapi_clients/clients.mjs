@@ -1,4 +1,4 @@
-// Spectral has nothing to say about the OpenAPI document, and two generators make clients of it that compile strictly and work.
+// Spectral and Redocly have nothing to say about the OpenAPI document, and two generators make clients of it that compile strictly and work.
 import assert from 'node:assert/strict';
 import fs from 'node:fs';
 import os from 'node:os';
@@ -27,6 +27,12 @@ after(async () => {
 test('spectral reports nothing', async () => {
   const { status, out } = await tool('spectral', 'lint', document, '--ruleset', path.join(folder, '.spectral.yaml'), '--fail-severity', 'hint');
   assert.equal(status, 0, out.toString());
+});
+
+test('Redocly reports nothing', async () => {
+  const { status, out, err } = await tool('redocly', 'lint', document, '--extends=recommended', '--format=json');
+  assert.equal(status, 0, out + err);
+  assert.deepEqual(JSON.parse(out.toString()).totals, { errors: 0, warnings: 0, ignored: 0 });
 });
 
 test('clients of openapi-typescript and hey-api compile and work', async () => {

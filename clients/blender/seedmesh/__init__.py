@@ -2,7 +2,7 @@
 """Seedmesh for Blender 3.4 to 5: grow models of a Seedmesh server, and grow them again with another seed."""
 import bpy
 
-from . import gallery, grow, panel, properties, scatter
+from . import gallery, grow, panel, pictures, properties, scatter
 
 bl_info = {
     "name": "Seedmesh",
@@ -34,11 +34,13 @@ def register():
     for part in parts:
         for each in part.classes:
             bpy.utils.register_class(each)
+    pictures.register()
     bpy.types.Scene.seedmesh = bpy.props.PointerProperty(type=properties.SeedmeshSettings)
 
 
 def unregister():
     del bpy.types.Scene.seedmesh
+    pictures.unregister()
     for part in reversed(parts):
         for each in reversed(part.classes):
             bpy.utils.unregister_class(each)

@@ -2,11 +2,11 @@
 """The gallery of presets, and the parameters of the chosen one."""
 import bpy
 
-from . import service
+from . import pictures, service
 
 
 class SEEDMESH_OT_gallery(bpy.types.Operator):
-    """Lists the presets of the server"""
+    """Lists the presets of the server with their pictures"""
     bl_idname = "seedmesh.gallery"
     bl_label = "Load gallery"
 
@@ -27,7 +27,12 @@ class SEEDMESH_OT_gallery(bpy.types.Operator):
                 row = settings.presets.add()
                 row.name, row.title, row.generator, row.text = each["name"], each["title"], each["generator"], each["description"]
 
-        service.call(client.presets, done)
+        def work():
+            presets = client.presets()
+            pictures.fetch(client, [each["name"] for each in presets])
+            return presets
+
+        service.call(work, done)
         return {"CANCELLED"} if settings.errors else {"FINISHED"}
 
 
@@ -60,8 +65,9 @@ class SEEDMESH_OT_parameters(bpy.types.Operator):
 
 class SEEDMESH_UL_presets(bpy.types.UIList):
     def draw_item(self, _context, layout, _data, item, _icon, _active, _name):
-        layout.operator("seedmesh.choose", text=item.title, emboss=False).preset = item.name
-        layout.label(text=item.generator)
+        row = layout.split(factor=0.7)
+        row.operator("seedmesh.choose", text=item.title, emboss=False, icon_value=pictures.icon(item.name)).preset = item.name
+        row.label(text=item.generator)
 
 
 class SEEDMESH_OT_choose(bpy.types.Operator):
@@ -71,8 +77,10 @@ class SEEDMESH_OT_choose(bpy.types.Operator):
     preset: bpy.props.StringProperty()
 
     def execute(self, context):
-        context.scene.seedmesh.preset = self.preset
-        context.scene.seedmesh.parameters.clear()
+        settings = context.scene.seedmesh
+        settings.preset = self.preset
+        settings.preset_index = max(settings.presets.find(self.preset), 0)
+        settings.parameters.clear()
         return {"FINISHED"}
 
 

@@ -2,7 +2,7 @@
 """The panel in the sidebar of the 3D viewport."""
 import bpy
 
-from . import service
+from . import pictures, service
 
 
 class SEEDMESH_PT_panel(bpy.types.Panel):
@@ -19,6 +19,9 @@ class SEEDMESH_PT_panel(bpy.types.Panel):
         layout.operator("seedmesh.gallery", icon="FILE_REFRESH")
         if settings.presets:
             layout.template_list("SEEDMESH_UL_presets", "", settings, "presets", settings, "preset_index")
+        picture = pictures.icon(settings.preset)
+        if picture:
+            layout.template_icon(picture, scale=7)
         self.field(layout, settings, "preset", "/preset")
         self.field(layout, settings, "seed", "/seed")
         self.field(layout, settings, "lods", "/output/lods")

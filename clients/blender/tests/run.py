@@ -30,6 +30,12 @@ def served(target):
         return answer.read()
 
 
+def posted(request):
+    asked = urllib.request.Request(url + "/v1/generate", json.dumps(request).encode(), {"Content-Type": "application/json"})
+    with urllib.request.urlopen(asked) as answer:
+        return answer.read()
+
+
 def triangles_of_file(glb):
     size, = struct.unpack_from("<I", glb, 12)
     document = json.loads(glb[20:20 + size])
@@ -132,6 +138,11 @@ class AddOn(unittest.TestCase):
     def test_the_gallery_is_listed(self):
         self.assertEqual(bpy.ops.seedmesh.gallery(), {"FINISHED"})
         self.assertEqual(len(self.settings.presets), len(json.loads(served("/v1/presets"))["presets"]))
+        pictures = sys.modules[module + ".pictures"]
+        for each in self.settings.presets:
+            self.assertEqual(tuple(bpy.data.images.load(pictures.path(each.name)).size), (192, 144), each.name)
+            pictures.icon(each.name)
+        self.assertEqual(pictures.icon("oakk"), 0)
 
     def test_copies_lie_on_the_surface_and_on_the_curve(self):
         bpy.ops.seedmesh.grow(preset="koch_snowflake", seed=0)
@@ -155,6 +166,16 @@ class AddOn(unittest.TestCase):
         self.assertEqual(len(on_curve), 8)
         for each in on_curve:
             self.assertLess(abs(each.matrix_world.translation.length - 4), 0.1)
+
+    def test_a_model_read_back_from_its_property_gives_the_same_bytes(self):
+        for preset in ("koch_island", "birch"):
+            with self.subTest(preset):
+                self.settings.errors.clear()
+                bpy.ops.seedmesh.grow(preset=preset, seed=4)
+                sent = json.loads(bpy.context.object["seedmesh_request"])
+                canonical = bpy.context.object["request"]  # written by the service, kept by Blender's importer
+                self.assertEqual(posted(json.loads(canonical)), posted(sent))
+                self.assertEqual(posted(json.loads(bpy.data.scenes[0]["request"])), posted(sent))
 
     def test_growth_ends_full_grown(self):
         self.settings.animation = True

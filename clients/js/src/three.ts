@@ -1,9 +1,11 @@
-/** Models in three.js: loading with the decoder, levels of detail, growth, wind. */
+/** Models in three.js: loading with the decoder, levels of detail, growth, wind, copies. */
 import { AnimationMixer, Box3, LOD, LoopOnce, Mesh, Sphere, Vector3, type AnimationAction, type Group, type Material, type Object3D, type WebGLProgramParametersWithUniforms } from 'three';
 import { GLTFLoader, type GLTF } from 'three/addons/loaders/GLTFLoader.js';
 import { MeshoptDecoder } from 'three/addons/libs/meshopt_decoder.module.js';
 import type { Client, GenerateOptions } from './client.js';
 import type { Request } from './types.js';
+
+export { copies_of, plant } from './copies.js';
 
 /** Seconds of one loop of the wind. */
 const wind_loop = 10;
@@ -20,6 +22,9 @@ attribute vec2 uv3;
 uniform vec3 seedmesh_wind;
 vec3 seedmesh_sway(vec3 at) {
   float phase = uv3.x * 6.2832;
+#ifdef USE_INSTANCING
+  phase += dot(instanceMatrix[3].xz, vec2(0.7, 1.3));
+#endif
   float lean = uv2.x * (0.65 + 0.25 * sin(seedmesh_wind.x) + 0.1 * sin(seedmesh_wind.x * 3.0));
   float swing = uv2.y * (0.5 * sin(seedmesh_wind.x * 3.0 + phase) + 0.3 * sin(seedmesh_wind.x * 5.0 + phase * 2.0));
   float flutter = uv3.y * sin(seedmesh_wind.x * 23.0 + phase * 5.0 + dot(at, vec3(2.1, 1.7, 2.9)));

@@ -4,7 +4,7 @@ import { createHmac } from 'node:crypto';
 import http from 'node:http';
 import { test } from 'node:test';
 import { Busy, Client, Refused } from '@seedmesh/client';
-import { load, SeedmeshObject } from '@seedmesh/client/three';
+import { load, plant as plant_scene, SeedmeshObject } from '@seedmesh/client/three';
 import { Box3, Mesh, PerspectiveCamera, Vector3 } from 'three';
 
 const client = new Client(process.env.SEEDMESH_URL);
@@ -132,4 +132,30 @@ test('three.js: growth begins small and ends at the full size', async () => {
   assert.ok(Math.abs(height() - full) < full / 100);
   assert.equal((await SeedmeshObject.parse((await client.generate(bare({ preset: 'koch_island' }))).data)).play_growth(), false);
   object.dispose();
+});
+
+test('three.js: copies of a scene stand where the service puts them', async () => {
+  const request = bare({ preset: 'orchard', output: { profile: 'web', lods: 1 } });
+  const { scene, models } = await plant_scene(client, request);
+  const { placements, models: requests } = await client.derive(request);
+  const boxes_of = (root) => {
+    const boxes = {};
+    root.updateMatrixWorld(true);
+    root.traverse((each) => {
+      if (!each.isInstancedMesh) return;
+      each.computeBoundingBox();
+      boxes[each.geometry.index.count] = (boxes[each.geometry.index.count] ?? new Box3()).union(each.boundingBox.clone().applyMatrix4(each.matrixWorld));
+    });
+    return boxes;
+  };
+  assert.deepEqual([...models.keys()].sort(), Object.keys(requests).sort());
+  for (const [index, name] of Object.keys(requests).entries()) {
+    for (const each of scene.children[index].children) assert.equal(each.count, placements.filter((place) => place.model === name).length, name);
+  }
+  const expected = boxes_of((await load(client, request)).scene), found = boxes_of(scene);
+  const compared = Object.keys(expected).filter((triangles) => found[triangles]);
+  assert.ok(compared.length >= 5, `${Object.keys(expected)} and ${Object.keys(found)}`);
+  for (const triangles of compared) {
+    for (const end of ['min', 'max']) assert.ok(expected[triangles][end].distanceTo(found[triangles][end]) < 0.05, `${triangles}: ${JSON.stringify([expected[triangles], found[triangles]])}`);
+  }
 });

@@ -34,6 +34,12 @@ class Calls(InFolder):
         with urllib.request.urlopen(server_url() + str(model.link)) as answer:
             self.assertEqual(answer.read(), model.data)
 
+    def test_presets_have_pictures(self) -> None:
+        data = self.client.thumbnail("oak")
+        self.assertEqual((data[:4], data[8:12]), (b"RIFF", b"WEBP"))
+        with self.assertRaises(Refused):
+            self.client.thumbnail("oakk")
+
     def test_a_permalink_is_made_without_the_server_and_gives_the_same_bytes(self) -> None:
         link = self.client.permalink(plant)
         with urllib.request.urlopen(link) as answer:

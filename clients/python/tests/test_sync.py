@@ -52,6 +52,14 @@ class Syncing(InFolder):
             self.assertEqual(Sync(str(self.folder), Client(stub.url)).run().made, 1)
         self.assertEqual((self.folder / "a.glb").read_bytes(), b"new")
 
+    def test_a_request_that_is_only_written_otherwise_is_not_sent_again(self) -> None:
+        self.write("a.seedmesh", koch)
+        self.sync()
+        self.write("a.seedmesh", '{"seed": 2,\n "$schema": "request.json",\n "preset": "koch_snowflake"}')
+        report = self.sync().report
+        self.assertEqual((report.made, report.same, report.lines), (0, 1, []))
+        self.assertEqual(Sync(str(self.folder), None).check().status, 0)
+
     def test_several_outputs_of_one_request(self) -> None:
         self.write("a.seedmesh", '{"preset": "koch_snowflake", "output": {"profile": "web"}, "outputs": {"a.glb": {}, "b.glb": {"profile": null}}}')
         self.sync()
@@ -63,9 +71,9 @@ class Syncing(InFolder):
 
     def test_a_refused_output_is_asked_for_again(self) -> None:
         self.write("a.seedmesh", '{"preset": "koch_snowflake",\n "outputs": {"a.glb": {},\n "b.glb": {"lods": 99}}}')
-        for made in (1, 1):
+        for made, same in [(1, 0), (0, 1)]:
             report = self.sync().report
-            self.assertEqual((report.made, report.refused), (made, 1))
+            self.assertEqual((report.made, report.same, report.refused), (made, same, 1))
             self.assertTrue(any("a.seedmesh:3:20: /outputs/b.glb/lods: found 99" in line for line in report.lines), report.lines)
 
     def test_outputs_of_removed_request_files_go_unless_somebody_changed_them(self) -> None:
@@ -164,7 +172,7 @@ class RequestFiles(unittest.TestCase):
 
     def test_files_that_are_no_requests(self) -> None:
         for text in ["[]", '{"outputs": {}}', '{"outputs": {"a/b.glb": {}}}', '{"outputs": {"a.glb": 1}}', '{"name": ".."}', '{"output": 3}',
-                     '{"outputs": {"a.seedmesh": {}}}', "[" * 100000]:
+                     '{"outputs": {"a.seedmesh": {}}}', '{"outputs": {"a.zip": {}}}', '{"outputs": {"a.glb": {"format": "gltf"}}}', "[" * 100000]:
             with self.assertRaises(Unreadable, msg=text[:40]):
                 read_request_file("x.seedmesh", text)
 

@@ -52,29 +52,37 @@ namespace Seedmesh.Editor
 
         static bool Make(string path, string text, string model)
         {
-            using var request = new HttpRequestMessage(HttpMethod.Post, Url.TrimEnd('/') + "/v1/generate");
-            request.Content = new StringContent(text, Encoding.UTF8, "application/json");
-            var key = System.Environment.GetEnvironmentVariable("SEEDMESH_KEY");
-            if (!string.IsNullOrEmpty(key)) request.Headers.Authorization = new AuthenticationHeaderValue("Bearer", key);
             try
             {
-                using var answer = Client.SendAsync(request).GetAwaiter().GetResult();
-                var body = answer.Content.ReadAsByteArrayAsync().GetAwaiter().GetResult();
-                if (answer.StatusCode != HttpStatusCode.OK)
+                using (var request = RequestOf(text))
+                using (var answer = Client.SendAsync(request).GetAwaiter().GetResult())
                 {
-                    Debug.LogError($"{path}: {Explained(Encoding.UTF8.GetString(body))}");
-                    return false;
+                    var body = answer.Content.ReadAsByteArrayAsync().GetAwaiter().GetResult();
+                    if (answer.StatusCode != HttpStatusCode.OK)
+                    {
+                        Debug.LogError($"{path}: {Explained(Encoding.UTF8.GetString(body))}");
+                        return false;
+                    }
+                    File.WriteAllBytes(model + ".part", body);
+                    if (File.Exists(model)) File.Delete(model);
+                    File.Move(model + ".part", model);
+                    return true;
                 }
-                File.WriteAllBytes(model + ".part", body);
-                if (File.Exists(model)) File.Delete(model);
-                File.Move(model + ".part", model);
-                return true;
             }
             catch (HttpRequestException error)
             {
                 Debug.LogError($"{path}: no server at {Url}: {error.Message}");
                 return false;
             }
+        }
+
+        static HttpRequestMessage RequestOf(string text)
+        {
+            var request = new HttpRequestMessage(HttpMethod.Post, Url.TrimEnd('/') + "/v1/generate");
+            request.Content = new StringContent(text, Encoding.UTF8, "application/json");
+            var key = System.Environment.GetEnvironmentVariable("SEEDMESH_KEY");
+            if (!string.IsNullOrEmpty(key)) request.Headers.Authorization = new AuthenticationHeaderValue("Bearer", key);
+            return request;
         }
 
         [System.Serializable] class Problem { public string title = ""; public string detail = ""; public List<Entry> errors = new List<Entry>(); }
@@ -93,8 +101,10 @@ namespace Seedmesh.Editor
 
         static string Digest(string text)
         {
-            using var sha = SHA256.Create();
-            return System.BitConverter.ToString(sha.ComputeHash(Encoding.UTF8.GetBytes(text))).Replace("-", "").ToLowerInvariant();
+            using (var sha = SHA256.Create())
+            {
+                return System.BitConverter.ToString(sha.ComputeHash(Encoding.UTF8.GetBytes(text))).Replace("-", "").ToLowerInvariant();
+            }
         }
     }
 }

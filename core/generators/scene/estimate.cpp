@@ -18,7 +18,7 @@
 namespace seedmesh::scene {
 namespace {
 
-constexpr double poisson_density = 0.65;        ///< positions in a square with the distance as side
+constexpr double poisson_density = 0.67;        ///< positions in a square with the distance as side
 constexpr std::uint64_t bytes_a_node = 230;     ///< size of a copy in core glTF: one line of JSON
 constexpr std::uint64_t grid_to_reduced = 8;    ///< approximate triangles of a grid for one of a reduced mesh
 constexpr std::uint64_t bytes_a_triangle = 24;  ///< size of a triangle of a reduced mesh

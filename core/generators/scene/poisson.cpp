@@ -1,18 +1,20 @@
 /// Poisson disk sampling: Wei, "Parallel Poisson disk sampling", ACM Transactions on Graphics 27 (2008).
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 
 #include "core/base/math.h"
 #include "core/base/parallel.h"
 #include "core/generators/scene/candidate_positions.h"
+#include "core/generators/scene/covered_parts.h"
 
 namespace seedmesh::scene {
 namespace {
 
-// After this number of darts a cell gets no more. Of cells that are still open, only one in several thousand
-// would accept another.
-constexpr int rounds = 24;
+// Darts for each open cell, by round. Later rounds would add few positions: a cell that is still open then has
+// only slivers left.
+constexpr std::array<int, 3> darts_of_round{1, 1, 3};
 constexpr std::size_t cells_a_chunk = 8192;
 // A dart affects cells at a distance of at most three.
 constexpr std::uint32_t apart = 3;
@@ -26,14 +28,6 @@ constexpr double rounding = 2.5e-7;
 constexpr float open_cell = 1e18F;
 constexpr float closed_cell = 2e18F;
 constexpr float nowhere = 1e17F;
-
-struct Offset {
-  int x, z;
-};
-/// Cells whose points can be too near to a point of the centre cell, nearest first.
-constexpr std::array<Offset, 20> around{{{-1, 0}, {1, 0},  {0, -1},  {0, 1},  {-1, -1}, {1, -1},  {-1, 1},
-                                         {1, 1},  {-2, 0}, {2, 0},   {0, -2}, {0, 2},   {-2, -1}, {-2, 1},
-                                         {2, -1}, {2, 1},  {-1, -2}, {1, -2}, {-1, 2},  {1, 2}}};
 
 /// Returns the distance before rounding that guarantees `distance` after rounding.
 double reach_of(const Extent& whole, double distance) {
@@ -61,8 +55,8 @@ class Darts {
   }
 
   Array<Placement> throw_all() {
-    for (int round = 0; round < rounds; ++round) {
-      Rng order = rng_.at("order").at(static_cast<std::uint64_t>(round));
+    for (std::size_t round = 0; round < darts_of_round.size(); ++round) {
+      Rng order = rng_.at("order").at(round);
       constexpr std::array<std::uint32_t, 6> steps{1, 2, 4, 5, 7, 8};
       const std::uint32_t start = order.below(9), step = steps[order.below(6)];
       for (std::uint32_t k = 0; k < 9; ++k) throw_phase((start + k * step) % 9, round);
@@ -92,11 +86,11 @@ class Darts {
     return key_at(rng_.key(), x << 32U | z);
   }
 
-  void throw_phase(std::uint32_t phase, int round) {
+  void throw_phase(std::uint32_t phase, std::size_t round) {
     Array<Spot>& list = open_[phase];
     job_.check();
     parallel_for(job_, list.size(), cells_a_chunk, [&](std::size_t begin, std::size_t end, std::size_t) {
-      for (std::size_t i = begin; i < end; ++i) throw_dart(list[i], round);
+      for (std::size_t i = begin; i < end; ++i) throw_darts(list[i], round);
     });
     std::size_t kept = 0;
     for (const Spot& spot : list) {
@@ -105,34 +99,62 @@ class Darts {
     list.resize(kept);
   }
 
-  void throw_dart(const Spot& spot, int round) {
+  /// The positions near a cell, and the parts of the cell that none of them covers.
+  struct Surroundings {
+    std::array<glm::vec2, cells_around.size()> near;
+    std::size_t count = 0;
+    CellParts open = all_parts;
+  };
+
+  Surroundings surroundings_of(std::size_t cell, const glm::dvec2& corner) const {
+    Surroundings found;
+    const glm::vec2 from(corner);
+    const auto scale = static_cast<float>(1 / cell_);
+    for (std::size_t k = 0; k < cells_around.size(); ++k) {
+      const CellOffset& offset = cells_around[k];
+      const glm::vec2& near = point_[static_cast<std::size_t>(static_cast<std::int64_t>(cell) + offset.x +
+                                                              std::int64_t{offset.z} * stride_)];
+      if (!(near.x < nowhere)) continue;
+      found.near[found.count++] = near;
+      found.open &= ~covered_.of(k, (near - from) * scale - glm::vec2(offset.x, offset.z));
+    }
+    return found;
+  }
+
+  void throw_darts(const Spot& spot, std::size_t round) {
     const std::size_t cell = cell_of(spot);
-    const std::uint64_t bits =
-        mix(key_of(spot) + 0x9E3779B97F4A7C15U * static_cast<std::uint64_t>(round + 1));
-    const double u = static_cast<double>(bits >> 32U) * 0x1p-32;
-    const double v = static_cast<double>(bits & 0xFFFFFFFFU) * 0x1p-32;
-    const double west = cell_ * (static_cast<double>(first_x_) + spot.x);
-    const double north = cell_ * (static_cast<double>(first_z_) + spot.z);
-    const glm::vec2 dart(static_cast<float>(west + u * cell_), static_cast<float>(north + v * cell_));
-    const glm::dvec2 at = whole_.min + glm::dvec2(dart);
-    if (!part_.holds(at)) return;
-    const double least = reach_ * reach_;
-    for (const Offset& offset : around) {
-      const auto other = static_cast<std::size_t>(static_cast<std::int64_t>(cell) + offset.x +
-                                                  std::int64_t{offset.z} * stride_);
-      const glm::vec2& near = point_[other];
-      const double dx = static_cast<double>(near.x) - static_cast<double>(dart.x);
-      const double dz = static_cast<double>(near.y) - static_cast<double>(dart.y);
-      if (dx * dx + dz * dz >= least) continue;
-      // A cell completely inside the exclusion disc of a point accepts no dart.
-      const double far_x = std::max(std::abs(static_cast<double>(near.x) - west),
-                                    std::abs(static_cast<double>(near.x) - west - cell_));
-      const double far_z = std::max(std::abs(static_cast<double>(near.y) - north),
-                                    std::abs(static_cast<double>(near.y) - north - cell_));
-      if (far_x * far_x + far_z * far_z < least) point_[cell] = glm::vec2(closed_cell);
+    const glm::dvec2 corner(cell_ * (static_cast<double>(first_x_) + spot.x),
+                            cell_ * (static_cast<double>(first_z_) + spot.z));
+    const Surroundings around = surroundings_of(cell, corner);
+    if (around.open == 0) {
+      point_[cell] = glm::vec2(closed_cell);
       return;
     }
-    point_[cell] = dart;
+    Rng random(key_at(key_of(spot), round));
+    for (int k = 0; k < darts_of_round[round]; ++k) {
+      const glm::vec2 dart(corner + cell_ * random_point(around.open, random.next()));
+      if (!part_.holds(whole_.min + glm::dvec2(dart)) || is_near(dart, around)) continue;
+      point_[cell] = dart;
+      return;
+    }
+  }
+
+  /// A uniformly distributed point of the given parts of a cell with sides of 1.
+  static glm::dvec2 random_point(CellParts parts, std::uint64_t bits) {
+    const auto count = static_cast<std::uint64_t>(std::popcount(parts));
+    for (std::uint64_t skip = (bits >> 44U) * count >> 20U; skip > 0; --skip) parts &= parts - 1;
+    const int part = std::countr_zero(parts);
+    const double x = static_cast<double>(bits & 0x3FFFFFU) * 0x1p-22;
+    const double z = static_cast<double>((bits >> 22U) & 0x3FFFFFU) * 0x1p-22;
+    return glm::dvec2(part % parts_a_side + x, part / parts_a_side + z) / double{parts_a_side};
+  }
+
+  bool is_near(const glm::vec2& dart, const Surroundings& around) const {
+    for (std::size_t i = 0; i < around.count; ++i) {
+      const glm::dvec2 between = glm::dvec2(around.near[i]) - glm::dvec2(dart);
+      if (glm::dot(between, between) < reach_ * reach_) return true;
+    }
+    return false;
   }
 
   Array<Placement> gathered() const {
@@ -157,6 +179,7 @@ class Darts {
   const Extent& part_;
   Rng rng_;
   const Job& job_;
+  const CoveredParts& covered_ = covered_parts();
   double reach_ = 0, cell_ = 0;
   std::int64_t first_x_ = 0, first_z_ = 0;
   std::uint32_t wide_ = 0, deep_ = 0, stride_ = 0;

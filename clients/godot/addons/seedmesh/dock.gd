@@ -1,11 +1,13 @@
 @tool
 extends VBoxContainer
-## The gallery: a click writes a request file into the project, which the importer then makes into a scene.
+## The gallery with a picture of the selected preset. A button writes a request file into the project, which the importer makes into
+## a scene.
 
 const Service := preload("service.gd")
 
 var filter := LineEdit.new()
 var list := ItemList.new()
+var picture := TextureRect.new()
 var seed_box := SpinBox.new()
 var presets: Array = []
 
@@ -17,12 +19,16 @@ func _ready() -> void:
 	filter.placeholder_text = "Filter"
 	filter.text_changed.connect(func(_text: String) -> void: show_presets())
 	list.size_flags_vertical = Control.SIZE_EXPAND_FILL
+	list.item_selected.connect(show_picture)
+	picture.custom_minimum_size = Vector2(160, 160)
+	picture.stretch_mode = TextureRect.STRETCH_KEEP_ASPECT_CENTERED
+	picture.expand_mode = TextureRect.EXPAND_IGNORE_SIZE
 	seed_box.max_value = 1 << 31
 	seed_box.prefix = "Seed"
 	var add_button := Button.new()
 	add_button.text = "Add request file"
 	add_button.pressed.connect(add_request_file)
-	for control: Control in [load_button, filter, list, seed_box, add_button]:
+	for control: Control in [load_button, filter, list, picture, seed_box, add_button]:
 		add_child(control)
 
 
@@ -40,6 +46,15 @@ func show_presets() -> void:
 			var index := list.add_item(preset["title"])
 			list.set_item_tooltip(index, preset["description"])
 			list.set_item_metadata(index, preset["name"])
+
+
+func show_picture(index: int) -> void:
+	var answer := Service.get_bytes("/thumbnails/%s.webp" % list.get_item_metadata(index))
+	var image := Image.new()
+	if answer.errors.is_empty() and image.load_webp_from_buffer(answer.body) == OK:
+		picture.texture = ImageTexture.create_from_image(image)
+	else:
+		picture.texture = null
 
 
 func add_request_file() -> void:

@@ -17,7 +17,10 @@ static func grow(owner: Node, request: Dictionary) -> Node:
 	if document.append_from_buffer(body, "", state) != OK:
 		push_error("Seedmesh: the model could not be read")
 		return null
-	return document.generate_scene(state)
+	var scene := document.generate_scene(state)
+	for hull: Node in scene.find_children("*-convcolonly", "MeshInstance3D", true, false):
+		_replace_by_body(hull as MeshInstance3D)
+	return scene
 
 
 ## The models of a scene request, one MultiMeshInstance3D for each mesh of each model.
@@ -34,14 +37,27 @@ static func plant(owner: Node, request: Dictionary) -> Node3D:
 		var transforms: Array[Transform3D] = []
 		for placement: Dictionary in derived["placements"]:
 			if placement["model"] == model:
-				transforms.append(_transform(placement))
+				transforms.append(transform_of(placement))
 		for mesh: MeshInstance3D in scene.find_children("*", "MeshInstance3D", true, false):
 			root.add_child(_copies(mesh, _transform_in(mesh, scene), transforms))
 		scene.free()
 	return root
 
 
-static func _transform(placement: Dictionary) -> Transform3D:
+## Only the editor's import reads suffixes of names, so collision bodies are set up here.
+static func _replace_by_body(hull: MeshInstance3D) -> void:
+	var body := StaticBody3D.new()
+	body.name = hull.name.trim_suffix("-convcolonly")
+	body.transform = hull.transform
+	var shape := CollisionShape3D.new()
+	shape.shape = hull.mesh.create_convex_shape()
+	body.add_child(shape)
+	hull.get_parent().add_child(body)
+	hull.free()
+
+
+## Where a placement of a scene puts its model.
+static func transform_of(placement: Dictionary) -> Transform3D:
 	var t: Array = placement["translation"]
 	var r: Array = placement["rotation"]
 	var s: Array = placement["scale"]

@@ -7,6 +7,8 @@ const PATIENCE_MS := 60000
 
 class Answer:
 	var body := PackedByteArray()
+	## Of the model, if it is one.
+	var triangles := 0
 	## One line for each error of a refusal, beginning with its pointer; or why there is no answer.
 	var errors: PackedStringArray = []
 
@@ -16,6 +18,10 @@ static func get_json(target: String) -> Variant:
 	for line in answer.errors:
 		push_error(line)
 	return JSON.parse_string(answer.body.get_string_from_utf8()) if answer.errors.is_empty() else null
+
+
+static func get_bytes(target: String) -> Answer:
+	return _call(HTTPClient.METHOD_GET, target, "")
 
 
 static func post(target: String, request: Dictionary) -> Answer:
@@ -62,13 +68,15 @@ static func _call_once(method: HTTPClient.Method, target: String, body: String, 
 			answer.errors.append(": the answer of %s did not end in time" % url)
 			return -1
 	var status := client.get_response_code()
+	var fields := {}
+	for line in client.get_response_headers():
+		fields[line.get_slice(":", 0).to_lower()] = line.get_slice(":", 1).strip_edges()
+	answer.triangles = int(fields.get("seedmesh-triangles", "0"))
 	if status == 200:
 		return -1
 	answer.errors = _errors_of(status, answer.body)
-	var after := client.get_response_headers_as_dictionary()
-	for name in after:
-		if name.to_lower() == "retry-after" and (status == 429 or status == 503):
-			return maxi(int(after[name]) * 1000, 100)
+	if (status == 429 or status == 503) and fields.has("retry-after"):
+		return maxi(int(fields["retry-after"]) * 1000, 100)
 	return -1
 
 

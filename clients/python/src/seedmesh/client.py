@@ -8,7 +8,7 @@ from typing import Any, Dict, List, Mapping, Optional, Union, cast, overload
 from . import links
 from .files import sha256, sha256_of_file, text_of, write_whole
 from .transport import Answer, Transport
-from .types import (BuildingDerivation, BuildingRequest, FractalDerivation, FractalRequest, LsystemDerivation, LsystemRequest,
+from .types import (BuildingDerivation, BuildingRequest, CityDerivation, CityRequest, FractalDerivation, FractalRequest, LsystemDerivation, LsystemRequest,
                     PresetListPresetsItem, Request, SceneDerivation, SceneRequest, TerrainDerivation, TerrainRequest,
                     TreeDerivation, TreeRequest, Validation)
 
@@ -71,6 +71,10 @@ class Client:
         """The whole request of a preset."""
         return cast(Request, self._transport.call(links.preset_path(name, "json")).json())
 
+    def thumbnail(self, name: str) -> bytes:
+        """The gallery's picture of a preset: WebP, 192 by 144 pixels."""
+        return self._transport.call(links.thumbnail_path(name)).data
+
     def schema(self, generator: str) -> Dict[str, Any]:
         """The JSON Schema of a generator's parameters, or of request, output or problem."""
         return cast(Dict[str, Any], self._transport.call(f"/v1/schemas/{generator}").json())
@@ -81,6 +85,8 @@ class Client:
 
     @overload
     def derive(self, request: BuildingRequest) -> BuildingDerivation: ...
+    @overload
+    def derive(self, request: CityRequest) -> CityDerivation: ...
     @overload
     def derive(self, request: FractalRequest) -> FractalDerivation: ...
     @overload
@@ -112,6 +118,11 @@ class Client:
         head = {**asdict(model), "data": sha256(model.data)}
         write_whole(path + ".json", json.dumps(head).encode())
         return model
+
+    def generate_if_changed(self, request: Request, etag: Optional[str]) -> Optional[Model]:
+        """The model, or None if its ETag is still this one."""
+        answer = self._ask(request, etag)
+        return None if answer.status == 304 else _model_of(answer)
 
     def fetch(self, request: Request, path: str) -> bool:
         """Keeps the model of `request` in the file `path`. True: it was sent, and may be another than before.
@@ -194,6 +205,9 @@ class AsyncClient:
 
     async def preset(self, name: str) -> Request:
         return await asyncio.to_thread(self.client.preset, name)
+
+    async def thumbnail(self, name: str) -> bytes:
+        return await asyncio.to_thread(self.client.thumbnail, name)
 
     async def schema(self, generator: str) -> Dict[str, Any]:
         return await asyncio.to_thread(self.client.schema, generator)

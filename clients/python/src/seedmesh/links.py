@@ -34,6 +34,10 @@ def permalink_path(request: Request, extension: Optional[str] = None) -> str:
     return path
 
 
+def thumbnail_path(name: str) -> str:
+    return f"/thumbnails/{urllib.parse.quote(name, safe='')}.webp"
+
+
 def preset_path(name: str, extension: str = "glb", query: Optional[Mapping[str, Union[str, int, float, bool]]] = None) -> str:
     """Path of a preset's model. `query`: seed, output.x, a parameter's name, or constants.x."""
     path = f"/v1/presets/{urllib.parse.quote(name, safe='')}.{extension}"

@@ -10,6 +10,7 @@ from .positions import Positions, parse
 from .types import Request
 
 suffix = ".seedmesh"
+formats = ("glb", "gltf", "zip", "png16", "png8", "rgb24", "rgba32", "r16", "ply", "placements", "geojson")  # a server may have others
 own_members = ("$schema", "name", "outputs")
 
 
@@ -59,6 +60,9 @@ def read_request_file(path: str, text: str) -> RequestFile:
         if not isinstance(changes, dict):
             raise _refusal(path, text, pointer, "expected an object with members of output")
         merged = {key: each for key, each in {**request.get("output", {}), **changes}.items() if each is not None}
+        format_name = merged.get("format", "glb")
+        if format_name in formats and not file.endswith("." + extension_of({"output": merged})):
+            raise _refusal(path, text, pointer, f"expected the extension .{extension_of({'output': merged})} of the format {format_name}")
         outputs[file] = cast(Request, {**request, "output": merged})
     return RequestFile(path, text, outputs)
 

@@ -1,7 +1,8 @@
 """`sync`: makes the models of all request files below a directory, and only those that changed.
 
-`seedmesh.lock` in that directory has, for each request file, its hash, and for each file made: engine, size and hash. It belongs
-under version control. Nothing is sent for an entry whose request file, engine and output are as the lock says.
+`seedmesh.lock` in that directory has, for each request file, its hash, and for each file made: engine, size, ETag and hash. It
+belongs under version control. Nothing is sent for an entry whose request file, engine and output are as the lock says. The program
+`seedmesh sync` reads and writes the same file.
 """
 import json
 import os
@@ -15,7 +16,7 @@ from .files import part_suffix, sha256, sha256_of_file, write_whole
 from .request_file import RequestFile, Unreadable, error_lines, read_request_file, suffix
 
 lock_name = "seedmesh.lock"
-Entry = Dict[str, Any]  # {"request": sha256 of the file, "outputs": {name: {"bytes", "engine", "sha256"}}}
+Entry = Dict[str, Any]  # {"request": sha256 of the file, "outputs": {name: {"bytes", "engine", "etag", "sha256"}}}
 
 
 @dataclass
@@ -38,6 +39,7 @@ class _Task:
     key: str
     digest: str
     output: str
+    known: Optional[Dict[str, Any]]  # what the lock has of this output
 
 
 class Sync:
@@ -57,8 +59,8 @@ class Sync:
         tasks += self._outdated(engine, found, {(task.key, task.output) for task in tasks})
         try:
             with ThreadPoolExecutor(self.jobs) as pool:
-                for task, answer in zip(tasks, pool.map(self._make, tasks)):
-                    self._store(task, engine, answer)
+                for task, answer in zip(tasks, pool.map(lambda task: self._make(task, engine), tasks)):
+                    self._store(task, answer)
         finally:
             self._forget(found)
             self._mark_incomplete(found)
@@ -133,7 +135,7 @@ class Sync:
                 elif self._is_current(key, digest, name, path, is_thorough):
                     self.report.same += 1
                 else:
-                    tasks.append(_Task(file, key, digest, name))
+                    tasks.append(_Task(file, key, digest, name, self.lock.get(key, {"outputs": {}})["outputs"].get(name)))
         return tasks, found
 
     def _is_current(self, key: str, digest: str, name: str, path: str, is_thorough: bool) -> bool:
@@ -157,25 +159,39 @@ class Sync:
                 continue
             for name, made in entry["outputs"].items():
                 if made["engine"] != engine and (key, name) not in busy:
-                    tasks.append(_Task(file, key, digest, name))
+                    tasks.append(_Task(file, key, digest, name, made))
                     self.report.same -= 1
         return tasks
 
-    def _make(self, task: _Task) -> Union[Dict[str, Any], List[str]]:
-        """Writes the file; gives its size and hash, or the lines of a refusal."""
+    def _make(self, task: _Task, engine: Optional[str]) -> Union[Dict[str, Any], List[str]]:
+        """Writes the file; gives its entry of the lock, or the lines of a refusal."""
         assert self.client
         file = task.file
         if not file.text:  # known by its hash, and not parsed yet
             with open(file.path, encoding="utf-8") as opened:
                 file = read_request_file(file.path, opened.read())
+        path = os.path.join(os.path.dirname(file.path), task.output)
         try:
-            model = self.client.generate(file.outputs[task.output])
-            model.save(os.path.join(os.path.dirname(file.path), task.output))
-            return {"bytes": len(model.data), "sha256": sha256(model.data)}
+            model = self.client.generate_if_changed(file.outputs[task.output], self._etag_of(task, engine, path))
         except SeedmeshError as error:
             return error_lines(file, task.output, error)
+        if model is None:
+            assert task.known
+            return task.known
+        model.save(path)
+        entry = {"bytes": len(model.data), "engine": engine, "sha256": sha256(model.data)}
+        return {**entry, "etag": model.etag} if model.etag else entry
 
-    def _store(self, task: _Task, engine: Optional[str], answer: Union[Dict[str, Any], List[str]]) -> None:
+    @staticmethod
+    def _etag_of(task: _Task, engine: Optional[str], path: str) -> Optional[str]:
+        """The ETag of the file, if it is as this engine made it."""
+        known = task.known
+        if not known or known["engine"] != engine or not os.path.exists(path) or sha256_of_file(path) != known["sha256"]:
+            return None
+        etag: Optional[str] = known.get("etag")
+        return etag
+
+    def _store(self, task: _Task, answer: Union[Dict[str, Any], List[str]]) -> None:
         if isinstance(answer, list):
             self._refuse(answer)
             return
@@ -185,7 +201,10 @@ class Sync:
             surplus = {name: made for name, made in old.items() if name not in task.file.outputs}
             self._remove(task.key, surplus)
             entry = self.lock[task.key] = {"request": task.digest, "outputs": {}}
-        entry["outputs"][task.output] = {**answer, "engine": engine}
+        entry["outputs"][task.output] = answer
+        if answer is task.known:
+            self.report.same += 1
+            return
         self.report.made += 1
         self.report.lines.append(f"made {os.path.join(os.path.dirname(task.key), task.output)}")
 

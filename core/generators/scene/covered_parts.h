@@ -1,0 +1,51 @@
+#pragma once
+/// Which parts of a grid cell lie inside the exclusion disc of a position in a neighbouring cell. The diagonal
+/// of a cell is the radius of the disc.
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <glm/glm.hpp>
+
+namespace seedmesh::scene {
+
+/// A cell by its distance from another one, in cells.
+struct CellOffset {
+  int x, z;
+};
+/// The cells whose positions can be nearer than the radius to a position in the centre cell, nearest first.
+constexpr std::array<CellOffset, 20> cells_around{
+    {{-1, 0}, {1, 0}, {0, -1},  {0, 1},  {-1, -1}, {1, -1}, {-1, 1},  {1, 1},  {-2, 0}, {2, 0},
+     {0, -2}, {0, 2}, {-2, -1}, {-2, 1}, {2, -1},  {2, 1},  {-1, -2}, {1, -2}, {-1, 2}, {1, 2}}};
+
+/// A set of the 8 x 8 equal squares of a cell. Square (x, z) is bit 8 z + x.
+using CellParts = std::uint64_t;
+constexpr int parts_a_side = 8;
+constexpr CellParts all_parts = ~CellParts{0};
+
+/// For each cell around and each position in it, the squares of the centre cell that lie completely inside the
+/// disc around that position.
+class CoveredParts {
+ public:
+  CoveredParts();
+
+  /// `offset`: index of cells_around. `at`: the position inside that cell, 0 to 1 along each side; values
+  /// outside are clamped. The position is rounded to a box of 1/16 of a cell, and only squares that every position
+  /// of the box covers are returned, so squares at the rim of the disc can be missing.
+  CellParts of(std::size_t offset, const glm::vec2& at) const {
+    return table_[row_of(offset, box_of(at.x), box_of(at.y))];
+  }
+
+ private:
+  static constexpr int boxes = 16;  // along each side of a cell
+  static std::size_t row_of(std::size_t offset, int box_x, int box_z) {
+    return (offset * boxes + static_cast<std::size_t>(box_z)) * boxes + static_cast<std::size_t>(box_x);
+  }
+  static int box_of(float share) { return std::clamp(static_cast<int>(share * boxes), 0, boxes - 1); }
+
+  std::array<CellParts, cells_around.size() * boxes * boxes> table_{};
+};
+
+/// The only table.
+const CoveredParts& covered_parts();
+
+}  // namespace seedmesh::scene

@@ -1,0 +1,53 @@
+#pragma once
+/// Where `seedmesh sync` gets its models: from this program, or from a server over HTTP.
+#include <memory>
+#include <stop_token>
+#include <string>
+#include <vector>
+
+#include "core/base/result.h"
+#include "core/gltf/payload.h"
+#include "server/config.h"
+
+namespace seedmesh {
+
+struct SourceAnswer {
+  enum class Kind {
+    made,         ///< `payload` and `etag`
+    same,         ///< the model still has the validator that was given
+    refused,      ///< `issues`, at least one
+    stopped,      ///< by the stop token
+    unreachable,  ///< `reason`; other requests have no chance either
+  };
+  Kind kind = Kind::made;
+  Payload payload;
+  std::string etag;  ///< "" if there is none
+  std::vector<Issue> issues;
+  std::string reason;
+};
+
+/// The engine version; empty where it is not known, with the reason.
+struct SourceEngine {
+  std::string version;
+  std::string reason;
+};
+
+/// All functions may run on any number of threads at once.
+class ModelSource {
+ public:
+  virtual ~ModelSource() = default;
+  virtual SourceEngine engine() = 0;
+  /// The model of a request (JSON). `etag`: the validator of the bytes that are there; "" where there are none.
+  /// `threads`: how many may be used here for this model.
+  virtual SourceAnswer make(const std::string& request, const std::string& etag, int threads,
+                            const std::stop_token& stop) = 0;
+};
+
+/// Makes models here. `config` has to outlive the source.
+std::unique_ptr<ModelSource> local_source(const Config& config);
+
+/// Asks a server: "http://127.0.0.1:8080", or https, with or without a path. Waits while it is busy, as long as its
+/// Retry-After says and at most a minute. Null where the address is none. `key`: an API key; "" for none.
+std::unique_ptr<ModelSource> remote_source(const std::string& url, const std::string& key);
+
+}  // namespace seedmesh
