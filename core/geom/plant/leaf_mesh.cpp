@@ -183,10 +183,11 @@ void add_turned(Mesh& mesh, std::size_t vertices, std::size_t corners, math::Sin
   for (std::size_t i = 0; i < corners; ++i) mesh.index.wide.push_back(mesh.index.wide[i] + shift);
 }
 
-/// Columns and rows. The coarsest square is flat; from level to level the number falls step by step.
+/// Columns and rows. The coarsest square is flat, and so are coarse ones at all levels but the finest; from level to
+/// level the number falls step by step.
 std::array<int, 2> bent_square(const LeafForm& form) {
   constexpr std::array<std::array<int, 2>, 4> squares{{{2, 4}, {2, 3}, {2, 2}, {1, 2}}};
-  if (form.coarseness >= 4) return {1, 1};
+  if (form.coarseness >= 4 || (form.coarseness >= 3 && form.level > 0)) return {1, 1};
   return squares[static_cast<std::size_t>(std::clamp(form.coarseness + form.level, 0, 3))];
 }
 
