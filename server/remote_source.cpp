@@ -40,20 +40,30 @@ std::optional<std::chrono::milliseconds> wait_after(const httplib::Response& res
   return std::max(std::chrono::milliseconds(100), std::chrono::milliseconds(std::chrono::seconds(*seconds)));
 }
 
+/// A member that is a text; `fallback` where there is none, or where it is no text.
+std::string text_in(const Json& object, const char* key, const std::string& fallback) {
+  if (!object.is_object()) return fallback;
+  const auto member = object.find(key);
+  return member != object.end() && member->is_string() ? member->get<std::string>() : fallback;
+}
+
+int number_in(const Json& object, const char* key) {
+  const auto member = object.find(key);
+  return member != object.end() && member->is_number_unsigned() ? member->get<int>() : 0;
+}
+
 /// The errors of a problem document; its detail where it lists none.
 std::vector<Issue> issues_of(const httplib::Response& response) {
-  std::vector<Issue> issues;
-  std::string detail = "HTTP status " + std::to_string(response.status);
   const Json problem = Json::parse(response.body, nullptr, false);
-  if (problem.is_object()) {
-    detail = problem.value("detail", problem.value("title", detail));
-    const auto errors = problem.find("errors");
-    if (errors != problem.end() && errors->is_array()) {
-      for (const Json& each : *errors) {
-        if (!each.is_object()) continue;
-        issues.emplace_back(IssueKind::invalid_value, each.value("pointer", ""),
-                            each.value("message", detail), each.value("line", 0), each.value("column", 0));
-      }
+  const std::string status = "HTTP status " + std::to_string(response.status);
+  const std::string detail = text_in(problem, "detail", text_in(problem, "title", status));
+  std::vector<Issue> issues;
+  if (problem.is_object() && problem.contains("errors")) {
+    for (const Json& each : problem["errors"]) {
+      if (!each.is_object()) continue;
+      issues.emplace_back(IssueKind::invalid_value, text_in(each, "pointer", ""),
+                          text_in(each, "message", detail), number_in(each, "line"),
+                          number_in(each, "column"));
     }
   }
   if (issues.empty()) issues.emplace_back(IssueKind::invalid_value, "", detail);
@@ -65,9 +75,8 @@ std::string permalink_of(const std::string& request) {
   const Json value = Json::parse(request, nullptr, false);
   const std::string token =
       base64url(deflate_raw(value.dump(-1, ' ', false, Json::error_handler_t::replace)));
-  std::string format = "glb";
-  if (const auto output = value.find("output"); output != value.end() && output->is_object())
-    format = output->value("format", format);
+  const auto output = value.find("output");
+  const std::string format = output != value.end() ? text_in(*output, "format", "glb") : "glb";
   const auto* const row = std::ranges::find(output_formats, format, &FormatInfo::name);
   if (row == std::end(output_formats)) return "";
   const std::string path = permalink(token, row->extension);
@@ -84,15 +93,14 @@ class RemoteSource final : public ModelSource {
   SourceEngine engine() override {
     const httplib::Result answer = ask("/version", nullptr, "", {});
     if (!answer) return {"", reason_of(answer)};
-    const Json value = Json::parse(answer->body, nullptr, false);
-    if (answer->status == 200 && value.is_object() && value.contains("engine") && value["engine"].is_string())
-      return {value["engine"].get<std::string>(), ""};
+    const std::string version = text_in(Json::parse(answer->body, nullptr, false), "engine", "");
+    if (answer->status == 200 && !version.empty()) return {version, ""};
     return {"", origin_ + prefix_ + "/version answered with " + issues_of(*answer).front().message};
   }
 
   SourceAnswer make(const std::string& request, const std::string& known, int,
                     const std::stop_token& stop) override {
-    const std::string link = known.empty() ? "" : permalink_of(request);
+    const std::string link = permalink_of(request);
     const httplib::Result result =
         link.empty() ? ask("/v1/generate", &request, "", stop) : ask(link, nullptr, known, stop);
     SourceAnswer answer;

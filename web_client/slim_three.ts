@@ -12,8 +12,7 @@ const file_of = (id: string): string => id.replaceAll('\\', '/').split(sources)[
 const unused_chunks = [
   'alphahash_fragment', 'alphahash_pars_fragment', 'batching_pars_vertex', 'batching_vertex', 'bumpmap_pars_fragment', 'clearcoat_normal_fragment_begin',
   'clearcoat_normal_fragment_maps', 'clearcoat_pars_fragment', 'clipping_planes_fragment', 'clipping_planes_pars_fragment', 'clipping_planes_pars_vertex',
-  'clipping_planes_vertex', 'displacementmap_pars_vertex', 'displacementmap_vertex', 'dithering_fragment', 'dithering_pars_fragment', 'fog_fragment',
-  'fog_pars_fragment', 'fog_pars_vertex', 'fog_vertex', 'gradientmap_pars_fragment', 'iridescence_fragment', 'iridescence_pars_fragment',
+  'clipping_planes_vertex', 'displacementmap_pars_vertex', 'displacementmap_vertex', 'dithering_fragment', 'dithering_pars_fragment', 'gradientmap_pars_fragment', 'iridescence_fragment', 'iridescence_pars_fragment',
   'lightmap_pars_fragment', 'lightprobes_pars_fragment', 'lights_lambert_fragment', 'lights_lambert_pars_fragment', 'lights_phong_fragment',
   'lights_phong_pars_fragment', 'lights_toon_fragment', 'lights_toon_pars_fragment', 'logdepthbuf_fragment', 'logdepthbuf_pars_fragment',
   'logdepthbuf_pars_vertex', 'logdepthbuf_vertex', 'transmission_fragment', 'transmission_pars_fragment',

@@ -115,6 +115,12 @@ Result<Model> generate_child(const Child& child, const std::string& pointer, Rng
   return model;
 }
 
+Result<Json> derive_child(const Child& child, const std::string& pointer, Rng stream,
+                          const GenerateContext& around) {
+  Call call(child, pointer, stream, around);
+  return call.run<Json>(call.generator->derive, {call.job, {}, around.generators});
+}
+
 Result<Appraisal> appraise_child(const Child& child, const std::string& pointer, Rng stream,
                                  const GenerateContext& around) {
   Call call(child, pointer, stream, around);

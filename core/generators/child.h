@@ -26,6 +26,10 @@ Generator::Params read_parameters(const Generator& generator, const Json& json, 
 Result<Model> generate_child(const Child& child, const std::string& pointer, Rng stream,
                              const GenerateContext& around, const Demand& demand = {});
 
+/// The same for the result of derive(), whose warnings stay as they are.
+Result<Json> derive_child(const Child& child, const std::string& pointer, Rng stream,
+                          const GenerateContext& around);
+
 /// The same for the appraisal.
 Result<Appraisal> appraise_child(const Child& child, const std::string& pointer, Rng stream,
                                  const GenerateContext& around);

@@ -74,6 +74,9 @@ std::uint64_t hash_of(Material& material, const std::vector<std::uint64_t>& imag
   hash.value(material.double_sided);
   hash.value(material.unlit);
   if (material.specular < 1) hash.value(material.specular);
+  if (material.specular_color != glm::vec3(1)) {
+    for (int i = 0; i < 3; ++i) hash.value(material.specular_color[i]);
+  }
   if (material.transmission > 0) {
     hash.value(material.transmission);
     for (int i = 0; i < 3; ++i) hash.value(material.transmission_color[i]);

@@ -17,11 +17,11 @@ namespace seedmesh {
 namespace {
 
 constexpr const char* names[] = {
-    "Shape",      "Levels",     "Scale",          "ScaleV",        "BaseSize",
-    "Ratio",      "RatioPower", "Flare",          "Lobes",         "LobeDepth",
-    "Leaves",     "LeafScale",  "LeafScaleX",     "LeafBend",      "AttractionUp",
-    "PruneRatio", "PruneWidth", "PruneWidthPeak", "PrunePowerLow", "PrunePowerHigh",
-    "0Scale",     "0ScaleV",    "0BaseSplits",    "0Branches",     "0BranchDist"};
+    "Shape",          "Levels",        "Scale",          "ScaleV",       "BaseSize",   "Ratio",
+    "RatioPower",     "Flare",         "Lobes",          "LobeDepth",    "Leaves",     "LeafDistrib",
+    "LeafScale",      "LeafScaleX",    "LeafBend",       "AttractionUp", "PruneRatio", "PruneWidth",
+    "PruneWidthPeak", "PrunePowerLow", "PrunePowerHigh", "0Scale",       "0ScaleV",    "0BaseSplits",
+    "0Branches",      "0BranchDist"};
 constexpr const char* of_levels[] = {"Length",      "LengthV",  "Taper", "SegSplits", "SplitAngle",
                                      "SplitAngleV", "CurveRes", "Curve", "CurveBack", "CurveV"};
 constexpr const char* of_branches[] = {"DownAngle", "DownAngleV", "Rotate",
@@ -31,9 +31,9 @@ struct Idle {
   const char* name;
   double value;
 };
-constexpr Idle idle[] = {{"ZScale", 1},      {"ZScaleV", 0},  {"LeafDistrib", 4}, {"LeafStemLen", 0.5},
-                         {"LeafQuality", 1}, {"Smooth", 0.5}, {"0DownAngle", 0},  {"0DownAngleV", 0},
-                         {"0Rotate", 0},     {"0RotateV", 0}};
+constexpr Idle idle[] = {{"ZScale", 1},      {"ZScaleV", 0},  {"LeafStemLen", 0.5},
+                         {"LeafQuality", 1}, {"Smooth", 0.5}, {"0DownAngle", 0},
+                         {"0DownAngleV", 0}, {"0Rotate", 0},  {"0RotateV", 0}};
 
 bool contains(std::span<const char* const> list, std::string_view name) {
   return std::find(list.begin(), list.end(), name) != list.end();
@@ -47,13 +47,30 @@ bool is_known(const std::string& name) {
 }
 
 void set_defaults(WeberPennSpecies& species) {
-  const std::pair<const char*, double> tree[] = {
-      {"Shape", 0},        {"Levels", 3},           {"Scale", 10},          {"ScaleV", 0},
-      {"BaseSize", 0.25},  {"Ratio", 0.05},         {"RatioPower", 1},      {"Flare", 0.5},
-      {"Lobes", 0},        {"LobeDepth", 0},        {"Leaves", 0},          {"LeafScale", 0.2},
-      {"LeafScaleX", 0.5}, {"LeafBend", 0.3},       {"AttractionUp", 0},    {"PruneRatio", 0},
-      {"PruneWidth", 0.5}, {"PruneWidthPeak", 0.5}, {"PrunePowerLow", 0.5}, {"PrunePowerHigh", 0.5},
-      {"0Scale", 1},       {"0ScaleV", 0},          {"0BaseSplits", 0}};
+  const std::pair<const char*, double> tree[] = {{"Shape", 0},
+                                                 {"Levels", 3},
+                                                 {"Scale", 10},
+                                                 {"ScaleV", 0},
+                                                 {"BaseSize", 0.25},
+                                                 {"Ratio", 0.05},
+                                                 {"RatioPower", 1},
+                                                 {"Flare", 0.5},
+                                                 {"Lobes", 0},
+                                                 {"LobeDepth", 0},
+                                                 {"Leaves", 0},
+                                                 {"LeafDistrib", 4},
+                                                 {"LeafScale", 0.2},
+                                                 {"LeafScaleX", 0.5},
+                                                 {"LeafBend", 0.3},
+                                                 {"AttractionUp", 0},
+                                                 {"PruneRatio", 0},
+                                                 {"PruneWidth", 0.5},
+                                                 {"PruneWidthPeak", 0.5},
+                                                 {"PrunePowerLow", 0.5},
+                                                 {"PrunePowerHigh", 0.5},
+                                                 {"0Scale", 1},
+                                                 {"0ScaleV", 0},
+                                                 {"0BaseSplits", 0}};
   for (const auto& [name, value] : tree) species.set_default(name, value);
   const int curve_res[] = {3, 3, 1, 1}, branches[] = {1, 10, 5, 5};
   for (int level = 0; level < 4; ++level) {
@@ -99,6 +116,7 @@ class ArbaroReader {
     set_defaults(species_);
     Imported imported = species_.made(0);
     imported.request["parameters"]["leaf"] = {{"shape", leaf_}};
+    imported.request["parameters"]["counting"] = "arbaro";
     return imported;
   }
 

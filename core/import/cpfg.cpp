@@ -12,6 +12,7 @@
 #include <cmath>
 
 #include "core/generators/lsystem/constants.h"
+#include "core/import/cpfg_include.h"
 #include "core/import/cpfg_preprocessor.h"
 #include "core/import/cpfg_reader.h"
 #include "core/import/formats.h"
@@ -55,7 +56,7 @@ TracedText CpfgReader::expanded(Line line) {
   for (std::size_t i = 0; i < out.size(); ++i) {
     if (out[i] == '\n' || out[i] == '\r') out.replace(i, ' ');
   }
-  return out;
+  return with_one_index(out);
 }
 
 TracedText CpfgReader::expression(Line line) {
@@ -254,8 +255,11 @@ void CpfgReader::production(Line line) {
 Result<Imported> import_cpfg(std::string_view text, const ImportOptions& options) {
   if (std::optional<Error> error = entry_error(options, "a file of cpfg contains one system"))
     return *std::move(error);
-  ForeignText source(text);
-  Imported imported = CpfgReader(source, cpfg_without_comments(source), options).read();
+  const JoinedText joined = with_cpfg_includes(text, options.files);
+  ImportOptions rest = options;
+  for (const std::string& name : joined.included) rest.files.erase(name);
+  ForeignText source(joined.text, text, joined.parts);
+  Imported imported = CpfgReader(source, cpfg_without_comments(source), rest).read();
   return source.finish(std::move(imported));
 }
 

@@ -88,10 +88,13 @@ void CpfgMacros::define(std::string_view text, Line line) {
   if (known != macros_.end() && known->second.body == macro.body &&
       known->second.parameter_list == macro.parameter_list)
     return;
-  if (macros_.size() == most_macros) {
+  if (known != macros_.end()) {
+    source_.warn(at, "found a second macro " + lang::in_quotes(name) + "; it counts in the whole file here");
+    known->second = std::move(macro);
+  } else if (macros_.size() == most_macros) {
     source_.report(at, "found more than 1,000 macros");
-  } else if (!macros_.emplace(name, std::move(macro)).second) {
-    source_.report(at, "found a second macro of this name");
+  } else {
+    macros_.emplace(name, std::move(macro));
   }
 }
 

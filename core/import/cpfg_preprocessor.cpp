@@ -53,6 +53,9 @@ class Preprocessor {
       choice.is_taken = choice.is_taken || choice.is_active;
     } else if (!is_active() || name == "line" || name == "pragma") {
       return;
+    } else if (name == "include") {
+      source_.report(line.from, "the file of this `#include` is not given; send it as one of `files`",
+                     IssueKind::not_available);
     } else if (name == "undef") {
       macros_.undefine(text_.substr(rest.from, rest.to - rest.from));
     } else {

@@ -58,6 +58,7 @@ class CpfgReader {
   // cpfg_start.cpp
   void define(const TracedText& block);
   void define_array(const TracedText& block, lsystem::Slice slice);
+  TracedText with_one_index(const TracedText& text) const;
   bool put_constants();
   void put_variables();
   void run_start(const TracedText& start);
@@ -82,6 +83,7 @@ class CpfgReader {
   std::map<std::string, Line> symbols_;
   std::vector<CpfgRule> rules_[3];
   std::map<std::string, std::vector<double>> arrays_;
+  std::map<std::string, std::vector<std::size_t>> dimensions_;  ///< of arrays with more than one
   TracedText start_, start_each_, end_each_;  ///< the blocks without braces, with their macros expanded
   Json parameters_ = Json::object();
   Imported out_;

@@ -63,19 +63,22 @@ void CpfgReader::define_array(const TracedText& block, Slice slice) {
     source_.report(block.origin(slice.from), "expected the name of an array and its size in brackets");
     return;
   }
-  const std::size_t close = lsystem::closing(block.text(), open, slice.to);
-  const std::optional<double> size = number(words_.expression(block, {open + 1, close}), block.origin(open));
-  const std::size_t next = close < slice.to ? skip(block, close + 1, slice.to) : slice.to;
-  if (next < slice.to && block[next] == '[') {
-    source_.report(block.origin(next), "found an array of arrays; an array has one index here");
-    return;
+  std::vector<std::size_t> sizes;
+  std::size_t elements = 1, next = open;
+  while (next < slice.to && block[next] == '[') {
+    const std::size_t close = lsystem::closing(block.text(), next, slice.to);
+    const std::optional<double> size =
+        number(words_.expression(block, {next + 1, close}), block.origin(next));
+    if (!size) return;
+    if (!(*size >= 1 && *size * static_cast<double>(elements) <= static_cast<double>(most_elements))) {
+      source_.report(block.origin(next), "expected a size from 1 to 10000");
+      return;
+    }
+    sizes.push_back(static_cast<std::size_t>(*size));
+    elements *= sizes.back();
+    next = close < slice.to ? skip(block, close + 1, slice.to) : slice.to;
   }
-  if (!size) return;
-  if (!(*size >= 1 && *size <= static_cast<double>(most_elements))) {
-    source_.report(block.origin(open), "expected a size from 1 to 10000");
-    return;
-  }
-  std::vector<double> values(static_cast<std::size_t>(*size), 0.0);
+  std::vector<double> values(elements, 0.0);
   const std::size_t brace =
       next < slice.to && block[next] == '=' ? skip(block, next + 1, slice.to) : slice.to;
   if (brace < slice.to && block[brace] == '{') {
@@ -90,6 +93,44 @@ void CpfgReader::define_array(const TracedText& block, Slice slice) {
   const std::string name = block.text().substr(slice.from, end - slice.from);
   if (!arrays_.emplace(name, std::move(values)).second)
     source_.report(block.origin(slice.from), "found a second array of this name");
+  if (sizes.size() > 1) dimensions_.emplace(name, std::move(sizes));
+}
+
+/// a[i][j] of an array with several dimensions as a[floor(i) * columns + j], in the order in which C stores it.
+TracedText CpfgReader::with_one_index(const TracedText& text) const {
+  if (dimensions_.empty()) return text;
+  TracedText out;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::max(name_end(text, at, text.size()), at + 1);
+    const auto found = dimensions_.find(text.text().substr(at, end - at));
+    std::size_t open = skip(text, end, text.size());
+    out.copy(text, at, end);
+    at = end;
+    if (found == dimensions_.end() || open == text.size() || text[open] != '[') continue;
+    TracedText index;
+    for (std::size_t i = 0; open < text.size() && text[open] == '['; ++i) {
+      const std::size_t close = lsystem::closing(text.text(), open, text.size());
+      const TracedText inner = with_one_index(text.part(open + 1, close));
+      const std::size_t from = text.origin(open);
+      TracedText sum;
+      if (i > 0) {
+        const std::size_t columns = i < found->second.size() ? found->second[i] : 1;
+        sum.write("(", from);
+        sum.copy(index, 0, index.size());
+        sum.write(")*" + std::to_string(columns) + "+", from);
+      }
+      sum.write("floor(", from);
+      sum.copy(inner, 0, inner.size());
+      sum.write(")", from);
+      index = std::move(sum);
+      at = std::min(close + 1, text.size());
+      open = skip(text, at, text.size());
+    }
+    out.write("[", text.origin(at - 1));
+    out.copy(index, 0, index.size());
+    out.write("]", text.origin(at - 1));
+  }
+  return out;
 }
 
 /// Start: { name = expression; ... } with simple assignments makes constants, unless something changes their names.

@@ -10,7 +10,8 @@ namespace {
 
 using lsystem::Slice;
 
-constexpr int deepest = 60;  // the limit of statements inside each other
+constexpr int deepest = 60;    // the limit of statements inside each other
+constexpr int deepest_do = 4;  // each writes its statement twice
 constexpr std::string_view silent[] = {"printf", "fprintf", "fflush", "fclose",
                                        "fopen",  "getchar", "play",   "stop"};
 constexpr std::string_view reading[] = {"fscanf", "scanf", "fgets"};
@@ -88,6 +89,7 @@ std::size_t CpfgStatements::statement(const TracedText& text, std::size_t at, st
     out.write(name + " (", text.origin(at));
     return branch(text, open, to, out);
   }
+  if (name == "do") return do_while(text, {at, end}, to, out);
   if (is_call && !name.empty()) return call(text, {at, open}, to);
   const std::size_t stop = find_end(text, at, to);
   if (stop == to) source_.report(text.origin(at), "found a statement without its `;`");
@@ -139,6 +141,33 @@ std::size_t CpfgStatements::body(const TracedText& text, std::size_t at, std::si
   return at;
 }
 
+/// do ... while (...);: the statement, and a loop of the same statement. `word` is `do`.
+std::size_t CpfgStatements::do_while(const TracedText& text, Slice word, std::size_t to, TracedText& out) {
+  if (do_depth_ >= deepest_do) {
+    source_.report(text.origin(word.from), "`do` nests deeper than 4");
+    return to;
+  }
+  TracedText inner;
+  ++do_depth_;
+  std::size_t at = skip(text, word.to, to);
+  if (at < to) at = skip(text, statement(text, at, to, inner), to);
+  --do_depth_;
+  const std::size_t end = name_end(text, at, to), open = skip(text, end, to);
+  const std::size_t close = open < to && text[open] == '(' ? lsystem::closing(text.text(), open, to) : to;
+  const std::size_t stop = skip(text, std::min(close + 1, to), to);
+  if (text.text().substr(at, end - at) != "while" || stop >= to || text[stop] != ';') {
+    source_.report(text.origin(word.from), "found `do` without its `while (...);`");
+    return to;
+  }
+  out.copy(inner, 0, inner.size());
+  out.write(" while ((", text.origin(at));
+  append(text, {open + 1, close}, out);
+  out.write(") != 0) {", text.origin(close));
+  out.copy(inner, 0, inner.size());
+  out.write("} ", text.origin(stop));
+  return stop + 1;
+}
+
 /// A call that stands alone. Nothing is written for it.
 std::size_t CpfgStatements::call(const TracedText& text, Slice slice, std::size_t to) {
   const std::size_t end = name_end(text, slice.from, slice.to);
@@ -171,7 +200,14 @@ std::size_t CpfgStatements::change(const TracedText& text, Slice slice, TracedTe
   const std::string name = text.text().substr(slice.from, end - slice.from);
   std::size_t sign = skip(text, end, slice.to);
   const bool has_index = sign < slice.to && text[sign] == '[';
-  if (has_index) sign = skip(text, lsystem::closing(text.text(), sign, slice.to) + 1, slice.to);
+  if (has_index) {
+    const std::size_t close = lsystem::closing(text.text(), sign, slice.to);
+    if (close >= slice.to) {
+      source_.report(text.origin(sign), "found `[` without its `]`");
+      return slice.to;
+    }
+    sign = skip(text, close + 1, slice.to);
+  }
   const std::string two =
       text.text().substr(sign, std::min<std::size_t>(2, slice.to - std::min(sign, slice.to)));
   const bool is_step = two == "++" || two == "--";

@@ -37,6 +37,7 @@ class CpfgStatements {
   std::size_t statement(const TracedText& text, std::size_t at, std::size_t to, TracedText& out);
   std::size_t branch(const TracedText& text, std::size_t open, std::size_t to, TracedText& out);
   std::size_t body(const TracedText& text, std::size_t at, std::size_t to, TracedText& out);
+  std::size_t do_while(const TracedText& text, lsystem::Slice word, std::size_t to, TracedText& out);
   std::size_t call(const TracedText& text, lsystem::Slice name, std::size_t to);
   std::size_t change(const TracedText& text, lsystem::Slice slice, TracedText& out);
   void append(const TracedText& text, lsystem::Slice slice, TracedText& out) const;
@@ -45,7 +46,7 @@ class CpfgStatements {
   CpfgWords& words_;
   std::set<std::string> assigned_, known_, shared_, inner_;
   TracedText seed_;
-  int depth_ = 0;
+  int depth_ = 0, do_depth_ = 0;
 };
 
 }  // namespace seedmesh

@@ -5,9 +5,22 @@
 
 namespace seedmesh {
 
+void ForeignText::trace(std::size_t& offset, std::string* message) const {
+  const auto behind = std::ranges::upper_bound(parts_, offset, {}, &TextPart::from);
+  if (behind == parts_.begin()) return;
+  const TextPart& part = *(behind - 1);
+  if (part.file.empty()) {
+    offset = part.origin + (offset - part.from);
+  } else {
+    if (message != nullptr) *message = "`" + shortened(part.file, 60) + "`: " + *message;
+    offset = part.origin;
+  }
+}
+
 void ForeignText::report(std::size_t offset, std::string message, IssueKind kind) {
   if (issues_.size() < most) {
-    issues_.push_back(issue_at(kind, "", text_, offset, std::move(message)));
+    trace(offset, &message);
+    issues_.push_back(issue_at(kind, "", foreign_, offset, std::move(message)));
   } else {
     ++unlisted_;
   }
@@ -15,7 +28,8 @@ void ForeignText::report(std::size_t offset, std::string message, IssueKind kind
 
 void ForeignText::warn(std::size_t offset, std::string message, std::string pointer) {
   if (warnings_.size() >= most) return;
-  const TextPosition position = text_position(text_, offset);
+  trace(offset, &message);
+  const TextPosition position = text_position(foreign_, offset);
   warnings_.push_back({std::move(pointer), std::move(message), position.line, position.column});
 }
 
@@ -25,6 +39,9 @@ Imported ForeignText::finish(Imported imported) {
   };
   std::stable_sort(issues_.begin(), issues_.end(), earlier);
   std::stable_sort(warnings_.begin(), warnings_.end(), earlier);
+  for (Origin& origin : imported.origins) {
+    for (TextRun& run : origin.runs) trace(run.from, nullptr);
+  }
   imported.errors = std::move(issues_);
   imported.warnings = std::move(warnings_);
   return imported;

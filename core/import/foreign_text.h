@@ -9,10 +9,20 @@
 
 namespace seedmesh {
 
+/// Bytes of a joined text from `from` on. They come from `origin` of the foreign text; with a file name, they all stand
+/// for the line at `origin` that includes that file.
+struct TextPart {
+  std::size_t from = 0, origin = 0;
+  std::string file;
+};
+
 /// A foreign text, with its errors and warnings.
 class ForeignText {
  public:
-  explicit ForeignText(std::string_view text) : text_(text) {}
+  explicit ForeignText(std::string_view text) : text_(text), foreign_(text) {}
+  /// `text` is joined from `foreign` and further files. Offsets are those of `text`, positions those of `foreign`.
+  ForeignText(std::string_view text, std::string_view foreign, std::vector<TextPart> parts)
+      : text_(text), foreign_(foreign), parts_(std::move(parts)) {}
 
   std::string_view text() const { return text_; }
   void report(std::size_t offset, std::string message, IssueKind kind = IssueKind::syntax);
@@ -25,7 +35,11 @@ class ForeignText {
  private:
   static constexpr std::size_t most = 100;  ///< errors, and warnings, that are kept
 
-  std::string_view text_;
+  /// Moves the offset into the foreign text, and puts the name of an included file before the message.
+  void trace(std::size_t& offset, std::string* message) const;
+
+  std::string_view text_, foreign_;
+  std::vector<TextPart> parts_;  ///< in their order; empty: both texts are the same
   std::vector<Issue> issues_;
   std::vector<Warning> warnings_;
   std::size_t unlisted_ = 0;  ///< errors that were not kept

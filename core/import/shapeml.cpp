@@ -67,7 +67,7 @@ class ShapemlReader : private ShapemlText {
       if (equals >= end || !is_name(i + 1)) {
         error(i, "found " + in_quotes(at(i)) + ", expected a name, `=` and a value");
       } else if (is(equals + 1, "{")) {
-        error(equals + 1, "operations as a value have no counterpart in rules");
+        error(equals + 1, "a value in braces has no counterpart in rules");
       } else {
         if (word != "func") declarations_.write(word == "param" ? "attr " : "const ", at(i).offset);
         for (std::size_t k = i + 1; k < equals; ++k)
@@ -200,7 +200,7 @@ class ShapemlReader : private ShapemlText {
         ++i;
       } else if (token.kind != TokenKind::name) {
         error(i, "found " + in_quotes(token) + ", expected an operation or the name of a rule" +
-                     (is(i, "^") ? "; operations as values have no counterpart" : ""));
+                     (is(i, "^") ? "; no operations have this name" : ""));
         i = behind;
       } else {
         step(i, depth);

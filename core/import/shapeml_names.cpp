@@ -73,6 +73,12 @@ constexpr ShapemlOperation operations[] = {
     {"trim", 0, 0, "", true},
     {"trimLocal", 0, 0, "", true},
     {"trimPlane", 4, 6, "", true},
+    {"ffdTranslate", 6, 6, "", true},
+    {"ffdTranslateX", 4, 4, "", true},
+    {"ffdTranslateY", 4, 4, "", true},
+    {"ffdTranslateZ", 4, 4, "", true},
+    {"ffdReset", 0, 3, "", true},
+    {"ffdApply", 0, 0, "", true},
 };
 
 constexpr ShapemlName names[] = {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/import/shapeml_expand.h"
 #include "core/import/shapeml_names.h"
 
 namespace seedmesh {
@@ -34,6 +35,18 @@ ShapemlText::ShapemlText(ForeignText& source) : source_(source), text_(without_c
   std::vector<lang::TextError> errors;
   tokens_ = lang::tokenize(text_, 0, text_.size(), errors);
   for (const lang::TextError& error : errors) source_.report(error.offset, error.message);
+  expand_shapeml_operations(tokens_, source_);
+  for (std::size_t i = 0; i + 2 < tokens_.size(); ++i) {
+    const std::string_view word = at(i).text;
+    if (!is_name(i)) continue;
+    if (word == "set" && is(i + 1, "(") && at(i + 2).kind == TokenKind::string)
+      set_names_.insert(lang::string_value(at(i + 2)));
+    if ((word == "param" || word == "const" || word == "func") && is_name(i + 1))
+      declared_.insert(std::string(at(i + 1).text));
+    if (word != "rule" || !is(i + 2, "(")) continue;
+    for (std::size_t k = i + 3; k + 1 < tokens_.size() && !is(k, ")"); ++k)
+      declared_.insert(std::string(at(k).text));
+  }
   partner_.assign(tokens_.size(), tokens_.size() - 1);
   std::vector<std::size_t> open;
   for (std::size_t i = 0; i < tokens_.size(); ++i) {
@@ -86,6 +99,9 @@ void ShapemlText::expression(std::size_t from, std::size_t to, TracedText& out) 
       attributes_.insert(name);
       out.write(name, offset);
       i = std::min(partner_[i + 1], to);
+    } else if (!is_call && set_names_.contains(token.text) && !declared_.contains(token.text)) {
+      attributes_.insert("own_" + std::string(token.text));
+      out.write("own_" + std::string(token.text), offset);
     } else if (token.text == "clamp" && is_call) {
       // It has its bounds first in ShapeML.
       if (!has_clamp_) declarations_.write("clamp_between(low, high, x) = max(low, min(high, x))\n", offset);

@@ -32,6 +32,8 @@ class ShapemlText {
   std::vector<std::size_t> partner_;  ///< of brackets: the closing one
   TracedText declarations_;
   std::set<std::string, std::less<>> needed_, attributes_;  ///< functions and attributes that expressions use
+  std::set<std::string, std::less<>> set_names_,
+      declared_;  ///< attributes that set() makes; params and constants
   bool has_clamp_ = false;
 };
 

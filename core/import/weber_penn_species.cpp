@@ -8,9 +8,10 @@
 namespace seedmesh {
 namespace {
 
-constexpr const char* whole_numbers[] = {
-    "Shape",  "Levels", "Lobes",  "0BaseSplits", "0Branches", "1Branches", "2Branches", "3Branches",
-    "1Whorl", "2Whorl", "3Whorl", "0CurveRes",   "1CurveRes", "2CurveRes", "3CurveRes", "Leaves"};
+constexpr const char* whole_numbers[] = {"Shape",     "Levels",     "Lobes",     "0BaseSplits", "0Branches",
+                                         "1Branches", "2Branches",  "3Branches", "1Whorl",      "2Whorl",
+                                         "3Whorl",    "0CurveRes",  "1CurveRes", "2CurveRes",   "3CurveRes",
+                                         "Leaves",    "LeafDistrib"};
 
 bool is_whole(const std::string& name) {
   return std::find(std::begin(whole_numbers), std::end(whole_numbers), name) != std::end(whole_numbers);

@@ -70,6 +70,29 @@ bool is_too_large(std::string_view text) {
   return power > -magnitude;
 }
 
+/// The number of four hexadecimal digits; -1 for any other text.
+std::int32_t code_unit(std::string_view digits) {
+  std::int32_t unit = 0;
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), unit, 16);
+  return digits.size() == 4 && error == std::errc() && end == digits.data() + 4 && unit >= 0 ? unit : -1;
+}
+
+/// Appends a character of the basic plane. Halves of surrogate pairs become the replacement character.
+void add_utf8(std::string& text, std::uint32_t unit) {
+  if (unit >= 0xD800 && unit < 0xE000) unit = 0xFFFD;
+  if (unit < 0x80) {
+    text += static_cast<char>(unit);
+    return;
+  }
+  if (unit < 0x800) {
+    text += static_cast<char>(0xC0U | unit >> 6U);
+  } else {
+    text += static_cast<char>(0xE0U | unit >> 12U);
+    text += static_cast<char>(0x80U | (unit >> 6U & 0x3FU));
+  }
+  text += static_cast<char>(0x80U | (unit & 0x3FU));
+}
+
 class Lexer {
  public:
   Lexer(std::string_view text, std::size_t from, std::size_t to, std::vector<TextError>& errors)
@@ -148,7 +171,8 @@ class Lexer {
     std::size_t bad_escape = 0;  // only the first of a string is reported
     while (end < text_.size() && text_[end] != '"' && text_[end] != '\n') {
       if (text_[end] == '\\' && end + 1 < text_.size() && text_[end + 1] != '\n') {
-        const bool known = std::string_view("\"\\nt").find(text_[end + 1]) != std::string_view::npos;
+        const bool known = std::string_view("\"\\nt").find(text_[end + 1]) != std::string_view::npos ||
+                           (text_[end + 1] == 'u' && code_unit(text_.substr(end + 2, 4)) >= 0);
         if (!known && bad_escape == 0) bad_escape = end;
         ++end;
       }
@@ -156,7 +180,7 @@ class Lexer {
     }
     const bool closed = end < text_.size() && text_[end] == '"';
     if (!closed) report(open, "the string that opens here is not closed on its line");
-    if (bad_escape > 0) report(bad_escape, R"(unknown escape in a string: there are \" \\ \n \t)");
+    if (bad_escape > 0) report(bad_escape, R"(unknown escape in a string: there are \" \\ \n \t \u0000)");
     tokens_.push_back(
         {TokenKind::string, text_.substr(open + 1, end - open - 1), open, end + (closed ? 1 : 0) - open, 0});
     at_ = end + (closed ? 1 : 0);
@@ -238,7 +262,13 @@ std::string string_value(const Token& token) {
       value += c;
     } else {
       const char escaped = token.text[++i];
-      value += escaped == 'n' ? '\n' : escaped == 't' ? '\t' : escaped;
+      const std::int32_t unit = escaped == 'u' ? code_unit(token.text.substr(i + 1, 4)) : -1;
+      if (unit >= 0) {
+        add_utf8(value, static_cast<std::uint32_t>(unit));
+        i += 4;
+      } else {
+        value += escaped == 'n' ? '\n' : escaped == 't' ? '\t' : escaped;
+      }
     }
   }
   return value;

@@ -3,7 +3,7 @@
 ///
 ///   number   12   1.5   .5   5.   1e3   1e-3      (no sign; `1e` is the number 1 and the name e)
 ///   name     [A-Za-z_][A-Za-z0-9_]*
-///   string   "..." on one line, with the escapes \" \\ \n \t
+///   string   "..." on one line, with the escapes \" \\ \n \t \u0041
 ///   symbol   the longest of == != <= >= && || -> --> ~> << >>, else any one of the other ASCII signs
 ///
 /// White space, the no-break space included, only separates tokens. There are no comments.

@@ -63,14 +63,18 @@ struct Material {
   AlphaMode alpha_mode = AlphaMode::opaque;
   float alpha_cutoff = 0.5F;
   bool double_sided = false;
-  bool unlit = false;  ///< writes KHR_materials_unlit, never as required
-  float specular = 1;  ///< strength of reflections; below 1 writes KHR_materials_specular
+  bool unlit = false;           ///< writes KHR_materials_unlit, never as required
+  float specular = 1;           ///< strength of reflections
+  glm::vec3 specular_color{1};  ///< of reflections that are seen straight on, linear
   /// Share of the light that passes through a thin sheet and leaves it diffusely on the other side, and its
   /// colour as a multiple of the base colour (linear); above 0 writes KHR_materials_diffuse_transmission.
   float transmission = 0;
   glm::vec3 transmission_color{1};
   TextureRecipe recipe;     ///< paint() replaces it by textures
   ImpostorRecipe impostor;  ///< draw_impostors() replaces it by textures
+
+  /// Writes KHR_materials_specular.
+  bool has_specular() const { return specular < 1 || specular_color != glm::vec3(1); }
 };
 
 struct Primitive {

@@ -21,8 +21,8 @@ bool alike(const Material& a, const Material& b) {
   if (!a.impostor.parts.empty() || !b.impostor.parts.empty()) return false;
   const auto plain = [](const Material& m) {
     return std::tie(m.name, m.base_color, m.metallic, m.roughness, m.emissive, m.alpha_mode, m.alpha_cutoff,
-                    m.double_sided, m.unlit, m.specular, m.transmission, m.transmission_color, m.recipe.kind,
-                    m.recipe.color, m.recipe.has_own_sides);
+                    m.double_sided, m.unlit, m.specular, m.specular_color, m.transmission,
+                    m.transmission_color, m.recipe.kind, m.recipe.color, m.recipe.has_own_sides);
   };
   return plain(a) == plain(b) && same(a.base_color_texture, b.base_color_texture) &&
          same(a.normal_texture, b.normal_texture) &&

@@ -26,16 +26,17 @@ Result<Decoded> decode_picture(std::span<const std::byte> file, const PngLimits&
   if (text.starts_with(std::string_view("II*\0", 4)) || text.starts_with(std::string_view("MM\0*", 4)) ||
       text.starts_with(std::string_view("II+\0", 4)) || text.starts_with(std::string_view("MM\0+", 4)))
     return decode_tiff(file, limits, job);
-  const auto as_decoded = [](Result<Picture> picture) -> Result<Decoded> {
+  const auto as_decoded = [](Result<Picture> picture, bool is_lossy) -> Result<Decoded> {
     if (!picture) return std::move(picture).error();
     Decoded decoded;
+    decoded.is_lossy = is_lossy;
     decoded.picture.emplace(std::move(*picture));
     return decoded;
   };
-  if (text.starts_with("\xFF\xD8\xFF")) return as_decoded(decode_jpeg(file, limits, job));
+  if (text.starts_with("\xFF\xD8\xFF")) return as_decoded(decode_jpeg(file, limits, job), true);
   if (text.size() >= 12 && text.starts_with("RIFF") && text.substr(8, 4) == "WEBP")
-    return as_decoded(decode_webp(file, limits, job));
-  if (text.starts_with("\x89PNG")) return as_decoded(decode_png(file, limits, job));
+    return decode_webp(file, limits, job);
+  if (text.starts_with("\x89PNG")) return as_decoded(decode_png(file, limits, job), false);
   return detail::refused_picture("found " + std::to_string(file.size()) +
                                  " bytes without the signature of a PNG, JPEG, WebP or TIFF");
 }

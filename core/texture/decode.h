@@ -18,6 +18,7 @@ struct Samples {
 struct Decoded {
   std::optional<Picture> picture;
   std::optional<Samples> samples;
+  bool is_lossy = false;          ///< samples are near those that were saved (JPEG, most WebP)
   std::optional<double> no_data;  ///< the value that stands for a missing one (GDAL_NODATA of a TIFF)
 };
 
@@ -30,7 +31,7 @@ Result<Decoded> decode_picture(std::span<const std::byte> file, const PngLimits&
 Result<Picture> decode_jpeg(std::span<const std::byte> file, const PngLimits& limits, const Job& job);
 
 /// WebP without animation: RGB, or RGBA if it has alpha.
-Result<Picture> decode_webp(std::span<const std::byte> file, const PngLimits& limits, const Job& job);
+Result<Decoded> decode_webp(std::span<const std::byte> file, const PngLimits& limits, const Job& job);
 
 /// The first image of a TIFF (TIFF 6.0, BigTIFF) in strips or tiles, uncompressed or with LZW, Deflate, PackBits or
 /// Zstandard: grey, RGB and palettes of 8 or 16 bits as a picture, other numbers as samples. Rows of a GeoTIFF that run

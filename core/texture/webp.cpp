@@ -7,7 +7,7 @@
 
 namespace seedmesh::texture {
 
-Result<Picture> decode_webp(std::span<const std::byte> file, const PngLimits& limits, const Job& job) {
+Result<Decoded> decode_webp(std::span<const std::byte> file, const PngLimits& limits, const Job& job) {
   const auto* data = reinterpret_cast<const std::uint8_t*>(file.data());
   WebPBitstreamFeatures features;
   const VP8StatusCode status = WebPGetFeatures(data, file.size(), &features);
@@ -21,7 +21,10 @@ Result<Picture> decode_webp(std::span<const std::byte> file, const PngLimits& li
   const auto width = static_cast<std::uint32_t>(features.width),
              height = static_cast<std::uint32_t>(features.height);
   if (auto error = detail::size_error("WebP", width, height, limits)) return *std::move(error);
-  Picture picture;
+  constexpr int lossless = 2;
+  Decoded decoded;
+  decoded.is_lossy = features.format != lossless;
+  Picture& picture = decoded.picture.emplace();
   picture.width = width;
   picture.height = height;
   picture.channels = features.has_alpha != 0 ? 4 : 3;
@@ -36,7 +39,7 @@ Result<Picture> decode_webp(std::span<const std::byte> file, const PngLimits& li
           ? WebPDecodeRGBAInto(data, file.size(), picture.bytes.data(), picture.bytes.size(), stride)
           : WebPDecodeRGBInto(data, file.size(), picture.bytes.data(), picture.bytes.size(), stride);
   if (!end) return detail::refused_picture("the WebP is damaged: its pixels cannot be read");
-  return picture;
+  return decoded;
 }
 
 }  // namespace seedmesh::texture

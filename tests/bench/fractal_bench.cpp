@@ -72,7 +72,7 @@ void bench_chaos() {
   const fractal::Instructions fern = fractal::instructions_of(params);
   const double seconds = bench::median_seconds<bench::CpuClock>(5, [&] {
     Job job(1, Job::Options{});
-    if (fractal::play(fern, points, 100, job).position.size() != points) std::abort();
+    if (fractal::play(fern, fractal::StartPoints(), points, 100, job).position.size() != points) std::abort();
   });
   bench::report("chaos game, 1 thread", "points", static_cast<double>(points), seconds);
 }

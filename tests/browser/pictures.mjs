@@ -49,6 +49,10 @@ const sheets = {
   leaves: { tile: [107, 107], columns: 6, textures: [...leaves.map((name) => `${name}_leaf`), 'petal', ...twigs.map((name) => `${name}_twig`)] },
 };
 
+const walls = ['brick', 'plaster', 'roof_tile', 'slate', 'planks', 'ashlar', 'concrete', 'sheet'];
+/** What the form shows beside the names of textures. */
+const choices = path.join(root, 'web_client/public/textures');
+
 /** Maps of tests/browser/pictures, drawn flat and beside it as the imported scene. */
 const maps = { import_town: { tile: [480, 400], file: 'town.geojson' } };
 
@@ -160,15 +164,16 @@ async function take_map(browser, server, { tile: [width, height], file }) {
   return [flat, shown];
 }
 
-/** Each on a tube, since a material that nothing wears is left out. */
+/** A request that shows a texture: a tube with bark or leaves, or a wall. */
+const wearing = (texture) => (walls.includes(texture)
+  ? { generator: 'building', parameters: { rules: 'Lot --> material("wall") Wall.', size: [3, 3, 0.3], materials: { wall: { color: '#b8a58c', texture } } } }
+  : { generator: 'lsystem', parameters: { axiom: 'F', productions: [], iterations: 0, materials: [{ texture }] } });
+
+/** Each on a model, since a material that nothing wears is left out. */
 async function take_sheet(server, { textures }) {
   const pngs = [];
   for (const texture of textures) {
-    const answer = await server.post('/v1/generate', {
-      generator: 'lsystem',
-      parameters: { axiom: 'F', productions: [], iterations: 0, materials: [{ texture }] },
-      output: { format: 'gltf', textures: 256 },
-    });
+    const answer = await server.post('/v1/generate', { ...wearing(texture), output: { format: 'gltf', textures: 256 } });
     const { buffers, bufferViews, images, materials, textures: made } = answer.json;
     const picture = images[made[materials[0].pbrMetallicRoughness.baseColorTexture.index].source];
     const { byteOffset = 0, byteLength } = bufferViews[picture.bufferView];
@@ -228,6 +233,14 @@ try {
     if (wanted.length > 0 && !wanted.includes(name)) continue;
     fs.writeFileSync(path.join(pictures, `${name}.webp`), await join_tiles(scaler, await take_sheet(server, sheet), sheet));
     process.stdout.write(`${name} in docs/pictures\n`);
+  }
+  if (wanted.length === 0 || wanted.includes('textures')) {
+    const { $defs } = JSON.parse(fs.readFileSync(path.join(root, 'api_schema/common.schema.json'), 'utf8'));
+    const textures = [...$defs.texture.enum.filter((name) => name !== 'none'), ...walls];
+    fs.mkdirSync(choices, { recursive: true });
+    for (const [index, png] of (await take_sheet(server, { textures })).entries())
+      fs.writeFileSync(path.join(choices, `${textures[index]}.webp`), await to_webp(scaler, Buffer.from(png, 'base64'), { width: 96, height: 96, quality: 0.7 }));
+    process.stdout.write(`${textures.length} textures in web_client/public/textures\n`);
   }
   if (wanted.length === 0 || wanted.includes('page')) {
     const page = await browser.newPage({ viewport: { width: 1280, height: 800 }, colorScheme: 'light' });

@@ -26,7 +26,7 @@ after(async () => {
 
 /** Requests by route since the server started: all, and those of models. */
 async function requests() {
-  const samples = [...(await server.get('/metrics')).text.matchAll(/^seedmesh_requests_total\{([^}]*)\} (\d+)/gm)];
+  const samples = [...(await server.get('/metrics')).text.matchAll(/^seedmesh_requests_total\{(.*)\} (\d+)/gm)];
   const sum = (pattern) => samples.filter(([, labels]) => pattern.test(labels)).reduce((total, [, , count]) => total + Number(count), 0);
   return { models: sum(/route="[^"]*(generate|models)/), version: sum(/route="[^"]*version/) };
 }

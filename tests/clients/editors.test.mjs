@@ -74,7 +74,7 @@ test('Unity: a compiler accepts the C# against the signatures of Unity that it u
     for (const [out, sources, ...libraries] of [
       ['api.dll', [path.join(import.meta.dirname, 'unity/unity_api.cs')]],
       ['runtime.dll', scripts('unity/Runtime'), made('api.dll')],
-      ['editor.dll', scripts('unity/Editor'), made('api.dll'), made('runtime.dll'), 'System.Net.Http.dll'],
+      ['editor.dll', scripts('unity/Editor'), made('api.dll'), made('runtime.dll'), 'System.Net.Http.dll', 'System.IO.Compression.dll'],
     ]) {
       const { status, out: text, err } = await compile(out, sources, ...libraries);
       assert.equal(status, 0, text + err);

@@ -3,7 +3,7 @@ import assert from 'node:assert/strict';
 import fs from 'node:fs';
 import path from 'node:path';
 import { before, test } from 'node:test';
-import { expected_of, is_refused, measure_all, page, page_of, presets, rows, status_of } from './theses.mjs';
+import { expected_of, measure_all, page, page_of, presets, rows, status_of } from './theses.mjs';
 
 const root = path.resolve(import.meta.dirname, '../..');
 const name_of = (row) => `${row.thesis}, ${row.where}, ${row.what}`;
@@ -19,14 +19,6 @@ test('no number differs from the thesis without a note', () => {
   const unexplained = rows.flatMap((row, index) => (status_of(row, found[index]) === 'differs' && !row.note
     ? [`${name_of(row)}: expected ${JSON.stringify(expected_of(row))}, found ${JSON.stringify(found[index])}`] : []));
   assert.deepEqual(unexplained, []);
-});
-
-test('what is missing is still refused; give such a row a number when it works', async () => {
-  const missing = rows.filter((row) => row.missing && row.request);
-  assert.ok(missing.length > 0, 'nothing is missing any more: remove this test');
-  const works = [];
-  for (const row of missing) if (!await is_refused(row)) works.push(name_of(row));
-  assert.deepEqual(works, []);
 });
 
 test('every row measures something, or states what is missing or why there is no model', () => {

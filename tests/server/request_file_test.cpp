@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include <random>
+
 namespace seedmesh {
 namespace {
 
@@ -76,6 +78,46 @@ TEST(RequestFile, PlacesErrorsOfARequestInTheFile) {
                   "assets/oak.seedmesh:1:1: /parameters/axiom: found `[` (line 1, column 2 of this text)"));
   EXPECT_THAT(error_lines(file, "b.glb", {{IssueKind::out_of_range, "/output/lods", "found 99"}}),
               ElementsAre("assets/oak.seedmesh:1:21: /output/lods: found 99"));
+}
+
+TEST(RequestFile, GivesOutputsOrErrorsForAnyText) {
+  const std::string whole =
+      R"({"$schema": "x", "name": "é\u00e9", "output": {"lods": [1, 0.5]}, "outputs": {"a.glb": {"lods": null}}, "seed": 1e9})";
+  std::mt19937 engine(7);
+  const auto random = [&] { return static_cast<unsigned>(engine()); };
+  int accepted = 0;
+  for (int i = 0; i < 50'000; ++i) {
+    std::string text = whole;
+    for (unsigned changes = 1 + random() % 3; changes > 0; --changes) {
+      const std::size_t at = random() % text.size();
+      const char byte = whole[random() % whole.size()];
+      switch (random() % 4) {
+        case 0:
+          text[at] = byte;
+          break;
+        case 1:
+          text.insert(at, 1, byte);
+          break;
+        case 2:
+          text.erase(at, 1 + random() % 3);
+          break;
+        default:
+          text[at] = static_cast<char>(random());
+      }
+    }
+    const auto result = read_request_file("a.seedmesh", text);
+    if (const auto* file = std::get_if<RequestFile>(&result)) {
+      ++accepted;
+      ASSERT_FALSE(file->outputs.empty()) << text;
+      error_lines(*file, file->outputs[0].name,
+                  {{IssueKind::wrong_type, "/outputs/a.glb/lods/1/x", "found 1"}});
+    } else {
+      const auto& errors = std::get<ErrorLines>(result);
+      ASSERT_FALSE(errors.empty()) << text;
+      for (const std::string& line : errors) ASSERT_TRUE(line.starts_with("a.seedmesh:")) << line;
+    }
+  }
+  EXPECT_GT(accepted, 1'000);
 }
 
 }  // namespace

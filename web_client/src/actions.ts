@@ -1,8 +1,8 @@
 /** Exports from the page: downloaded files, the shared link, and code that requests the model. */
-import { Busy, Gone, generate, in_format, type Request } from './api';
+import { Busy, Gone, generate, get_text, in_format, type Request } from './api';
 import { curl_of, endings, javascript_of, own_format, python_of } from './commands';
 import { el, part, sentence } from './dom';
-import { link_to, longest_link } from './link';
+import { fragment_of, link_to, longest_link } from './link';
 
 export interface Context {
   request(): Request | null;
@@ -64,8 +64,8 @@ export function wire_copies(context: Context): void {
   on('save-picture', () => save_picture(context));
 }
 
-export function save_request(request: Request, context: Context): void {
-  save(new Blob([`${JSON.stringify(request, null, 2)}\n`]), `${context.name()}.json`);
+export function save_request(request: Request, context: Context, name = context.name()): void {
+  save(new Blob([`${JSON.stringify(request, null, 2)}\n`]), `${name}.json`);
   context.say('The request is saved');
 }
 
@@ -82,6 +82,18 @@ function save(file: Blob, name: string): void {
   el('a', { href: address, download: name }).click();
   // The browser reads the object URL after this task has ended. One minute is long enough for that.
   setTimeout(() => URL.revokeObjectURL(address), 60_000);
+}
+
+/** Saves a tree of the model proctree as a file of proctree.js. */
+export async function save_proctree(request: Request, context: Context): Promise<void> {
+  context.fail('');
+  const name = `${context.name()}.proctree.json`;
+  try {
+    save(new Blob([await get_text(`v1/models/${await fragment_of(request, null)}.proctree.json`)]), name);
+    context.say(`${name} is saved`);
+  } catch (error) {
+    context.fail(`Cannot save ${name}: ${sentence((error as Error).message)}`);
+  }
 }
 
 /** Downloads in progress, so that one file is not fetched twice at the same time. */

@@ -126,6 +126,9 @@ async function call(address: string, init: RequestInit = {}): Promise<Response> 
 const read = async <T>(address: string, signal?: AbortSignal): Promise<T> =>
   (await (await call(address, { signal: signal ?? null })).json()) as T;
 
+/** The text at an address of the server. */
+export const get_text = async (address: string): Promise<string> => (await call(address)).text();
+
 /** The names in display order. */
 export const get_offer = (signal?: AbortSignal): Promise<Offer> => read<Offer>('v1/presets', signal);
 

@@ -3,8 +3,9 @@ import { Refusal, derive, type Request } from './api';
 import { el, grouped, part, rounded } from './dom';
 import { is_members, type Members } from './form/schema';
 import type { State } from './state';
-import { draw_map, is_heights } from './derived/height_map';
-import { ShapeList, is_shapes } from './derived/shape_list';
+import { draw_map, draw_profile, is_heights } from './derived/height_map';
+import { PlantList, is_scene, type PlantActs } from './derived/plant_list';
+import { ShapeList, is_shapes, type Edited } from './derived/shape_list';
 import type { Overlay } from './derived/overlay';
 
 export interface Result {
@@ -14,6 +15,8 @@ export interface Result {
   /** Another model is drawn, so the overlay of the previous one is removed. */
   drawn(): void;
   picked(index: number): void;
+  /** The user has clicked at this point of the ground. */
+  touched(x: number, z: number): void;
 }
 
 /** Longer texts are shortened on the page. The full text is in the server's response. */
@@ -22,13 +25,14 @@ const longest = 4000;
 const debounce = 200;
 
 /** `lead` moves the cursor to a line of the rules; `has_rules` tells whether the shown request contains rules. */
-export function wire_result(overlay: Overlay | null, lead: (line: number) => void, has_rules: () => boolean): Result {
+export function wire_result(overlay: Overlay | null, lead: (line: number) => void, has_rules: () => boolean, acts: { edited: Edited; plants: PlantActs }): Result {
   const page = part('result');
   let request: Request | null = null;
   let shown_for: Request | null = null;
   let in_sight = false;
   let running = new AbortController();
   let shapes: ShapeList | null = null;
+  let plants: PlantList | null = null;
   let is_unanswered = false;
   let timer = 0;
 
@@ -41,7 +45,7 @@ export function wire_result(overlay: Overlay | null, lead: (line: number) => voi
     is_unanswered = false;
     page.dataset['for'] = '';
     try {
-      const answer = await derive(asked, signal);
+      const answer = await derive(asked.generator === 'scene' ? { ...asked, parameters: { ...asked.parameters, words: true } } : asked, signal);
       shown_for = asked;
       draw(answer);
     } catch (error) {
@@ -58,15 +62,21 @@ export function wire_result(overlay: Overlay | null, lead: (line: number) => voi
     const parts: (HTMLElement | null)[] = [];
     const before = shapes;
     shapes = null;
+    plants = null;
     if (is_heights(rest)) {
-      parts.push(draw_map(rest));
+      parts.push(rest.height === 1 ? draw_profile(rest) : draw_map(rest));
       delete (rest as Members)['heights'];
     }
     if (is_shapes(rest['shapes'])) {
-      shapes = new ShapeList(rest['shapes'], overlay, has_rules() ? lead : null);
+      shapes = new ShapeList(rest['shapes'], overlay, has_rules() ? lead : null, acts.edited);
       if (before) shapes.take_over(before);
       parts.push(shapes.element);
       delete rest['shapes'];
+    }
+    if (is_scene(rest)) {
+      plants = new PlantList(rest, overlay, acts.plants);
+      parts.push(plants.element);
+      delete rest['words'];
     }
     const figures = figures_of(rest);
     parts.push(figures.length > 0 ? el('dl', { class: 'figures' }, ...figures.map(([name, value]) => el('div', {}, el('dt', {}, name), el('dd', {}, value)))) : null);
@@ -78,7 +88,7 @@ export function wire_result(overlay: Overlay | null, lead: (line: number) => voi
     open(now) { in_sight = now; void ask(); },
     follow(state, is_new) {
       request = state.request;
-      if (is_new) shapes = null;
+      if (is_new) shapes = plants = null;
       clearTimeout(timer);
       timer = window.setTimeout(() => void ask(), debounce);
     },
@@ -89,6 +99,7 @@ export function wire_result(overlay: Overlay | null, lead: (line: number) => voi
       if (is_unanswered) void ask();
     },
     picked(index) { shapes?.pick(index); },
+    touched(x, z) { if (in_sight) plants?.pick(x, z); },
   };
 }
 

@@ -3,9 +3,10 @@
  * help. It is a separate chunk, loaded while the server generates that model.
  */
 import type { Issue, Request } from './api';
-import { save_picture, save_request, wire_copies, wire_downloads } from './actions';
+import { save_picture, save_proctree, save_request, wire_copies, wire_downloads } from './actions';
 import { own_format } from './commands';
 import { part } from './dom';
+import type { GroundClick } from './form/planting';
 import type { Schema } from './form/schema';
 import type { Motion } from './for_view';
 import { wire_growth, type GrowthAsk } from './growth';
@@ -82,7 +83,19 @@ export function wire_tools(core: Core): Tools {
   const result = wire_result(viewer, (line) => {
     tabs.open('parameters');
     part('parameters').querySelector(`[data-pointer="/parameters/${rules_name()}"]`)?.dispatchEvent(new CustomEvent('go-line', { detail: line }));
-  }, () => typeof store.current?.request.parameters[rules_name() ?? ''] === 'string');
+  }, () => typeof store.current?.request.parameters[rules_name() ?? ''] === 'string', {
+    edited: {
+      parameters: () => store.current?.request.parameters ?? {},
+      write(parameters) { if (store.current) store.write({ ...store.current.request, parameters }); },
+    },
+    plants: { save: (request, name) => save_request(request, actions, name), open: (request, title) => core.open(request, title) },
+  });
+  part('picture').addEventListener('ground-click', (event) => {
+    const { x, z, button } = (event as CustomEvent<GroundClick>).detail;
+    if (button === 0) result.touched(x, z);
+  });
+  const is_proctree = (request: Request | undefined): boolean => request?.generator === 'tree' && request.parameters['model'] === 'proctree';
+  part('save-proctree').addEventListener('click', () => { const request = actions.request(); if (request) void save_proctree(request, actions); });
   const steps = wire_steps({
     edit(name, value) {
       const { [name]: _, ...others } = store.current?.request.parameters ?? {};
@@ -137,6 +150,7 @@ export function wire_tools(core: Core): Tools {
       part<HTMLButtonElement>('undo').disabled = !store.can_undo;
       part<HTMLButtonElement>('redo').disabled = !store.can_redo;
       growth.leave();
+      part('save-proctree').hidden = !is_proctree(state.request);
       if (own !== own_format(state.request)) wire_downloads(formats, actions);
       own = own_format(state.request);
       steps.follow(state);

@@ -58,6 +58,12 @@ function range(label: string, low: number, high: number, value: number, change: 
   return el('div', { class: 'row' }, el('label', { for: id }, label), input);
 }
 
+function tint(label: string, id: string, value: string, change: (color: string) => void): HTMLElement {
+  const input = el('input', { type: 'color', id, value });
+  input.addEventListener('input', () => change(input.value));
+  return el('div', { class: 'row' }, el('label', { for: id }, label), input);
+}
+
 export function wire_view_menu(viewer: Viewer, context: Context): ViewMenu {
   const sun = { on: true, turn: 38, height: 51 };
   const shading = choice('Shading', 'shading', (value) => show_mode(value as Mode));
@@ -86,10 +92,12 @@ export function wire_view_menu(viewer: Viewer, context: Context): ViewMenu {
     shading.row, material.row, motion.row, level.row, gait.row,
     tick('Edges of shapes', 'edges', false, (on) => viewer.set_edges(on)),
     tick('Sky', 'sky', false, (on) => viewer.set_sky(on)),
+    tick('Fog', 'fog', false, (on) => viewer.set_fog(on)),
     tick('Shadow', 'shadow', context.high, (on) => viewer.set_shadow(on)),
     tick('Light', 'light-on', true, (on) => { sun.on = on; viewer.set_sun(sun); }),
     range('Light from', 0, 360, sun.turn, (value) => { sun.turn = value; viewer.set_sun(sun); }),
     range('Height of light', 1, 90, sun.height, (value) => { sun.height = value; viewer.set_sun(sun); }),
+    tint('Colour of light', 'light-color', '#fff3e0', (color) => viewer.set_light_color(color)),
     times);
   viewer.walker.on_move = (position, heading) => {
     part('whereabouts').textContent = `x ${position.x.toFixed(1)}, y ${position.y.toFixed(1)}, z ${position.z.toFixed(1)} m · ${Math.round(heading)}°`;

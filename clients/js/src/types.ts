@@ -156,6 +156,18 @@ export interface BuildingParametersShapeGrammar {
   marker_size?: number;
 }
 
+/** The change of one shape. */
+export interface BuildingParametersEditsItem {
+  /** The path of the shape: names from the first shape on, each with its number among shapes of that name. */
+  shape: string;
+  /** Values of attributes for this shape and those that are made of it. */
+  attributes?: { [key: string]: number | string | boolean };
+  /** The symbol whose rule replaces the shape, instead of its own. A symbol without a rule makes it a part of the result. */
+  rule?: string;
+  /** Whether the shape is left out, with everything that would be made of it. */
+  remove?: boolean;
+}
+
 /** The order in which shapes are replaced. It affects the steps only; the finished model is the same. */
 export interface BuildingParametersDerivation {
   /** breadth: the oldest shape first, lower PRIORITY numbers before all others. depth: the newest shape first, so that a part is finished before the next begins. */
@@ -168,6 +180,13 @@ export interface BuildingParametersDerivation {
 export interface Emission {
   color: string;
   /** The factor of the colour. Light beyond 1 is written as KHR_materials_emissive_strength, which some readers ignore. */
+  strength?: number;
+}
+
+/** Colour and strength of reflections on a surface that is not a metal. It is written as KHR_materials_specular, which some readers ignore. */
+export interface Specular {
+  color: string;
+  /** 1 reflects as much as usual surfaces that are not metal, 0 nothing. */
   strength?: number;
 }
 
@@ -193,6 +212,7 @@ export interface BuildingParametersMaterialsValue {
   /** Values below 1 are transparent. */
   opacity?: number;
   emission?: Emission;
+  specular?: Specular;
   /** The width and height of one tile of the images on the wall. */
   tile?: [number, number];
   images?: Images;
@@ -227,6 +247,8 @@ export interface BuildingParameters {
   footprint?: (([number, number])[])[];
   /** Values for the attributes that the rules declare with attr. They replace the values in the rules. */
   attributes?: { [key: string]: number | string | boolean };
+  /** Changes of single shapes. A shape is found by the path that derive lists, which stays the same when other shapes change. */
+  edits?: BuildingParametersEditsItem[];
   /** The number of steps of the derivation: rounds over all shapes (parallel) or single rules (sequential). Shapes that still have a rule afterwards are shown as they are. Default: until no shape has a rule. */
   iterations?: number;
   /** The order in which shapes are replaced. It affects the steps only; the finished model is the same. */
@@ -273,6 +295,8 @@ export interface CityParametersMaps {
   water?: string | Polygons;
   /** Where no street may grow, as an expression, an image or polygons: from 0.5 upwards. Nothing is built on lots there. */
   obstacles?: string | Polygons;
+  /** The height of the natural ground in metres, instead of a terrain: an expression over x (east) and y (north) in metres. */
+  height?: string;
 }
 
 /** A LineString or MultiLineString in metres, east and north. */
@@ -327,7 +351,7 @@ export interface CityParametersGiven {
   water?: CityParametersGivenWater;
 }
 
-/** The cross section of given streets of this class. */
+/** The cross section of highways, which given streets can be, and lines of the net with highway_spacing. */
 export interface CityParametersStreetsClassesHighway {
   /** The width of the carriageway. */
   width?: number;
@@ -335,6 +359,8 @@ export interface CityParametersStreetsClassesHighway {
   lanes?: number;
   /** The width of the sidewalk of each side. */
   sidewalk?: number;
+  /** The steepest grade of these streets, as rise over run. On a terrain the ground is cut and filled to keep it, and no street grows where the natural ground is half steeper. */
+  grade?: number;
 }
 
 /** The cross section of this class of streets. */
@@ -345,6 +371,8 @@ export interface CityParametersStreetsClassesMajor {
   lanes?: number;
   /** The width of the sidewalk of each side. */
   sidewalk?: number;
+  /** The steepest grade of these streets, as rise over run. On a terrain the ground is cut and filled to keep it, and no street grows where the natural ground is half steeper. */
+  grade?: number;
 }
 
 /** The cross section of this class of streets. */
@@ -355,6 +383,8 @@ export interface CityParametersStreetsClassesMinor {
   lanes?: number;
   /** The width of the sidewalk of each side. */
   sidewalk?: number;
+  /** The steepest grade of these streets, as rise over run. On a terrain the ground is cut and filled to keep it, and no street grows where the natural ground is half steeper. */
+  grade?: number;
 }
 
 /** The cross section of given streets of this class. */
@@ -365,11 +395,13 @@ export interface CityParametersStreetsClassesLane {
   lanes?: number;
   /** The width of the sidewalk of each side. */
   sidewalk?: number;
+  /** The steepest grade of these streets, as rise over run. On a terrain the ground is cut and filled to keep it, and no street grows where the natural ground is half steeper. */
+  grade?: number;
 }
 
 /** The cross sections of the streets. */
 export interface CityParametersStreetsClasses {
-  /** The cross section of given streets of this class. */
+  /** The cross section of highways, which given streets can be, and lines of the net with highway_spacing. */
   highway?: CityParametersStreetsClassesHighway;
   /** The cross section of this class of streets. */
   major?: CityParametersStreetsClassesMajor;
@@ -381,8 +413,8 @@ export interface CityParametersStreetsClasses {
 
 /** A base field. */
 export interface CityParametersStreetsTensorFieldsItem {
-  /** grid: one direction. radial: along and across the rays from the position. boundary: along the nearest shore, or the nearest border of an area without water. polyline: along the nearest piece of a line. */
-  type?: "grid" | "radial" | "boundary" | "polyline";
+  /** grid: one direction. radial: along and across the rays from the position. boundary: along the nearest shore, or the nearest border of an area without water. polyline: along the nearest piece of a line. height: along the contours of the ground, the stronger the steeper it is. */
+  type?: "grid" | "radial" | "boundary" | "polyline" | "height";
   /** The centre of the field, east and north. */
   position?: [number, number];
   /** The direction of a grid, counter-clockwise from east. */
@@ -423,16 +455,18 @@ export interface CityParametersStreets {
   method?: "growth" | "tensor" | "wards" | "given";
   /** The productions of the street L-system, in the notation of the generator lsystem. The modules are R(delay, rule), the tip of a road; B(delay, rule, road), a delayed branch; and I(road, state), the query that checks a proposed road. States are UNASSIGNED, SUCCEED and FAILED. { globalGoals(rule, road) } sets pDel0 to pDel2, pRule0 to pRule2 and pRoad0 to pRoad2: straight on, to the left, to the right. { localConstraints(road) } sets state. Default: those of Parish and Müller. */
   productions?: string[];
-  /** The pattern of the major streets. organic: an irregular net. raster: right angles, also for minor streets unless minor_pattern says otherwise. radial: rings and rays about the centre. */
-  pattern?: "organic" | "raster" | "radial";
+  /** The pattern of the major streets. organic: an irregular net. raster: right angles, also for minor streets unless minor_pattern says otherwise. radial: rings and rays about the centre. slope: along the contours of the ground and straight up its slope; a raster on level ground. */
+  pattern?: "organic" | "raster" | "radial" | "slope";
   /** The pattern of the minor streets between the major ones. Default: that of the major streets. */
-  minor_pattern?: "organic" | "raster" | "radial";
+  minor_pattern?: "organic" | "raster" | "radial" | "slope";
   /** The direction of the raster, counter-clockwise from east. */
   angle?: number;
   /** The centre of the net of major streets, east and north, and the position where growth starts. */
   centre?: [number, number];
   /** The distance between neighbouring major streets. */
   major_spacing?: number;
+  /** The distance between highways, which are lines of the net of major streets: those through the centre and others at this distance. They are always built. 0: no highways. Not for tensor fields, wards and the pattern slope. */
+  highway_spacing?: number;
   /** The spacing of the streets of a raster across and along its direction. */
   block?: [number, number];
   /** The share of the streets of a raster, and of the major streets, that are built. */
@@ -459,6 +493,10 @@ export interface CityParametersStreets {
   dead_ends?: number;
   /** The share of the connections to major streets that minor streets on both sides prefer alike, so that they form crossings instead of T-junctions. */
   crossings?: number;
+  /** The share of the junctions of major streets, where there is space around them, that become roundabouts. Not for wards. */
+  roundabouts?: number;
+  /** The radius of the middle of their carriageway. */
+  roundabout_radius?: number;
   /** The cross sections of the streets. */
   classes?: CityParametersStreetsClasses;
   /** The greatest length of a bridge. 0: no bridges. */
@@ -527,6 +565,8 @@ export interface CityParametersBuildings {
 export interface CityParameters {
   /** The area that is partitioned. */
   area?: CityParametersArea;
+  /** The natural ground: a request of the generator terrain (a plane), with its centre at the origin. Beyond its border the ground has the height of the border. Default: level ground at height 0. */
+  terrain?: Child;
   /** Quantities that vary over the area. */
   maps?: CityParametersMaps;
   /** Existing parts of the city as GeoJSON in local metres. They stay as they are, and the rest grows from them. */
@@ -596,15 +636,20 @@ export interface FractalParameters {
   columns?: number;
   /** The word that word_test writes: letters, digits and spaces. */
   text?: string;
+  /** A copy whose frame is smaller than this becomes a point and is not copied again. 0: all copies stay elements. */
+  smallest?: number;
   /** The surface if the maps fill cells of a lattice with cubes. faces: a square for each visible side of a cell. merged: the same surface with squares joined into rectangles. pieces: every copy complete. Other maps always give pieces. */
   surface?: "faces" | "merged" | "pieces";
   /** Length of the edge of the unit element. */
   size?: number;
   color?: string;
+  specular?: Specular;
   /** Colours of the maps (frcm), repeated if there are more maps. For escape, colours from early to late escape. */
   palette?: string[];
   /** Number of points. */
   points?: number;
+  /** Where the first point lies: at random on the surface of the element, or on its line; or at random in the unit cube. */
+  start?: "element" | "cube";
   /** Number of points at the start of each chain that are left out, because they are not yet near the attractor. */
   drop?: number;
   /** points: points with the colour of their last map. elements: a small element at every point. voxels: the surface of all cells that contain a point. */
@@ -774,6 +819,7 @@ export interface LsystemParametersMaterialsItem {
   /** Values below 1 are transparent, as for the leaves of Kogovšek's trees. */
   opacity?: number;
   emission?: Emission;
+  specular?: Specular;
   texture?: Texture;
   /** Another seed gives another texture of the same kind. Models with the same texture, seed and colour share it. */
   texture_seed?: number;
@@ -866,6 +912,8 @@ export interface LsystemParameters {
   stacks?: number;
   /** How the diameter changes between segments. linear: along each segment, from the diameter of the one before it to its own. none: each segment is a cylinder of its own diameter, as gluCylinder draws it with two equal radii. A new tube begins where the diameter changes. */
   taper?: "linear" | "none";
+  /** Whether parts of a self-similar system that occur again are one mesh with copies. auto: where the whole drawing would have more than 64 million modules or 40 million triangles or lines. Parts with random choices, parameters or polygons are never shared. */
+  share?: "auto" | "always" | "never";
   /** What the tubes of coarser levels of detail have less of (`output.lods`). outline: fewer limbs and joints, those that change the outline least. slices: all limbs, with the sides and stacks of level 0 divided by the root of the level plus 1: 32 sides become 22, 18, 16 and 14. */
   levels?: "outline" | "slices";
   /** Whether thinner limbs have fewer sides and shorter segments fewer stacks. Coarser levels of detail always do. */
@@ -1167,6 +1215,8 @@ export interface SceneParameters {
   camera?: SceneParametersCamera;
   /** The copies of a model are divided into this number of groups by area, from west to east and from north to south, so that engines can skip groups out of view. */
   chunks?: number;
+  /** Whether the answer of derive has the word of each model that is an L-system, with the numbers of its modules and branches and its depth. The shapes of the scene stay the same. */
+  words?: boolean;
 }
 
 /** One layer. */
@@ -1318,8 +1368,8 @@ export interface TerrainParametersHeightmap {
 
 /** A height field by one of the classic algorithms, filtered, meshed and coloured, or as a height map for an engine; or a planetoid. */
 export interface TerrainParameters {
-  /** The algorithm. fault_formation and poisson_faulting lift one side of random lines. triangular_edge, diamond_square and square_square refine a few heights repeatedly. fbm sums octaves of noise. image takes heights from an image. expression computes each height. */
-  algorithm?: "fault_formation" | "poisson_faulting" | "triangular_edge" | "diamond_square" | "square_square" | "fbm" | "image" | "expression";
+  /** The algorithm. fault_formation and poisson_faulting lift one side of random lines. triangular_edge, diamond_square and square_square refine a few heights repeatedly. fbm sums octaves of noise. brownian is fractional Brownian motion along a line, for the shape profile. image takes heights from an image. expression computes each height. */
+  algorithm?: "fault_formation" | "poisson_faulting" | "triangular_edge" | "diamond_square" | "square_square" | "fbm" | "brownian" | "image" | "expression";
   /** The height of a sample, for the algorithm expression: x and y are metres to the east and north of the centre, on a sphere x, y and z its position, and latitude and longitude in degrees. size is the size. noise(x, y) is gradient noise; fbm, ridged and billow(x, y, octaves) are sums of it; all take a z as well. ran draws anew at each sample. */
   expression?: string;
   /** Further heights that are combined with those of the algorithm, one after the other, before the filters. */
@@ -1328,15 +1378,15 @@ export interface TerrainParameters {
   iterations?: number;
   /** Additional iterations after the planned ones. A subdivision or noise becomes finer by that many rounds and keeps its old heights. Faults are added without the falling bound. */
   extra_iterations?: number;
-  /** Samples a side for algorithms that do not determine it: faults, fbm and expression. On a sphere, samples along an edge of its cube. Default: 257, on a sphere 65. */
+  /** Samples a side for algorithms that do not determine it: faults, fbm, brownian and expression. On a sphere, samples along an edge of its cube. Default: 257, on a sphere 65. */
   resolution?: number;
   /** Length of the terrain from west to east, or the diameter of a sphere. */
   size?: number;
-  /** A plane, or a planetoid (fault_formation, poisson_faulting, fbm and expression). */
-  shape?: "plane" | "sphere";
-  /** Greatest random deviation of the first round of a subdivision, or the weight of the first octave of noise. Default: a tenth of the size, on a sphere a twentieth of the diameter. */
+  /** plane: a height field. sphere: a planetoid (fault_formation, poisson_faulting, fbm and expression). profile: the heights along one line from west to east, as a graph of lines (brownian and fbm). */
+  shape?: "plane" | "sphere" | "profile";
+  /** Greatest random deviation of the first round of a subdivision, the weight of the first octave of noise, or for brownian the standard deviation of the height difference between both ends. Default: a tenth of the size, on a sphere a twentieth of the diameter. */
   amplitude?: number;
-  /** How fast the deviation falls with finer detail: every round or octave has 2^-hurst times the deviation of the one before. 1 is smooth, 0 is very rough. Default: 0.8. The mode random of triangular_edge does not use it. */
+  /** How fast the deviation falls with finer detail: every round or octave has 2^-hurst times the deviation of the one before. 1 is smooth, 0 is very rough. Default: 0.8. The mode random of triangular_edge does not use it. For brownian, it lies between 0 and 1, and heights at a distance d differ by about d^hurst; the default is 0.5. */
   hurst?: number;
   /** Heights that a subdivision starts from: north-west, north-east, south-west, south-east. Default: drawn from the seed. */
   corners?: [number, number, number, number];
@@ -1390,6 +1440,7 @@ export interface TerrainParameters {
   base?: number;
   /** Colours by height, slope and hollows. */
   palette?: "alpine" | "desert" | "tropical" | "arctic" | "volcanic" | "moon" | "grey" | "none";
+  specular?: Specular;
   /** A sheet of water at this height; on a sphere above its mean radius. */
   water_level?: number;
   /** Pixels a side of a colour texture and a normal map of the whole field, instead of vertex colours. 0: none. Not on a sphere. */
@@ -1460,6 +1511,7 @@ export interface TreeParametersLeaf {
   autumn?: string;
   /** The tree keeps its leaves and their colour through the year. */
   evergreen?: boolean;
+  specular?: Specular;
   /** Images instead of the generated texture of the leaf, tip up, each a PNG or JPEG file as a data URI. */
   images?: Images;
 }
@@ -1654,6 +1706,7 @@ export interface TreeParameters {
   bark_seed?: number;
   /** Images instead of the generated texture of the bark, each a PNG or JPEG file as a data URI. */
   bark_images?: Images;
+  bark_specular?: Specular;
   /** Years since the seed sprouted. The shape changes continuously with the age. If left out or above mature_age, the tree is full-grown. */
   age?: number;
   /** Years after which the tree has the size that its parameters describe. */
@@ -1706,6 +1759,10 @@ export interface TreeParameters {
   sway?: TreeParametersSway;
   /** Largest number of leaves on a limb of the last level. A negative number puts that many in a fan at its end. */
   Leaves?: number;
+  /** How the number of leaves of a limb depends on its place along the parent: the number of a crown shape (Shape). The paper has 4. */
+  LeafDistrib?: number;
+  /** How stems that split are counted. paper: a stem and its clones share its branches and leaves, and a split makes further splits half as likely. arbaro: as Arbaro counts: clones bear as many per segment as their stem and split as often, numbers of branches are rounded down, and pruned limbs stay. */
+  counting?: "paper" | "arbaro";
   /** Length of a leaf. */
   LeafScale?: number;
   /** Width of a leaf as a share of its length. */

@@ -11,7 +11,7 @@ using UnityEngine;
 namespace Seedmesh.Editor
 {
     /// <summary>
-    /// Makes the GLB file beside each request file that changed. An importer of Unity has to give the same result on every machine,
+    /// Makes the GLB file, or the prefab of a scene, beside each request file that changed. An importer of Unity has to give the same result on every machine,
     /// so requests are sent by this menu and by the command line, never during an import:
     ///   Unity -batchmode -quit -projectPath . -executeMethod Seedmesh.Editor.SeedmeshSync.FromCommandLine
     /// </summary>
@@ -39,7 +39,7 @@ namespace Seedmesh.Editor
             foreach (var path in Directory.EnumerateFiles("Assets", "*.seedmesh", SearchOption.AllDirectories))
             {
                 var text = File.ReadAllText(path, Encoding.UTF8);
-                var model = Path.ChangeExtension(path, ".glb");
+                var model = Path.ChangeExtension(path, SeedmeshPlacements.IsWanted(text) ? ".prefab" : ".glb");
                 var hash = path + ".sha256";
                 var digest = Digest(text);
                 if (File.Exists(model) && File.Exists(hash) && File.ReadAllText(hash) == digest) continue;
@@ -62,6 +62,11 @@ namespace Seedmesh.Editor
                     {
                         Debug.LogError($"{path}: {Explained(Encoding.UTF8.GetString(body))}");
                         return false;
+                    }
+                    if (SeedmeshPlacements.IsWanted(text))
+                    {
+                        SeedmeshPlacements.Make(path, body);
+                        return true;
                     }
                     File.WriteAllBytes(model + ".part", body);
                     if (File.Exists(model)) File.Delete(model);

@@ -100,7 +100,25 @@ TaggedValue as_texts(Evaluation& at, ValueArguments a) {
   return array_value(at, std::move(out));
 }
 
+/// setElems(array, index, values) or setElems(array, row, column, values): the array with other values from there on.
+TaggedValue set_elements(Evaluation& at, ValueArguments a) {
+  ValueArray out = array_in(at, a[0]);
+  const std::size_t columns = columns_of(out);
+  const double first = number_in(at, a[1]), second = a.size() > 3 ? number_in(at, a[2]) : 0;
+  const double place = a.size() > 3 ? first * static_cast<double>(columns) + second : first;
+  const ValueArray values = array_in(at, a[a.size() - 1]);
+  if (!(place >= 0) ||
+      place + static_cast<double>(values.values.size()) > static_cast<double>(out.values.size()))
+    reject(at, "found a place of setElems outside of the array of " + std::to_string(out.values.size()) +
+                   " values");
+  std::ranges::copy(values.values, out.values.begin() + static_cast<std::ptrdiff_t>(place));
+  return array_value(at, std::move(out));
+}
+
 constexpr ValueFunctionRow rows[] = {
+    {"setElems", 3, 4, set_elements, "array, index or row and column, values",
+     "The array with other values from a place on.",
+     "const a = setElems([1, 2, 3], 1, 7)  A --> s(a[1], '1, '1) B."},
     {"size", 1, 1, size, "array", "The number of values of an array.",
      "const a = [1, 2, 3]  A --> s(size(a), '1, '1) B."},
     {"nRows", 1, 1, row_count, "array", "The number of rows.",

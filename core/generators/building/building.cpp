@@ -137,6 +137,8 @@ Shapes shapes_of(Work& work, const BuildingParams& params, const GenerateContext
   }
   for (const auto& [name, given] : params.attributes)
     plan.attributes.emplace(name, value_of(work.grammar.texts, given));
+  const EditTree edits = edits_of(params, work.grammar);
+  plan.edits = &edits;
   if (options.lod) plan.attributes[std::string(lod_attribute)] = {*options.lod, 0};
   plan.most_shapes = options.most_shapes;
   plan.keeps_choices = options.is_listed;
@@ -313,6 +315,7 @@ Result<Model> generate(const BuildingParams& params, const GenerateContext& cont
   model.name = "building";
   append(model.warnings, work.grammar.warnings);
   append(model.warnings, shapes.warnings);
+  append(model.warnings, missing_edits(params, shapes));
   if (auto warning = nothing_drawn(shapes); warning && !params.shape_grammar)
     model.warnings.push_back(*std::move(warning));
   MaterialTable materials(model, params, shapes, context);
@@ -340,6 +343,7 @@ Result<Json> derive(const BuildingParams& params, const GenerateContext& context
   std::vector<Warning> warnings = work.model.warnings;
   append(warnings, work.grammar.warnings);
   append(warnings, shapes.warnings);
+  append(warnings, missing_edits(params, shapes));
   return Json{{"shapes", std::move(list)},
               {"count", shapes.shapes.size()},
               {"truncated", shapes.shapes.size() > most_listed},
@@ -361,6 +365,7 @@ Result<Appraisal> appraise(const BuildingParams& params, const GenerateContext& 
   if (auto refused = add_assets(work, params, sketch)) return std::move(*refused);
   const Shapes shapes = shapes_of(work, params, sketch, {.lod = {}, .most_shapes = most_appraised});
   append(appraisal.warnings, shapes.warnings);
+  if (shapes.shapes.size() <= most_appraised) append(appraisal.warnings, missing_edits(params, shapes));
   if (auto warning = nothing_drawn(shapes); warning && !params.shape_grammar)
     appraisal.warnings.push_back(*std::move(warning));
   point_at_blueprint(params, appraisal.warnings);

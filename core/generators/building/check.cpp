@@ -6,6 +6,7 @@
 
 #include "core/generators/building/blueprints/blueprints.h"
 #include "core/generators/building/check_grammar.h"
+#include "core/generators/building/edits.h"
 #include "core/generators/building/footprint.h"
 #include "core/generators/building/materials.h"
 #include "core/generators/building/restricted_grammar.h"
@@ -65,10 +66,9 @@ std::string help_with(const std::string& name, const Grammar& grammar) {
   return "; they declare " + list + (known.size() > most_named ? ", ..." : "");
 }
 
-void check_attribute(const Attribute& attribute, const std::string& name, const lang::TaggedValue& value,
+void check_attribute(const Attribute& attribute, const std::string& pointer, const lang::TaggedValue& value,
                      const Texts& texts, std::vector<Issue>& issues) {
   const std::string found = "found " + text_of(value, texts);
-  const std::string pointer = "/attributes/" + escaped(name);
   if (attribute.is_constant) {
     issues.push_back({IssueKind::not_available, pointer,
                       "the rules declare this name as a constant, which a request cannot set"});
@@ -184,15 +184,9 @@ Grammar read(const BuildingParams& params, std::vector<Issue>& issues) {
   }
   for (const auto& [name, given] : params.attributes) {
     if (!faults.empty()) break;
-    const auto found = std::ranges::find(grammar.attributes, name, &Attribute::name);
-    const Attribute* const attribute = found == grammar.attributes.end() ? nullptr : &*found;
-    if (attribute == nullptr) {
-      issues.push_back({IssueKind::unknown_name, "/attributes/" + escaped(name),
-                        "the rules declare no attribute of this name" + help_with(name, grammar)});
-      continue;
-    }
-    check_attribute(*attribute, name, value_of(grammar.texts, given), grammar.texts, issues);
+    check_attribute_value(grammar, name, value_of(grammar.texts, given), "/attributes/", issues);
   }
+  if (faults.empty() && grammar.start != none) check_edits(params, grammar, issues);
   return grammar;
 }
 
@@ -211,6 +205,7 @@ void check_alone(const BuildingParams& params, std::vector<Issue>& issues) {
   refuse(params.size != plain.size, "size");
   refuse(!params.footprint.empty(), "footprint");
   refuse(!params.attributes.empty(), "attributes");
+  refuse(!params.edits.empty(), "edits");
   refuse(params.repeat.has_value(), "repeat");
   refuse(!params.assets.empty(), "assets");
   refuse(params.derivation.order != plain.derivation.order, "derivation/order");
@@ -247,6 +242,17 @@ lang::TaggedValue value_of(Texts& texts, const std::variant<double, std::string,
   if (const auto* text = std::get_if<std::string>(&given)) return {0, texts.id_of(*text)};
   if (const auto* flag = std::get_if<bool>(&given)) return {*flag ? 1.0 : 0.0, 0};
   return {std::get<double>(given), 0};
+}
+
+void check_attribute_value(const Grammar& grammar, const std::string& name, const lang::TaggedValue& value,
+                           const std::string& base, std::vector<Issue>& issues) {
+  const auto found = std::ranges::find(grammar.attributes, name, &Attribute::name);
+  if (found == grammar.attributes.end()) {
+    issues.push_back({IssueKind::unknown_name, base + escaped(name),
+                      "the rules declare no attribute of this name" + help_with(name, grammar)});
+    return;
+  }
+  check_attribute(*found, base + escaped(name), value, grammar.texts, issues);
 }
 
 std::optional<Warning> nothing_drawn(const Shapes& shapes) {

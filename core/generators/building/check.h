@@ -23,6 +23,10 @@ RuleText rule_text_of(const BuildingParams& params, std::vector<Issue>& issues);
 /// The value of an attribute as expressions see it; true is 1, false is 0.
 lang::TaggedValue value_of(Texts& texts, const std::variant<double, std::string, bool>& given);
 
+/// Checks a value for an attribute of the rules. `base` is the pointer of the object of values, with a slash at its end.
+void check_attribute_value(const Grammar& grammar, const std::string& name, const lang::TaggedValue& value,
+                           const std::string& base, std::vector<Issue>& issues);
+
 /// A warning if nothing is drawn and no NIL removed shapes.
 std::optional<Warning> nothing_drawn(const Shapes& shapes);
 

@@ -11,6 +11,7 @@ namespace {
 /// Whether a rule leaves no shape to later rules: one branch has no condition, and the weights up to there
 /// sum to 1.
 bool always_holds(const Grammar& grammar, const Rule& rule) {
+  if (!rule.fixed.empty()) return false;
   const Body& body = grammar.bodies[rule.body];
   for (std::uint32_t b = 0; b < body.branch_count; ++b) {
     const Branch& branch = grammar.branches[body.first_branch + b];
@@ -59,7 +60,7 @@ WeightSum sum_of_weights(const Grammar& grammar, const Symbol& symbol) {
     const Body& body = grammar.bodies[rule.body];
     for (std::uint32_t b = 0; b < body.branch_count; ++b) {
       const Branch& branch = grammar.branches[body.first_branch + b];
-      made.is_known &= !branch.condition.is_given &&
+      made.is_known &= !branch.condition.is_given && rule.fixed.empty() &&
                        rule.parameter_count == grammar.rules[symbol.rules[0]].parameter_count;
       for (std::uint32_t c = 0; c < branch.choice_count; ++c) {
         const Value& weight = grammar.choices[branch.first_choice + c].weight;
@@ -93,6 +94,7 @@ void leave_endless_whole(Parser& p, const Symbol& symbol) {
   const Rule& rule = p.grammar.rules[symbol.rules[0]];
   const Body& body = p.grammar.bodies[rule.body];
   const Branch& branch = p.grammar.branches[body.first_branch];
+  if (!rule.fixed.empty()) return;
   if (body.branch_count != 1 || branch.condition.is_given || branch.choice_count != 1) return;
   const Choice& choice = p.grammar.choices[branch.first_choice];
   const auto search = [&](auto&& self, std::uint32_t first, std::uint32_t count) -> void {
@@ -164,7 +166,11 @@ void check_grammar(Parser& p, std::string_view start) {
                               std::to_string(p.grammar.rules[symbol.rules[0]].parameter_count) +
                               " parameters, found " + std::to_string(step.argument_count),
                           IssueKind::out_of_range});
-    if (!step.is_leaf && symbol.rules.empty() && symbol.first_use != none) {
+    const bool is_joined = std::ranges::any_of(p.grammar.joints, [&](const Joint& joint) {
+      return std::ranges::any_of(joint.lefts,
+                                 [&](const Joint::Left& left) { return left.first == step.symbol; });
+    });
+    if (!step.is_leaf && !is_joined && symbol.rules.empty() && symbol.first_use != none) {
       add_warning(p, symbol.first_use,
                   "there is no rule for `" + symbol.name + "`, so that it is a leaf; write `" + symbol.name +
                       ".` if you mean that");

@@ -78,8 +78,7 @@ void add_box_faces(Derivation& d, const ShapeState& state, std::vector<ShapeStat
   for (std::size_t i = 0; i < sides.size(); ++i) {
     const Side& side = sides[i];
     const int normal = 3 - side.u - side.v;
-    const double outward = side.axes[2][normal];
-    if (flat >= 0 && (normal != flat || outward < 0)) continue;
+    if (flat >= 0 && (normal != flat || side.axes[2][normal] < 0)) continue;
     const std::uint64_t key = static_cast<std::uint64_t>(state.axes) << 3U | i;
     const auto [found, is_new] = d.side_axes.try_emplace(key, 0);
     if (is_new) found->second = add_axes(d, d.out.axes[state.axes] * side.axes);
@@ -176,8 +175,7 @@ std::vector<std::uint32_t> roof_classes(const Solid& solid, const glm::dvec3& si
   for (std::size_t e = 0; e < edges.size(); ++e) {
     const glm::dvec3 along = (solid.points[edges[e].to] - solid.points[edges[e].from]) * size;
     if (std::abs(glm::dot(math::unit(along, up), up)) > sine_low) continue;
-    const auto slopes = std::ranges::count_if(edges[e].faces, is_slope);
-    if (slopes != 1) continue;
+    if (std::ranges::count_if(edges[e].faces, is_slope) != 1) continue;
     // The slope rises away from its eave.
     const std::uint32_t face = *std::ranges::find_if(edges[e].faces, is_slope);
     glm::dvec3 middle(0);
@@ -227,21 +225,29 @@ ShapeState straight(Derivation& d, const ShapeState& state, const glm::dvec3& a,
   return made;
 }
 
+/// The class of each edge as part of a roof, and whether it is a border.
+std::vector<std::uint32_t> edge_classes(const Derivation& d, const ShapeState& state, const Solid& solid,
+                                        const std::vector<SharedEdge>& edges, const Facets& facets) {
+  const glm::dvec3 up = glm::transpose(d.out.axes[state.axes])[1];
+  std::vector<std::uint32_t> out = roof_classes(solid, state.size, edges, facets, up);
+  for (std::size_t e = 0; e < edges.size(); ++e)
+    out[e] |= edges[e].faces.size() == 1 ? face_border : face_inside;
+  return out;
+}
+
 /// Each edge once: z is the mean of the normals of its faces.
 void add_edges(Derivation& d, const ShapeState& state, std::vector<Component>& out) {
   const Solid solid = solid_or_box(d, state);
   const Facets facets(solid, state.size);
   const std::vector<SharedEdge> edges = edges_of(solid);
-  glm::dvec3 up = glm::transpose(d.out.axes[state.axes]) * glm::dvec3(0, 1, 0);
-  const std::vector<std::uint32_t> roof = roof_classes(solid, state.size, edges, facets, up);
+  const std::vector<std::uint32_t> classes = edge_classes(d, state, solid, edges, facets);
   for (std::size_t e = 0; e < edges.size(); ++e) {
     glm::dvec3 normal(0);
     for (const std::uint32_t face : edges[e].faces) normal += facets.normal[face];
     Component made;
     made.state = straight(d, state, solid.points[edges[e].from] * state.size,
                           solid.points[edges[e].to] * state.size, math::unit(normal, glm::dvec3(0, 1, 0)));
-    const std::uint32_t more = roof[e] | (edges[e].faces.size() == 1 ? face_border : face_inside);
-    made.classes[0] = made.classes[1] = more;
+    made.classes[0] = made.classes[1] = classes[e];
     out.push_back(std::move(made));
   }
 }
@@ -250,12 +256,19 @@ void add_edges(Derivation& d, const ShapeState& state, std::vector<Component>& o
 void add_face_edges(Derivation& d, const ShapeState& state, bool are_points, std::vector<Component>& out) {
   const Solid solid = solid_or_box(d, state);
   const Facets facets(solid, state.size);
+  const std::vector<SharedEdge> edges = edges_of(solid);
+  const std::vector<std::uint32_t> classes = edge_classes(d, state, solid, edges, facets);
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> class_of;
+  for (std::size_t e = 0; e < edges.size(); ++e)
+    class_of[std::minmax(edges[e].from, edges[e].to)] = classes[e];
   for (std::size_t f = 0; f < solid.faces.size(); ++f) {
     for (const Loop& loop : loops_of(solid, solid.faces[f])) {
       for (std::uint32_t i = 0; i < loop.count; ++i) {
-        const glm::dvec3 a = solid.points[solid.corners[loop.first + i]] * state.size;
-        const glm::dvec3 b = solid.points[solid.corners[loop.first + (i + 1) % loop.count]] * state.size;
+        const std::uint32_t from = solid.corners[loop.first + i],
+                            to = solid.corners[loop.first + (i + 1) % loop.count];
+        const glm::dvec3 a = solid.points[from] * state.size, b = solid.points[to] * state.size;
         Component made;
+        if (!are_points) made.classes[0] = made.classes[1] = class_of[std::minmax(from, to)];
         made.state = are_points ? straight(d, state, a, a, facets.normal[f])
                                 : straight(d, state, a, b, glm::cross(b - a, facets.normal[f]));
         out.push_back(std::move(made));
@@ -304,7 +317,6 @@ void add_holes(Derivation& d, const ShapeState& state, std::vector<ShapeState>& 
   add_solid_faces(d, whole, out);
 }
 
-/// One shape of several faces, in the scope around them.
 }  // namespace
 
 ShapeState merged_faces(Derivation& d, const ShapeState& state, std::span<const ShapeState> faces) {

@@ -13,6 +13,69 @@ using lang::TokenKind;
 
 constexpr std::size_t most_attributes = 1'000;
 
+/// Collects the values of with ( name := value  name := value ), whose first token is `i`.
+void collect_locals(Parser& p, std::size_t i, RuleFunction& function) {
+  const std::size_t close = p.tokens.partner(i - 1);
+  while (i < close && begins_local(p, i)) {
+    if (function.parameters.size() + function.locals.size() == most_parameters) {
+      add_error(p, p.tokens.at(i), "found more than 32 parameters and values in one function");
+      return;
+    }
+    LocalValue& local = function.locals.emplace_back();
+    local.name = p.tokens.at(i).text;
+    local.from = i + 3;
+    local.to = local.from;
+    while (local.to < close && !begins_local(p, local.to) && !p.tokens.is(local.to, ",") &&
+           !p.tokens.is(local.to, ";")) {
+      const bool opens =
+          p.tokens.is(local.to, "(") || p.tokens.is(local.to, "[") || p.tokens.is(local.to, "{");
+      local.to = opens ? p.tokens.partner(local.to) + 1 : local.to + 1;
+    }
+    i = p.tokens.is(local.to, ",") || p.tokens.is(local.to, ";") ? local.to + 1 : local.to;
+  }
+  if (i < close)
+    add_error(p, p.tokens.at(i),
+              "found " + in_quotes(p.tokens.at(i)) + ", expected `name := value` or the end of with");
+}
+
+/// The arguments or parameters in the brackets that open at token `open`.
+std::size_t count_arguments(const Parser& p, std::size_t open) {
+  const std::size_t close = p.tokens.partner(open);
+  std::size_t count = close > open + 1 ? 1 : 0;
+  for (std::size_t i = open + 1; i < close; ++i) {
+    if (p.tokens.is(i, ",")) ++count;
+    if (p.tokens.is(i, "(") || p.tokens.is(i, "[") || p.tokens.is(i, "{")) i = p.tokens.partner(i);
+  }
+  return count;
+}
+
+/// Functions of one name and several numbers of parameters get names of their own, such as `f/2`, here and where they
+/// are called.
+void separate_overloads(Parser& p) {
+  std::map<std::string_view, std::vector<std::size_t>> counts;
+  for (std::size_t i = 0; !p.tokens.is_end(i); ++i) {
+    if (p.tokens.at(i).kind == TokenKind::name && p.tokens.is(i + 1, "(") && begins_statement(p, i) &&
+        !begins_rule(p, i) && p.tokens.is(behind_head(p, i), "=")) {
+      std::vector<std::size_t>& all = counts[p.tokens.at(i).text];
+      const std::size_t count = count_arguments(p, i + 1);
+      if (std::ranges::find(all, count) == all.end()) all.push_back(count);
+    }
+    if (p.tokens.is(i, "{") || p.tokens.is(i, "[")) i = p.tokens.partner(i);
+  }
+  std::erase_if(counts, [](const auto& each) { return each.second.size() < 2; });
+  if (counts.empty()) return;
+  for (std::size_t i = 0; !p.tokens.is_end(i); ++i) {
+    if (p.tokens.at(i).kind != TokenKind::name || !p.tokens.is(i + 1, "(")) continue;
+    const auto found = counts.find(p.tokens.at(i).text);
+    if (found == counts.end() || begins_rule(p, i)) continue;
+    const std::size_t count = count_arguments(p, i + 1);
+    const auto place = std::ranges::find(found->second, count);
+    if (place != found->second.end() && place != found->second.begin())
+      p.tokens.rename(i,
+                      *p.made_texts.emplace(std::string(found->first) + "/" + std::to_string(count)).first);
+  }
+}
+
 /// Collects `name = value`, `name(a, b) = value` or `attr name = value`. Returns the token behind it.
 std::size_t collect_definition(Parser& p, std::size_t i, bool is_constant, bool is_attribute) {
   const Token& name = p.tokens.at(i);
@@ -29,6 +92,11 @@ std::size_t collect_definition(Parser& p, std::size_t i, bool is_constant, bool 
       function.parameters.push_back(p.tokens.at(k).text);
     }
     body = close + 1;
+    is_constant = is_attribute = false;
+  }
+  if (p.tokens.is_name(body, "with") && p.tokens.is(body + 1, "(")) {
+    collect_locals(p, body + 2, function);
+    body = p.tokens.partner(body + 1) + 1;
     is_constant = is_attribute = false;
   }
   if (!p.tokens.is(body, "=")) {
@@ -180,6 +248,7 @@ void compile_attribute(Parser& p, std::size_t index) {
 }  // namespace
 
 void collect_declarations(Parser& p) {
+  separate_overloads(p);
   std::vector<std::size_t> notes;
   for (std::size_t i = 0; !p.tokens.is_end(i);) {
     const Token& token = p.tokens.at(i);
@@ -196,7 +265,7 @@ void collect_declarations(Parser& p) {
       i = collect_definition(p, i + 1, token.text == "const", token.text == "attr");
       if (p.declarations.size() > before) p.declarations.back().annotations = notes;
     } else if (token.kind == TokenKind::name && begins_statement(p, i) && !begins_rule(p, i) &&
-               (p.tokens.is(i + 1, "=") || p.tokens.is(i + 1, "("))) {
+               (p.tokens.is(i + 1, "=") || p.tokens.is(i + 1, "(") || p.tokens.is(behind_head(p, i), "="))) {
       i = collect_definition(p, i, false, false);
     } else {
       if (begins_rule(p, i)) {

@@ -18,7 +18,8 @@ Derivation::Derivation(const Task& given, const Context* first, Job& own_job)
       job(own_job),
       meter(own_job, Resource::shapes),
       out(own_job),
-      squares{square(0), square(1), square(2)} {
+      squares{square(0), square(1), square(2)},
+      edits(given.edits) {
   slots.assign(grammar.first_parameter_slot + grammar.most_parameters + 1, {});
   for (const AssetBox& asset : task.assets) out.asset_names.push_back(asset.name);
   style_ids.emplace(Style{}, 0);
@@ -65,6 +66,34 @@ std::uint32_t style_with(Derivation& d, Style style) {
       d.style_ids.try_emplace(style, static_cast<std::uint32_t>(d.out.styles.size()));
   if (is_new) d.out.styles.push_back(style);
   return found->second;
+}
+
+void edit_shape(Derivation& d, std::uint32_t index) {
+  Shape& shape = d.out.shapes[index];
+  const ShapeEdit* const edit = d.edits.visit(index, shape.parent, shape.symbol);
+  d.out.symbols_before_edits.erase(index);  // of a shape that was taken back
+  if (edit == nullptr) return;
+  if (edit->is_removed) {
+    shape.is_active = false;
+    shape.is_leaf = true;
+    d.out.takes_away = true;
+    return;
+  }
+  if (!edit->attributes.empty()) {
+    Style style = d.out.styles[shape.style];
+    std::vector<lang::TaggedValue> values = d.out.attribute_sets[style.attributes];
+    for (const auto& [attribute, value] : edit->attributes)
+      values[d.grammar.attributes[attribute].slot - d.grammar.first_attribute_slot] = value;
+    const auto [set, is_new] =
+        d.attribute_set_ids.try_emplace(values, static_cast<std::uint32_t>(d.out.attribute_sets.size()));
+    if (is_new) d.out.attribute_sets.push_back(std::move(values));
+    style.attributes = set->second;
+    shape.style = style_with(d, style);
+  }
+  if (!edit->rule) return;
+  d.out.symbols_before_edits.emplace(index, shape.symbol);
+  shape.symbol = *edit->rule;
+  shape.is_leaf = false;
 }
 
 double area_of(const Derivation& d, const ShapeState& state) {

@@ -68,6 +68,7 @@ struct Derivation {
   std::unordered_map<std::uint64_t, std::uint32_t> side_axes;            ///< of boxes, by axes and side
   std::map<std::pair<std::uint32_t, int>, std::uint32_t> raised_solids;  ///< by what was raised, and how
 
+  EditSearch edits;
   std::vector<std::uint32_t> warned;  ///< byte offsets in the rules that already have a warning
   std::uint64_t solid_corners = 0;
   std::vector<Cell> cells;                   ///< working memory of splits
@@ -86,6 +87,9 @@ std::uint32_t add_axes(Derivation& d, const glm::dmat3& axes);
 std::uint32_t add_solid(Derivation& d, Solid solid);
 /// The number of a style, which is added unless an equal one exists.
 std::uint32_t style_with(Derivation& d, Style style);
+
+/// Applies the edit of the request to a new shape, if it has one: its style, symbol and activity.
+void edit_shape(Derivation& d, std::uint32_t index);
 
 /// Total area of the faces, in square metres.
 double area_of(const Derivation& d, const ShapeState& state);

@@ -32,6 +32,7 @@ void begin(Derivation& d) {
   d.out.shapes.push_back(shape);
   evaluate_attributes(d, state);
   d.filled_attributes = 0;
+  edit_shape(d, 0);
 }
 
 void finish_all(Derivation& d) {
@@ -92,6 +93,7 @@ Shapes run(Derivation& d) {
     run_steps(d, *d.task.iterations);
   else
     run_rounds(d, *d.task.iterations);
+  d.out.found_edits = d.edits.found();
   return std::move(d.out);
 }
 

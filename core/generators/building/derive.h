@@ -18,6 +18,7 @@
 
 #include "core/base/job.h"
 #include "core/generators/building/cuts.h"
+#include "core/generators/building/edits.h"
 #include "core/generators/building/shapes.h"
 
 namespace seedmesh::building {
@@ -36,6 +37,7 @@ struct Task {
   const Solid* footprint = nullptr;                     ///< null: a box
   glm::dvec3 origin{0};                                 ///< of the first scope
   std::map<std::string, lang::TaggedValue> attributes;  ///< given values; texts are those of the grammar
+  const EditTree* edits = nullptr;
   std::optional<int> iterations;
   bool is_sequential = false, is_depth_first = false;
   std::optional<Rounding> rounding;

@@ -233,6 +233,16 @@ TaggedValue tags(Evaluation& at, ValueArguments) {
   return array_value(at, std::move(out));
 }
 
+TaggedValue has_tags(Evaluation& at, ValueArguments a) {
+  if (!a.empty()) return is_tagged(at, a);
+  return truth_value(!at.d.out.tag_sets[at.d.out.styles[seen(at).style].tags].empty());
+}
+
+TaggedValue has_uvs(Evaluation& at, ValueArguments a) {
+  const double set = a.empty() ? 0 : number_in(at, a[0]);
+  return truth_value(set >= 0 && set <= 9 && projection_id(at.d, seen(at), static_cast<int>(set), true) != 0);
+}
+
 TaggedValue no_names(Evaluation& at, ValueArguments) { return array_value(at, {}); }
 
 #define SEEDMESH_EXAMPLE(expression) "A --> report(\"x\", " expression ") B."
@@ -291,6 +301,10 @@ constexpr ValueFunctionRow rows[] = {
      "A --> report(\"x\", size(geometry.materials)) B."},
     {"geometry.tags", 0, 0, tags, "", "The tags of the shape as an array.",
      "A --> tag(\"a\") report(\"x\", size(geometry.tags)) B."},
+    {"geometry.hasTags", 0, 1, has_tags, "tag", "Whether the shape has any tag, or one of a name.",
+     "A --> tag(\"a\") D  D --> case geometry.hasTags(\"a\"): B. else: C."},
+    {"geometry.hasUVs", 0, 1, has_uvs, "set", "Whether a set has texture coordinates.",
+     "A --> comp(f){ front: tileUV(0, 1, 1) D }  D --> case geometry.hasUVs(0): B. else: C."},
     {"geometry.isTagged", 1, 1, is_tagged, "tag", "Whether the shape has a tag.",
      SEEDMESH_EXAMPLE("geometry.isTagged(\"a\")")},
     {"isTagged", 1, 1, is_tagged, "tag", "In a selector: whether the component has a tag.",

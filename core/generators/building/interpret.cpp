@@ -2,15 +2,15 @@
 
 #include <algorithm>
 
+#include "core/generators/building/choose_rule.h"
 #include "core/generators/building/containment.h"
 #include "core/generators/building/evaluate.h"
+#include "core/generators/building/joined_shapes.h"
 #include "core/generators/building/operators.h"
+#include "core/generators/building/slabs.h"
 
 namespace seedmesh::building {
 namespace {
-
-// Numbers of steps that no successor has, for the random numbers of conditions and choices.
-constexpr std::uint64_t place_of_conditions = 0xFFFF'FFFF'0001U, place_of_choice = 0xFFFF'FFFF'0002U;
 
 std::uint32_t add_shape(Derivation& d, const ShapeState& state, const Frame& frame, std::uint64_t key,
                         std::uint32_t symbol) {
@@ -29,15 +29,25 @@ std::uint32_t add_shape(Derivation& d, const ShapeState& state, const Frame& fra
   shape.is_carried = frame.is_carried;
   d.meter.spend();
   d.out.shapes.push_back(shape);
-  return static_cast<std::uint32_t>(d.out.shapes.size()) - 1;
+  const auto index = static_cast<std::uint32_t>(d.out.shapes.size()) - 1;
+  edit_shape(d, index);
+  return index;
+}
+
+/// Has an edit chosen the rule of the shape?
+bool has_own_rule(const Derivation& d, std::uint32_t index) {
+  return d.out.symbols_before_edits.contains(index);
 }
 
 /// Adds a shape of the step's symbol, with the values of its arguments.
 void call_symbol(Derivation& d, const Step& step, ShapeState& state, const Site& site) {
   check_containment(d, site.frame.shape, state, step.offset);
   const std::uint32_t index = add_shape(d, state, site.frame, site.key, step.symbol);
-  if (step.is_leaf || (step.stays_whole && d.is_finishing)) d.out.shapes[index].is_leaf = true;
+  const bool is_edited = has_own_rule(d, index);
+  if (!is_edited && (step.is_leaf || (step.stays_whole && d.is_finishing)))
+    d.out.shapes[index].is_leaf = true;
   if (step.argument_count == 0) return;
+  if (is_edited && least_parameters(d.grammar, d.out.shapes[index].symbol) != step.argument_count) return;
   const auto first = static_cast<std::uint32_t>(d.out.parameters.size());
   for (std::uint32_t i = 0; i < step.argument_count; ++i)
     d.out.parameters.push_back(number_or_text(d, d.grammar.arguments[step.first_argument + i].value));
@@ -173,77 +183,6 @@ constexpr bool is_in_order() {
 }
 static_assert(is_in_order());
 
-/// The weight of a choice after others whose weights sum to `before`: its own, or what they leave of 1.
-double weight_of(Derivation& d, const Choice& choice, double before) {
-  if (!choice.weight.is_given) return std::max(0.0, 1 - before);
-  return std::max(0.0, number_of(d, choice.weight) * (choice.is_percentage ? 0.01 : 1));
-}
-
-/// The values of with(...), each of which can use those before it.
-void find_locals(Derivation& d, const Rule& rule) {
-  std::vector<lang::TaggedValue>& values = d.locals[d.seen_shape];
-  values.clear();
-  for (const Value& each : rule.locals) {
-    const lang::TaggedValue value = number_or_text(d, each);
-    values.push_back(value);
-    look_at(d, *d.seen, d.seen_shape);  // the next value reads this one
-  }
-}
-
-/// The first branch whose condition holds. If the weights of its choices sum to less than 1, the choices of
-/// later rules that hold take part as well. Null: no rule holds.
-const Choice* choose_in(Derivation& d, std::span<const std::uint32_t> rules, std::uint32_t parameters,
-                        std::uint64_t key) {
-  d.random = Rng(key_at(key, place_of_conditions));
-  std::vector<std::pair<const Choice*, double>> open;
-  double sum = 0;
-  bool is_complete = false;
-  for (std::size_t r = 0; r < rules.size() && !is_complete; ++r) {
-    const Rule& rule = d.grammar.rules[rules[r]];
-    if (rule.parameter_count != parameters) continue;
-    if (!rule.locals.empty()) find_locals(d, rule);
-    const Body& body = d.grammar.bodies[rule.body];
-    for (std::uint32_t b = 0; b < body.branch_count; ++b) {
-      const Branch& branch = d.grammar.branches[body.first_branch + b];
-      if (branch.condition.is_given && !holds(d, branch.condition)) continue;
-      for (std::uint32_t c = 0; c < branch.choice_count && !is_complete; ++c) {
-        const Choice& choice = d.grammar.choices[branch.first_choice + c];
-        const double weight = weight_of(d, choice, sum);
-        is_complete = !choice.weight.is_given;
-        open.emplace_back(&choice, weight);
-        sum += weight;
-      }
-      is_complete |= sum >= 1 - 1e-9;
-      break;
-    }
-  }
-  if (open.empty()) return nullptr;
-  if (open.size() == 1) return open[0].first;
-  double at = Rng(key_at(key, place_of_choice)).unit() * sum;
-  for (const auto& [choice, weight] : open) {
-    at -= weight;
-    if (at < 0) return choice;
-  }
-  return open.back().first;
-}
-
-/// The choice that replaces the shape; null: no rule holds.
-const Choice* choose(Derivation& d, std::uint32_t index) {
-  const Shape& shape = d.out.shapes[index];
-  const Symbol& symbol = d.grammar.symbols[shape.symbol];
-  if (symbol.rules.size() == 1) {  // the common case: one rule, always
-    const Rule& rule = d.grammar.rules[symbol.rules[0]];
-    const Body& body = d.grammar.bodies[rule.body];
-    const Branch& branch = d.grammar.branches[body.first_branch];
-    if (body.branch_count == 1 && !branch.condition.is_given && branch.choice_count == 1 &&
-        rule.parameter_count == shape.parameter_count && rule.locals.empty())
-      return &d.grammar.choices[branch.first_choice];
-  }
-  const ShapeState state = shape;
-  look_at(d, state, index);
-  return choose_in(d, symbol.rules, shape.parameter_count, shape.key);
-}
-
 /// Runs one step. In a rule file of CityEngine a step that cannot be done is left out with a warning, as there.
 void run_step(Derivation& d, const OperatorRow& row, const Step& step, ShapeState& state, const Site& site) {
   if (!d.grammar.is_cityengine) return row.run(d, step, state, site);
@@ -262,11 +201,28 @@ void run_step(Derivation& d, const OperatorRow& row, const Step& step, ShapeStat
   --d.guarded_steps;
 }
 
+/// Runs symbols side by side as a stack. False: they are none.
+bool run_stack(Derivation& d, const Choice& choice, const ShapeState& given, const Frame& frame) {
+  const std::vector<Cut> cuts = stack_of(d, choice, given, frame);
+  for (const Cut& cut : cuts) {
+    std::optional<ShapeState> piece = slab_of(d, given, 1, cut, false);
+    if (!piece) continue;
+    piece->split_index = cut.part;
+    piece->split_total = choice.step_count;
+    const std::uint64_t key = key_at(frame.key, cut.part);
+    look_at(d, given, frame.shape);
+    d.random = Rng(key);
+    call_symbol(d, d.grammar.steps[choice.first_step + cut.part], *piece, {frame, key});
+  }
+  return !cuts.empty();
+}
+
 void run_choice(Derivation& d, const Choice& choice, const ShapeState& given, const Frame& frame) {
   struct Bracket {
     ShapeState state, before;
     bool is_pending;
   };
+  if (choice.is_stack && run_stack(d, choice, given, frame)) return;
   ShapeState state = given;
   Frame own = frame;
   own.before = given;
@@ -329,8 +285,10 @@ bool expand(Derivation& d, std::uint32_t index) {
   }
   const Shape shape = d.out.shapes[index];
   d.out.shapes[index].is_active = false;
+  const auto first = static_cast<std::uint32_t>(d.out.shapes.size());
   run_choice(d, *choice, shape, {index, shape.key, shape, shape.is_carried});
   d.locals.erase(index);
+  if (!d.grammar.joints.empty()) join_children(d, index, first);
   return true;
 }
 
@@ -361,7 +319,8 @@ void run_body(Derivation& d, std::uint32_t index, const ShapeState& state, const
 
 void add_leaf(Derivation& d, const ShapeState& state, const Frame& frame, std::uint64_t key,
               std::uint32_t symbol) {
-  d.out.shapes[add_shape(d, state, frame, key, symbol)].is_leaf = true;
+  const std::uint32_t index = add_shape(d, state, frame, key, symbol);
+  if (!has_own_rule(d, index)) d.out.shapes[index].is_leaf = true;
 }
 
 }  // namespace seedmesh::building

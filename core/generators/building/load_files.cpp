@@ -90,6 +90,7 @@ Statement statement_at(const File& file, std::size_t i) {
   if (file.at(i).kind != TokenKind::name) return out;
   std::size_t behind = i + 1;
   if (file.is(behind, "(")) behind = file.partner[behind] + 1;
+  if (is_name(file.at(behind), "with") && file.is(behind + 1, "(")) behind = file.partner[behind + 1] + 1;
   out.name = i;
   if (file.is(behind, "=")) out.kind = Statement::Kind::definition;
   if (file.is(behind, "-->") || file.is(behind, "~>")) out.kind = Statement::Kind::rule;

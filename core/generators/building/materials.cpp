@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/generators/building/parts/parts.h"
+#include "core/generators/specular.h"
 #include "core/schema/color.h"
 #include "core/texture/data_uri.h"
 #include "generated/params/building.h"
@@ -266,6 +267,7 @@ int MaterialTable::make(const MaterialRequest& request) {
           glm::vec3(linear_of_srgb(glow.red), linear_of_srgb(glow.green), linear_of_srgb(glow.blue)) *
           static_cast<float>(own.emission->strength);
     }
+    set_specular(material, own.specular);
     if (const auto textures = textures_.find(name); textures != textures_.end()) {
       const Textures& p = textures->second;
       if (p.color >= 0) material.base_color_texture = {p.color, 0, true};

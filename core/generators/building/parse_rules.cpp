@@ -12,8 +12,17 @@ namespace {
 using lang::Token;
 using lang::TokenKind;
 
+/// Are these two or more symbols side by side, with one argument each?
+bool is_row_of_symbols(const Grammar& grammar, const Choice& choice) {
+  for (std::uint32_t i = 0; i < choice.step_count; ++i) {
+    const Step& step = grammar.steps[choice.first_step + i];
+    if (step.op != Op::symbol || step.argument_count != 1) return false;
+  }
+  return choice.step_count >= 2;
+}
+
 /// Reads `successor : weight ~> successor : weight ...` under one condition, or a body in today's notation.
-std::uint32_t parse_alternatives_2006(Parser& p, const Value& condition) {
+std::uint32_t parse_alternatives_2006(Parser& p, const Value& condition, bool may_stack) {
   if (!condition.is_given &&
       (p.tokens.is_name(p.at, "case") || p.tokens.is(p.tokens.behind_expression(p.at), "%")))
     return parse_body(p);
@@ -22,6 +31,7 @@ std::uint32_t parse_alternatives_2006(Parser& p, const Value& condition) {
   std::vector<Choice> choices;
   do {
     Choice choice = parse_successor(p);
+    choice.is_stack = may_stack && is_row_of_symbols(p.grammar, choice);
     if (take(p, ":")) choice.weight = parse_value(p);
     choices.push_back(choice);
   } while (p.tokens.is_arrow(p.at) && ++p.at);
@@ -31,9 +41,10 @@ std::uint32_t parse_alternatives_2006(Parser& p, const Value& condition) {
   return static_cast<std::uint32_t>(p.grammar.bodies.size()) - 1;
 }
 
-/// with ( name := value  name := value ): values that the successor reads. The closing bracket is read too.
+/// with ( name := value  name := value ): values that the successor reads. The closing bracket is read too. It stands
+/// before the arrow, or behind it.
 void parse_locals(Parser& p, Rule& rule) {
-  while (here(p).kind == TokenKind::name && p.tokens.is(p.at + 1, ":") && p.tokens.is(p.at + 2, "=")) {
+  while (begins_local(p, p.at)) {
     const std::string name(here(p).text);
     p.at += 3;
     const std::size_t number = rule.parameter_count + rule.locals.size();
@@ -43,9 +54,59 @@ void parse_locals(Parser& p, Rule& rule) {
     }
     rule.locals.push_back(parse_value(p));
     p.names.bind_slot(name, p.grammar.first_parameter_slot + static_cast<std::uint32_t>(number));
-    take(p, ",");
+    if (!take(p, ",")) take(p, ";");
   }
   expect(p, ")", "the values of with");
+}
+
+/// Reads one parameter of a left side: a name, or a value that the parameter has to have.
+void parse_parameter(Parser& p, Rule& rule) {
+  if (rule.parameter_count == most_parameters) {
+    add_error(p, here(p), "found more than 32 parameters in one rule");
+    ++p.at;
+    return;
+  }
+  const bool is_name =
+      here(p).kind == TokenKind::name && (p.tokens.is(p.at + 1, ",") || p.tokens.is(p.at + 1, ")"));
+  if (is_name) {
+    p.names.bind_slot(std::string(here(p).text), p.grammar.first_parameter_slot + rule.parameter_count++);
+    ++p.at;
+    return;
+  }
+  const std::size_t before = p.at;
+  rule.fixed.emplace_back(rule.parameter_count++, parse_value(p));
+  if (p.at == before) ++p.at;  // the error is reported
+}
+
+/// Reads the name and the parameters of one shape of a left side.
+Joint::Left parse_left(Parser& p, Rule& rule) {
+  Joint::Left left;
+  left.first = symbol_index(p, here(p).text, offset_here(p));
+  const std::uint32_t before = rule.parameter_count;
+  ++p.at;
+  if (is_here(p, "(")) {
+    const std::size_t close = p.tokens.partner(p.at);
+    ++p.at;
+    while (p.at < close) {
+      if (!take(p, ",")) parse_parameter(p, rule);
+    }
+    p.at = std::min(close + 1, p.tokens.end());
+  }
+  left.second = rule.parameter_count - before;
+  return left;
+}
+
+/// The symbol of shapes that are joined by this left side.
+std::uint32_t joint_symbol(Parser& p, const std::vector<Joint::Left>& lefts, std::uint32_t offset) {
+  for (const Joint& joint : p.grammar.joints) {
+    if (joint.lefts == lefts) return joint.symbol;
+  }
+  std::string name;
+  for (const Joint::Left& left : lefts)
+    name += (name.empty() ? "" : " + ") + p.grammar.symbols[left.first].name;
+  const std::uint32_t symbol = symbol_index(p, name, offset);
+  p.grammar.joints.push_back({lefts, symbol});
+  return symbol;
 }
 
 void parse_rule(Parser& p, std::int32_t priority) {
@@ -60,25 +121,18 @@ void parse_rule(Parser& p, std::int32_t priority) {
     return;
   }
   Rule rule;
-  rule.symbol = symbol_index(p, name.text, static_cast<std::uint32_t>(name.offset));
   rule.offset = static_cast<std::uint32_t>(name.offset);
   rule.priority = priority;
-  ++p.at;
   const std::size_t names = p.names.size();
-  if (is_here(p, "(")) {
-    const std::size_t close = p.tokens.partner(p.at);
-    for (++p.at; p.at < close; ++p.at) {
-      if (is_here(p, ",")) continue;
-      if (here(p).kind != TokenKind::name) {
-        add_unexpected(p, "the name of a parameter");
-      } else if (rule.parameter_count == most_parameters) {
-        add_error(p, here(p), "found more than 32 parameters in one rule");
-      } else {
-        p.names.bind_slot(std::string(here(p).text), p.grammar.first_parameter_slot + rule.parameter_count++);
-      }
-    }
-    p.at = std::min(close + 1, p.tokens.end());
-  }
+  std::vector<Joint::Left> lefts{parse_left(p, rule)};
+  while (take(p, "+")) lefts.push_back(parse_left(p, rule));
+  rule.symbol = lefts.size() == 1 ? lefts[0].first : joint_symbol(p, lefts, rule.offset);
+  const auto parse_with = [&] {
+    if (!p.tokens.is_name(p.at, "with") || !p.tokens.is(p.at + 1, "(")) return;
+    p.at += 2;
+    parse_locals(p, rule);
+  };
+  parse_with();
   Value condition;
   if (take(p, ":")) condition = parse_value(p);
   if (!p.tokens.is_arrow(p.at)) {
@@ -86,11 +140,10 @@ void parse_rule(Parser& p, std::int32_t priority) {
   } else {
     const bool is_old = !p.tokens.is(p.at, "-->");
     ++p.at;
-    if (p.tokens.is_name(p.at, "with") && p.tokens.is(p.at + 1, "(")) {
-      p.at += 2;
-      parse_locals(p, rule);
-    }
-    rule.body = condition.is_given || is_old ? parse_alternatives_2006(p, condition) : parse_body(p);
+    parse_with();
+    const bool may_stack = is_old && rule.parameter_count == 1;
+    rule.body =
+        condition.is_given || is_old ? parse_alternatives_2006(p, condition, may_stack) : parse_body(p);
     p.grammar.most_parameters = std::max(
         p.grammar.most_parameters, rule.parameter_count + static_cast<std::uint32_t>(rule.locals.size()));
     p.grammar.symbols[rule.symbol].rules.push_back(static_cast<std::uint32_t>(p.grammar.rules.size()));
@@ -129,8 +182,7 @@ void parse_all(Parser& p, std::string_view start) {
       if (is_here(p, "(")) p.at = p.tokens.partner(p.at) + 1;
       if (take(p, "=")) p.at = end_of_value(p, p.at);
     } else if (token.kind == TokenKind::name && !begins_rule(p, p.at) && begins_statement(p, p.at)) {
-      ++p.at;
-      if (is_here(p, "(")) p.at = p.tokens.partner(p.at) + 1;
+      p.at = behind_head(p, p.at);
       if (take(p, "=")) p.at = end_of_value(p, p.at);
     } else {
       parse_rule(p, priority);

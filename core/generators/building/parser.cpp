@@ -96,11 +96,25 @@ std::uint32_t word_index(Parser& p, std::string_view word) {
   return index;
 }
 
+std::size_t behind_head(const Parser& p, std::size_t i) {
+  ++i;
+  if (p.tokens.is(i, "(")) i = p.tokens.partner(i) + 1;
+  while (p.tokens.is(i, "+") && p.tokens.at(i + 1).kind == TokenKind::name) {  // a left side of several shapes
+    i += 2;
+    if (p.tokens.is(i, "(")) i = p.tokens.partner(i) + 1;
+  }
+  if (p.tokens.is_name(i, "with") && p.tokens.is(i + 1, "(")) i = p.tokens.partner(i + 1) + 1;
+  return i;
+}
+
+bool begins_local(const Parser& p, std::size_t i) {
+  return p.tokens.at(i).kind == TokenKind::name && p.tokens.is(i + 1, ":") && p.tokens.is(i + 2, "=");
+}
+
 /// A name, its parameters, perhaps a condition, and an arrow.
 bool begins_rule(const Parser& p, std::size_t i) {
   if (p.tokens.at(i).kind != TokenKind::name) return false;
-  ++i;
-  if (p.tokens.is(i, "(")) i = p.tokens.partner(i) + 1;
+  i = behind_head(p, i);
   if (p.tokens.is_arrow(i)) return true;
   if (!p.tokens.is(i, ":")) return false;
   const std::size_t behind = p.tokens.behind_expression(i + 1);
@@ -120,10 +134,7 @@ bool begins_statement(const Parser& p, std::size_t i) {
     return true;
   if (token.text == "version" && p.tokens.at(i + 1).kind == TokenKind::string) return true;
   if (token.text == "PRIORITY" && p.tokens.at(i + 1).kind == TokenKind::number) return true;
-  std::size_t behind = i + 1;
-  if (p.tokens.is(behind, "(")) behind = p.tokens.partner(behind) + 1;
-  if (p.tokens.is(behind, "=")) return true;
-  return begins_rule(p, i);
+  return p.tokens.is(behind_head(p, i), "=") || begins_rule(p, i);
 }
 
 }  // namespace seedmesh::building

@@ -18,9 +18,16 @@ constexpr std::uint32_t most_queries = 32;
 /// The most parameters of a rule or a function.
 constexpr std::size_t most_parameters = 32;
 
+/// A value of with(...), which is found once for each call.
+struct LocalValue {
+  std::string_view name;
+  std::size_t from = 0, to = 0;  ///< tokens of the value
+};
+
 /// A function of the rules: name(a, b) = value.
 struct RuleFunction {
   std::vector<std::string_view> parameters;
+  std::vector<LocalValue> locals;
   std::size_t from = 0, to = 0;  ///< tokens of the body
 };
 
@@ -77,6 +84,10 @@ void add_warning(Parser& p, std::uint32_t offset, std::string message);
 /// Counts an opened bracket. False, with an error: brackets are nested too deep.
 bool enter_bracket(Parser& p, const lang::Token& token);
 
+/// The token behind the head of a rule or function: its name at `i`, its parameters, and `with (name := value)`.
+std::size_t behind_head(const Parser& p, std::size_t i);
+/// Whether `name := ` begins at a token, as in with(...).
+bool begins_local(const Parser& p, std::size_t i);
 /// Whether a rule or any statement begins at a token.
 bool begins_rule(const Parser& p, std::size_t i);
 bool begins_statement(const Parser& p, std::size_t i);

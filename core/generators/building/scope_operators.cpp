@@ -4,6 +4,7 @@
 
 #include "core/base/math.h"
 #include "core/generators/building/evaluate.h"
+#include "core/generators/building/operator_arguments.h"
 #include "core/generators/building/operators.h"
 #include "core/generators/building/raised_solids.h"
 #include "core/generators/building/shape_grammar/rotation.h"
@@ -146,16 +147,32 @@ void center(Derivation& d, const Step& step, ShapeState& state, const Site& site
   }
 }
 
-void mirror_scope(Derivation& d, const Step&, ShapeState& state, const Site&) {
+/// The geometry keeps its place; the axes along which the scope is flipped begin at the other end.
+void mirror_scope(Derivation& d, const Step& step, ShapeState& state, const Site&) {
+  glm::bvec3 flipped(true, false, true);  // without arguments
+  for (std::uint32_t i = 0; i < step.argument_count; ++i)
+    flipped[static_cast<int>(i)] = number_or(d, step, i, 0) != 0;
+  const int count = static_cast<int>(flipped.x) + static_cast<int>(flipped.y) + static_cast<int>(flipped.z);
+  if (count % 2 != 0) {
+    warn(d, step.offset,
+         "mirrorScope along one axis or all three would make the axes of the scope left-handed, and has no "
+         "effect");
+    return;
+  }
   glm::dmat3 axes = d.out.axes[state.axes];
-  state.origin += axes[0] * state.size.x + axes[2] * state.size.z;
-  axes[0] = -axes[0];
-  axes[2] = -axes[2];
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!flipped[axis]) continue;
+    state.origin += axes[axis] * state.size[axis];
+    axes[axis] = -axes[axis];
+  }
   state.axes = add_axes(d, axes);
   if (state.has_solid()) {
     Solid turned = d.out.solid_of(state.geometry);
-    for (glm::dvec3& p : turned.points)
-      p = {state.size.x > 0 ? 1 - p.x : 0, p.y, state.size.z > 0 ? 1 - p.z : 0};
+    for (glm::dvec3& p : turned.points) {
+      for (int axis = 0; axis < 3; ++axis) {
+        if (flipped[axis]) p[axis] = state.size[axis] > 0 ? 1 - p[axis] : 0;
+      }
+    }
     state.geometry = add_solid(d, std::move(turned));
   }
 }

@@ -112,7 +112,9 @@ struct Shapes {
   std::vector<std::string> asset_names;  ///< of geometry with asset_bit
   Texts texts;
   std::vector<Warning> warnings;
-  bool takes_away = false;  ///< a NIL has been run
+  bool takes_away = false;        ///< a NIL has been run
+  std::vector<bool> found_edits;  ///< for each edit of Task::edits: was its shape made?
+  std::map<std::uint32_t, std::uint32_t> symbols_before_edits;  ///< of shapes whose rule an edit has changed
   /// For each shape the choice of Grammar::choices that replaced it, or `none`. It may have fewer rows than
   /// `shapes`. Only with Task::keeps_choices.
   std::vector<std::uint32_t> choices;

@@ -4,6 +4,8 @@
 #include <string>
 #include <utility>
 
+#include "core/generators/building/edits.h"
+
 namespace seedmesh::building {
 namespace {
 
@@ -123,9 +125,11 @@ json described(const Shapes& shapes, const Grammar& grammar, std::uint32_t index
 json json_of(const Shapes& shapes, const Grammar& grammar, const RuleText& rules, std::size_t most,
              const Job& job) {
   const RuleTable table(grammar, rules);
+  const std::vector<std::string> paths = paths_of(shapes, grammar, most);
   json list = json::array();
   for (std::uint32_t i = 0; i < shapes.shapes.size() && i < most; ++i) {
     json row = described(shapes, grammar, i);
+    row["path"] = paths[i].empty() ? json(nullptr) : json(paths[i]);
     if (i < shapes.choices.size()) table.add_rule(shapes.choices[i], row);
     list.push_back(std::move(row));
     if ((i & 4095U) == 0) job.check();

@@ -8,6 +8,7 @@
 #include "core/generators/building/operator_arguments.h"
 #include "core/generators/building/operators.h"
 #include "core/generators/building/projections.h"
+#include "core/generators/building/slabs.h"
 
 namespace seedmesh::building::operators {
 namespace {
@@ -122,43 +123,16 @@ ShapeState along_texture(Derivation& d, const Step& step, const ShapeState& stat
 /// Runs the successors of the pieces. Each has random numbers of its own.
 void run_pieces(Derivation& d, const Step& step, const ShapeState& state, const Site& site,
                 std::span<const Cut> cuts, int axis) {
-  const bool is_box = state.geometry == box_geometry;
-  const Solid* solid = is_box ? nullptr : &d.out.solid_of(state.geometry);
-  const double whole = state.size[axis];
-  const glm::dvec3 along = d.out.axes[state.axes][axis];
   Frame own = site.frame;
-  ShapeState piece = state;
-  piece.split_total = static_cast<std::uint32_t>(cuts.size());
   for (std::uint32_t i = 0; i < cuts.size(); ++i) {
     const Cut& each = cuts[i];
-    piece.split_index = i;
-    piece.geometry = state.geometry;
-    if (is_box) {
-      piece.origin = state.origin + along * each.start;
-      piece.size[axis] = each.size;
-    } else {
-      const double low = each.start / whole, high = (each.start + each.size) / whole;
-      Solid part = low > 1e-12 ? clipped(*solid, axis, low, -1) : *solid;
-      if (high < 1 - 1e-12) part = clipped(part, axis, high, 1);
-      if (part.faces.empty()) continue;
-      glm::dvec3 from, extent;
-      if (step.keeps_slab) {
-        // The slab stays the scope: its share of the old cube is stretched over the new one.
-        for (glm::dvec3& p : part.points) p[axis] = std::clamp((p[axis] - low) / (high - low), 0.0, 1.0);
-        from = glm::dvec3(0);
-        extent = glm::dvec3(1);
-        from[axis] = low;
-        extent[axis] = high - low;
-      } else {
-        fit(part, from, extent);
-      }
-      piece.origin = state.origin + d.out.axes[state.axes] * (from * state.size);
-      piece.size = extent * state.size;
-      piece.geometry = add_solid(d, std::move(part));
-      if ((i & 63U) == 0) d.job.check();
-    }
+    std::optional<ShapeState> piece = slab_of(d, state, axis, each, step.keeps_slab);
+    if (!piece) continue;
+    piece->split_index = i;
+    piece->split_total = static_cast<std::uint32_t>(cuts.size());
+    if ((i & 63U) == 0) d.job.check();
     own.key = key_at(site.key, i);
-    run_body(d, d.grammar.parts[each.part].body, piece, own);
+    run_body(d, d.grammar.parts[each.part].body, *piece, own);
   }
 }
 

@@ -1,11 +1,10 @@
-/// Properties of a shape (scope, component, material, first shape), assets, and other shapes; see value_functions.h.
+/// Properties of a shape (scope, component, first shape), assets, and other shapes; see value_functions.h.
 #include <algorithm>
 #include <cmath>
 
 #include "core/base/math.h"
 #include "core/generators/building/parts/parts.h"
 #include "core/generators/building/value_functions.h"
-#include "core/schema/color.h"
 
 namespace seedmesh::building {
 namespace {
@@ -13,7 +12,6 @@ namespace {
 using lang::TaggedValue;
 
 const ShapeState& seen(const Evaluation& at) { return *at.d.seen; }
-const Style& style_of(const Evaluation& at) { return at.d.out.styles[seen(at).style]; }
 
 /// The rotation of axes as angles about x, then y, then z, in degrees (rotation.h).
 glm::dvec3 angles_of(const glm::dmat3& m) {
@@ -48,24 +46,6 @@ TaggedValue pivot(Evaluation& at, ValueArguments) {
   return number_value(seen(at).origin[axis]);
 }
 
-Color color_seen(const Evaluation& at) {
-  const std::string* const text = at.d.out.texts.find(style_of(at).color);
-  return (text == nullptr ? std::nullopt : color_of(text->substr(0, 7))).value_or(Color{255, 255, 255});
-}
-TaggedValue red(Evaluation& at, ValueArguments) { return number_value(color_seen(at).red / 255.0); }
-TaggedValue green(Evaluation& at, ValueArguments) { return number_value(color_seen(at).green / 255.0); }
-TaggedValue blue(Evaluation& at, ValueArguments) { return number_value(color_seen(at).blue / 255.0); }
-TaggedValue color_text(Evaluation& at, ValueArguments) { return text_value(at, text_of(color_seen(at))); }
-TaggedValue opacity(Evaluation& at, ValueArguments) {
-  const std::string* const text = at.d.out.texts.find(style_of(at).color);
-  if (text == nullptr || text->size() != 9) return number_value(1);
-  const auto alpha = color_of("#0000" + text->substr(7));
-  return number_value(alpha ? alpha->blue / 255.0 : 1);
-}
-TaggedValue material_name(Evaluation& at, ValueArguments) {
-  const std::string* const text = at.d.out.texts.find(style_of(at).material);
-  return text_value(at, text == nullptr ? std::string() : *text);
-}
 TaggedValue no_text(Evaluation& at, ValueArguments) { return text_value(at, ""); }
 
 /// The shape's random state from 0 to 714024, as CityEngine counts it.
@@ -227,19 +207,6 @@ constexpr ValueFunctionRow rows[] = {
      "A --> report(\"x\", initialShape.origin.oy) B."},
     {"initialShape.origin.oz", 0, 0, zero, "", "The rotation about z.",
      "A --> report(\"x\", initialShape.origin.oz) B."},
-    {"material.color.r", 0, 0, red, "", "The red channel of the colour, from 0 to 1.",
-     "A --> report(\"x\", material.color.r) B."},
-    {"material.color.g", 0, 0, green, "", "The green channel.", "A --> report(\"x\", material.color.g) B."},
-    {"material.color.b", 0, 0, blue, "", "The blue channel.", "A --> report(\"x\", material.color.b) B."},
-    {"material.color.a", 0, 0, opacity, "", "The opacity.", "A --> report(\"x\", material.color.a) B."},
-    {"material.color.rgb", 0, 0, color_text, "", "The colour as \"#rrggbb\".",
-     "A --> color(material.color.rgb) B."},
-    {"material.color", 0, 0, color_text, "", "The colour as \"#rrggbb\".", "A --> color(material.color) B."},
-    {"material.opacity", 0, 0, opacity, "", "The opacity.", "A --> report(\"x\", material.opacity) B."},
-    {"material.name", 0, 0, material_name, "", "The name of the material.",
-     "A --> label(\"m\" + material.name) B."},
-    {"material.colormap", 0, 0, material_name, "", "The name of the material, which stands for its image.",
-     "A --> label(\"m\" + material.colormap) B."},
     {"trim.horizontal", 0, 0, zero, "",
      "Whether horizontal trim planes cut inserted assets, which they do not.",
      "A --> case trim.horizontal: B. else: C."},
@@ -263,6 +230,8 @@ constexpr ValueFunctionRow rows[] = {
      "A --> label(\"n\" + assetNamingInfo(\"window\", \"lod\")) B."},
     {"assetNamingInfos", 1, 1, no_text, "asset", "The empty text.",
      "A --> label(\"n\" + assetNamingInfos(\"window\")) B."},
+    {"assetMetadata", 2, 2, no_text, "asset, key", "The empty text: assets of a request have no such notes.",
+     "A --> label(\"n\" + assetMetadata(\"window\", \"author\")) B."},
     {"imageInfo", 2, 2, image_info, "image, key", "0, with a warning: images are not read while rules run.",
      "A --> s(1 + imageInfo(\"a.jpg\", \"sx\"), '1, '1) B."},
     {"imageAspectRatio", 1, 1, image_info, "image", "0, with a warning.",

@@ -1,5 +1,6 @@
 /// Operations on what shapes inherit (colour, material, attributes, texture space), reports and snap lines.
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 
 #include "core/base/math.h"
@@ -21,41 +22,74 @@ std::string channel(double value) {
 }
 
 /// The text of a colour such as "#aa8866".
-std::uint32_t color_id_of(Derivation& d, const Argument& argument) {
-  const std::uint32_t id = text_id_of(d, argument);
+std::uint32_t color_id_of(Derivation& d, std::uint32_t offset, std::uint32_t id) {
   const std::string& code = *d.out.texts.find(id);
   const bool has_opacity = code.size() == 9 && color_of("#0000" + code.substr(7));
   if (!color_of(has_opacity ? code.substr(0, 7) : code))
-    reject(d, argument.value.offset, "found " + lang::in_quotes(code) + ", expected a colour as \"#rrggbb\"");
+    reject(d, offset, "found " + lang::in_quotes(code) + ", expected a colour as \"#rrggbb\"");
   return id;
 }
+std::uint32_t color_id_of(Derivation& d, const Argument& argument) {
+  return color_id_of(d, argument.value.offset, text_id_of(d, argument));
+}
 
-/// material.color.r and similar, and material.opacity: one channel of the colour in force.
-bool set_channel(Derivation& d, const std::string& name, const Argument& argument, Style& style) {
-  constexpr std::string_view names[] = {"material.color.r", "material.color.g", "material.color.b",
-                                        "material.color.a"};
-  const auto* found =
-      std::ranges::find(names, std::string_view(name == "material.opacity" ? "material.color.a" : name));
-  if (found == std::end(names)) return false;
+/// The channel of the colour that an attribute of the material is; 4 for other attributes.
+std::size_t channel_named(std::string_view name) {
+  constexpr std::string_view names[] = {"color.r", "color.g", "color.b", "color.a"};
+  const auto* found = std::ranges::find(names, name == "opacity" ? "color.a" : name);
+  return static_cast<std::size_t>(found - std::begin(names));
+}
+
+void set_channel(Derivation& d, std::size_t at, double value, Style& style) {
   const std::string* const before = d.out.texts.find(style.color);
   std::string code = before == nullptr ? "#ffffff" : *before;
   if (code.size() == 7) code += "ff";
-  code.replace(1 + 2 * static_cast<std::size_t>(found - std::begin(names)), 2,
-               channel(number_of(d, argument.value)));
+  code.replace(1 + 2 * at, 2, channel(value));
   style.color = d.out.texts.id_of(code.ends_with("ff") ? code.substr(0, 7) : code);
-  return true;
 }
 
 /// set(material.colormap, "brick.jpg"): the image of a material. Other maps have no counterpart.
 void set_map(Derivation& d, const Step& step, ShapeState& state, const std::string& name,
-             const Argument& argument) {
-  const std::string path = text_of(d, argument);
-  if (name == "material.colormap" || name == "material.map")
+             const std::string& path) {
+  if (name == "colormap" || name == "map")
     use_image(d, step, state, path);
   else
     warn(d, step.offset,
-         "setting " + lang::in_quotes(name) +
+         "setting " + lang::in_quotes("material." + name) +
              " has no effect here: materials of the request have the other images");
+}
+
+/// An attribute of the material by its name without `material.`, whose value is a text.
+void set_by_text(Derivation& d, const Step& step, ShapeState& state, const std::string& name,
+                 std::uint32_t id) {
+  Style style = d.out.styles[state.style];
+  if (name == "name") {
+    style.material = id;
+  } else if (name == "color" || name == "color.rgb" || name == "color.rgba") {
+    style.color = color_id_of(d, step.offset, id);
+  } else if (name.ends_with("map")) {
+    const std::string path = *d.out.texts.find(id);  // a copy: the image can add texts
+    return set_map(d, step, state, name, path);
+  } else {
+    warn(d, step.offset, "setting " + lang::in_quotes("material." + name) + " has no effect here");
+  }
+  state.style = style_with(d, style);
+}
+
+/// set(material.NAME, value).
+void set_of_material(Derivation& d, const Step& step, ShapeState& state, const std::string& name,
+                     const Argument& argument) {
+  const std::size_t channel = channel_named(name);
+  if (channel < 4) {
+    Style style = d.out.styles[state.style];
+    set_channel(d, channel, number_of(d, argument.value), style);
+    state.style = style_with(d, style);
+  } else if (name == "name" || name.ends_with("map") || name == "color" || name.starts_with("color.rgb")) {
+    set_by_text(d, step, state, name, text_id_of(d, argument));
+  } else {
+    evaluate(d, argument.value);
+    warn(d, step.offset, "setting " + lang::in_quotes("material." + name) + " has no effect here");
+  }
 }
 
 /// 0 to 8 for scope.tx, ..., scope.rx, ..., scope.sx, ...; -1 for other names.
@@ -80,8 +114,8 @@ void set_scope(Derivation& d, ShapeState& state, int member, double value) {
 
 /// Attributes of CityEngine that serve other renderers, other shapes or trimming.
 bool has_no_effect(std::string_view name) {
-  return name.starts_with("material.") || name.starts_with("trim.") || name.starts_with("pivot.") ||
-         name.starts_with("initialShape.") || name == "seedian";
+  return name.starts_with("trim.") || name.starts_with("pivot.") || name.starts_with("initialShape.") ||
+         name == "seedian";
 }
 
 }  // namespace
@@ -108,21 +142,15 @@ void style(Derivation& d, const Step& step, ShapeState& state, const Site&) {
 void set(Derivation& d, const Step& step, ShapeState& state, const Site&) {
   const Argument* a = &d.grammar.arguments[step.first_argument];
   const std::string& name = d.grammar.words[a[0].word];
-  Style style = d.out.styles[state.style];
-  if (name == "material.name") {
-    style.material = text_id_of(d, a[1]);
-  } else if (name == "material.color" || name == "material.color.rgb" || name == "material.color.rgba") {
-    style.color = color_id_of(d, a[1]);
-  } else if (set_channel(d, name, a[1], style)) {
-  } else if (name.starts_with("material.") && name.ends_with("map")) {
-    return set_map(d, step, state, name, a[1]);
+  if (name.starts_with("material.")) {
+    set_of_material(d, step, state, name.substr(9), a[1]);
   } else if (const int scope = scope_member(name); scope >= 0) {
-    return set_scope(d, state, scope, number_of(d, a[1].value));
+    set_scope(d, state, scope, number_of(d, a[1].value));
   } else if (has_no_effect(name)) {
     evaluate(d, a[1].value);
     warn(d, step.offset, "setting " + lang::in_quotes(name) + " has no effect here");
-    return;
   } else {
+    Style style = d.out.styles[state.style];
     const auto found = std::ranges::find(d.grammar.attributes, name, &Attribute::name);
     if (d.grammar.attributes.end() == found || found->is_constant)
       reject(d, step.offset,
@@ -136,8 +164,8 @@ void set(Derivation& d, const Step& step, ShapeState& state, const Site&) {
       d.out.attribute_sets.push_back(std::move(values));
     }
     style.attributes = set->second;
+    state.style = style_with(d, style);
   }
-  state.style = style_with(d, style);
 }
 
 /// setupProjection(0, scope.xy, ~2, 1.5, 0, 0): the u and v that projectUV will use.
@@ -199,10 +227,34 @@ void reset_material(Derivation& d, const Step&, ShapeState& state, const Site&) 
   state.style = style_with(d, style);
 }
 
+/// setMaterial("brick"), or an array of names and values as getMaterial and readMaterial return it.
 void set_material(Derivation& d, const Step& step, ShapeState& state, const Site&) {
-  Style style = d.out.styles[state.style];
-  style.material = d.out.texts.id_of(word_at(d, step, 0));
-  state.style = style_with(d, style);
+  const Argument& argument = argument_at(d, step, 0);
+  const lang::TaggedValue value = argument.word == none ? evaluate(d, argument.value) : lang::TaggedValue{};
+  if (!is_array(value)) {
+    Style style = d.out.styles[state.style];
+    style.material = d.out.texts.id_of(word_at(d, step, 0));
+    state.style = style_with(d, style);
+    return;
+  }
+  const Evaluation at{d, step.offset};
+  const std::vector<lang::TaggedValue> values = array_in(at, value).values;
+  for (std::size_t i = 0; i + 1 < values.size(); i += 2) {
+    const std::string name = text_in(at, values[i]);
+    const std::string text = text_in(at, values[i + 1]);
+    const std::size_t channel = channel_named(name);
+    if (channel < 4) {
+      double number = 0;
+      const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+      if (error != std::errc() || end != text.data() + text.size())
+        reject(d, step.offset, "found " + lang::in_quotes(text) + " for " + name + ", expected a number");
+      Style style = d.out.styles[state.style];
+      set_channel(d, channel, number, style);
+      state.style = style_with(d, style);
+    } else {
+      set_by_text(d, step, state, name, d.out.texts.id_of(text));
+    }
+  }
 }
 
 void print(Derivation& d, const Step& step, ShapeState&, const Site&) {

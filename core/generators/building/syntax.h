@@ -300,6 +300,7 @@ struct Choice {
   Value weight;                ///< not given: 1 minus the sum of the other weights
   bool is_percentage = false;  ///< the weight is an expression in percent
   std::uint32_t first_step = 0, step_count = 0;
+  bool is_stack = false;  ///< symbols side by side, which may be a stack (slabs.h)
 };
 
 struct Branch {
@@ -314,8 +315,16 @@ struct Body {
 struct Rule {
   std::uint32_t symbol = 0, body = 0, parameter_count = 0;
   std::vector<Value> locals;  ///< values of with(...), in the slots behind those of the parameters
+  std::vector<std::pair<std::uint32_t, Value>> fixed;  ///< A(0): parameters that must have a value
   std::int32_t priority = 0;
   std::uint32_t offset = 0;
+};
+
+/// The left side of rules of several shapes, A(x) + B ~> ...
+struct Joint {
+  using Left = std::pair<std::uint32_t, std::uint32_t>;  ///< a symbol, and its number of parameters
+  std::vector<Left> lefts;
+  std::uint32_t symbol = 0;  ///< "A + B", whose rules replace the joined shape
 };
 
 struct Symbol {
@@ -358,6 +367,7 @@ struct Grammar {
   std::vector<Choice> choices;
   std::vector<Rule> rules;
   std::vector<Symbol> symbols;
+  std::vector<Joint> joints;              ///< in the order of the text
   std::vector<Attribute> attributes;      ///< those that others need come first
   std::vector<Query> queries;             ///< without duplicates
   std::vector<std::uint32_t> query_uses;  ///< of values: into `queries`

@@ -208,6 +208,21 @@ TaggedValue list_retain_all(Evaluation& at, ValueArguments a) {
   return list_of(at, items);
 }
 
+TaggedValue list_to_array(Evaluation& at, ValueArguments a) {
+  ValueArray out;
+  for (const std::string& each : items_of(at, a[0])) out.values.push_back(text_value(at, each));
+  return array_value(at, std::move(out));
+}
+TaggedValue list_from_array(Evaluation& at, ValueArguments a) {
+  std::vector<std::string> items;
+  for (const TaggedValue& each : array_in(at, a[0]).values) items.push_back(text_in(at, each));
+  return list_of(at, items);
+}
+TaggedValue list_terminate(Evaluation& at, ValueArguments a) {
+  const std::string list = text_in(at, a[0]);
+  return text_value(at, list.empty() || list.ends_with(';') ? list : list + ";");
+}
+
 std::string directory_of(std::string_view path) {
   const std::size_t slash = path.find_last_of('/');
   return std::string(slash == std::string_view::npos ? "" : path.substr(0, slash + 1));
@@ -262,7 +277,11 @@ TaggedValue read_string_table(Evaluation& at, ValueArguments a) {
 TaggedValue read_float_table(Evaluation& at, ValueArguments a) {
   return array_value(at, read_table(at, text_in(at, a[0]), TableCells::numbers));
 }
-TaggedValue is_null(Evaluation&, ValueArguments) { return truth_value(false); }
+/// CityEngine has NaN and this private character for missing attributes of a layer.
+TaggedValue is_null(Evaluation& at, ValueArguments a) {
+  if (is_array(a[0])) return truth_value(false);
+  return truth_value(a[0].is_text() ? text_in(at, a[0]) == "\ue000" : std::isnan(a[0].number));
+}
 TaggedValue select(Evaluation& at, ValueArguments a) { return to_truth(at, a).number != 0 ? a[1] : a[2]; }
 
 constexpr ValueFunctionRow rows[] = {
@@ -271,7 +290,7 @@ constexpr ValueFunctionRow rows[] = {
      "A --> s(float(\"2.5\"), '1, '1) B."},
     {"bool", 1, 1, to_truth, "value", "Whether a text is true or holds a number other than 0.",
      "A --> case bool(\"true\"): B. else: C."},
-    {"isNull", 1, 1, is_null, "value", "Whether a value is missing, which no value of a request is.",
+    {"isNull", 1, 1, is_null, "value", "Whether a value is missing: no number, or the text \"\\ue000\".",
      "A --> case isNull(\"a\"): B. else: C."},
     {"sel", 3, 3, select, "condition, a, b", "a if the condition holds, else b.",
      "A --> label(sel(true, \"a\", \"b\")) B."},
@@ -319,6 +338,12 @@ constexpr ValueFunctionRow rows[] = {
      "A --> label(listRemoveAll(\"a;b;\", \"a;\")) B."},
     {"listRetainAll", 2, 2, list_retain_all, "list, items", "The items that another list has too.",
      "A --> label(listRetainAll(\"a;b;\", \"a;\")) B."},
+    {"listToArray", 1, 1, list_to_array, "list", "The items as an array of texts.",
+     "A --> label(listToArray(\"a;b;\")[1]) B."},
+    {"listFromArray", 1, 1, list_from_array, "array", "The values of an array as a list.",
+     "A --> label(listFromArray([\"a\", \"b\"])) B."},
+    {"listTerminate", 1, 1, list_terminate, "list", "The list with a semicolon at its end.",
+     "A --> label(listTerminate(\"a;b\")) B."},
     {"fileDirectory", 1, 1, file_directory, "path", "The directories of a path.",
      "A --> label(fileDirectory(\"a/b.obj\")) B."},
     {"fileName", 1, 1, file_name, "path", "A path without directories.",

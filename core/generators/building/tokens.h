@@ -18,6 +18,8 @@ class Tokens {
   Tokens& operator=(const Tokens&) = delete;
   /// Imported files come behind the main file, with prefixes (load_files.h).
   Tokens(const RuleText& text, std::string_view style, std::vector<lang::TextError>& faults);
+  /// Gives token i another text, which has to outlive the tokens.
+  void rename(std::size_t i, std::string_view text) { tokens_[i].text = text; }
   const lang::Token& at(std::size_t i) const { return tokens_[i < tokens_.size() ? i : tokens_.size() - 1]; }
   bool is(std::size_t i, std::string_view symbol) const { return lang::is_symbol(at(i), symbol); }
   bool is_name(std::size_t i, std::string_view name) const {

@@ -113,15 +113,41 @@ std::uint32_t TreeParser::user_function(std::size_t begin, const std::string& na
   out.id = found->second;
   if (is_new) {
     p_.grammar.functions.push_back({none, static_cast<std::uint32_t>(function.parameters.size())});
-    TreeParser body(p_, function.from, function.to);
-    body.depth_ = depth_ + 1;
+    std::vector<std::pair<std::string, std::uint32_t>> known;
     for (const std::string_view parameter : function.parameters)
-      body.locals.emplace_back(std::string(parameter), static_cast<std::uint32_t>(body.locals.size()));
-    const std::uint32_t root = body.value();
-    body.check_end();
+      known.emplace_back(std::string(parameter), static_cast<std::uint32_t>(known.size()));
+    const std::uint32_t root = function_body(function, 0, std::move(known));
     p_.grammar.functions[out.id].root = root;
   }
   return add(out, given);
+}
+
+/// The body of a function behind its first `done` values of with(...). Each further value is a parameter of a function
+/// without a name, so that it is found once.
+std::uint32_t TreeParser::function_body(const RuleFunction& function, std::size_t done,
+                                        std::vector<std::pair<std::string, std::uint32_t>> known) {
+  const bool is_last = done == function.locals.size();
+  const std::size_t from = is_last ? function.from : function.locals[done].from;
+  TreeParser body(p_, from, is_last ? function.to : function.locals[done].to);
+  body.depth_ = depth_ + 1;
+  body.locals = known;
+  const std::uint32_t value = body.value();
+  body.check_end();
+  if (is_last) return value;
+  std::vector<std::uint32_t> operands;
+  for (const auto& [name, number] : known) {
+    ValueNode argument = node(Kind::local, from);
+    argument.id = number;
+    operands.push_back(add(argument));
+  }
+  operands.push_back(value);
+  known.emplace_back(std::string(function.locals[done].name), static_cast<std::uint32_t>(known.size()));
+  ValueNode call = node(Kind::function, from);
+  call.id = static_cast<std::uint32_t>(p_.grammar.functions.size());
+  p_.grammar.functions.push_back({none, static_cast<std::uint32_t>(known.size())});
+  const std::uint32_t root = function_body(function, done + 1, std::move(known));
+  p_.grammar.functions[call.id].root = root;
+  return add(call, operands);
 }
 
 std::uint32_t TreeParser::special_function(std::size_t begin, std::uint32_t number) {

@@ -118,6 +118,7 @@ bool function_needs_tree(Parser& p, std::string_view name) {
   const auto [known, is_new] = p.tree_signs.try_emplace(std::string(name), true);  // true: it calls itself
   if (!is_new) return known->second;
   const RuleFunction& function = p.functions.find(name)->second;
+  if (!function.locals.empty()) return true;
   const Signs signs = signs_of(p, function.from, function.to, function.parameters);
   const bool needs = need_of(signs) == TreeNeed::always;
   p.tree_signs[std::string(name)] = needs;

@@ -267,6 +267,8 @@ class TreeParser {
   bool is_known_name() const;
   std::uint32_t name();
   std::uint32_t user_function(std::size_t begin, const std::string& name);
+  std::uint32_t function_body(const RuleFunction& function, std::size_t done,
+                              std::vector<std::pair<std::string, std::uint32_t>> known);
   std::uint32_t special_function(std::size_t begin, std::uint32_t number);
   std::uint32_t built_in_function(std::size_t begin, const std::string& name);
   bool query(std::size_t begin, const std::string& name, std::uint32_t& out);

@@ -9,8 +9,9 @@ namespace {
 
 constexpr std::size_t longest_text = 100'000, longest_array = 100'000;
 
-std::array<std::span<const ValueFunctionRow>, 5> tables() {
-  return {text_functions(), array_functions(), geometry_functions(), state_functions(), color_functions()};
+std::array<std::span<const ValueFunctionRow>, 6> tables() {
+  return {text_functions(),  array_functions(), geometry_functions(),
+          state_functions(), color_functions(), material_functions()};
 }
 
 }  // namespace

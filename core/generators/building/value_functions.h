@@ -24,12 +24,14 @@ struct ValueFunctionRow {
   std::string_view parameters, text, example;
 };
 
-/// text_functions.cpp, array_functions.cpp, geometry_functions.cpp, state_functions.cpp and color_functions.cpp.
+/// text_functions.cpp, array_functions.cpp, geometry_functions.cpp, state_functions.cpp, color_functions.cpp and
+/// material_functions.cpp.
 std::span<const ValueFunctionRow> text_functions();
 std::span<const ValueFunctionRow> array_functions();
 std::span<const ValueFunctionRow> geometry_functions();
 std::span<const ValueFunctionRow> state_functions();
 std::span<const ValueFunctionRow> color_functions();
+std::span<const ValueFunctionRow> material_functions();
 
 /// The number of a function in all of these tables; none if there is none of this name.
 std::uint32_t find_value_function(std::string_view name);

@@ -15,7 +15,6 @@ using glm::dvec2;
 
 constexpr double deck_thickness = 0.6, parapet_height = 0.9, parapet_width = 0.25;
 constexpr double pier_spacing = 25, pier_depth = 6, pier_thickness = 1.2;
-constexpr double clearance = 5.5, ramp_grade = 0.06, station_spacing = 10;
 
 /// The two edges of the deck at one position along it.
 struct Station {
@@ -44,23 +43,15 @@ class BridgeBuilder {
   using Corner = std::pair<dvec2, double>;
 
   std::vector<Station> stations_of(const Bridge& bridge) const {
-    std::vector<dvec2> line;
-    for (std::size_t k = 0; k + 1 < bridge.line.size(); ++k) {
-      const dvec2 a = in_metres(bridge.line[k]), b = in_metres(bridge.line[k + 1]);
-      const int count = std::max(1, math::to_int32(glm::length(b - a) / station_spacing));
-      for (int n = 0; n < count; ++n) line.push_back(a + (b - a) * (static_cast<double>(n) / count));
-    }
-    line.push_back(in_metres(bridge.line.back()));
-    double length = 0;
-    for (std::size_t k = 1; k < line.size(); ++k) length += glm::length(line[k] - line[k - 1]);
+    const std::vector<ProfilePoint> line = bridge_profile(plan_, bridge);
     const double half = plan_.classes[bridge.tag].width / 2;
     std::vector<Station> stations;
-    double along = 0;
     for (std::size_t k = 0; k < line.size(); ++k) {
-      if (k > 0) along += glm::length(line[k] - line[k - 1]);
-      const dvec2 d = line[std::min(k + 1, line.size() - 1)] - line[k == 0 ? 0 : k - 1];
+      const dvec2 here = in_metres(line[k].at);
+      const dvec2 d =
+          in_metres(line[std::min(k + 1, line.size() - 1)].at) - in_metres(line[k == 0 ? 0 : k - 1].at);
       const dvec2 side = dvec2(-d.y, d.x) * (half / glm::length(d));
-      stations.push_back({line[k] + side, line[k] - side, bridge_height(plan_, bridge, along, length)});
+      stations.push_back({here + side, here - side, line[k].height});
     }
     fit_end(bridge.from, stations.front());
     fit_end(bridge.to, stations.back());
@@ -143,7 +134,8 @@ class BridgeBuilder {
       const dvec2 along = dvec2(across.y, -across.x) * (pier_thickness / 2 / glm::length(across));
       const std::array<dvec2, 4> foot = {middle - across - along, middle - across + along,
                                          middle + across + along, middle + across - along};
-      const double top = here.height - deck_thickness, low = std::min(0.0, top) - pier_depth;
+      const double top = here.height - deck_thickness;
+      const double low = std::min({stations.front().height, stations.back().height, top}) - pier_depth;
       for (std::size_t n = 0; n < 4; ++n) {
         const dvec2 &a = foot[n], &b = foot[(n + 1) % 4];
         quad({Corner{a, low}, {b, low}, {b, top}, {a, top}});
@@ -156,15 +148,6 @@ class BridgeBuilder {
 };
 
 }  // namespace
-
-double bridge_height(const CityPlan& plan, const Bridge& bridge, double along, double length) {
-  const auto is_on_shore = [&](std::uint32_t node) {
-    return plan.graph.is_border[node] != 0 && plan.graph.degree(node) == 1;
-  };
-  if (is_on_shore(bridge.from) && is_on_shore(bridge.to)) return 0;
-  const double ramp = ramp_grade * std::min(along, length - along);
-  return bridge.level * std::min(clearance, ramp / std::abs(bridge.level));
-}
 
 Mesh bridge_mesh(const CityPlan& plan, const Job& job) {
   BridgeBuilder builder(plan, job);

@@ -34,9 +34,10 @@ ConstraintLimits limits_of(const CityStreets& streets) {
   limits.clearance = streets.clearance * 100;
   limits.cos_minimal_angle = math::cos(math::radians(streets.minimal_angle + 0.2));
   limits.cos_border_angle = math::cos(math::radians(45));
-  const double widest = std::max(streets.classes.major.width + 2 * streets.classes.major.sidewalk,
-                                 streets.classes.minor.width + 2 * streets.classes.minor.sidewalk) *
-                        100;
+  const auto space_of = [](const auto& section) { return (section.width + 2 * section.sidewalk) * 100; };
+  const CityClasses& classes = streets.classes;
+  double widest = std::max(space_of(classes.major), space_of(classes.minor));
+  if (streets.highway_spacing > 0) widest = std::max(widest, space_of(classes.highway));
   limits.least_length = std::max(900.0, widest * 0.75);
   limits.beside = std::max(700.0, widest * 0.6);
   return limits;
@@ -46,7 +47,8 @@ class Cell final : public RoadRules {
  public:
   Cell(const GrowthInput& input, Rng rng)
       : input_(input), streets_(input.streets), rng_(rng), network_(limits_of(input.streets)) {
-    is_along_tensor_ = input.tensor && !streets_.minor_pattern;
+    is_along_tensor_ =
+        input.tensor && (!streets_.minor_pattern || *streets_.minor_pattern == CityMinorPattern::slope);
     if (streets_.minor_pattern) {
       is_raster_ = *streets_.minor_pattern == CityMinorPattern::raster;
       is_radial_ = *streets_.minor_pattern == CityMinorPattern::radial;
@@ -128,7 +130,7 @@ class Cell final : public RoadRules {
       if (n > 0) direction = is_along_tensor_ ? aligned(direction, node) : rotated(direction, bend / pieces);
       const dvec2 end = in_cm(network_.nodes()[node]) + direction * (length / pieces);
       if (input_.density.at(end / 100.0) < least_density ||
-          input_.is_blocked(in_cm(network_.nodes()[node]), end))
+          input_.is_blocked(in_cm(network_.nodes()[node]), end, streets_.classes.minor.grade))
         return RoadState::failed;
       const PieceResult built = network_.build_piece(node, end, EdgeClass::minor);
       if (built.state != PieceState::free) return RoadState::failed;

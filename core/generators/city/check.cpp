@@ -5,6 +5,7 @@
 #include "core/generators/city/city.h"
 #include "core/generators/city/density.h"
 #include "core/generators/city/given.h"
+#include "core/generators/city/landform.h"
 #include "core/generators/city/productions.h"
 #include "core/generators/city/zoning.h"
 #include "core/geom/polygon/plan.h"
@@ -90,6 +91,7 @@ std::vector<Issue> check(const CityParams& params, const CheckContext& context) 
   check_map(params.maps.density, "/maps/density");
   if (params.maps.water) check_map(*params.maps.water, "/maps/water");
   if (params.maps.obstacles) check_map(*params.maps.obstacles, "/maps/obstacles");
+  check_landform(params, context.job, issues);
   given_water(params, issues);
   std::vector<CrossSection> sections = classes_of(params);
   std::vector<Issue> of_streets;

@@ -12,6 +12,7 @@
 #include "core/generators/city/lots.h"
 #include "core/generators/city/plan_json.h"
 #include "core/generators/city/statistics.h"
+#include "core/generators/city/surface.h"
 #include "core/generators/city/tensor.h"
 #include "core/generators/city/wards.h"
 #include "core/generators/city/zoning.h"
@@ -79,14 +80,22 @@ Maps read_maps(const CityParams& params, const Box& box, const Job& job, std::ve
 }
 
 /// The area cut into land and water.
-Region region_of_request(const CityParams& params, const Maps& maps, const std::vector<CmRing>& area,
-                         Job& job, std::vector<Issue>& issues) {
+Region region_of_request(const CityParams& params, const Maps& maps, const CityPlan& plan, Job& job,
+                         std::vector<Issue>& issues) {
+  const std::vector<CmRing>& area = plan.area;
   std::vector<Rings> water = given_water(params, issues);
+  if (const auto& level = plan.landform->water_level()) {
+    const Box box = box_of(area);
+    const auto is_water = [&](const glm::dvec2& p) { return plan.landform->at(p) < *level ? 1.0 : 0.0; };
+    water.push_back(contour_of(is_water, box.low, box.high, job));
+  }
   if (maps.water) {
     const Box box = box_of(area);
     const std::vector<Rings>& polygons = maps.water->polygons();
     water.insert(water.end(), polygons.begin(), polygons.end());
-    if (polygons.empty()) water.push_back(contour_of(*maps.water, box.low, box.high, job));
+    if (polygons.empty())
+      water.push_back(
+          contour_of([&](const glm::dvec2& p) { return maps.water->at(p); }, box.low, box.high, job));
   }
   return region_of(area, water, job);
 }
@@ -106,6 +115,38 @@ Route given_route_of(const Region& region, const std::vector<GivenLine>& lines) 
   return all;
 }
 
+/// Streets stay above the water of a terrain.
+double least_height(const Landform& landform) {
+  constexpr double freeboard = 1.5;  // m
+  return landform.water_level() ? *landform.water_level() + freeboard : -1e9;
+}
+
+bool has_streets(const StreetGraph& graph) {
+  for (std::uint32_t edge = 0; edge < graph.edges.size(); ++edge) {
+    if (graph.is_street(edge)) return true;
+  }
+  return false;
+}
+
+Error too_steep(const CityParams& params) {
+  return Error{
+      Code::invalid,
+      {{IssueKind::conflict, params.terrain ? "/terrain" : "/maps/height",
+        "found no position where a street keeps its grade limit; expected less steep ground or greater "
+        "limits in streets.classes"}}};
+}
+
+/// Warnings about parameters without effect, and a terrain that is smaller than the area.
+std::vector<Warning> remarks_on(const CityParams& params, const CityPlan& plan) {
+  std::vector<Warning> warnings = warnings_of(unused_parameters(params));
+  const Box box = box_of(plan.area);
+  if (!plan.landform->covers(box.low, box.high))
+    warnings.push_back(
+        {"/terrain",
+         "the terrain is smaller than the area; beyond its border the ground has the height of the border"});
+  return warnings;
+}
+
 std::optional<Error> refusal(const CityParams& params, const GenerateContext& context) {
   std::vector<Issue> issues = check(params, {context.job, context.generators});
   if (issues.empty()) return std::nullopt;
@@ -123,7 +164,10 @@ Result<CityPlan> plan_of(const CityParams& params, Job& job) {
   const Maps maps = read_maps(params, box_of(plan.area), job, issues);
   const std::vector<GivenLine> lines = given_lines(params, plan.classes, issues);
   if (!issues.empty() || !maps.density) return Error{Code::invalid, std::move(issues)};
-  plan.region = region_of_request(params, maps, plan.area, job, issues);
+  Result<Landform> ground = Landform::make(params, job);
+  if (!ground) return std::move(ground).error();
+  plan.landform = std::make_shared<const Landform>(std::move(*ground));
+  plan.region = region_of_request(params, maps, plan, job, issues);
   const Route given = given_route_of(plan.region, lines);
   job.progress("streets", 0);
   const FieldMap* obstacles = maps.obstacles ? &*maps.obstacles : nullptr;
@@ -131,18 +175,25 @@ Result<CityPlan> plan_of(const CityParams& params, Job& job) {
   const bool has_wards = params.streets.method == CityMethod::wards;
   if (has_wards)
     wards = lay_out_wards(params, plan.region, *maps.density, obstacles, plan.classes, job, issues);
+  const Landform* landform = plan.landform->is_level() ? nullptr : plan.landform.get();
   std::optional<TensorField> tensor;
-  if (params.streets.method == CityMethod::tensor) tensor.emplace(params.streets, plan.region, issues);
+  const bool follows_slope = params.streets.method == CityMethod::growth &&
+                             (params.streets.pattern == CityPattern::slope ||
+                              params.streets.minor_pattern == CityMinorPattern::slope);
+  if (params.streets.method == CityMethod::tensor || follows_slope)
+    tensor.emplace(params.streets, plan.region, landform, issues);
   if (!issues.empty()) return Error{Code::invalid, std::move(issues)};
   plan.graph = grow_streets(
       {params.streets, *maps.density, grammar, plan.region, obstacles, lines.empty() ? nullptr : &given,
-       has_wards ? &wards : nullptr, tensor ? &*tensor : nullptr},
+       has_wards ? &wards : nullptr, tensor ? &*tensor : nullptr, landform},
       job);
   plan.wards = std::move(wards.wards);
   plan.gates = std::move(wards.gates);
   plan.charges.emplace_back(job, plan.graph.edges.size() * bytes_a_street);
   job.progress("blocks", 0);
+  if (landform && !has_streets(plan.graph)) return too_steep(params);
   const std::vector<BlockOutline> blocks = lay_out_streets(plan, job);
+  plan.heights = street_heights(plan, *plan.landform, least_height(*plan.landform), job);
   job.progress("lots", 0);
   divide_blocks(plan, blocks, params.lots, *maps.density, job);
   plan.charges.emplace_back(job, plan.lots.size() * bytes_a_lot);
@@ -159,7 +210,7 @@ Result<Model> generate(const CityParams& params, const GenerateContext& context)
   Result<Model> model = city_model(*plan, params, context);
   if (!model) return model;
   model->extras.push_back({"statistics", canonical_text(statistics_of(*plan, job))});
-  for (Warning& each : warnings_of(unused_parameters(params))) model->warnings.push_back(std::move(each));
+  for (Warning& each : remarks_on(params, *plan)) model->warnings.push_back(std::move(each));
   return model;
 }
 
@@ -170,8 +221,8 @@ Result<Json> derive(const CityParams& params, const GenerateContext& context) {
   if (!plan) return plan.error();
   Json answer;
   answer["statistics"] = statistics_of(*plan, job);
-  answer["plan"] = plan_json(*plan, params);
-  answer["warnings"] = warning_list(warnings_of(unused_parameters(params)));
+  answer["plan"] = plan_json(*plan, params, job);
+  answer["warnings"] = warning_list(remarks_on(params, *plan));
   return answer;
 }
 
@@ -181,10 +232,10 @@ Result<Appraisal> appraise(const CityParams& params, const GenerateContext& cont
   const Result<CityPlan> plan = plan_of(params, job);
   if (!plan) return plan.error();
   Appraisal appraisal;
-  appraisal.warnings = warnings_of(unused_parameters(params));
+  appraisal.warnings = remarks_on(params, *plan);
   // Houses of one rule and number of floors have about as many triangles; one of each is made.
   Estimate estimate;
-  estimate.triangles = ground_triangles(*plan);
+  estimate.triangles = ground_triangles(*plan, Surface(*plan, params.streets.wards.wall_height, job), job);
   estimate.bytes = estimate.triangles * 48;
   std::map<std::pair<std::uint32_t, int>, ModelCounts> samples;
   for (const SharedHouse& shared : shared_houses(*plan, params)) {
@@ -208,7 +259,7 @@ Result<Payload> encode(const CityParams& params, const WantedFormat&, const Gene
   if (!plan) return plan.error();
   context.job.progress("encode", 0);
   Payload payload;
-  payload.add(canonical_text(plan_json(*plan, params)));
+  payload.add(canonical_text(plan_json(*plan, params, context.job)));
   return payload;
 }
 

@@ -10,10 +10,10 @@
 #include "core/base/parallel.h"
 #include "core/generators/child.h"
 #include "core/generators/city/bridge_mesh.h"
+#include "core/generators/city/ground_mesh.h"
+#include "core/generators/city/surface.h"
 #include "core/generators/city/zoning.h"
 #include "core/generators/scene/model_levels.h"
-#include "core/geom/mesh/weld.h"
-#include "core/geom/polygon/triangulate.h"
 #include "generated/params/city.h"
 
 namespace seedmesh::city {
@@ -32,8 +32,6 @@ constexpr Look looks[] = {
     {"park", {0x5f, 0x7d, 0x45}, 1.0F},     {"square", {0xa8, 0x9d, 0x88}, 0.9F},
     {"lot", {0x86, 0x8f, 0x6a}, 1.0F},      {"water", {0x35, 0x55, 0x66}, 0.2F},
 };
-constexpr double water_depth = 1.2;  // below the streets, m
-
 Material material_of(const Look& look) {
   Material material;
   material.name = look.name;
@@ -43,128 +41,6 @@ Material material_of(const Look& look) {
   return material;
 }
 
-bool is_low(PartKind kind) { return kind == PartKind::carriageway || kind == PartKind::junction; }
-
-double height_of(PartKind kind) {
-  return kind == PartKind::water ? 0 - water_depth : is_low(kind) ? 0 : kerb_height;
-}
-
-struct DirectedEdge {
-  CmPoint a, b;
-  friend auto operator<=>(const DirectedEdge&, const DirectedEdge&) = default;
-};
-
-/// All edges of carriageways and junctions, sorted.
-std::vector<DirectedEdge> low_edges(const CityPlan& plan) {
-  std::vector<DirectedEdge> edges;
-  for (const Part& part : plan.parts) {
-    if (!is_low(part.kind)) continue;
-    for (const CmRing& ring : part.rings) {
-      for (std::size_t i = 0; i < ring.size(); ++i) edges.push_back({ring[i], ring[(i + 1) % ring.size()]});
-    }
-  }
-  std::sort(edges.begin(), edges.end());
-  return edges;
-}
-
-/// All edges of water, sorted.
-std::vector<DirectedEdge> water_edges(const CityPlan& plan) {
-  std::vector<DirectedEdge> edges;
-  for (const Part& part : plan.parts) {
-    if (part.kind != PartKind::water) continue;
-    for (const CmRing& ring : part.rings) {
-      for (std::size_t i = 0; i < ring.size(); ++i) edges.push_back({ring[i], ring[(i + 1) % ring.size()]});
-    }
-  }
-  std::sort(edges.begin(), edges.end());
-  return edges;
-}
-
-/// The edges of a part that one of the given edges has the other way round.
-template <class Visit>
-void visit_kerbs(const Part& part, const std::vector<DirectedEdge>& low, const Visit& visit) {
-  for (const CmRing& ring : part.rings) {
-    for (std::size_t i = 0; i < ring.size(); ++i) {
-      const CmPoint &a = ring[i], &b = ring[(i + 1) % ring.size()];
-      if (std::binary_search(low.begin(), low.end(), DirectedEdge{b, a})) visit(a, b);
-    }
-  }
-}
-
-std::uint64_t count_kerbs(const Part& part, const std::vector<DirectedEdge>& low) {
-  std::uint64_t count = 0;
-  visit_kerbs(part, low, [&count](const CmPoint&, const CmPoint&) { ++count; });
-  return count;
-}
-
-class GroundMesh {
- public:
-  explicit GroundMesh(const Job& job) : triangulator_(&job) {
-    mesh_.position = Array<glm::vec3>(job);
-    mesh_.normal = Array<glm::vec3>(job);
-    mesh_.uv[0] = Array<glm::vec2>(job);
-    mesh_.index.wide = Array<std::uint32_t>(job);
-  }
-
-  void add_part(const Part& part, double height) {
-    points_.clear();
-    sizes_.clear();
-    for (const CmRing& ring : part.rings) {
-      for (const CmPoint& p : ring) points_.push_back(in_metres(p));
-      sizes_.push_back(static_cast<std::uint32_t>(ring.size()));
-    }
-    const auto first = static_cast<std::uint32_t>(mesh_.position.size());
-    for (const dvec2& p : points_) add_vertex(p, height, {0, 1, 0}, glm::vec2(p));
-    const auto& corners = triangulator_.run(points_, sizes_, 0);
-    for (std::size_t i = 0; i + 2 < corners.size(); i += 3) {
-      const std::uint32_t a = first + corners[i], b = first + corners[i + 1], c = first + corners[i + 2];
-      if (!has_area(a, b, c)) continue;
-      for (const std::uint32_t corner : {a, b, c}) mesh_.index.wide.push_back(corner);
-    }
-  }
-
-  /// The upright face of a kerb or quay along an edge whose left side is higher.
-  void add_wall(const CmPoint& from, const CmPoint& to, double low, double high) {
-    const dvec2 a = in_metres(from), b = in_metres(to), along = (b - a) / std::sqrt(glm::dot(b - a, b - a));
-    // The right side of the edge, seen from above; north is -Z.
-    const glm::vec3 normal(static_cast<float>(along.y), 0, static_cast<float>(along.x));
-    const auto first = static_cast<std::uint32_t>(mesh_.position.size());
-    const auto length = static_cast<float>(std::sqrt(glm::dot(b - a, b - a)));
-    const auto height = static_cast<float>(high - low);
-    add_vertex(a, low, normal, {0, 0});
-    add_vertex(b, low, normal, {length, 0});
-    add_vertex(b, high, normal, {length, height});
-    add_vertex(a, high, normal, {0, height});
-    for (const std::uint32_t corner : {0U, 1U, 2U, 0U, 2U, 3U}) mesh_.index.wide.push_back(first + corner);
-  }
-
-  Mesh take(Job& job) {
-    weld(mesh_, job);
-    return std::move(mesh_);
-  }
-
- private:
-  /// Whether a level triangle is wide enough to keep its side in single precision. Corners on a straight border
-  /// make triangles without area, which cover nothing.
-  bool has_area(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
-    constexpr float least = 1e-3F;  // twice the area in square metres
-    const glm::vec3 &p = mesh_.position[a], &q = mesh_.position[b], &r = mesh_.position[c];
-    return (q.z - p.z) * (r.x - p.x) - (q.x - p.x) * (r.z - p.z) > least;
-  }
-
-  void add_vertex(const dvec2& p, double height, const glm::vec3& normal, const glm::vec2& uv) {
-    mesh_.position.push_back(
-        {static_cast<float>(p.x), static_cast<float>(height), static_cast<float>(0 - p.y)});
-    mesh_.normal.push_back(normal);
-    mesh_.uv[0].push_back(uv);
-  }
-
-  Mesh mesh_;
-  Triangulator triangulator_;
-  std::vector<dvec2> points_;
-  std::vector<std::uint32_t> sizes_;
-};
-
 int add_node(Model& model, std::string name, int parent) {
   Node node;
   node.name = std::move(name);
@@ -173,44 +49,8 @@ int add_node(Model& model, std::string name, int parent) {
   return static_cast<int>(model.nodes.size()) - 1;
 }
 
-/// One mesh for each kind of part.
-void add_ground(Model& model, const CityPlan& plan, Job& job) {
-  job.spend(Resource::triangles, ground_triangles(plan));
-  const std::vector<DirectedEdge> low = low_edges(plan), water = water_edges(plan);
-  const int ground = add_node(model, "ground", 0);
-  for (std::size_t kind = 0; kind < std::size(looks); ++kind) {
-    GroundMesh mesh(job);
-    std::size_t done = 0;
-    for (const Part& part : plan.parts) {
-      if (static_cast<std::size_t>(part.kind) != kind || part.is_wall) continue;
-      if (done++ % 256 == 0) job.check();
-      mesh.add_part(part, height_of(part.kind));
-      if (part.kind == PartKind::water) continue;
-      const double height = height_of(part.kind);
-      const auto add_quay = [&](const CmPoint& a, const CmPoint& b) {
-        mesh.add_wall(a, b, 0 - water_depth, height);
-      };
-      visit_kerbs(part, water, add_quay);
-      if (is_low(part.kind)) continue;
-      visit_kerbs(part, low,
-                  [&](const CmPoint& a, const CmPoint& b) { mesh.add_wall(a, b, 0, kerb_height); });
-    }
-    if (done == 0) continue;
-    MeshGroup group;
-    group.name = looks[kind].name;
-    Primitive primitive;
-    primitive.mesh = mesh.take(job);
-    primitive.material = static_cast<int>(model.materials.size());
-    model.materials.push_back(material_of(looks[kind]));
-    group.primitives.push_back(std::move(primitive));
-    const int node = add_node(model, looks[kind].name, ground);
-    model.nodes[static_cast<std::size_t>(node)].mesh = static_cast<int>(model.meshes.size());
-    model.meshes.push_back(std::move(group));
-  }
-}
-
 /// Adds a node with one mesh.
-void add_mesh(Model& model, const char* name, const Look& look, Mesh mesh) {
+void add_mesh(Model& model, const char* name, const Look& look, Mesh mesh, int parent) {
   MeshGroup group;
   group.name = name;
   Primitive primitive;
@@ -218,41 +58,69 @@ void add_mesh(Model& model, const char* name, const Look& look, Mesh mesh) {
   primitive.material = static_cast<int>(model.materials.size());
   model.materials.push_back(material_of(look));
   group.primitives.push_back(std::move(primitive));
-  const int node = add_node(model, name, 0);
+  const int node = add_node(model, name, parent);
   model.nodes[static_cast<std::size_t>(node)].mesh = static_cast<int>(model.meshes.size());
   model.meshes.push_back(std::move(group));
 }
 
-/// The parts of a town wall, raised to its height.
-void add_town_wall(Model& model, const CityPlan& plan, double height, Job& job) {
-  std::vector<DirectedEdge> edges;
-  for (const Part& part : plan.parts) {
-    if (!part.is_wall) continue;
-    for (const CmRing& ring : part.rings) {
-      for (std::size_t i = 0; i < ring.size(); ++i) edges.push_back({ring[i], ring[(i + 1) % ring.size()]});
+/// One mesh for each kind of part.
+void add_ground(Model& model, const CityPlan& plan, const Surface& surface, Job& job) {
+  const int ground = add_node(model, "ground", 0);
+  for (std::size_t kind = 0; kind < std::size(looks); ++kind) {
+    GroundMesh mesh(plan, surface, job), markings(plan, surface, job);
+    std::size_t done = 0;
+    for (std::uint32_t n = 0; n < plan.parts.size(); ++n) {
+      const Part& part = plan.parts[n];
+      if (static_cast<std::size_t>(part.kind) != kind || part.is_wall) continue;
+      if (done++ % 256 == 0) job.check();
+      if (part.kind == PartKind::carriageway) {
+        mesh.add_carriageway(n, GroundMesh::StreetLayer::asphalt);
+        markings.add_carriageway(n, GroundMesh::StreetLayer::markings);
+      } else {
+        mesh.add_part(n);
+      }
+      mesh.add_walls(n);
     }
+    if (!markings.is_empty()) {
+      job.spend(Resource::triangles, markings.triangles());
+      add_mesh(model, "markings", {"marking", {0xd8, 0xd8, 0xd2}, 0.8F}, markings.take(job), ground);
+    }
+    if (mesh.is_empty()) continue;
+    job.spend(Resource::triangles, mesh.triangles());
+    add_mesh(model, looks[kind].name, looks[kind], mesh.take(job), ground);
   }
-  if (edges.empty()) return;
-  std::sort(edges.begin(), edges.end());
-  const std::vector<DirectedEdge> low = low_edges(plan);
-  GroundMesh mesh(job);
-  for (const Part& part : plan.parts) {
-    if (part.is_wall) mesh.add_part(part, height);
+}
+
+/// The parts of a town wall.
+void add_town_wall(Model& model, const CityPlan& plan, const Surface& surface, Job& job) {
+  GroundMesh mesh(plan, surface, job);
+  for (std::uint32_t n = 0; n < plan.parts.size(); ++n) {
+    if (!plan.parts[n].is_wall) continue;
+    mesh.add_part(n);
+    mesh.add_walls(n);
   }
-  for (const DirectedEdge& edge : edges) {
-    const DirectedEdge back{edge.b, edge.a};
-    if (std::binary_search(edges.begin(), edges.end(), back)) continue;
-    const bool is_at_kerb = std::binary_search(low.begin(), low.end(), back);
-    mesh.add_wall(edge.a, edge.b, is_at_kerb ? 0 : kerb_height, height);
+  if (mesh.is_empty()) return;
+  job.spend(Resource::triangles, mesh.triangles());
+  add_mesh(model, "wall", {"wall", {0x8d, 0x84, 0x74}, 0.95F}, mesh.take(job), 0);
+}
+
+/// The foundations of the houses on ground that is not level.
+void add_foundations(Model& model, const CityPlan& plan, const Surface& surface, Job& job) {
+  if (surface.is_level()) return;
+  GroundMesh mesh(plan, surface, job);
+  for (const Lot& lot : plan.lots) {
+    if (lot.house) mesh.add_foundation(lot);
   }
-  add_mesh(model, "wall", {"wall", {0x8d, 0x84, 0x74}, 0.95F}, mesh.take(job));
+  if (mesh.is_empty()) return;
+  job.spend(Resource::triangles, mesh.triangles());
+  add_mesh(model, "foundations", {"foundation", {0x8f, 0x89, 0x80}, 0.95F}, mesh.take(job), 0);
 }
 
 void add_bridges(Model& model, const CityPlan& plan, Job& job) {
   Mesh mesh = bridge_mesh(plan, job);
   if (mesh.elements() == 0) return;
   job.spend(Resource::triangles, mesh.elements());
-  add_mesh(model, "bridges", {"bridge", {0x8a, 0x88, 0x84}, 0.9F}, std::move(mesh));
+  add_mesh(model, "bridges", {"bridge", {0x8a, 0x88, 0x84}, 0.9F}, std::move(mesh), 0);
 }
 
 int add_material(Model& model, Material material) {
@@ -263,9 +131,12 @@ int add_material(Model& model, Material material) {
   return static_cast<int>(model.materials.size()) - 1;
 }
 
-Transform transform_of(const House& house) {
+Transform transform_of(const Lot& lot, const Surface& surface) {
+  const House& house = *lot.house;
+  double lowest = 0;
+  const double floor = surface.floor_height(lot, lowest);
   Transform at;
-  at.translation = {static_cast<float>(house.position.x), static_cast<float>(kerb_height),
+  at.translation = {static_cast<float>(house.position.x), static_cast<float>(floor),
                     static_cast<float>(0 - house.position.y)};
   const math::SinCos half = math::sincos_degrees(house.turn / 2);
   at.rotation = glm::quat(static_cast<float>(half.cos), 0, static_cast<float>(half.sin), 0);
@@ -273,8 +144,9 @@ Transform transform_of(const House& house) {
 }
 
 /// Adds one building with all its copies.
-void add_building(Model& model, Model made, const SharedHouse& house, const CityPlan& plan, int parent,
+void add_building(Model& model, Model made, const SharedHouse& house, const Surface& surface, int parent,
                   Job& job) {
+  const CityPlan& plan = surface.plan();
   std::vector<int> materials;
   for (Material& material : made.materials) {
     for (TextureUse* use :
@@ -305,11 +177,11 @@ void add_building(Model& model, Model made, const SharedHouse& house, const City
   added.mesh = static_cast<int>(model.meshes.size());
   model.meshes.push_back(std::move(group));
   if (house.lots.size() == 1) {
-    added.transform = transform_of(*plan.lots[house.lots[0]].house);
+    added.transform = transform_of(plan.lots[house.lots[0]], surface);
     return;
   }
   for (const std::uint32_t lot : house.lots)
-    added.instances.transforms.push_back(transform_of(*plan.lots[lot].house));
+    added.instances.transforms.push_back(transform_of(plan.lots[lot], surface));
 }
 
 }  // namespace
@@ -327,17 +199,27 @@ std::vector<SharedHouse> shared_houses(const CityPlan& plan, const CityParams& p
   return houses;
 }
 
-std::uint64_t ground_triangles(const CityPlan& plan) {
-  const std::vector<DirectedEdge> low = low_edges(plan), water = water_edges(plan);
+std::uint64_t ground_triangles(const CityPlan& plan, const Surface& surface, Job& job) {
   std::uint64_t count = 0;
-  for (const Part& part : plan.parts) {
-    for (const CmRing& ring : part.rings) count += ring.size();
-    count += 2 * part.rings.size() - 4;
-    if (part.is_wall) count += 2 * part.rings[0].size() - 4;
-    if (part.kind == PartKind::water) continue;
-    count += 2 * count_kerbs(part, water);
-    if (!is_low(part.kind)) count += 2 * count_kerbs(part, low);
+  constexpr std::size_t parts_a_mesh = 256;
+  for (std::size_t begin = 0; begin < plan.parts.size(); begin += parts_a_mesh) {
+    job.check();
+    GroundMesh mesh(plan, surface, job);
+    const std::size_t end = std::min(begin + parts_a_mesh, plan.parts.size());
+    for (std::size_t n = begin; n < end; ++n) {
+      const auto number = static_cast<std::uint32_t>(n);
+      if (plan.parts[n].kind == PartKind::carriageway) {
+        mesh.add_carriageway(number, GroundMesh::StreetLayer::asphalt);
+        mesh.add_carriageway(number, GroundMesh::StreetLayer::markings);
+      } else {
+        mesh.add_part(number);
+      }
+      mesh.add_walls(number);
+    }
+    count += mesh.triangles();
   }
+  if (surface.is_level()) return count;
+  for (const Lot& lot : plan.lots) count += lot.house ? 10 : 0;
   return count;
 }
 
@@ -346,8 +228,10 @@ Result<Model> city_model(const CityPlan& plan, const CityParams& params, const G
   Model model;
   model.name = "city";
   add_node(model, "city", -1);
-  add_ground(model, plan, job);
-  add_town_wall(model, plan, params.streets.wards.wall_height, job);
+  const Surface surface(plan, params.streets.wards.wall_height, job);
+  add_ground(model, plan, surface, job);
+  add_town_wall(model, plan, surface, job);
+  add_foundations(model, plan, surface, job);
   add_bridges(model, plan, job);
   const std::vector<SharedHouse> houses = shared_houses(plan, params);
   if (houses.empty()) return model;
@@ -358,7 +242,7 @@ Result<Model> city_model(const CityPlan& plan, const CityParams& params, const G
   });
   for (std::size_t i = 0; i < houses.size(); ++i) {
     if (!*made[i]) return std::move(*made[i]).error();
-    add_building(model, std::move(**made[i]), houses[i], plan, buildings, job);
+    add_building(model, std::move(**made[i]), houses[i], surface, buildings, job);
     made[i].reset();
   }
   return model;

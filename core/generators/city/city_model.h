@@ -11,7 +11,7 @@ struct CityParams;
 
 namespace seedmesh::city {
 
-constexpr double kerb_height = 0.13;  // m
+class Surface;
 
 /// A building that stands in the city, once or often.
 struct SharedHouse {
@@ -22,8 +22,8 @@ struct SharedHouse {
 /// The different requests of all houses, in the order of their first lots.
 std::vector<SharedHouse> shared_houses(const CityPlan& plan, const CityParams& params);
 
-/// Triangles of the ground of a plan.
-std::uint64_t ground_triangles(const CityPlan& plan);
+/// Triangles of the ground of a plan and of its foundations, which are made for it.
+std::uint64_t ground_triangles(const CityPlan& plan, const Surface& surface, Job& job);
 
 /// Nodes: "city" > "ground" > one node and mesh for each kind of part ("asphalt", "junction", ..., "lot");
 /// "city" > "buildings" > one node for each shared building. Charges Resource::triangles.

@@ -16,7 +16,7 @@ using glm::dvec2;
 constexpr double level = 0.5;
 constexpr double tolerance = 100;  // cm
 
-/// A lattice with one more column and row around the box, where the map counts as 0, so that contours close.
+/// A lattice with one more column and row around the box, where the value counts as 0, so that contours close.
 struct Lattice {
   dvec2 low{0};
   double step = 1;
@@ -38,7 +38,7 @@ using Side = std::int64_t;
 
 class Contour {
  public:
-  Contour(const FieldMap& map, const dvec2& low, const dvec2& high, Job& job) : map_(map) {
+  Contour(const ValueAt& value, const dvec2& low, const dvec2& high, Job& job) : value_(value) {
     const dvec2 size = high - low;
     lattice_.step = std::max(2.0, std::max(size.x, size.y) / 300);
     lattice_.low = low - dvec2(lattice_.step);
@@ -47,8 +47,7 @@ class Contour {
     for (std::int32_t y = 0; y < lattice_.rows; ++y) {
       job.check();
       for (std::int32_t x = 0; x < lattice_.columns; ++x)
-        lattice_.inside.push_back(!lattice_.is_rim(x, y) && map_.at(lattice_.position(x, y)) >= level ? 1
-                                                                                                      : 0);
+        lattice_.inside.push_back(!lattice_.is_rim(x, y) && value_(lattice_.position(x, y)) >= level ? 1 : 0);
     }
   }
 
@@ -102,7 +101,7 @@ class Contour {
     if (lattice_.is_rim(x, y) || lattice_.is_rim(x2, y2)) return (in + out) * 50.0;
     for (int k = 0; k < 8; ++k) {
       const dvec2 middle = (in + out) / 2.0;
-      (map_.at(middle) >= level ? in : out) = middle;
+      (value_(middle) >= level ? in : out) = middle;
     }
     return (in + out) * 50.0;  // the middle, in centimetres
   }
@@ -142,15 +141,15 @@ class Contour {
     }
   }
 
-  const FieldMap& map_;
+  const ValueAt& value_;
   Lattice lattice_;
   std::map<Side, Side> next_;
 };
 
 }  // namespace
 
-Rings contour_of(const FieldMap& map, const glm::dvec2& low, const glm::dvec2& high, Job& job) {
-  return Contour(map, low, high, job).rings();
+Rings contour_of(const ValueAt& value, const glm::dvec2& low, const glm::dvec2& high, Job& job) {
+  return Contour(value, low, high, job).rings();
 }
 
 }  // namespace seedmesh::city

@@ -90,13 +90,15 @@ std::optional<FieldMap> FieldMap::read_text(const std::string& text, const std::
   return std::nullopt;
 }
 
-double FieldMap::at(const glm::dvec2& metres) const {
+double FieldMap::at(const glm::dvec2& metres) const { return std::clamp(value_at(metres), 0.0, 1.0); }
+
+double FieldMap::value_at(const glm::dvec2& metres) const {
   if (has_polygons_) return is_in_any(polygons_, metres * 100.0) ? 1.0 : 0.0;
   if (width_ == 0) {
     Rng unused(0);
     const std::array<double, 2> slots = {metres.x, metres.y};
     const double value = program_.evaluate(expression_, slots.data(), unused);
-    return std::isfinite(value) ? std::clamp(value, 0.0, 1.0) : 0.0;
+    return std::isfinite(value) ? value : 0.0;
   }
   // Bilinear between the centres of pixels.
   const double u = std::clamp((metres.x - low_.x) / size_.x, 0.0, 1.0) * width_ - 0.5;

@@ -29,6 +29,9 @@ class FieldMap {
   /// The value at a position in metres, between 0 and 1; 0 where the expression has no finite value.
   double at(const glm::dvec2& metres) const;
 
+  /// The same without bounds, for heights.
+  double value_at(const glm::dvec2& metres) const;
+
   /// The polygons, if the map consists of polygons.
   const std::vector<Rings>& polygons() const { return polygons_; }
 

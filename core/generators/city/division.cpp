@@ -75,13 +75,34 @@ void Division::cut(const Job& job) {
       cut(piece, 0);
     }
   }
-  if (!first.empty() && is_partition()) return;
-  // Without strips, or where rounding has folded one of them.
+  const std::size_t long_strips = first.empty() || !is_partition() ? pieces_.size() + 1 : long_pieces();
+  if (long_strips == 0) return;
+  // Without strips, where rounding has folded one of them, and where no cut shortens one of them.
+  std::vector<Piece> strips = std::move(pieces_);
+  std::vector<SharedEdge> edges = edges_;
+  const std::uint32_t inner = inner_;
   reset();
   cut(whole_, 0);
-  if (is_partition()) return;
+  const bool is_sound = is_partition();
+  if (is_sound && long_pieces() < long_strips) return;
+  if (long_strips <= strips.size()) {
+    pieces_ = std::move(strips);
+    edges_ = std::move(edges);
+    inner_ = inner;
+    return;
+  }
+  if (is_sound) return;
   reset();
   pieces_.push_back(whole_);
+}
+
+/// How many pieces with access are longer than lots may be.
+std::size_t Division::long_pieces() const {
+  const double most = lots_.division == CityDivision::burgage ? 12 : 6;
+  return static_cast<std::size_t>(std::count_if(pieces_.begin(), pieces_.end(), [most](const Piece& piece) {
+    const LeastBox box = least_box(piece.ring);
+    return box.long_side > most * box.short_side;
+  }));
 }
 
 /// Simple outlines whose edges cancel, except those of the block, cover each point of it once.

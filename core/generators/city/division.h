@@ -61,6 +61,7 @@ class Division {
   void cut(const Piece& piece, int depth);
   void reset();
   bool is_partition() const;
+  std::size_t long_pieces() const;
   bool is_large(const Piece& piece, Rng& draw) const;
   bool find_cut(const Piece& piece, Rng& draw, Piece& left, Piece& right);
   bool find_cut_across_front(const Piece& piece, Rng& draw, Piece& left, Piece& right);

@@ -19,8 +19,8 @@ constexpr double reach = 300;     // cm: ends and corners this near to another s
 constexpr double shortest = 310;  // between two corners, cm
 
 template <class T>
-CrossSection section_of(const char* name, const T& given, double grade_limit) {
-  return {name, given.width, {given.sidewalk, given.sidewalk}, given.lanes, grade_limit};
+CrossSection section_of(const char* name, const T& given) {
+  return {name, given.width, {given.sidewalk, given.sidewalk}, given.lanes, given.grade};
 }
 
 /// Reads the properties of a feature that count.
@@ -213,10 +213,10 @@ std::vector<CrossSection> classes_of(const CityParams& params) {
   const CityClasses& classes = params.streets.classes;
   return {{"border", 0, {0, 0}, 0, 0},
           {"shore", 0, {0, 0}, 0, 0},
-          section_of("highway", classes.highway, 0.06),
-          section_of("major", classes.major, 0.08),
-          section_of("minor", classes.minor, 0.12),
-          section_of("lane", classes.lane, 0.12)};
+          section_of("highway", classes.highway),
+          section_of("major", classes.major),
+          section_of("minor", classes.minor),
+          section_of("lane", classes.lane)};
 }
 
 std::vector<GivenLine> given_lines(const CityParams& params, std::vector<CrossSection>& sections,

@@ -17,6 +17,7 @@ struct CityStreets;
 namespace seedmesh::city {
 
 struct WardPlan;
+class Landform;
 class TensorField;
 
 /// What the growth reads.
@@ -29,11 +30,20 @@ struct GrowthInput {
   const Route* given = nullptr;         ///< null: none
   const WardPlan* wards = nullptr;      ///< null: major streets grow
   const TensorField* tensor = nullptr;  ///< null: streets follow patterns
+  const Landform* landform = nullptr;   ///< null: level ground
 
   /// Whether an obstacle is at a position in metres.
   bool is_blocked(const glm::dvec2& metres) const { return obstacles && obstacles->at(metres) >= 0.5; }
-  /// Whether an obstacle is on the segment between two positions in centimetres, sampled every 4 m.
-  bool is_blocked(const glm::dvec2& a, const glm::dvec2& b) const;
+  /// Whether an obstacle is on the segment between two positions in centimetres, sampled every 4 m, or the ground
+  /// along it is too steep for a street of this grade limit.
+  bool is_blocked(const glm::dvec2& a, const glm::dvec2& b, double grade_limit) const;
+  /// Whether the ground along a segment rises half more than a grade limit allows, or is more than 5 m above or
+  /// below the segment.
+  bool is_too_steep(const glm::dvec2& a, const glm::dvec2& b, double grade_limit) const;
+  /// Whether a piece meets given streets only where it crosses one of them at a wide angle.
+  bool keeps_off_given(const StreetPiece& piece) const;
+  /// The grade limit of a street of a kind that grows.
+  double limit_of(std::uint32_t kind) const;
 };
 
 /// The major streets, or all streets of a raster, clipped to the area.

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "core/generators/city/growth.h"
+#include "generated/params/city.h"
 
 namespace seedmesh::city {
 namespace {
@@ -139,7 +140,7 @@ class Links {
     const CmPoint& start = graph_.nodes[link.from];
     if (!keeps_angles(link.from, link.to)) return false;
     if (link.node != no_index && !keeps_angles(link.node, start)) return false;
-    if (input_.is_blocked(in_cm(start), in_cm(link.to))) return false;
+    if (input_.is_blocked(in_cm(start), in_cm(link.to), input_.streets.classes.minor.grade)) return false;
     const dvec2 p = in_cm(start), q = in_cm(link.to);
     for (std::uint32_t e = 0; e < graph_.edges.size(); ++e) {
       const PlanarEdge& edge = graph_.edges[e];

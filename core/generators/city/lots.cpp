@@ -56,10 +56,20 @@ std::uint64_t block_key(const CityPlan& plan, const BlockOutline& outline) {
   return key_at(key, side_key(plan, outline));
 }
 
+/// Whether a block is the middle of a roundabout.
+bool is_island(const StreetGraph& graph, const BlockOutline& outline) {
+  return !graph.ring_nodes.empty() &&
+         std::all_of(outline.edges.begin(), outline.edges.end(), [&](const BlockEdge& edge) {
+           if (edge.street == no_index) return false;
+           const PlanarEdge& street = graph.edges[edge.street];
+           return graph.is_on_ring(street.from) && graph.is_on_ring(street.to);
+         });
+}
+
 /// How a block was divided, made by one thread.
 struct Divided {
   std::optional<Division> division;
-  bool is_park = false, is_square = false;
+  bool is_park = false, is_square = false, is_island = false;
   std::string zone;
 };
 
@@ -149,7 +159,7 @@ void add_block(CityPlan& plan, const BlockOutline& outline, const Divided& divid
   if (divided.is_park) {
     Part part;
     const bool is_small = area_of(block.rings) < 1500;
-    part.kind = is_small || divided.is_square ? PartKind::square : PartKind::park;
+    part.kind = (is_small && !divided.is_island) || divided.is_square ? PartKind::square : PartKind::park;
     part.block = number;
     part.rings = block.rings;
     plan.parts.push_back(std::move(part));
@@ -212,7 +222,8 @@ void divide_blocks(CityPlan& plan, const std::vector<BlockOutline>& outlines, co
       each.is_square = each.zone == zone_square;
       const bool is_outside = !plan.wards.empty() && !ward;
       const bool is_empty = density.at(middle_of(outline.ring)) < 0.1;
-      each.is_park = !outline.holes.empty() || is_empty || is_outside || each.is_square ||
+      each.is_island = is_island(plan.graph, outline);
+      each.is_park = each.is_island || !outline.holes.empty() || is_empty || is_outside || each.is_square ||
                      !each.division->holds_lots() || rng.at("park").at(key).unit() < lots.park_share;
       if (!each.is_park) each.division->cut(job);
     }

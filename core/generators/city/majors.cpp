@@ -84,6 +84,7 @@ class Net {
   }
 
   EdgeClass class_of(const Site& a, const Site& b) const {
+    if (is_highway(a, b)) return EdgeClass::highway;
     if (!whole_raster()) return EdgeClass::major;
     const auto is_line = [](std::int32_t line, std::int32_t every) { return line % every == 0; };
     const bool is_major = a[0] == b[0] ? is_line(a[0], every_[0]) : is_line(a[1], every_[1]);
@@ -92,8 +93,21 @@ class Net {
 
   /// Whether the link between two sites is built, by its key alone.
   bool is_filled(const Site& a, const Site& b) const {
-    if (whole_raster() && class_of(a, b) == EdgeClass::major) return true;
+    if (is_highway(a, b) || (whole_raster() && class_of(a, b) == EdgeClass::major)) return true;
     return link_draw(a, b, "fill").unit() < streets_.fill;
+  }
+
+  /// Lines of the net that are highways: those through the centre, and others at the spacing of highways. Of a radial
+  /// net, each second ray of the innermost ring, and rings at the spacing.
+  bool is_highway(const Site& a, const Site& b) const {
+    if (streets_.highway_spacing <= 0) return false;
+    const auto every = [&](double step) {
+      return std::max(1, math::to_int32(streets_.highway_spacing * 100 / step + 0.5));
+    };
+    if (!is_radial()) return a[0] == b[0] ? a[0] % every(step_.x) == 0 : a[1] % every(step_.y) == 0;
+    if (a[0] == b[0]) return a[0] > 0 && a[0] % every(step_.x) == 0;
+    const Site& outer = std::max(a, b);
+    return outer[1] % (rays_of(outer[0]) / 3) == 0;
   }
 
   Rng link_draw(const Site& a, const Site& b, std::string_view name) const {
@@ -235,32 +249,13 @@ class NetRules final : public RoadRules {
   /// Whether no obstacle and no given street is in the way.
   bool may_build(const Route& built) const {
     for (const StreetPiece& piece : built.pieces) {
-      if (input_.is_blocked(in_cm(piece.a), in_cm(piece.b))) return false;
-      if (input_.given && !keeps_off(piece)) return false;
+      if (input_.is_blocked(in_cm(piece.a), in_cm(piece.b), input_.limit_of(piece.kind))) return false;
+      if (!input_.keeps_off_given(piece)) return false;
     }
     for (const BridgeLine& bridge : built.bridges) {
       for (const BridgeLine& other : route.bridges) {
         if (segments_meet(bridge.line[0], bridge.line[1], other.line[0], other.line[1])) return false;
       }
-    }
-    return true;
-  }
-
-  /// Whether a piece meets given streets only where it crosses one of them at a wide angle.
-  bool keeps_off(const StreetPiece& piece) const {
-    constexpr double near = 1400, least_cross_sine = 0.77;
-    const dvec2 p = in_cm(piece.a), q = in_cm(piece.b), along = q - p;
-    for (const StreetPiece& other : input_.given->pieces) {
-      const dvec2 a = in_cm(other.a), b = in_cm(other.b), across = b - a;
-      const double apart = std::min({distance_to_segment(p, a, b), distance_to_segment(q, a, b),
-                                     distance_to_segment(a, p, q), distance_to_segment(b, p, q)});
-      if (!segments_meet(piece.a, piece.b, other.a, other.b)) {
-        if (apart < near) return false;
-        continue;
-      }
-      const double sine = std::abs(along.x * across.y - along.y * across.x) /
-                          (distance(piece.a, piece.b) * distance(other.a, other.b));
-      if (sine < least_cross_sine || apart < near) return false;
     }
     return true;
   }

@@ -1,6 +1,7 @@
 #pragma once
 /// The plan of a city: the street graph and the partition of the area that is cut along it. Points are whole
 /// centimetres, x east and y north; lengths and areas are metres unless a name says otherwise.
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <memory>
@@ -10,6 +11,8 @@
 #include <vector>
 
 #include "core/base/job.h"
+#include "core/generators/city/grades.h"
+#include "core/generators/city/landform.h"
 #include "core/generators/city/network.h"
 #include "core/generators/city/region.h"
 #include "core/geom/polygon/cm_point.h"
@@ -58,6 +61,7 @@ struct StreetGraph {
   std::vector<std::uint64_t> node_key, edge_key;  ///< identities by position
   std::vector<std::uint8_t> is_border;            ///< by node: on the border of the area or on a shore
   std::vector<Bridge> bridges;
+  std::vector<CmPoint> ring_nodes;         ///< of roundabouts, sorted
   std::vector<std::uint32_t> bridge_ends;  ///< by node: ends of bridges there; empty without bridges
 
   bool is_street(std::uint32_t edge) const { return is_street_tag(edges[edge].tag); }
@@ -67,6 +71,9 @@ struct StreetGraph {
       if (edges[half / 2].tag == static_cast<std::uint32_t>(EdgeClass::border)) return true;
     }
     return false;
+  }
+  bool is_on_ring(std::uint32_t node) const {
+    return std::binary_search(ring_nodes.begin(), ring_nodes.end(), nodes[node]);
   }
   /// Ends of streets of all levels.
   std::uint32_t street_ends(std::uint32_t node) const {
@@ -162,6 +169,11 @@ struct CityPlan {
   std::vector<Ward> wards;            ///< empty unless the method is wards
   std::vector<CmPoint> gates;         ///< nodes where streets pass a town wall
   StreetGraph graph;
+  /// By edge: the start and end of the straight kerbs, left and then right; equal points without them.
+  std::vector<std::array<CmPoint, 4>> kerbs;
+  std::vector<double> holds;  ///< by half-edge: how far the corners at its start reach along it, metres
+  std::shared_ptr<const Landform> landform;  ///< never null after plan_of()
+  StreetHeights heights;
   std::vector<Part> parts;
   std::vector<Block> blocks;
   std::vector<Lot> lots;

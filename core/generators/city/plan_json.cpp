@@ -5,7 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "core/generators/city/bridge_mesh.h"
+#include "core/generators/city/surface.h"
 #include "core/generators/city/zoning.h"
 #include "generated/params/city.h"
 
@@ -20,6 +20,8 @@ std::string id_of(std::uint64_t key) {
 }
 
 Json position(const CmPoint& p) { return Json::array({p.x / 100.0, p.y / 100.0}); }
+Json position(const CmPoint& p, double height) { return Json::array({p.x / 100.0, p.y / 100.0, height}); }
+double millimetres(double height) { return std::floor(height * 1000 + 0.5) / 1000; }
 
 Json polygon(const std::vector<CmRing>& rings) {
   Json coordinates = Json::array();
@@ -38,7 +40,9 @@ Json feature(Json geometry, Json properties) {
 
 class Writer {
  public:
-  Writer(const CityPlan& plan, const CityParams& params) : plan_(plan), params_(params) {}
+  Writer(const CityPlan& plan, const CityParams& params, Job& job) : plan_(plan), params_(params) {
+    if (!plan.heights.is_level()) surface_.emplace(plan, kerb_height, job);
+  }
 
   Json write() {
     features_.push_back(feature(polygon(plan_.area), {{"kind", "area"}}));
@@ -47,7 +51,7 @@ class Writer {
     for (const Block& block : plan_.blocks) add_block(block);
     std::vector<std::uint32_t> lot_of(plan_.parts.size(), no_index);
     for (std::uint32_t i = 0; i < plan_.lots.size(); ++i) lot_of[plan_.lots[i].part] = i;
-    for (std::uint32_t i = 0; i < plan_.parts.size(); ++i) add_part(plan_.parts[i], lot_of[i]);
+    for (std::uint32_t i = 0; i < plan_.parts.size(); ++i) add_part(i, lot_of[i]);
     // GeoJSON has longitudes and latitudes; other programs skip this member.
     return {{"type", "FeatureCollection"},
             {"georeference", {{"projection", "local"}, {"unit", "metre"}}},
@@ -62,6 +66,7 @@ class Writer {
     if (plan_.graph.is_at_area_border(node)) return "border";
     const std::vector<CmPoint>& gates = plan_.gates;
     if (std::find(gates.begin(), gates.end(), plan_.graph.nodes[node]) != gates.end()) return "gate";
+    if (plan_.graph.is_on_ring(node)) return "roundabout";
     return degree == 1 ? "dead_end" : degree == 2 ? "bend" : "junction";
   }
 
@@ -69,8 +74,10 @@ class Writer {
     for (std::uint32_t node = 0; node < plan_.graph.nodes.size(); ++node) {
       const std::uint32_t degree = plan_.graph.street_ends(node);
       if (degree == 0) continue;
+      const CmPoint& at = plan_.graph.nodes[node];
+      Json coordinates = surface_ ? position(at, plan_.heights.node[node]) : position(at);
       features_.push_back(feature(
-          {{"type", "Point"}, {"coordinates", position(plan_.graph.nodes[node])}},
+          {{"type", "Point"}, {"coordinates", std::move(coordinates)}},
           {{"kind", "node"}, {"id", node_id(node)}, {"degree", degree}, {"type", type_of(node, degree)}}));
     }
   }
@@ -79,26 +86,42 @@ class Writer {
     for (std::uint32_t edge = 0; edge < plan_.graph.edges.size(); ++edge) {
       if (!plan_.graph.is_street(edge)) continue;
       const PlanarEdge& each = plan_.graph.edges[edge];
-      add_street({each.from,
-                  each.to,
-                  each.tag,
-                  0,
-                  {plan_.graph.nodes[each.from], plan_.graph.nodes[each.to]},
-                  plan_.graph.edge_key[edge]});
+      add_street({each.from, each.to, each.tag, 0, {}, plan_.graph.edge_key[edge]}, profile_of(edge));
     }
-    for (const Bridge& bridge : plan_.graph.bridges) add_street(bridge);
+    for (const Bridge& bridge : plan_.graph.bridges) add_street(bridge, bridge_profile(plan_, bridge));
   }
 
-  /// The ramps of bridges that lead over streets are as steep as bridge_height() makes them.
-  double grade_of(const Bridge& street) const {
-    return street.level != 0 && bridge_height(plan_, street, 1, 2) != 0 ? 0.06 : 0;
+  /// The points of an edge; on a terrain with those where its grade changes.
+  std::vector<ProfilePoint> profile_of(std::uint32_t edge) const {
+    constexpr double least = 0.5;  // of a level part at a node, m
+    const StreetHeights& heights = plan_.heights;
+    const PlanarEdge& each = plan_.graph.edges[edge];
+    if (heights.is_level()) return {{plan_.graph.nodes[each.from]}, {plan_.graph.nodes[each.to]}};
+    std::vector<ProfilePoint> points(heights.points.begin() + heights.first[edge],
+                                     heights.points.begin() + heights.first[edge + 1]);
+    const auto is_short = [&points](std::size_t a, std::size_t b) {
+      return points[b].station - points[a].station < least;
+    };
+    if (points.size() > 2 && is_short(points.size() - 2, points.size() - 1)) points.erase(points.end() - 2);
+    if (points.size() > 2 && is_short(0, 1)) points.erase(points.begin() + 1);
+    return points;
   }
 
-  /// A street of any level.
-  void add_street(const Bridge& street) {
+  /// A street of any level. On level ground its line has its corners alone.
+  void add_street(const Bridge& street, const std::vector<ProfilePoint>& profile) {
     const CrossSection& section = plan_.classes[street.tag];
     Json coordinates = Json::array();
-    for (const CmPoint& p : street.line) coordinates.push_back(position(p));
+    double grade = 0;
+    for (std::size_t k = 0; k < profile.size(); ++k) {
+      if (surface_) coordinates.push_back(position(profile[k].at, profile[k].height));
+      if (k == 0) continue;
+      const double run = distance(profile[k - 1].at, profile[k].at) / 100;
+      if (run > 0) grade = std::max(grade, std::abs(profile[k].height - profile[k - 1].height) / run);
+    }
+    if (!surface_) {
+      for (const CmPoint& p : street.line) coordinates.push_back(position(p));
+      if (street.line.empty()) coordinates = {position(profile.front().at), position(profile.back().at)};
+    }
     features_.push_back(feature({{"type", "LineString"}, {"coordinates", std::move(coordinates)}},
                                 {{"kind", "street"},
                                  {"id", id_of(street.key)},
@@ -111,7 +134,7 @@ class Writer {
                                  {"level", street.level},
                                  {"bridge", street.level > 0},
                                  {"tunnel", street.level < 0},
-                                 {"grade", grade_of(street)},
+                                 {"grade", grade},
                                  {"grade_limit", section.grade_limit},
                                  {"given", street.tag >= first_given && !section.has_wall}}));
   }
@@ -125,13 +148,27 @@ class Writer {
                                                        {"streets", std::move(streets)}}));
   }
 
-  void add_part(const Part& part, std::uint32_t lot) {
+  /// The outline of a part, on a terrain with the heights of its surface.
+  Json outline(std::uint32_t number) const {
+    Json geometry = polygon(plan_.parts[number].rings);
+    if (!surface_) return geometry;
+    const std::vector<CmRing>& rings = plan_.parts[number].rings;
+    for (std::size_t r = 0; r < rings.size(); ++r) {
+      for (std::size_t i = 0; i <= rings[r].size(); ++i)
+        geometry["coordinates"][r][i].push_back(
+            millimetres(surface_->height(number, in_metres(rings[r][i % rings[r].size()]))));
+    }
+    return geometry;
+  }
+
+  void add_part(std::uint32_t number, std::uint32_t lot) {
+    const Part& part = plan_.parts[number];
     Json properties = {{"kind", name_of(part.kind)}};
     if (part.street != no_index) properties["street"] = street_id(part.street);
     if (part.node != no_index) properties["node"] = node_id(part.node);
     if (part.block != no_index) properties["block"] = id_of(plan_.blocks[part.block].key);
     if (lot != no_index) add_lot(plan_.lots[lot], properties);
-    features_.push_back(feature(polygon(part.rings), std::move(properties)));
+    features_.push_back(feature(outline(number), std::move(properties)));
   }
 
   void add_lot(const Lot& lot, Json& properties) const {
@@ -147,17 +184,22 @@ class Writer {
     properties["building"] = {{"generator", request.generator},
                               {"seed", *request.seed},
                               {"parameters", Json::parse(request.parameters)}};
-    properties["position"] = {lot.house->position.x, lot.house->position.y, 0};
+    double lowest = 0;
+    const double floor = surface_ ? millimetres(surface_->floor_height(lot, lowest)) : kerb_height;
+    properties["position"] = {lot.house->position.x, lot.house->position.y, floor};
     properties["turn"] = lot.house->turn;
   }
 
   const CityPlan& plan_;
   const CityParams& params_;
+  std::optional<Surface> surface_;  ///< empty on level ground
   Json features_ = Json::array();
 };
 
 }  // namespace
 
-Json plan_json(const CityPlan& plan, const CityParams& params) { return Writer(plan, params).write(); }
+Json plan_json(const CityPlan& plan, const CityParams& params, Job& job) {
+  return Writer(plan, params, job).write();
+}
 
 }  // namespace seedmesh::city

@@ -1,5 +1,6 @@
 #pragma once
-/// The plan as GeoJSON in local metres: [east, north], rings closed and wound as RFC 7946 says.
+/// The plan as GeoJSON in local metres: [east, north], and on a terrain the height as a third number. Rings are closed
+/// and wound as RFC 7946 says.
 #include "core/generators/city/plan.h"
 #include "core/schema/json.h"
 
@@ -10,6 +11,6 @@ struct CityParams;
 namespace seedmesh::city {
 
 /// A FeatureCollection; docs/cities.md lists kinds and properties.
-Json plan_json(const CityPlan& plan, const CityParams& params);
+Json plan_json(const CityPlan& plan, const CityParams& params, Job& job);
 
 }  // namespace seedmesh::city

@@ -53,13 +53,15 @@ class PrunedGraph {
     compact();
   }
 
-  /// Removes majors that end nowhere, back to the last junction.
+  /// Removes highways and majors that end nowhere, back to the last junction.
   void drop_loose_majors() {
     bool goes_on = true;
     while (goes_on) {
       goes_on = false;
       for (PlanarEdge& edge : edges_) {
-        if (edge.is_removed() || edge.tag != static_cast<std::uint32_t>(EdgeClass::major)) continue;
+        if (edge.is_removed() || edge.tag < static_cast<std::uint32_t>(EdgeClass::highway) ||
+            edge.tag > static_cast<std::uint32_t>(EdgeClass::major))
+          continue;
         if (!is_loose(edge.from) && !is_loose(edge.to)) continue;
         remove(edge);
         goes_on = true;

@@ -1,6 +1,7 @@
 #pragma once
 /// The area of a city, divided into land and water.
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -37,8 +38,11 @@ glm::dvec2 position_in(const std::vector<CmPoint>& nodes, const std::vector<Plan
 /// Whether a position in centimetres is on land.
 bool is_on_land(const Region& region, const glm::dvec2& cm);
 
-/// The polygon where a map is at least 0.5, within the box [low, high] in metres: marching squares on a lattice of
+/// A quantity at a position in metres.
+using ValueAt = std::function<double(const glm::dvec2&)>;
+
+/// The polygon where a value is at least 0.5, within the box [low, high] in metres: marching squares on a lattice of
 /// at most 300 squares a side, corners moved along the lattice to the border, and simplified to a metre.
-Rings contour_of(const FieldMap& map, const glm::dvec2& low, const glm::dvec2& high, Job& job);
+Rings contour_of(const ValueAt& value, const glm::dvec2& low, const glm::dvec2& high, Job& job);
 
 }  // namespace seedmesh::city

@@ -67,6 +67,7 @@ class StreetSpace {
       for (std::size_t i = begin; i < end; ++i) lay_out_face(faces, faces.faces[i], layouts[i]);
     });
     cut_carriageways();
+    measure_holds();
     add_junctions();
     add_carriageways();
     std::vector<BlockOutline> blocks;
@@ -233,6 +234,25 @@ class StreetSpace {
       if (cuts_end && right_end - end > same) right.cut_from = on_kerb(right.from(), right.to, end);
     }
   }
+
+  /// How far the corners at the start of each half-edge reach along it.
+  void measure_holds() {
+    plan_.holds.assign(sides_.size(), 0);
+    for (std::uint32_t half = 0; half < sides_.size(); ++half) {
+      if (!graph_.is_street(half / 2)) continue;
+      const dvec2 start = in_cm(graph_.nodes[start_of(graph_.edges, half)]), d = unit_of(graph_, half);
+      const KerbSide &left = sides_[half], &right = sides_[half ^ 1U];
+      double reach = 0;
+      const auto add = [&](const KerbSide& side) {
+        for (const auto* corner : {&side.corner, &side.outer_corner}) {
+          for (const CmPoint& p : *corner) reach = std::max(reach, glm::dot(in_cm(p) - start, d));
+        }
+      };
+      if (left.is_laid_out) add(left);
+      if (right.is_laid_out) add(sides_[right.after]);
+      plan_.holds[half] = reach / 100;
+    }
+  }
   bool is_cut(std::uint32_t node) const { return graph_.is_border[node] == 0 && graph_.degree(node) >= 3; }
 
   void add_part(PartKind kind, CmRing ring, std::uint32_t street, std::uint32_t node) {
@@ -280,6 +300,7 @@ class StreetSpace {
   }
 
   void add_carriageways() {
+    plan_.kerbs.assign(graph_.edges.size(), {});
     for (std::uint32_t edge = 0; edge < graph_.edges.size(); ++edge) {
       if (!graph_.is_street(edge)) continue;
       const KerbSide &left = sides_[2 * edge], &right = sides_[2 * edge + 1];
@@ -297,6 +318,8 @@ class StreetSpace {
       close(ring);
       if (ring.size() < 3 || doubled_area(ring) == 0) continue;
       add_part(PartKind::carriageway, std::move(ring), edge, no_index);
+      if (left.is_laid_out && right.is_laid_out)
+        plan_.kerbs[edge] = {left.cut_from, left.cut_to, right.cut_to, right.cut_from};
     }
   }
 

@@ -298,9 +298,11 @@ Route trace_majors(const GrowthInput& input, const TensorField& field, Job& job)
         input.density.at(in_metres(middle)) < least_density)
       continue;
     const Route built = route_of(input.region, span.points, major, input.streets.bridge_length * 100);
-    const bool is_blocked = std::any_of(
-        built.pieces.begin(), built.pieces.end(),
-        [&](const StreetPiece& piece) { return input.is_blocked(in_cm(piece.a), in_cm(piece.b)); });
+    const bool is_blocked =
+        std::any_of(built.pieces.begin(), built.pieces.end(), [&](const StreetPiece& piece) {
+          return input.is_blocked(in_cm(piece.a), in_cm(piece.b), input.limit_of(piece.kind)) ||
+                 !input.keeps_off_given(piece);
+        });
     if (is_blocked) continue;
     route.pieces.insert(route.pieces.end(), built.pieces.begin(), built.pieces.end());
     route.bridges.insert(route.bridges.end(), built.bridges.begin(), built.bridges.end());

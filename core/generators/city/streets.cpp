@@ -7,6 +7,7 @@
 #include "core/base/parallel.h"
 #include "core/generators/city/growth.h"
 #include "core/generators/city/pruned_graph.h"
+#include "core/generators/city/roundabouts.h"
 #include "core/generators/city/tensor.h"
 #include "core/generators/city/wards.h"
 #include "generated/params/city.h"
@@ -121,7 +122,9 @@ StreetGraph finished_graph(const GrowthInput& input, const Route& route, Job& jo
 
 }  // namespace
 
-StreetGraph grow_streets(const GrowthInput& input, Job& job) {
+namespace {
+
+StreetGraph grow_all(const GrowthInput& input, std::vector<CmPoint>& ring_nodes, Job& job) {
   const CityStreets& streets = input.streets;
   Route route = given_pieces(input);
   if (streets.method == CityMethod::given) {
@@ -141,6 +144,13 @@ StreetGraph grow_streets(const GrowthInput& input, Job& job) {
     pruned.drop_sharp(math::cos(math::radians(22.6)));
     majors = {pruned.finished(), {}};
   }
+  if (streets.roundabouts > 0 && !input.wards) {
+    const std::vector<StreetPiece> pieces =
+        with_roundabouts(majors.graph, streets, job.rng().at("roundabouts"), ring_nodes, job);
+    PrunedGraph pruned(graph_of(input.region, {pieces, {}, true}, job), majors.bridges);
+    pruned.drop_short(least_street);
+    majors.graph = pruned.finished();
+  }
   if (streets.pattern == CityPattern::raster && !input.given && !input.wards && !input.tensor &&
       (!streets.minor_pattern || *streets.minor_pattern == CityMinorPattern::raster))
     return std::move(majors.graph);
@@ -154,6 +164,15 @@ StreetGraph grow_streets(const GrowthInput& input, Job& job) {
   whole.pieces = pieces_of(graph);
   whole.pieces.insert(whole.pieces.end(), links.begin(), links.end());
   return finished_graph(input, whole, job);
+}
+
+}  // namespace
+
+StreetGraph grow_streets(const GrowthInput& input, Job& job) {
+  std::vector<CmPoint> ring_nodes;
+  StreetGraph graph = grow_all(input, ring_nodes, job);
+  graph.ring_nodes = std::move(ring_nodes);
+  return graph;
 }
 
 }  // namespace seedmesh::city

@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/base/math.h"
+#include "core/generators/city/landform.h"
 #include "generated/params/city.h"
 
 namespace seedmesh::city {
@@ -23,12 +24,15 @@ dvec2 doubled(const dvec2& d) {
 
 }  // namespace
 
-TensorField::TensorField(const CityStreets& streets, const Region& region, std::vector<Issue>& issues) {
+TensorField::TensorField(const CityStreets& streets, const Region& region, const Landform* landform,
+                         std::vector<Issue>& issues)
+    : landform_(landform) {
   const auto grid_of = [](double degrees) {
     const math::SinCos turn = math::sincos_degrees(2 * degrees);
     return dvec2(turn.cos, turn.sin);
   };
   bases_.push_back({Shape::grid, {0, 0}, grid_of(streets.angle), weak, 0, {}});
+  if (streets.pattern == CityPattern::slope) bases_.push_back({Shape::height, {0, 0}, {1, 0}, 1, 0, {}});
   for (std::size_t i = 0; i < streets.tensor.fields.size(); ++i) {
     const CityTensorField& field = streets.tensor.fields[i];
     Base base;
@@ -37,6 +41,7 @@ TensorField::TensorField(const CityStreets& streets, const Region& region, std::
     base.size = field.size * 100;
     if (field.field_type == CityFieldType::grid) base.grid = grid_of(field.angle);
     if (field.field_type == CityFieldType::radial) base.shape = Shape::radial;
+    if (field.field_type == CityFieldType::height) base.shape = Shape::height;
     if (field.field_type == CityFieldType::polyline) {
       base.shape = Shape::line;
       CmRing line;
@@ -58,11 +63,17 @@ TensorField::TensorField(const CityStreets& streets, const Region& region, std::
   }
 }
 
-dvec2 TensorField::tensor_of(const Base& base, const dvec2& cm, double& squared_distance) {
+dvec2 TensorField::tensor_of(const Base& base, const dvec2& cm, double& squared_distance) const {
   const dvec2 off = cm - base.position;
   squared_distance = glm::dot(off, off);
   if (base.shape == Shape::grid) return base.grid;
   if (base.shape == Shape::radial) return doubled(off);
+  if (base.shape == Shape::height) {
+    if (!landform_) return {0, 0};
+    // Along the contour; full weight from a slope of 1:10.
+    const dvec2 rise = landform_->gradient(cm / 100.0);
+    return doubled({0 - rise.y, rise.x}) * std::min(1.0, std::sqrt(glm::dot(rise, rise)) * 10);
+  }
   squared_distance = 1e300;
   dvec2 along{0};
   for (const CmRing& line : base.lines) {

@@ -17,14 +17,17 @@ struct CityTensorField;
 namespace seedmesh::city {
 
 struct GrowthInput;
+class Landform;
 struct Route;
 
 /// A symmetric traceless tensor R [[cos 2a, sin 2a], [sin 2a, -cos 2a]] at each position: the weighted sum of the base
 /// fields and of a weak grid. Immutable; threads may share it.
 class TensorField {
  public:
-  /// Copies the fields and the shores of the region. Issues: a line or boundary without a position to follow.
-  TensorField(const CityStreets& streets, const Region& region, std::vector<Issue>& issues);
+  /// Copies the fields and the shores of the region. `landform`, null on level ground, has to outlive the field. The
+  /// pattern slope adds a field of heights. Issues: a line or boundary without a position to follow.
+  TensorField(const CityStreets& streets, const Region& region, const Landform* landform,
+              std::vector<Issue>& issues);
 
   /// R cos 2a and R sin 2a at a position in centimetres.
   glm::dvec2 tensor_at(const glm::dvec2& cm) const;
@@ -34,16 +37,17 @@ class TensorField {
   glm::dvec2 direction_at(const glm::dvec2& cm) const;
 
  private:
-  enum class Shape { grid, radial, line };
+  enum class Shape { grid, radial, line, height };
   struct Base {
     Shape shape = Shape::grid;
     glm::dvec2 position{0}, grid{1, 0};
     double weight = 1, size = 0;  ///< size in centimetres; 0: everywhere alike
     std::vector<CmRing> lines;
   };
-  static glm::dvec2 tensor_of(const Base& base, const glm::dvec2& cm, double& squared_distance);
+  glm::dvec2 tensor_of(const Base& base, const glm::dvec2& cm, double& squared_distance) const;
 
   std::vector<Base> bases_;
+  const Landform* landform_;
 };
 
 /// The major streets: streamlines of both directions about `major_spacing` apart (Jobard and Lefer, "Creating evenly

@@ -59,6 +59,25 @@ std::vector<dvec2> lattice_of(const Region& region) {
 
 namespace {
 
+std::vector<StreetPiece> pieces_between(const std::array<CmPoint, 2>& ends) {
+  const dvec2 start = in_cm(ends[0]), along = in_cm(ends[1]) - start;
+  const int count = std::max(1, math::to_int32(distance(ends[0], ends[1]) / piece_length));
+  std::vector<StreetPiece> pieces;
+  CmPoint last = ends[0];
+  for (int n = 1; n <= count; ++n) {
+    const CmPoint next = rounded_cm(start + along * (static_cast<double>(n) / count));
+    pieces.push_back({last, next, static_cast<std::uint32_t>(EdgeClass::major)});
+    last = next;
+  }
+  return pieces;
+}
+
+bool is_too_steep(const GrowthInput& input, const std::vector<StreetPiece>& pieces) {
+  return std::any_of(pieces.begin(), pieces.end(), [&](const StreetPiece& piece) {
+    return input.is_too_steep(in_cm(piece.a), in_cm(piece.b), input.streets.classes.major.grade);
+  });
+}
+
 std::vector<StreetPiece> longest_line(const GrowthInput& input) {
   std::vector<std::pair<double, dvec2>> from;
   for (const dvec2& p : lattice_of(input.region)) {
@@ -73,20 +92,12 @@ std::vector<StreetPiece> longest_line(const GrowthInput& input) {
       for (int k = 0; k < directions; ++k) {
         const math::SinCos turn = math::sincos_degrees(input.streets.angle + 180.0 * k / directions);
         const auto ends = line_through(input.region, p, {turn.cos, turn.sin}, least_sine);
+        if (ends && is_too_steep(input, pieces_between(*ends))) continue;
         if (ends && (!best || distance((*ends)[0], (*ends)[1]) > distance((*best)[0], (*best)[1])))
           best = ends;
       }
       if (!best) continue;
-      const dvec2 start = in_cm((*best)[0]), along = in_cm((*best)[1]) - start;
-      const int count = std::max(1, math::to_int32(distance((*best)[0], (*best)[1]) / piece_length));
-      std::vector<StreetPiece> pieces;
-      CmPoint last = (*best)[0];
-      for (int n = 1; n <= count; ++n) {
-        const CmPoint next = rounded_cm(start + along * (static_cast<double>(n) / count));
-        pieces.push_back({last, next, static_cast<std::uint32_t>(EdgeClass::major)});
-        last = next;
-      }
-      return pieces;
+      return pieces_between(*best);
     }
   }
   return {};
@@ -115,16 +126,6 @@ std::vector<StreetPiece> through_street(const GrowthInput& input, const Job& job
   OneRoad road(input);
   input.grammar.grow({{0, 0, 0, 1}}, road, 1000, job);
   return std::move(road.pieces);
-}
-
-bool GrowthInput::is_blocked(const dvec2& a, const dvec2& b) const {
-  if (!obstacles) return false;
-  const dvec2 along = b - a;
-  const std::int32_t count = math::to_int32(std::sqrt(along.x * along.x + along.y * along.y) / 400) + 1;
-  for (std::int32_t n = 0; n <= count; ++n) {
-    if (is_blocked((a + along * (static_cast<double>(n) / count)) / 100.0)) return true;
-  }
-  return false;
 }
 
 }  // namespace seedmesh::city

@@ -5,6 +5,8 @@
 #include <algorithm>
 
 #include "core/base/parallel.h"
+#include "core/generators/fractal/element.h"
+#include "generated/params/fractal.h"
 
 namespace seedmesh::fractal {
 namespace {
@@ -81,16 +83,16 @@ class Wheel {
   std::vector<Column> columns_;
 };
 
-glm::dvec3 drawn_start(Rng rng) {
+glm::dvec3 drawn_in_cube(Rng& rng) {
   const double x = rng.uniform(-0.5, 0.5), y = rng.uniform(-0.5, 0.5), z = rng.uniform(-0.5, 0.5);
   return {x, y, z};
 }
 
 /// Plays four alternating chains. Two random words are enough for one step of all four.
-void play_chunk(const Wheel& wheel, Rng rng, std::uint32_t drop, std::span<glm::vec3> position,
-                std::span<std::uint8_t> map) {
+void play_chunk(const Wheel& wheel, const StartPoints& start, Rng rng, std::uint32_t drop,
+                std::span<glm::vec3> position, std::span<std::uint8_t> map) {
   std::array<glm::dvec3, lanes> point;
-  for (std::size_t lane = 0; lane < lanes; ++lane) point[lane] = drawn_start(rng.at("start").at(lane));
+  for (std::size_t lane = 0; lane < lanes; ++lane) point[lane] = start.draw(rng.at("start").at(lane));
   Rng bits = rng.at("spin");
   const auto turn = [&](auto&& keep) {
     const std::uint64_t first = bits.next(), second = bits.next();
@@ -114,8 +116,8 @@ void play_chunk(const Wheel& wheel, Rng rng, std::uint32_t drop, std::span<glm::
 }
 
 /// Plays one chain.
-void play_alone(const Wheel& wheel, Rng rng, std::uint32_t drop, Cloud& cloud) {
-  glm::dvec3 point = drawn_start(rng.at("start"));
+void play_alone(const Wheel& wheel, const StartPoints& start, Rng rng, std::uint32_t drop, Cloud& cloud) {
+  glm::dvec3 point = start.draw(rng.at("start"));
   Rng bits = rng.at("spin");
   const std::size_t steps = drop + cloud.position.size();
   for (std::size_t i = 0; i < steps; ++i) {
@@ -129,19 +131,58 @@ void play_alone(const Wheel& wheel, Rng rng, std::uint32_t drop, Cloud& cloud) {
 
 }  // namespace
 
-Cloud play(const Instructions& instructions, std::uint64_t count, std::uint32_t drop, Job& job) {
+StartPoints::StartPoints(std::span<const Primitive> element) {
+  double sum = 0;
+  for (const Primitive& primitive : element) {
+    const Mesh& mesh = primitive.mesh;
+    const std::size_t corners = mesh.topology == Topology::triangles ? 3 : 2;
+    if (mesh.topology == Topology::points) continue;
+    const auto at = [&](std::size_t i) { return glm::dvec3(mesh.position[mesh.index.at(i)]); };
+    for (std::size_t i = 0; i + corners <= mesh.index.size(); i += corners) {
+      const glm::dvec3 a = at(i), ab = at(i + 1) - a, ac = corners == 3 ? at(i + 2) - a : glm::dvec3(0);
+      sum += corners == 3 ? glm::length(glm::cross(ab, ac)) / 2 : glm::length(ab);
+      pieces_.push_back({a, ab, ac, sum});
+    }
+  }
+  if (!(sum > 0)) pieces_.clear();
+}
+
+glm::dvec3 StartPoints::draw(Rng rng) const {
+  if (pieces_.empty()) return drawn_in_cube(rng);
+  const double wanted = rng.unit() * pieces_.back().until;
+  auto found = std::ranges::upper_bound(pieces_, wanted, {}, &Piece::until);
+  if (found == pieces_.end()) --found;
+  double u = rng.unit(), v = rng.unit();
+  if (found->ac != glm::dvec3(0) && u + v > 1) {  // the other half of the parallelogram
+    u = 1 - u;
+    v = 1 - v;
+  }
+  return found->a + u * found->ab + v * found->ac;
+}
+
+Result<StartPoints> start_of(const FractalParams& params, const GenerateContext& context) {
+  if (params.start == FractalStart::cube) return StartPoints();
+  // The element is not a part of the model, so its triangles do not count.
+  Job own = context.job.for_estimate();
+  const Result<Element> element = element_of(params, {own, {}, context.generators});
+  if (!element) return element.error();
+  return StartPoints(element->primitives);
+}
+
+Cloud play(const Instructions& instructions, const StartPoints& start, std::uint64_t count,
+           std::uint32_t drop, Job& job) {
   job.spend(Resource::triangles, count);
   const auto size = static_cast<std::size_t>(count);
   Cloud cloud{Array<glm::vec3>(job, size), Array<std::uint8_t>(job, size)};
   const Wheel wheel(instructions);
   const Rng rng = job.rng().at("chaos");
   if (size <= chunk) {
-    play_alone(wheel, rng, drop, cloud);
+    play_alone(wheel, start, rng, drop, cloud);
     return cloud;
   }
   parallel_for(job, size, chunk, [&](std::size_t begin, std::size_t end, std::size_t index) {
     job.check();
-    play_chunk(wheel, rng.at(index), drop, cloud.position.span().subspan(begin, end - begin),
+    play_chunk(wheel, start, rng.at(index), drop, cloud.position.span().subspan(begin, end - begin),
                cloud.map.span().subspan(begin, end - begin));
   });
   return cloud;

@@ -7,6 +7,7 @@
 #include "core/base/math.h"
 #include "core/generators/child.h"
 #include "core/generators/fractal/faces.h"
+#include "core/generators/specular.h"
 #include "core/geom/mesh/flatten.h"
 #include "core/gltf/read/read.h"
 #include "generated/params/fractal.h"
@@ -220,6 +221,7 @@ Material plain_material(const FractalParams& params) {
                            1};
   }
   material.roughness = 0.9F;
+  set_specular(material, params.specular);
   return material;
 }
 

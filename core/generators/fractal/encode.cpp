@@ -21,8 +21,11 @@ void put_float(std::uint8_t* out, float value) {
   for (unsigned shift = 0; shift < 32; shift += 8) *out++ = static_cast<std::uint8_t>(bits >> shift);
 }
 
-Array<std::uint8_t> ply_of(const FractalParams& params, Job& job) {
-  const Cloud cloud = play(instructions_of(params), static_cast<std::uint64_t>(params.points),
+Result<Array<std::uint8_t>> ply_of(const FractalParams& params, const GenerateContext& context) {
+  Job& job = context.job;
+  const Result<StartPoints> start = start_of(params, context);
+  if (!start) return start.error();
+  const Cloud cloud = play(instructions_of(params), *start, static_cast<std::uint64_t>(params.points),
                            static_cast<std::uint32_t>(params.drop), job);
   const std::size_t count = cloud.position.size();
   const std::string head = "ply\nformat binary_little_endian 1.0\ncomment Seedmesh fractal\nelement vertex " +
@@ -71,7 +74,7 @@ Array<std::uint8_t> colored(const FractalParams& params, const EscapeField& fiel
 Result<Array<std::uint8_t>> encode(const FractalParams& params, const WantedFormat& format,
                                    const GenerateContext& context) {
   Job& job = context.job;
-  if (format.format == "ply") return ply_of(params, job);
+  if (format.format == "ply") return ply_of(params, context);
   const EscapeField field = escape_field(params, job);
   return format.format == "png16" ? grey_of(field, job) : colored(params, field, job);
 }

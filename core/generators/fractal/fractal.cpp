@@ -67,6 +67,10 @@ void scale_mesh(Solid& solid, double size) {
 /// Adds one stage of a copy machine. Returns the number of edges at which four faces meet.
 std::uint64_t add_stage(Model& model, int parent, const FractalParams& params,
                         const Instructions& instructions, const Element& element, int rounds, Job& job) {
+  if (params.smallest > 0) {
+    add_divided(model, parent, instructions, element, {rounds, params.size, params.smallest}, job);
+    return 0;
+  }
   const std::optional<Lattice> lattice = visible_lattice(params, instructions);
   if (!lattice) {
     add_pieces(model, parent, instructions, element, rounds, params.size, job);
@@ -124,9 +128,11 @@ Result<Model> generate_cloud(const FractalParams& params, const GenerateContext&
     model.materials.push_back(plain_material(params));
     model.materials.back().unlit = params.cloud == FractalCloud::points;
   }
+  const Result<StartPoints> start = start_of(params, context);
+  if (!start) return start.error();
   each_stage(model, params, params.points, job, [&](int node, std::int64_t count) {
-    Cloud cloud =
-        play(instructions, static_cast<std::uint64_t>(count), static_cast<std::uint32_t>(params.drop), job);
+    Cloud cloud = play(instructions, *start, static_cast<std::uint64_t>(count),
+                       static_cast<std::uint32_t>(params.drop), job);
     job.progress("mesh", 0);
     for (glm::vec3& p : cloud.position) p *= static_cast<float>(params.size);
     add_cloud(model, node, params, std::move(cloud), element, job);
@@ -167,7 +173,7 @@ Result<Model> generate_by_method(const FractalParams& params, const GenerateCont
 Json vector(const glm::vec3& v) { return Json::array({v.x + 0.0F, v.y + 0.0F, v.z + 0.0F}); }
 
 /// Figures of one stage: after a number of rounds, or of points.
-Measure measure_stage(const FractalParams& params, std::int64_t amount, Job& job) {
+Measure measure_stage(const FractalParams& params, const StartPoints& start, std::int64_t amount, Job& job) {
   Measure result;
   if (params.method == FractalMethod::escape) {
     const auto side = static_cast<double>(params.escape.resolution);
@@ -176,10 +182,12 @@ Measure measure_stage(const FractalParams& params, std::int64_t amount, Job& job
   }
   const Instructions instructions = instructions_of(params);
   const bool is_copied = params.method == FractalMethod::mrcm;
+  if (is_copied && params.smallest > 0)
+    return measure_divided(params, instructions, static_cast<int>(amount), job);
   result = measure(params, instructions, is_copied ? static_cast<int>(amount) : 0, job);
   if (is_copied) return result;
-  const Cloud cloud =
-      play(instructions, static_cast<std::uint64_t>(amount), static_cast<std::uint32_t>(params.drop), job);
+  const Cloud cloud = play(instructions, start, static_cast<std::uint64_t>(amount),
+                           static_cast<std::uint32_t>(params.drop), job);
   const std::optional<double> dimension = result.dimension;
   result = {};
   result.pieces = static_cast<double>(amount);
@@ -193,6 +201,7 @@ Json json_of(const Measure& measured) {
   if (measured.bounds)
     bounds = {{"min", vector(measured.bounds->min)}, {"max", vector(measured.bounds->max)}};
   return Json{{"pieces", number_or_null(measured.pieces)},
+              {"points", number_or_null(measured.points)},
               {"dimension", number_or_null(measured.dimension)},
               {"exposed_quads", number_or_null(measured.exposed_quads)},
               {"surface_area", number_or_null(measured.surface_area)},
@@ -230,6 +239,9 @@ void check_element(const FractalParams& params, std::vector<Issue>& issues) {
       issues.push_back({IssueKind::conflict, "/element",
                         "found \"plate\", which is the area inside the koch_snowflake of mrcm"});
   }
+  if (is_named(params, FractalElement::plate) && params.smallest > 0)
+    issues.push_back({IssueKind::conflict, "/smallest",
+                      "found a smallest piece, but a \"plate\" is one area and has no pieces"});
   if (params.element.index() == 0) return;
   const FractalElementObject& given = std::get<1>(params.element);
   if (given.model.has_value() == given.glb.has_value()) {
@@ -251,6 +263,12 @@ bool presses_nothing_flat(const Instructions& instructions) {
 /// Triangles and bytes of one stage.
 Estimate estimate_stage(const FractalParams& params, const Instructions& instructions, const Element& element,
                         int rounds, const Job& job) {
+  if (params.smallest > 0) {
+    const DividedCount count =
+        count_divided(instructions, element, {rounds, params.size, params.smallest}, job);
+    return {count.elements * element.elements, count.elements * element.bytes + 12 * count.points + 1000,
+            presses_nothing_flat(instructions)};
+  }
   if (const std::optional<Lattice> lattice = visible_lattice(params, instructions)) {
     refuse_too_many_squares(*lattice, rounds, job);
     const std::optional<double> squares = exposed_quads(*lattice, rounds);
@@ -273,7 +291,8 @@ Result<Appraisal> appraise_copies(const FractalParams& params, const GenerateCon
   if (!element) return std::move(element).error();
   appraisal.warnings = std::move(element->warnings);
   if (is_named(params, FractalElement::plate)) return appraisal;
-  if (params.surface == FractalSurface::merged && visible_lattice(params, instructions)) return appraisal;
+  const bool is_merged = params.surface == FractalSurface::merged && params.smallest == 0;
+  if (is_merged && visible_lattice(params, instructions)) return appraisal;
   Estimate sum{0, 0, true};
   for (const std::int64_t rounds : stages_of(params, params.iterations)) {
     const Estimate stage = estimate_stage(params, instructions, *element, static_cast<int>(rounds), job);
@@ -318,7 +337,8 @@ std::vector<Issue> check(const FractalParams& params, const Limits& limits) {
 std::vector<Warning> warnings_of(const FractalParams& params) {
   std::vector<Warning> warnings = warnings_of(unused_parameters(params));
   // Whether maps fill a lattice is more than x-applies-when can say.
-  const bool is_merged = params.method == FractalMethod::mrcm && params.surface == FractalSurface::merged;
+  const bool is_merged = params.method == FractalMethod::mrcm && params.surface == FractalSurface::merged &&
+                         params.smallest == 0;
   if (is_merged && !visible_lattice(params, instructions_of(params)))
     warnings.push_back(
         {"/surface", "`surface` has no effect unless the maps fill cells of a lattice with cubes.", 0, 0});
@@ -338,10 +358,12 @@ Result<Model> generate(const FractalParams& params, const GenerateContext& conte
 Result<Json> derive(const FractalParams& params, const GenerateContext& context) {
   Job& job = context.job;
   const bool is_copied = params.method == FractalMethod::mrcm;
-  Json answer = json_of(measure_stage(params, is_copied ? params.iterations : params.points, job));
+  const Result<StartPoints> start = is_copied ? StartPoints() : start_of(params, context);
+  if (!start) return start.error();
+  Json answer = json_of(measure_stage(params, *start, is_copied ? params.iterations : params.points, job));
   Json stages = Json::array();
   for (const std::int64_t amount : params.stages) {
-    Json stage = json_of(measure_stage(params, amount, job));
+    Json stage = json_of(measure_stage(params, *start, amount, job));
     stage[is_copied ? "iterations" : "points"] = amount;
     stages.push_back(std::move(stage));
   }

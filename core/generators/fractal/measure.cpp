@@ -183,4 +183,17 @@ Measure measure(const FractalParams& params, const Instructions& instructions, i
   return out;
 }
 
+Measure measure_divided(const FractalParams& params, const Instructions& instructions, int rounds, Job& job) {
+  FractalParams plain = params;
+  plain.element = FractalElement::letter_plate;  // nothing but the dimension is computed
+  Measure result;
+  result.dimension = measure(plain, instructions, 0, job).dimension;
+  Element one;
+  one.elements = 1;
+  const DividedCount count = count_divided(instructions, one, {rounds, params.size, params.smallest}, job);
+  result.points = static_cast<double>(count.points);
+  result.pieces = static_cast<double>(count.elements + count.points);
+  return result;
+}
+
 }  // namespace seedmesh::fractal

@@ -15,6 +15,7 @@ namespace seedmesh::fractal {
 /// In the frame of the unit element. Numbers above 2^53 are the nearest doubles.
 struct Measure {
   double pieces = 0;
+  std::optional<double> points;  ///< of the pieces, those that have become points
   std::optional<double>
       dimension;  ///< similarity dimension: the solution of Moran's equation, sum of scale^D = 1
   std::optional<double> exposed_quads, surface_area, volume, genus, non_manifold_edges;
@@ -27,6 +28,10 @@ struct Measure {
 /// copies touch at most along edges. Cells of other lattices are counted, up to 2^27 cells; so are genus and
 /// edges of all lattices. Throws Stop only for the deadline, a cancellation and the limit of memory.
 Measure measure(const FractalParams& params, const Instructions& instructions, int rounds, const Job& job);
+
+/// The same for pieces down to FractalParams::smallest. Their areas, lengths and bounds have no closed form. Throws
+/// Stop if there are too many (count_divided).
+Measure measure_divided(const FractalParams& params, const Instructions& instructions, int rounds, Job& job);
 
 /// The number of exposed squares in closed form; nullopt if copies leave their block.
 std::optional<double> exposed_quads(const Lattice& lattice, int rounds);

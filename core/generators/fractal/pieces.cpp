@@ -13,13 +13,21 @@ constexpr std::uint64_t most_nodes = 400;
 constexpr std::uint64_t node_bytes = 150;  ///< of JSON
 constexpr double largest_count = 0x1p62;
 
-/// Calls visit(map) for all copies after `rounds`. Needs only a stack with one map for each round.
-template <class Visit>
-void each_copy(const Instructions& instructions, int rounds, const Visit& visit) {
-  std::vector<Affine> stack{Affine{}};
+/// Calls visit(map) for all copies after `rounds`, but point(map) for those for which is_small(map) holds, which
+/// are not divided. Needs only a stack with one map for each round.
+template <class IsSmall, class Visit, class Point>
+void each_division(const Affine& outer, const Instructions& instructions, int rounds, const IsSmall& is_small,
+                   const Visit& visit, const Point& point) {
+  std::vector<Affine> stack{outer};
   std::vector<std::size_t> next{0};
   while (!stack.empty()) {
     const auto depth = static_cast<int>(stack.size()) - 1;
+    if (next.back() == 0 && is_small(stack.back())) {
+      point(compose(stack.back(), instructions.stem));
+      stack.pop_back();
+      next.pop_back();
+      continue;
+    }
     const bool whole = depth == rounds;
     if (next.back() == 0 && (whole || instructions.keeps)) visit(compose(stack.back(), instructions.stem));
     if (whole || next.back() == instructions.maps.size()) {
@@ -31,6 +39,18 @@ void each_copy(const Instructions& instructions, int rounds, const Visit& visit)
     stack.push_back(copy);
     next.push_back(0);
   }
+}
+
+/// Calls visit(map) for all copies after `rounds`.
+template <class Visit>
+void each_copy(const Instructions& instructions, int rounds, const Visit& visit) {
+  const auto never = [](const Affine&) { return false; };
+  each_division({}, instructions, rounds, never, visit, [](const Affine&) {});
+}
+
+const std::vector<Affine>& around_of(const Instructions& instructions) {
+  static const std::vector<Affine> once{Affine{}};
+  return instructions.arrangement.empty() ? once : instructions.arrangement;
 }
 
 bool can_be_nodes(const Instructions& instructions) {
@@ -155,12 +175,10 @@ void add_pieces(Model& model, int parent, const Instructions& instructions, cons
   job.spend(Resource::triangles, whole(plan.pieces) * element.elements);
   MeshGroup group;
   group.name = "copies";
-  const std::vector<Affine> once{Affine{}};
-  const std::vector<Affine>& around = instructions.arrangement.empty() ? once : instructions.arrangement;
   const std::uint64_t copies = whole(plan.pieces) / std::max<std::uint64_t>(plan.nodes, 1);
   for (const Primitive& primitive : element.primitives) {
     CopyJoiner joiner(primitive.mesh, copies, size, job);
-    for (const Affine& outer : around)
+    for (const Affine& outer : around_of(instructions))
       each_copy(instructions, plan.meshed, [&](const Affine& map) { joiner.add(compose(outer, map)); });
     group.primitives.push_back({joiner.take(), primitive.material, {}});
   }
@@ -175,6 +193,70 @@ void add_pieces(Model& model, int parent, const Instructions& instructions, cons
     moved.offset *= size;
     node.instances.transforms.push_back(transform_of(moved, similarity(map).value_or(1)));
   });
+}
+
+DividedCount count_divided(const Instructions& instructions, const Element& element, const Division& division,
+                           const Job& job) {
+  DividedCount count;
+  std::uint64_t visits = 0;
+  const auto check = [&] {
+    if (++visits % 4096 == 0) job.check();
+    const std::uint64_t drawn = count.elements * element.elements + count.points;
+    if (drawn > job.limits().triangles)
+      job.refuse(limit_issue({Resource::triangles, job.limits().triangles, drawn},
+                             "needs more than " + std::to_string(job.limits().triangles) +
+                                 " triangles, lines and points for pieces down to " +
+                                 number_text(division.smallest) + " m, which is the limit",
+                             "/smallest"));
+  };
+  const auto is_small = [&](const Affine& map) {
+    check();
+    return norm(map) * division.size < division.smallest;
+  };
+  for (const Affine& outer : around_of(instructions)) {
+    each_division(
+        outer, instructions, division.rounds, is_small, [&](const Affine&) { ++count.elements; },
+        [&](const Affine&) { ++count.points; });
+  }
+  return count;
+}
+
+void add_divided(Model& model, int parent, const Instructions& instructions, const Element& element,
+                 const Division& division, Job& job) {
+  const DividedCount count = count_divided(instructions, element, division, job);
+  job.spend(Resource::triangles, count.elements * element.elements + count.points);
+  const auto is_small = [&](const Affine& map) { return norm(map) * division.size < division.smallest; };
+  Mesh points;
+  points.topology = Topology::points;
+  points.position = Array<glm::vec3>(job);
+  points.position.reserve(static_cast<std::size_t>(count.points));
+  MeshGroup group;
+  group.name = "copies";
+  for (const Primitive& primitive : element.primitives) {
+    CopyJoiner joiner(primitive.mesh, count.elements, division.size, job);
+    const bool is_first = group.primitives.empty();
+    for (const Affine& outer : around_of(instructions)) {
+      each_division(
+          outer, instructions, division.rounds, is_small, [&](const Affine& map) { joiner.add(map); },
+          [&](const Affine& map) {
+            if (is_first) points.position.push_back(glm::vec3(division.size * map.offset));
+          });
+    }
+    group.primitives.push_back({joiner.take(), primitive.material, {}});
+  }
+  const auto add = [&](MeshGroup meshes) {
+    Node& node = model.nodes.emplace_back();
+    node.name = meshes.name;
+    node.parent = parent;
+    node.mesh = static_cast<int>(model.meshes.size());
+    model.meshes.push_back(std::move(meshes));
+  };
+  if (count.elements > 0) add(std::move(group));
+  if (count.points == 0) return;
+  MeshGroup cloud;
+  cloud.name = "points";
+  cloud.primitives.push_back({std::move(points), 0, {}});
+  add(std::move(cloud));
 }
 
 Mesh scattered(const Mesh& element, std::span<const glm::vec3> positions, double edge, Job& job) {

@@ -28,6 +28,26 @@ Plan plan_of(const Instructions& instructions, const Element& element, int round
 void add_pieces(Model& model, int parent, const Instructions& instructions, const Element& element,
                 int rounds, double size, Job& job);
 
+/// Copies that are divided only while their frame is at least `smallest` wide; smaller ones become points.
+struct Division {
+  int rounds = 0;       ///< at most this number of rounds
+  double size = 1;      ///< edge of the unit element
+  double smallest = 0;  ///< in the unit of `size`
+};
+struct DividedCount {
+  std::uint64_t elements = 0, points = 0;
+};
+
+/// Visits all copies, so it costs about as much as making them. Throws Stop if copies and points exceed the
+/// limit of triangles.
+DividedCount count_divided(const Instructions& instructions, const Element& element, const Division& division,
+                           const Job& job);
+
+/// Adds the remaining copies as meshes, and a mesh of points, in nodes below `parent`. Charges
+/// Resource::triangles.
+void add_divided(Model& model, int parent, const Instructions& instructions, const Element& element,
+                 const Division& division, Job& job);
+
 /// A copy of the mesh, scaled by `edge`, at each position. Spends the triangles.
 Mesh scattered(const Mesh& element, std::span<const glm::vec3> positions, double edge, Job& job);
 

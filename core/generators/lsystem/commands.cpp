@@ -100,6 +100,15 @@ constexpr CommandRow rows[] = {
      "Draws an internode from the origin of a frame along its y axis, with the length of y and the width "
      "of x. The turtle stays.",
      "@F(scale(frame(), 0.2, 1, 0.2))"},
+    {"@N", Command::place_object, "(object[,scale])", 1, 4,
+     "Adds the organ that a parameter refers to: `object` is the name of an entry of `surfaces`, or a "
+     "parameter with "
+     "such a value. One scale, or three, as for `~name`.",
+     "F@N(leaf)"},
+    {"@Nf", Command::place_in_frame, "(frame,object)", 13, 13,
+     "Adds the organ that a parameter refers to in a frame, with the lengths of its axes as scales. The "
+     "turtle stays.",
+     "@Nf(translate(frame(), 0, 1, 0), leaf)"},
 };
 
 }  // namespace

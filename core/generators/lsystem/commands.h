@@ -58,6 +58,8 @@ enum class Command : std::uint8_t {
   contour,
   enter_frame,
   draw_frame,
+  place_object,
+  place_in_frame,
 };
 
 /// Returns true for query modules, whose parameters are filled in between two steps.

@@ -18,6 +18,7 @@ bool is_keyword(std::string_view name) {
 void Compiler::declare_modules() {
   for (const CommandRow& row : commands()) {
     if (row.parameters == "(frame)") signatures_.emplace(row.symbol, std::vector<std::uint8_t>{1});
+    if (row.parameters == "(frame,object)") signatures_.emplace(row.symbol, std::vector<std::uint8_t>{1, 0});
   }
   for (std::size_t i = 0; i < params_.modules.size(); ++i) {
     Source source(params_.modules[i], "/modules/" + std::to_string(i));

@@ -63,6 +63,7 @@ class Compiler {
   void read_axiom();
   void read_rules(const std::string& folder, const std::vector<std::string>& texts, Rules& rules);
   void read_tables();
+  void bind_objects();
   void bind_variables(const lang::Names& values);
   void read_statements_between();
   void check_alone(const Rules& rules, const char* what);

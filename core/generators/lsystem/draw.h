@@ -57,6 +57,9 @@ class Drawing {
   bool can_record() const { return turtle_.can_record(); }
   bool matches(const Turtle::Recording& recording) const { return turtle_.matches(recording); }
   void append_copy(const Turtle::Recording& recording) { turtle_.append_copy(recording); }
+  void pass_copy(const Turtle::Recording& recording, bool is_measured) {
+    turtle_.pass_copy(recording, is_measured);
+  }
   const Job& job() const { return job_; }
   void begin_recording(const Drawing& like, Turtle::Recording& recording) {
     turtle_.begin_recording(like.turtle_, recording);
@@ -98,6 +101,10 @@ class Drawing {
   double length(const Kind& kind, const double* parameters, Keys keys) const;
   double turned_share() const { return grown_.brackets == 0 ? grown_.share : 1; }
   void add_organ(const Kind& kind, const double* parameters, std::uint64_t key);
+  void place_object(const Kind& kind, const double* parameters, double object, const glm::dvec3& scale,
+                    std::uint64_t key);
+  void place_organ(const Kind& kind, const double* parameters, std::uint32_t number, glm::dvec3 scale,
+                   std::uint64_t key);
   void set_contour(const Kind& kind, const double* parameters);
   void set_width(const Kind& kind, const double* parameters, double change);
 

@@ -39,7 +39,12 @@ bool DrawingCache::fits(const Grammar& grammar, const LsystemParams& params, std
   const std::vector<std::uint64_t> counts = exact_counts(grammar, steps);
   std::uint64_t modules = 0;
   for (const std::uint64_t each : counts) modules = sum(modules, each);
-  if (modules < worth_it) return false;
+  return modules >= worth_it && moves_rigidly(grammar, params, steps);
+}
+
+bool DrawingCache::moves_rigidly(const Grammar& grammar, const LsystemParams& params, std::uint32_t steps) {
+  if (!grammar.is_free() || Drawing::needs_keys(grammar, params)) return false;
+  if ((std::size_t{steps} + 1) * grammar.kinds.size() > most_pieces) return false;
   const auto has_parameters = [&](const Production& each) {
     return grammar.kinds[each.predecessor].arity > 0;
   };

@@ -272,6 +272,26 @@ void add_bark(Model& model, Limbs limbs, const BarkUse& use, const LsystemParams
   }
 }
 
+/// Adds the limbs of parts that occur at several places.
+void add_shared(Model& model, std::span<SharedPart> parts, const LsystemParams& params,
+                MaterialSet& material_set, const GenerateContext& context) {
+  Job& job = context.job;
+  for (SharedPart& part : parts) {
+    choose_materials(*part.skeleton, material_set);
+    const std::size_t first = model.nodes.size();
+    Limbs limbs = std::exchange(part.skeleton->limbs, Limbs(job));
+    if (params.style == LsystemParams::Style::tubes) {
+      add_bark(model, std::move(limbs), {}, params, material_set, context);
+    } else {
+      add_meshes(model, "lines", wires(std::move(limbs), job), Sides::one, material_set);
+    }
+    for (std::size_t node = first; node < model.nodes.size(); ++node) {
+      model.nodes[node].name += "_part";
+      model.nodes[node].instances.transforms = part.places;
+    }
+  }
+}
+
 /// Returns the diagonal of the bounds of limbs, polygons and organs.
 float size_of(const Skeleton& skeleton) {
   constexpr float far = std::numeric_limits<float>::max();
@@ -308,7 +328,8 @@ void add_collision(Model& model, const std::vector<LimbBody>& bodies, const Gene
 
 }  // namespace
 
-Model dress(Skeleton skeleton, const LsystemParams& params, const GenerateContext& context) {
+Model dress(Skeleton skeleton, const LsystemParams& params, const GenerateContext& context,
+            std::span<SharedPart> parts) {
   Job& job = context.job;
   Model model;
   model.name = "lsystem";
@@ -334,11 +355,12 @@ Model dress(Skeleton skeleton, const LsystemParams& params, const GenerateContex
     add_meshes(model, "lines", wires(std::exchange(skeleton.limbs, Limbs(job)), job), Sides::one,
                material_set);
   }
+  add_shared(model, parts, params, material_set, context);
   add_meshes(model, "surfaces", polygons(skeleton.outlines, job, bones), Sides::both, material_set);
   add_organs(model, {skeleton.organs, size, bones}, params, material_set, context);
   if (growth) add_growth(model, *growth);
   add_collision(model, bodies, context);
-  if (empty) {
+  if (empty && parts.empty()) {
     model.warnings.push_back(
         {"/axiom", "nothing was drawn: the last word has no F or G, no polygon and no organ", 0, 0});
   } else if (model.meshes.empty() && model.warnings.empty()) {

@@ -1,12 +1,23 @@
 #pragma once
 /// Converts a skeleton to a model: bark or lines, organ surfaces, materials.
+#include <span>
+#include <vector>
+
 #include "core/generators/api.h"
 #include "core/geom/plant/limbs.h"
 #include "generated/params/lsystem.h"
 
 namespace seedmesh::lsystem {
 
-Model dress(Skeleton skeleton, const LsystemParams& params, const GenerateContext& context);
+/// A drawing that occurs at several places.
+struct SharedPart {
+  Skeleton* skeleton;  ///< is consumed
+  std::vector<Transform> places;
+};
+
+/// `parts` become nodes with copies. They have limbs only.
+Model dress(Skeleton skeleton, const LsystemParams& params, const GenerateContext& context,
+            std::span<SharedPart> parts = {});
 
 /// Returns the largest number of segments that can be drawn within limits.triangles. Coincident segments
 /// count each.

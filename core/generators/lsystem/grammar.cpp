@@ -75,10 +75,23 @@ Compiler::Compiler(const LsystemParams& params, std::uint64_t seed, const Limits
       issue.pointer = "/variables/" + name;
     issues_.push_back(std::move(issue));
   }
+  bind_objects();
   for (const WrittenConstant& each : written_constants(params))
     names_.bind_constant(each.name, values.find(each.name)->value);
   bind_variables(values);
   constant_count_ = names_.size();
+}
+
+/// The name of a surface is a reference to it in every expression, unless a constant, a variable or an array has the
+/// name: its number in the order of the names.
+void Compiler::bind_objects() {
+  double number = 0;
+  for (const auto& [name, surface] : params_.surfaces) {
+    const bool is_taken =
+        params_.constants.contains(name) || params_.variables.contains(name) || params_.arrays.contains(name);
+    if (!is_taken) names_.bind_constant(name, number);
+    ++number;
+  }
 }
 
 /// Gives variables and arrays the first slots of all productions.

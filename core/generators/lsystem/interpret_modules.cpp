@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/generators/lsystem/draw.h"
+#include "core/schema/json.h"
 
 namespace seedmesh::lsystem {
 namespace {
@@ -124,16 +125,32 @@ void Drawing::set_contour(const Kind& kind, const double* parameters) {
 /// Reads one scale, or one for each direction: across, along and above the organ.
 void Drawing::add_organ(const Kind& kind, const double* parameters, std::uint64_t key) {
   if (kind.surface == Kind::none) return;
-  const LsystemSurface& surface = *surfaces_[kind.surface];
   glm::dvec3 scale(kind.arity > 0 ? parameters[0] : 1);
   if (kind.arity > 2) scale = {parameters[0], parameters[1], parameters[2]};
+  place_organ(kind, parameters, kind.surface, scale, key);
+}
+
+/// Adds the organ that a parameter refers to.
+void Drawing::place_object(const Kind& kind, const double* parameters, double object, const glm::dvec3& scale,
+                           std::uint64_t key) {
+  const bool is_known =
+      object >= 0 && object < static_cast<double>(surfaces_.size()) && object == std::floor(object);
+  if (!is_known)
+    refuse(kind, parameters,
+           "found " + number_text(object) + " as an object, expected the name of an entry of `surfaces`");
+  place_organ(kind, parameters, static_cast<std::uint32_t>(object), scale, key);
+}
+
+void Drawing::place_organ(const Kind& kind, const double* parameters, std::uint32_t number, glm::dvec3 scale,
+                          std::uint64_t key) {
+  const LsystemSurface& surface = *surfaces_[number];
   scale *= surface.size * turtle_.scale() * grown_.share;
   scale.x *= surface.width;
   constexpr double largest = 1e9;
   if (!(std::max({scale.x, scale.y, scale.z}) < largest)) {
     refuse(kind, parameters, "the organ is larger than 1e9 metres");
   }
-  if (scale.x > 0 && scale.y > 0 && scale.z > 0) turtle_.place_organ(kind.surface, scale, surface.color, key);
+  if (scale.x > 0 && scale.y > 0 && scale.z > 0) turtle_.place_organ(number, scale, surface.color, key);
 }
 
 void Drawing::close_polygon(std::uint64_t key) {
@@ -294,6 +311,19 @@ void Drawing::execute_state(const Kind& kind, const double* parameters, std::uin
       enter_frame(parameters);
       turtle_.set_width(finite(length_of(parameters), kind, parameters));
       turtle_.draw_plain(length_of(parameters + 3) * grown_.share, key);
+      return turtle_.pop();
+    case Command::place_object: {
+      const double* by = parameters + 1;
+      const glm::dvec3 scale =
+          kind.arity > 3 ? glm::dvec3(by[0], by[1], by[2]) : glm::dvec3(kind.arity > 1 ? by[0] : 1);
+      return place_object(kind, parameters, parameters[0], scale, key);
+    }
+    case Command::place_in_frame:
+      turtle_.push();
+      enter_frame(parameters);
+      turtle_.set_scale(1);
+      place_object(kind, parameters, parameters[12],
+                   {length_of(parameters), length_of(parameters + 3), length_of(parameters + 6)}, key);
       return turtle_.pop();
     default:  // nothing to draw: queries, cuts and symbols that the turtle does not know
       return;

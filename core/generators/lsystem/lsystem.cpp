@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -17,10 +18,12 @@
 #include "core/generators/lsystem/materials.h"
 #include "core/generators/lsystem/open_systems.h"
 #include "core/generators/lsystem/shape.h"
+#include "core/generators/lsystem/shared_parts.h"
 #include "core/generators/lsystem/surfaces.h"
 #include "core/generators/lsystem/text.h"
 #include "core/generators/lsystem/welded.h"
 #include "core/generators/lsystem/word.h"
+#include "core/generators/lsystem/word_warnings.h"
 #include "core/schema/warning_list.h"
 
 namespace seedmesh::lsystem {
@@ -166,52 +169,8 @@ void refuse_too_many_segments(const Grammar& grammar, const LsystemParams& param
   }
 }
 
-std::uint64_t count_of(const Grammar& grammar, const std::vector<std::uint64_t>& counts, Command command) {
-  std::uint64_t sum = 0;
-  for (std::size_t kind = 0; kind < counts.size(); ++kind) {
-    const Kind& each = grammar.kinds[kind];
-    const bool is_there = command != Command::organ || each.surface != Kind::none;
-    if (each.command == command && is_there) sum += std::min(saturated, counts[kind]);
-  }
-  return sum;
-}
-
-/// Warns of unmatched braces, which draw nothing.
-void warn_of_braces(std::uint64_t open, std::uint64_t stray, std::vector<Warning>& warnings) {
-  const auto amount = [](std::uint64_t count, const char* what) {
-    return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
-  };
-  if (open > 0) {
-    warnings.push_back({"/axiom",
-                        amount(open, "polygon") + (open == 1 ? " is" : " are") +
-                            " not closed in the last word and not drawn: found `{` without its `}`",
-                        0, 0});
-  }
-  if (stray > 0) {
-    warnings.push_back(
-        {"/axiom", "found " + amount(stray, "`}`") + " without a `{` before it in the last word", 0, 0});
-  }
-}
-
 void warn_of_braces(const Drawing& drawing, std::vector<Warning>& warnings) {
-  warn_of_braces(drawing.open_polygons(), drawing.stray_closings(), warnings);
-}
-
-/// Adds the warnings that follow from the counts of the last word.
-void warn_of_word(const Grammar& grammar, const std::vector<std::uint64_t>& counts,
-                  std::vector<Warning>& warnings) {
-  const std::uint64_t open = count_of(grammar, counts, Command::polygon_open);
-  const std::uint64_t closed = count_of(grammar, counts, Command::polygon_close);
-  if (open < saturated && closed < saturated)
-    warn_of_braces(open > closed ? open - closed : 0, closed > open ? closed - open : 0, warnings);
-  constexpr Command drawing[] = {Command::draw,      Command::draw_plain,    Command::polygon_close,
-                                 Command::organ,     Command::sweep_control, Command::sweep_end,
-                                 Command::draw_frame};
-  if (std::any_of(std::begin(drawing), std::end(drawing),
-                  [&](Command each) { return count_of(grammar, counts, each) > 0; }))
-    return;
-  warnings.push_back(
-      {"/axiom", "nothing will be drawn: the last word has no F or G, no polygon and no organ", 0, 0});
+  lsystem::warn_of_braces(drawing.open_polygons(), drawing.stray_closings(), warnings);
 }
 
 Json vector(const glm::dvec3& v) { return Json::array({v.x + 0.0, v.y + 0.0, v.z + 0.0}); }
@@ -260,8 +219,14 @@ Result<Model> generate(const LsystemParams& params, const GenerateContext& conte
   Job& job = context.job;
   Result<Grammar> grammar = compiled(params, job);
   if (!grammar) return std::move(grammar).error();
-  refuse_explosion(*grammar, steps_of(params), job);
   job.progress("derive", 0);
+  if (has_shared_parts(*grammar, params, steps_of(params), context)) {
+    const Job::PointerScope scope(job, pointer_of_size(params));
+    Model model = shared_model(*grammar, params, steps_of(params), context);
+    std::ranges::move(grammar->warnings, std::back_inserter(model.warnings));
+    return model;
+  }
+  refuse_explosion(*grammar, steps_of(params), job);
   Skeleton skeleton(job);
   std::unique_ptr<OpenSystems> systems;
   {
@@ -285,6 +250,7 @@ Result<Model> generate(const LsystemParams& params, const GenerateContext& conte
   Model model = dress(std::move(skeleton), params, context);
   if (systems) systems->add_others(model);
   warn_of_welded(params, model.warnings);
+  warn_of_whole(params, model.warnings);
   for (Warning& warning : grammar->warnings) model.warnings.push_back(std::move(warning));
   return model;
 }
@@ -293,8 +259,10 @@ Result<Json> derive(const LsystemParams& params, const GenerateContext& context)
   Job& job = context.job;
   Result<Grammar> grammar = compiled(params, job);
   if (!grammar) return std::move(grammar).error();
-  refuse_explosion(*grammar, steps_of(params), job);
-  Drawing drawing(*grammar, params, nullptr, context);
+  const bool shares = has_shared_parts(*grammar, params, steps_of(params), context);
+  if (!shares) refuse_explosion(*grammar, steps_of(params), job);
+  Skeleton top(job);  // of a drawing with shared parts, without them
+  Drawing drawing(*grammar, params, shares ? &top : nullptr, context);
   TextWriter writer(*grammar, longest_text);
   std::vector<std::uint64_t> counts;
   Json turtle;
@@ -304,7 +272,10 @@ Result<Json> derive(const LsystemParams& params, const GenerateContext& context)
       grow_and_tell(*grammar, params, writer, turtle, context);
       counts = writer.counts();
     } else if (is_plain(*grammar)) {
-      draw(*grammar, params, drawing, context);
+      if (shares)
+        measure_shared(*grammar, params, steps_of(params), drawing, context);
+      else
+        draw(*grammar, params, drawing, context);
       const Array<char> text = plain_text(*grammar, steps_of(params), longest_text, job);
       writer.text.assign(text.begin(), text.end());
       counts = exact_counts(*grammar, steps_of(params));
@@ -357,6 +328,8 @@ Result<Appraisal> appraise(const LsystemParams& params, const GenerateContext& c
   if (!grammar) return std::move(grammar).error();
   Appraisal appraisal;
   appraisal.warnings = grammar->warnings;
+  if (has_shared_parts(*grammar, params, steps_of(params), context)) return appraisal;
+  warn_of_whole(params, appraisal.warnings);
   refuse_explosion(*grammar, steps_of(params), job);
   if (OpenSystems::needed(*grammar, params)) return appraisal;
   const std::vector<std::uint64_t> counts = exact_counts(*grammar, steps_of(params));
@@ -376,6 +349,7 @@ Result<Appraisal> appraise(const LsystemParams& params, const GenerateContext& c
 /// In written form, a frame is one parameter.
 static Json arity_of(const CommandRow& row) {
   if (row.parameters == "(frame)") return Json::array({1, 1});
+  if (row.parameters == "(frame,object)") return Json::array({2, 2});
   return Json::array({row.least, row.most});
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/generators/specular.h"
 #include "core/texture/data_uri.h"
 
 namespace seedmesh::lsystem {
@@ -126,6 +127,7 @@ Material MaterialSet::make(std::size_t index) const {
         glm::vec3(linear_of_srgb(glow.red), linear_of_srgb(glow.green), linear_of_srgb(glow.blue)) *
         static_cast<float>(given.emission->strength);
   }
+  set_specular(material, given.specular);
   if (has_texture(given)) {
     material.recipe = {std::string(text_of(given.texture)), static_cast<std::uint64_t>(given.texture_seed),
                        main_color(given.color)};

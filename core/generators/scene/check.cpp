@@ -55,9 +55,9 @@ class Checker {
       return;
     }
     const Json parameters = Json::parse(terrain.parameters);
-    if (parameters.value("shape", "plane") != "plane")
+    if (const std::string shape = parameters.value("shape", "plane"); shape != "plane")
       add(IssueKind::not_available, "/terrain/parameters/shape",
-          "found a sphere; the ground of a scene is a plane");
+          "found a " + shape + "; the ground of a scene is a plane");
     if (parameters.contains("onto"))
       add(IssueKind::not_available, "/terrain/parameters/onto",
           "the ground of a scene cannot follow a model");

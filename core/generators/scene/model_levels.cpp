@@ -59,8 +59,8 @@ bool is_same(const Material& a, const Material& b, Seeds seeds) {
   return same_recipe && a.base_color == b.base_color && a.metallic == b.metallic &&
          a.roughness == b.roughness && a.emissive == b.emissive && a.alpha_mode == b.alpha_mode &&
          a.alpha_cutoff == b.alpha_cutoff && a.double_sided == b.double_sided && a.unlit == b.unlit &&
-         a.specular == b.specular && a.transmission == b.transmission &&
-         a.transmission_color == b.transmission_color &&
+         a.specular == b.specular && a.specular_color == b.specular_color &&
+         a.transmission == b.transmission && a.transmission_color == b.transmission_color &&
          is_same(a.base_color_texture, b.base_color_texture) && is_same(a.normal_texture, b.normal_texture) &&
          is_same(a.metallic_roughness_texture, b.metallic_roughness_texture) &&
          is_same(a.occlusion_texture, b.occlusion_texture) && is_same(a.emissive_texture, b.emissive_texture);

@@ -15,6 +15,7 @@
 #include "core/generators/scene/list.h"
 #include "core/generators/scene/model_variants.h"
 #include "core/generators/scene/patterns.h"
+#include "core/generators/scene/words.h"
 #include "core/geom/mesh/finish.h"
 #include "core/gltf/compress/pack.h"
 #include "generated/params/scene.h"
@@ -179,7 +180,13 @@ Result<Json> derive(const SceneParams& params, const GenerateContext& context) {
   if (!ground) return std::move(ground).error();
   Planting planting = plant(params, *ground, job);
   warn_of_outlines(params, planting);
-  return placements_json(params, *ground, planting, variant_table_of(params, job), job);
+  const VariantTable variant_table = variant_table_of(params, job);
+  Json answer = placements_json(params, *ground, planting, variant_table, job);
+  if (!params.words) return answer;
+  Result<Json> words = words_of(planting, variant_table, context);
+  if (!words) return words;
+  answer["words"] = *std::move(words);
+  return answer;
 }
 
 Result<Appraisal> appraise(const SceneParams& params, const GenerateContext& context) {

@@ -6,6 +6,7 @@
 
 #include "core/generators/terrain/layers.h"
 #include "core/generators/terrain/plan.h"
+#include "core/generators/terrain/profile.h"
 #include "core/generators/terrain/triangulation.h"
 #include "core/schema/json.h"
 #include "generated/params/terrain.h"
@@ -30,6 +31,7 @@ class Check {
     iterations();
     heights();
     if (params_.shape == TerrainShape::sphere) sphere();
+    profile();
     if (params_.tile) tile();
     if (params_.hydraulic) hydraulic();
     if (params_.onto) onto();
@@ -63,13 +65,13 @@ class Check {
 
   void belongings() {
     using enum TerrainAlgorithm;
-    belongs("resolution", params_.resolution, {fault_formation, poisson_faulting, fbm, expression});
+    belongs("resolution", params_.resolution, {fault_formation, poisson_faulting, fbm, brownian, expression});
     belongs("expression", params_.expression, {expression});
     if (is({expression}) && !params_.expression)
       fault(IssueKind::missing, "",
             "\"expression\" is missing; the algorithm expression takes its heights from it");
-    belongs("amplitude", params_.amplitude, {triangular_edge, diamond_square, square_square, fbm});
-    belongs("hurst", params_.hurst, {triangular_edge, diamond_square, square_square, fbm});
+    belongs("amplitude", params_.amplitude, {triangular_edge, diamond_square, square_square, fbm, brownian});
+    belongs("hurst", params_.hurst, {triangular_edge, diamond_square, square_square, fbm, brownian});
     belongs("corners", params_.corners, {triangular_edge, diamond_square});
     belongs("grid", params_.grid, {square_square});
     belongs("edge", params_.edge, {diamond_square});
@@ -101,7 +103,7 @@ class Check {
         "found " + std::to_string(planned) +
         (params_.extra_iterations > 0 ? " and " + std::to_string(params_.extra_iterations) + " extra" : "");
     using enum TerrainAlgorithm;
-    if (is({image, expression})) {
+    if (is({image, expression, brownian})) {
       const std::string reason =
           std::string("the algorithm ") + std::string(text_of(params_.algorithm)) + " has no iterations";
       if (params_.iterations) fault(IssueKind::conflict, "/iterations", reason);
@@ -180,10 +182,14 @@ class Check {
                 std::to_string(longest_sphere) + " samples along an edge of the cube of a sphere");
     if (params_.fault_step.value_or(TerrainFaultStep::hard) != TerrainFaultStep::hard)
       fault(IssueKind::not_available, "/fault_step", "a sphere has only hard steps");
+    planes_only("a sphere");
+  }
+
+  void planes_only(const std::string& shape) {
     const auto refuse = [&](bool given, const char* pointer) {
       if (given)
         fault(IssueKind::not_available, pointer,
-              "a sphere does not have this parameter; expected the shape plane");
+              shape + " does not have this parameter; expected the shape plane");
     };
     refuse(params_.tile.has_value(), "/tile");
     refuse(params_.smooth > 0, "/smooth");
@@ -198,6 +204,34 @@ class Check {
     refuse(params_.base.has_value(), "/base");
     refuse(params_.texture > 0, "/texture");
     refuse(params_.detail, "/detail");
+    if (params_.shape != TerrainShape::profile) return;
+    refuse(!params_.layers.empty(), "/layers");
+    refuse(params_.water_level.has_value(), "/water_level");
+    refuse(params_.onto.has_value(), "/onto");
+  }
+
+  /// The graph of one line.
+  void profile() {
+    using enum TerrainAlgorithm;
+    const bool is_profile = params_.shape == TerrainShape::profile;
+    if (is({brownian})) {
+      if (!is_profile)
+        fault(IssueKind::conflict, "/shape",
+              "found \"" + std::string(text_of(params_.shape)) +
+                  "\"; brownian is a motion along a line, expected \"profile\"");
+      if (params_.hurst && !(*params_.hurst > 0 && *params_.hurst < 1))
+        fault(IssueKind::out_of_range, "/hurst",
+              "found " + number_text(*params_.hurst) + "; brownian needs more than 0 and less than 1");
+      if (made_side(params_) > longest_brownian)
+        fault(IssueKind::out_of_range, "/resolution",
+              "found " + std::to_string(made_side(params_)) + "; expected at most " +
+                  std::to_string(longest_brownian) + " samples of brownian");
+    }
+    if (!is_profile) return;
+    if (!is({brownian, fbm}))
+      fault(IssueKind::not_available, "/shape",
+            std::string(text_of(params_.algorithm)) + " has no profile; expected brownian or fbm");
+    planes_only("a profile");
   }
 
   void tile() {

@@ -69,9 +69,10 @@ class Dressing {
     model.nodes.push_back(std::move(root));
     if (has_detail()) {
       sites_.emplace(sites());
-      classes_.emplace(palette_of(params_), field_, window_of(params_), *sites_, ground_colors_, model);
+      classes_.emplace(palette_of(params_), field_, window_of(params_), *sites_, ground_colors_,
+                       ground_material(params_.specular), model);
     }
-    const int ground = has_detail() ? -1 : add_material(model, ground_material());
+    const int ground = has_detail() ? -1 : add_material(model, ground_material(params_.specular));
     if (params_.texture > 0) {
       add_pictures(model, ground);
     } else if (params_.palette != TerrainPalette::none &&

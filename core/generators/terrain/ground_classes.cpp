@@ -123,7 +123,7 @@ Mesh empty_like(const Job& job) {
 }  // namespace
 
 GroundClasses::GroundClasses(PaletteName palette, const Field& field, const Window& world, const Sites& sites,
-                             const GroundColors& colors, Model& model)
+                             const GroundColors& colors, const Material& plain, Model& model)
     : palette_(palette), field_(field), world_(world), colors_(colors) {
   Shares all;
   float count = 0;
@@ -137,7 +137,7 @@ GroundClasses::GroundClasses(PaletteName palette, const Field& field, const Wind
   }
   for (int i = 0; i < kind_count; ++i) {
     if (all.of[i] < least_share * count) continue;
-    Material material = ground_material();
+    Material material = plain;
     const std::string kind = std::string(names[static_cast<std::size_t>(i)]) + "_ground";
     material.name = kind;
     material.recipe.kind = kind;

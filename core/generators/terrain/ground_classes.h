@@ -14,11 +14,12 @@ namespace seedmesh::terrain {
 
 class GroundClasses {
  public:
-  /// Finds the classes that cover at least a hundredth of the field, and adds their materials to the model.
+  /// Finds the classes that cover at least a hundredth of the field, and adds their materials to the model: `plain`
+  /// with the textures of the class.
   /// `field` and `colors` are borrowed; `world` is the window of the field in its world, whose tiles have equal
   /// colours at common borders. 40 ns for each of at most 65,536 samples.
   GroundClasses(PaletteName palette, const Field& field, const Window& world, const Sites& sites,
-                const GroundColors& colors, Model& model);
+                const GroundColors& colors, const Material& plain, Model& model);
 
   /// The mesh in one primitive for each class, with texture coordinates in set 1 and tangents. Vertices between
   /// classes or sides are duplicated. Vertex colours are brightened by what the grey textures darken, and vary more

@@ -1,5 +1,6 @@
 #include "core/generators/terrain/image.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -11,6 +12,9 @@
 
 namespace seedmesh::terrain {
 namespace {
+
+// Steps of 255 by which WebP and JPEG change the channels of grey.
+constexpr std::uint32_t lossy_slack = 8;
 
 constexpr std::int8_t no_digit = -1;
 constexpr std::uint32_t longest_side = 16'385;
@@ -103,14 +107,21 @@ std::string misfit(const texture::Picture& picture, TerrainEncoding encoding) {
   return "";
 }
 
-/// The first pixel whose channels differ, of a grey picture that is saved in colour; -1 without one.
-std::int64_t first_colored(const texture::Picture& picture) {
+/// Whether the channels of a pixel are digits of one number.
+bool packs_digits(TerrainEncoding encoding) {
+  return encoding == TerrainEncoding::terrain_rgb || encoding == TerrainEncoding::terrarium ||
+         encoding == TerrainEncoding::rgb24 || encoding == TerrainEncoding::rgba32;
+}
+
+/// The first pixel whose channels differ by more than `slack`, of a grey picture that is saved in colour; -1 without one.
+std::int64_t first_colored(const texture::Picture& picture, std::uint32_t slack) {
   if (picture.channels < 3) return -1;
   const auto channels = static_cast<std::size_t>(picture.channels);
   const std::size_t count = std::size_t{picture.width} * picture.height;
   for (std::size_t i = 0; i < count; ++i) {
-    const std::uint32_t red = picture.channel(i * channels);
-    if (red != picture.channel(i * channels + 1) || red != picture.channel(i * channels + 2))
+    const std::uint32_t red = picture.channel(i * channels), green = picture.channel(i * channels + 1),
+                        blue = picture.channel(i * channels + 2);
+    if (std::max({red, green, blue}) - std::min({red, green, blue}) > slack)
       return static_cast<std::int64_t>(i);
   }
   return -1;
@@ -139,9 +150,15 @@ float height_of(const Channel& channel, TerrainEncoding encoding, int bits, cons
 Result<Field> of_picture(const TerrainImage& image, const texture::Decoded& decoded, const Scale& scale,
                          const Job& job) {
   const texture::Picture& picture = *decoded.picture;
-  const std::string wrong = misfit(picture, image.encoding);
+  std::string wrong = misfit(picture, image.encoding);
+  if (wrong.empty() && decoded.is_lossy && packs_digits(image.encoding))
+    wrong =
+        "found a JPEG or a WebP with losses, which changes the digits of heights; expected a PNG or a WebP "
+        "without loss";
   if (!wrong.empty()) return fault("/image/data", wrong);
-  const std::int64_t colored = image.encoding == TerrainEncoding::grey ? first_colored(picture) : -1;
+  const std::int64_t colored = image.encoding == TerrainEncoding::grey
+                                   ? first_colored(picture, decoded.is_lossy ? lossy_slack : 0)
+                                   : -1;
   if (colored >= 0)
     return fault(
         "/image/data",

@@ -310,8 +310,9 @@ std::vector<Issue> format_errors(const TerrainParams& params, const WantedFormat
     faults.push_back({kind, pointer, std::move(message)});
   };
   const TerrainHeightmap& given = params.heightmap;
-  if (params.shape == TerrainShape::sphere)
-    fault(IssueKind::not_available, "/shape", "a sphere has no height map; its forms are glb, gltf and zip");
+  if (params.shape != TerrainShape::plane)
+    fault(IssueKind::not_available, "/shape",
+          "a " + std::string(text_of(params.shape)) + " has no height map; its forms are glb, gltf and zip");
   if (is_picture(given.map) && form.format != "png8")
     fault(IssueKind::conflict, "/heightmap/map",
           std::string(text_of(given.map)) + " is a picture in colours, which the format png8 holds; found " +

@@ -1,11 +1,15 @@
 #include "core/generators/terrain/model_parts.h"
 
+#include "core/generators/specular.h"
+#include "generated/params/terrain.h"
+
 namespace seedmesh::terrain {
 
-Material ground_material() {
+Material ground_material(const std::optional<TerrainSpecular>& specular) {
   Material material;
   material.name = "ground";
   material.roughness = 0.95F;
+  set_specular(material, specular);
   return material;
 }
 

@@ -1,12 +1,17 @@
 #pragma once
 /// Shared helpers for models of fields and planetoids.
+#include <optional>
 #include <string>
 
 #include "core/model/model.h"
 
+namespace seedmesh {
+struct TerrainSpecular;
+}
+
 namespace seedmesh::terrain {
 
-Material ground_material();
+Material ground_material(const std::optional<TerrainSpecular>& specular);
 Material water_material();
 
 /// Indices of the added parts.

@@ -10,6 +10,7 @@
 #include "core/generators/terrain/maps.h"
 #include "core/generators/terrain/onto.h"
 #include "core/generators/terrain/plan.h"
+#include "core/generators/terrain/profile.h"
 #include "core/generators/terrain/triangulation.h"
 #include "core/generators/terrain/voids.h"
 #include "generated/params/terrain.h"
@@ -80,6 +81,7 @@ std::optional<Error> refusal(const TerrainParams& params, const Limits& limits) 
 /// Returns the number of triangles of the whole grid, as far as it follows from the parameters.
 std::uint64_t grid_triangles(const TerrainParams& params) {
   const auto squares = static_cast<std::uint64_t>(finished_side(params) - 1);
+  if (params.shape == TerrainShape::profile) return 0;
   if (params.shape == TerrainShape::sphere) return 12 * squares * squares;
   std::uint64_t triangles = 2 * squares * squares;
   if (params.skirt > 0) triangles += 8 * squares;
@@ -131,6 +133,7 @@ Result<Model> generate(const TerrainParams& params, const GenerateContext& conte
   refuse_large_grid(params, job);
   job.progress("derive", 0);
   if (params.shape == TerrainShape::sphere) return dressed_planet(params, context);
+  if (params.shape == TerrainShape::profile) return profile_model(params, job);
   const Result<Field> field = field_of(params, job);
   if (!field) return field.error();
   if (params.onto) return with_voids(covered_model(params, *field, context), *field);
@@ -154,6 +157,20 @@ Result<Json> derive(const TerrainParams& params, const GenerateContext& context)
               {"heights", nullptr},
               {"engines", nullptr},
               {"warnings", Json::array()}};
+  if (params.shape == TerrainShape::profile) {
+    const Array<float> heights = profile_heights(params, job);
+    const auto [low, high] = std::ranges::minmax(heights.span());
+    Json list = Json::array();
+    for (const float height : heights) list.push_back(height + 0.0F);
+    answer.update({{"width", heights.size()},
+                   {"height", 1},
+                   {"min", low},
+                   {"max", high},
+                   {"mean", mean_of(heights)},
+                   {"samples", heights.size()},
+                   {"heights", std::move(list)}});
+    return answer;
+  }
   if (params.shape == TerrainShape::sphere) {
     const Planet planet = planet_of(params, 0, job);
     const Range range = range_of(planet);
@@ -206,6 +223,10 @@ Result<Appraisal> appraise(const TerrainParams& params, const GenerateContext& c
   if (params.algorithm == TerrainAlgorithm::image || (!sphere && params.mesh != TerrainMesh::grid))
     return appraisal;
   const auto squares = static_cast<std::uint64_t>(finished_side(params) - 1);
+  if (params.shape == TerrainShape::profile) {
+    appraisal.estimate = Estimate{0, 1200 + (squares + 1) * 20, true};
+    return appraisal;
+  }
   Estimate estimate;
   estimate.triangles = grid_triangles(params);
   refuse_large_grid(params, job);

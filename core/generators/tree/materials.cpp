@@ -4,6 +4,7 @@
 #include <array>
 
 #include "core/base/math.h"
+#include "core/generators/specular.h"
 #include "core/texture/data_uri.h"
 #include "core/texture/leaf.h"
 
@@ -169,6 +170,7 @@ int add_bark_material(Model& model, const TreeParams& params, const Job& job) {
       material.recipe.color = {{params.bark_color->red, params.bark_color->green, params.bark_color->blue}};
     }
   }
+  set_specular(material, params.bark_specular);
   use_images(material, params.bark_images, "/bark_images", model, job);
   model.materials.push_back(std::move(material));
   return static_cast<int>(model.materials.size()) - 1;
@@ -181,6 +183,7 @@ LeafMaterials add_leaf_materials(Model& model, const TreeParams& params, const G
   material.roughness = leaf_roughness;
   material.double_sided = !has_own_sides;
   texture::let_light_through(material, static_cast<LeafShape>(params.leaf.leaf_shape));
+  set_specular(material, params.leaf.specular);
   const Color most = brightest(params.leaf);
   if (has_leaf_texture(params)) {
     material.recipe.kind =

@@ -36,10 +36,23 @@ struct Walk {
   Rng leaf_random{0}, child_random{0};
   int count = 0;  ///< of children or leaves on the whole stem
   double spacing = 0, bare = 0;
-  double longest_child = 0;  ///< the paper's length_child,max
+  double longest_child = 0;   ///< the paper's length_child,max
+  double carried_splits = 0;  ///< of the next child, where Arbaro counts
 };
 
 std::uint64_t whole(double x) { return static_cast<std::uint64_t>(math::to_int64(x)); }
+
+/// The number of children or leaves. Arbaro rounds numbers of branches down, and carries the rounding error of leaves from
+/// limb to limb; here, chance rounds them.
+int whole_count(const WeberPennTree& tree, const WeberPennStem& stem) {
+  const double count = child_count(tree, stem);
+  if (!tree.counts_as_arbaro()) return math::to_int32(std::floor(count + 0.5));
+  const bool has_leaves = is_last(tree, stem) && tree.params.Leaves > 0;
+  const double up = has_leaves                               ? Rng(stem.rng.at(name_key("rounding"))).unit()
+                    : is_last(tree, stem) || stem.level == 0 ? 0.5
+                                                             : 1e-9;
+  return math::to_int32(std::floor(count + up));
+}
 
 Walk begin(const WeberPennGrowth& growth, WeberPennStem& stem) {
   const WeberPennTree& tree = growth.tree;
@@ -51,7 +64,7 @@ Walk begin(const WeberPennGrowth& growth, WeberPennStem& stem) {
     walk.last_radius = radius_at(tree, stem, stem.segment * segment_length(tree, stem) / stem.length);
   walk.bare = stem.level == 0 ? std::min(tree.bare_length(), 0.99 * stem.length)
                               : tree.level(stem.level).bare * stem.length;
-  walk.count = math::to_int32(std::floor(child_count(tree, stem) + 0.5));
+  walk.count = whole_count(tree, stem);
   const bool has_fan = is_last(tree, stem) && params.Leaves < 0;
   walk.spacing = walk.count > 0 && !has_fan ? (stem.length - walk.bare) / walk.count : 0;
   walk.first_child = walk.next_child = growth.waiting.size();
@@ -63,6 +76,7 @@ Walk begin(const WeberPennGrowth& growth, WeberPennStem& stem) {
   const Rng own = stem.level == 0 ? tree.random.branches.at(is_trunk ? 0 : stem.rng.key()) : stem.rng;
   walk.child_random = own.at(name_key("child"));
   const WeberPennLevel& next = tree.level(stem.level + 1);
+  if (stem.level > 0) walk.carried_splits = spread(stem.rng.at(name_key("child_splits")), 0.5);
   walk.longest_child =
       std::max(0.0, next.length + spread(stem.rng.at(name_key("child_length")), next.length_v));
   // Children that the bark leaves out need no joints where they are closer together than the stem is thick.
@@ -142,7 +156,9 @@ void add_children(WeberPennGrowth& growth, Walk& walk, const Piece& piece) {
     child.parent_length = stem.length;
     child.parent_length_max = walk.longest_child;
     child.rng = rng;
-    child.carried_splits = spread(rng.at(name_key("splits")), 0.5);
+    child.carried_splits =
+        tree.counts_as_arbaro() ? walk.carried_splits : spread(rng.at(name_key("splits")), 0.5);
+    if (tree.counts_as_arbaro()) walk.carried_splits = carried_behind(level, walk.carried_splits, 0);
     if (tree.params.PruneRatio > 0 && !prune(tree, child, growth.trial_frames)) {
       growth.waiting.pop_back();
       continue;
@@ -315,8 +331,8 @@ bool is_twig(const WeberPennGrowth& growth, const WeberPennStem& stem) {
   const WeberPennTree& tree = growth.tree;
   const WeberPennLevel& level = tree.level(stem.level);
   return is_last(tree, stem) && stem.level > 0 && level.curve_res == 1 && level.bare == 0 &&
-         level.curve_v >= 0 && tree.params.Leaves >= 0 &&
-         tree.params.Leaves <= static_cast<int>(WeberPennTwigs::most_leaves) &&
+         !tree.counts_as_arbaro() && tree.params.LeafDistrib == 4 && level.curve_v >= 0 &&
+         tree.params.Leaves >= 0 && tree.params.Leaves <= static_cast<int>(WeberPennTwigs::most_leaves) &&
          growth.writer.leaves_out(stem.radius);
 }
 

@@ -9,6 +9,9 @@ namespace {
 
 // Pruning tries a stem at this share of its length again and again, and removes it below the least share.
 constexpr double prune_step = 0.9, prune_least = 0.15;
+// Arbaro keeps all limbs, however short.
+constexpr double prune_least_arbaro = 0.001;
+constexpr int most_split_steps = 10'000;
 
 /// Degrees between one segment and the next, without random variation.
 double curve_before(const WeberPennLevel& level, int segment) {
@@ -65,6 +68,12 @@ WeberPennStem make_trunk(WeberPennTree& tree, int number) {
   stem.parent_length = stem.length;
   stem.parent_length_max = 1;
   stem.frame = roll(Frame{}, math::quick_sincos_degrees(stem.rng.at("roll").uniform(0, 360)));
+  if (tree.counts_as_arbaro()) {
+    if (number == 0) tree.carried_splits = 0;
+    stem.carried_splits = tree.carried_splits;
+    for (int i = 0; i <= p.base_splits; ++i)
+      tree.carried_splits = carried_behind(level, tree.carried_splits, p.base_splits > 0 ? 1 : 0);
+  }
   if (p.branches_0 > 1 && p.branch_dist_0 > 0) {
     const double away = p.branch_dist_0 * Rng(stem.rng.at("distance")).unit();
     const math::SinCos to = math::quick_sincos_degrees(Rng(stem.rng.at("direction")).uniform(0, 360));
@@ -108,8 +117,9 @@ Frame swayed_frame(const WeberPennTree& tree, const WeberPennStem& stem, const F
 double child_count(const WeberPennTree& tree, const WeberPennStem& stem) {
   if (is_last(tree, stem)) {
     const double most = std::abs(tree.params.Leaves);
-    if (tree.params.Leaves < 0) return most;
-    return most * shape_ratio(tree.params, 4, stem.parent_length > 0 ? stem.offset / stem.parent_length : 0);
+    const double share = stem.parent_length > 0 ? stem.offset / stem.parent_length : 0;
+    if (tree.params.Leaves < 0 && !tree.counts_as_arbaro()) return most;
+    return most * shape_ratio(tree.params, tree.params.LeafDistrib, share);
   }
   const double most = tree.level(stem.level + 1).branches;
   if (stem.level == 0) return most;
@@ -144,13 +154,36 @@ double child_radius(const WeberPennTree& tree, const WeberPennStem& stem, double
 }
 
 bool prune(const WeberPennTree& tree, WeberPennStem& stem, std::vector<Frame>& frames) {
-  const double whole = stem.length, least = prune_least * whole;
+  const double whole = stem.length,
+               least = (tree.counts_as_arbaro() ? prune_least_arbaro : prune_least) * whole;
   double fitted = whole;
   frames.clear();
   while (fitted > least && !fits_envelope(tree, stem, fitted, frames)) fitted *= prune_step;
-  if (!(fitted > least)) fitted = 0;
+  if (!(fitted > least)) fitted = tree.counts_as_arbaro() ? least : 0;
   stem.length = whole - (whole - fitted) * tree.params.PruneRatio;
   return stem.length > 1e-6 * whole;
+}
+
+namespace {
+
+double carried_behind_part(const WeberPennLevel& level, double carried, int segment, int& steps) {
+  for (; segment + 1 < level.curve_res && steps > 0; ++segment) {
+    --steps;
+    const double wanted = level.seg_splits + carried;
+    const int clones = std::max(0, static_cast<int>(math::to_int32(std::floor(wanted + 0.5))));
+    carried = wanted - clones;
+    for (int i = 0; i < clones && steps > 0; ++i)
+      carried = carried_behind_part(level, carried, segment + 1, steps);
+  }
+  return carried;
+}
+
+}  // namespace
+
+double carried_behind(const WeberPennLevel& level, double carried, int segment) {
+  if (!(level.seg_splits > 0)) return carried;
+  int steps = most_split_steps;
+  return carried_behind_part(level, carried, segment, steps);
 }
 
 void split(const WeberPennTree& tree, WeberPennStem& stem, Frame& frame, const glm::dvec3& position,
@@ -162,8 +195,16 @@ void split(const WeberPennTree& tree, WeberPennStem& stem, Frame& frame, const g
   const Rng rng = stem.rng.at("split").at(static_cast<std::uint64_t>(segment));
   const int segments_left = std::max(1, level.curve_res - segment - 1);
   const double declination = declination_of(frame);
-  stem.share /= count + 1;
-  stem.readiness = at_base ? stem.readiness : 0.5;
+  std::vector<double> carried(static_cast<std::size_t>(count), 0.0);  // of the clones
+  if (tree.counts_as_arbaro()) {
+    for (double& each : carried) {
+      each = stem.carried_splits;
+      stem.carried_splits = carried_behind(level, each, segment + 1);
+    }
+  } else {
+    stem.share /= count + 1;
+    stem.readiness = at_base ? stem.readiness : 0.5;
+  }
   // The frame of one of the stems of a split, and its turn back in each later segment. Number 0 is the stem.
   const auto turned = [&](int number) {
     const Rng own = rng.at(static_cast<std::uint64_t>(number));
@@ -188,7 +229,7 @@ void split(const WeberPennTree& tree, WeberPennStem& stem, Frame& frame, const g
     clone.uncurve = stem.uncurve + uncurve;
     clone.rng = rng.at("clone").at(static_cast<std::uint64_t>(number));
     clone.carried_children = clone.rng.at("phase").unit();
-    clone.carried_splits = 0;
+    clone.carried_splits = carried[static_cast<std::size_t>(number - 1)];
   }
   const auto [own_frame, uncurve] = turned(0);
   frame = own_frame;

@@ -18,10 +18,12 @@ struct WeberPennTree {
   const TreeParams& params;
   const RandomStreams& random;
   std::array<WeberPennLevel, 4> levels;
-  double scale = 0;  ///< the height of the tree before 0Length
+  double scale = 0;           ///< the height of the tree before 0Length
+  double carried_splits = 0;  ///< rounding error of the splits of the trunks so far, where Arbaro counts
 
   const WeberPennLevel& level(int n) const { return levels[static_cast<std::size_t>(std::min(n, 3))]; }
   double bare_length() const { return params.BaseSize * scale; }
+  bool counts_as_arbaro() const { return params.counting == TreeParams::Counting::arbaro; }
   bool sways() const { return params.sway.wind != 0 || params.sway.gust != 0; }
 };
 
@@ -46,7 +48,7 @@ struct WeberPennStem {
   int children_before = 0;        ///< on earlier segments
 };
 
-/// Gives trunk `number`, which has no joint yet. The first one draws the height of the tree.
+/// Gives trunk `number`, which has no joint yet; called for 0, 1, ... The first one draws the height of the tree.
 WeberPennStem make_trunk(WeberPennTree& tree, int number);
 
 inline bool is_last(const WeberPennTree& tree, const WeberPennStem& stem) {
@@ -85,6 +87,10 @@ double child_radius(const WeberPennTree& tree, const WeberPennStem& stem, double
 /// Shortens a stem to what stays within the envelope, as far as PruneRatio says. Returns false where nothing
 /// is left. `frames` is memory that calls reuse.
 bool prune(const WeberPennTree& tree, WeberPennStem& stem, std::vector<Frame>& frames);
+
+/// The rounding error of splits behind the segments from `segment` on and the clones that split off there. Arbaro carries it
+/// from stem to stem of a level, to each clone before the rest of its stem. Cost: that of the segments, at most 10,000.
+double carried_behind(const WeberPennLevel& level, double carried, int segment);
 
 /// Divides a stem at the end of `segment`, which is at `position`: appends its clones, which grow from
 /// `joint`, to `clones`, and turns the frame of the stem itself. Does nothing where it does not split.

@@ -144,6 +144,9 @@ class Turtle {
   /// Appends a copy of the recording from here. Order and positions are those that drawing would give, except
   /// for the last bits. TurtleReport::min and max do not include it.
   void append_copy(const Recording& recording);
+  /// Goes to the end of the recording without drawing it, for callers that place its drawing themselves. The next
+  /// internode then starts a limb of its own. The report counts the copy; with `is_measured`, its bounds too.
+  void pass_copy(const Recording& recording, bool is_measured);
 
   std::uint32_t last_joint() const { return state_.last; }  ///< of this branch; none before its first segment
   bool is_joined() const { return state_.joint != Limbs::none; }  ///< the next internode continues a joint
@@ -199,6 +202,7 @@ class Turtle {
   [[noreturn]] void refuse_joints() const;
   void check_depth(std::size_t depth, const char* what) const;
   [[noreturn]] void refuse_segments() const;
+  void refuse_far(const Recording& recording) const;
   void copy_positions(const Recording& recording);
   void copy_links(const Recording& recording);
   void copy_bark(const Recording& recording);

@@ -73,12 +73,39 @@ void Turtle::append_copy(const Recording& recording) {
   go_to_end(recording, static_cast<std::uint32_t>(before) - recording.shared_joints_);
 }
 
-void Turtle::copy_positions(const Recording& recording) {
-  const Setting setting(state_.position, state_.frame);
+void Turtle::pass_copy(const Recording& recording, bool is_measured) {
+  job_.check();
+  refuse_far(recording);
+  if (is_measured) {
+    const Setting setting(state_.position, state_.frame);
+    for (const glm::dvec3& each : recording.places_) {
+      const glm::dvec3 place = setting.place(each);
+      const bool is_first = report_.segments == 0 && &each == recording.places_.data();
+      report_.min = is_first ? place : glm::min(report_.min, place);
+      report_.max = is_first ? place : glm::max(report_.max, place);
+    }
+  }
+  report_.segments += recording.report_.segments;
+  report_.total_length += recording.report_.total_length;
+  const State before = state_;
+  go_to_end(recording, 0);
+  state_.last = before.last;
+  if (state_.joint == Limbs::none) return;
+  // Joints of the recording are not in this skeleton.
+  const bool is_at_start = recording.end_.joint < recording.shared_joints_;
+  state_.joint = is_at_start ? before.joint : Limbs::none;
+}
+
+/// In any rotation, no coordinate of a joint exceeds the sum of its absolute coordinates.
+void Turtle::refuse_far(const Recording& recording) const {
   const glm::dvec3& p = state_.position;
-  // In any rotation, no coordinate of a joint exceeds the sum of its absolute coordinates.
   if (!(std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) + recording.reach_ < largest_coordinate))
     job_.refuse({IssueKind::evaluation, "", too_far});
+}
+
+void Turtle::copy_positions(const Recording& recording) {
+  const Setting setting(state_.position, state_.frame);
+  refuse_far(recording);
   const std::size_t count = recording.places_.size() - recording.shared_joints_;
   const glm::dvec3* from = recording.places_.data() + recording.shared_joints_;
   glm::vec3* to = skeleton_->limbs.position.extend(count);

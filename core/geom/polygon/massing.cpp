@@ -9,6 +9,7 @@
 #include "core/base/math.h"
 #include "core/geom/polygon/massing_cut.h"
 #include "core/geom/polygon/massing_envelope.h"
+#include "core/geom/polygon/massing_merge.h"
 #include "core/geom/polygon/roof.h"
 
 namespace seedmesh {
@@ -47,23 +48,35 @@ class MassMaker {
   MassMaker(const Plan& plan, const MassOptions& options, const Job& job)
       : plan_(plan), options_(options), job_(job) {}
 
+  /// First among roofs that are closed as they are written. A plan that touches itself in a point has none; then
+  /// among those whose triangles fit together.
   Mass make() {
-    const MassRoof wanted = options_.roof_height > 0 ? options_.roof : MassRoof::flat;
-    if (try_roof(wanted)) return std::move(mass_);
-    const bool has_axis =
-        wanted == MassRoof::pyramidal || wanted == MassRoof::dome || wanted == MassRoof::onion;
-    if (has_axis && try_roof(MassRoof::hipped)) return std::move(mass_);
-    if (wanted != MassRoof::flat) {
-      start(MassRoof::hipped);
-      add_envelope(hipped_envelope(plan_, options_));
-      if (is_closed(mass_)) return std::move(mass_);
+    for (const bool is_strict : {true, false}) {
+      is_strict_ = is_strict;
+      if (try_all()) break;
     }
-    start(MassRoof::flat);
-    add_envelope(level_envelope());
     return std::move(mass_);
   }
 
  private:
+  bool try_all() {
+    const MassRoof wanted = options_.roof_height > 0 ? options_.roof : MassRoof::flat;
+    if (try_roof(wanted)) return true;
+    const bool has_axis =
+        wanted == MassRoof::pyramidal || wanted == MassRoof::dome || wanted == MassRoof::onion;
+    if (has_axis && try_roof(MassRoof::hipped)) return true;
+    if (wanted != MassRoof::flat) {
+      start(MassRoof::hipped);
+      add_envelope(hipped_envelope(plan_, options_));
+      if (fits()) return true;
+    }
+    start(MassRoof::flat);
+    add_envelope(level_envelope());
+    return fits();
+  }
+
+  bool fits() { return is_strict_ ? merge_points(mass_) : is_closed(mass_); }
+
   void start(MassRoof kind) {
     mass_ = {};
     mass_.made = kind;
@@ -74,19 +87,19 @@ class MassMaker {
     start(kind);
     switch (kind) {
       case MassRoof::hipped:
-        return add_skeleton(RoofKind::hip) && is_closed(mass_);
+        return add_skeleton(RoofKind::hip) && fits();
       case MassRoof::mansard:
-        return add_skeleton(RoofKind::mansard) && is_closed(mass_);
+        return add_skeleton(RoofKind::mansard) && fits();
       case MassRoof::pyramidal:
-        return add_rings(std::array<Ring, 1>{{{0, 1}}});
+        return add_rings(std::array<Ring, 1>{{{0, 1}}}) && fits();
       case MassRoof::dome:
-        return add_rings(dome_rings());
+        return add_rings(dome_rings()) && fits();
       case MassRoof::onion:
-        return add_rings(onion_rings);
+        return add_rings(onion_rings) && fits();
       case MassRoof::gabled:
       case MassRoof::gambrel:
         if (follows_plan() && add_skeleton(kind == MassRoof::gabled ? RoofKind::gable : RoofKind::gambrel) &&
-            is_closed(mass_))
+            fits())
           return true;
         start(kind);
         break;
@@ -94,7 +107,7 @@ class MassMaker {
         break;
     }
     add_envelope(kind == MassRoof::flat ? level_envelope() : envelope_of(plan_, options_));
-    return is_closed(mass_);
+    return fits();
   }
 
   /// Whether gables follow the wings of the plan, not one ridge.
@@ -265,6 +278,7 @@ class MassMaker {
   const MassOptions& options_;
   const Job& job_;
   Mass mass_;
+  bool is_strict_ = true;
 };
 
 }  // namespace

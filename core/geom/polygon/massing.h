@@ -71,7 +71,7 @@ struct PlanBox {
 PlanBox smallest_box(const Plan& plan);
 
 /// Makes the body. `plan` has no errors (`faults_of`). Every edge of the surface belongs to one triangle in each
-/// direction; a roof for which this fails is replaced (`made`). Pyramidal roofs, domes and onions over a plan
+/// direction, also with points in single precision; a roof for which this fails is replaced (`made`). Pyramidal roofs, domes and onions over a plan
 /// with courtyards, or that is not visible as a whole from its centroid, become hipped. Cost: that of the
 /// triangulation, and of the straight skeleton for hipped, mansard, and some gabled and gambrel roofs.
 Mass mass_of(const Plan& plan, const MassOptions& options, const Job& job);

@@ -96,7 +96,7 @@ class Describer {
       any_unlit = any_unlit || material.unlit;
       any_strength = any_strength || emissive_strength(material) != 1;
       any_transmission = any_transmission || material.transmission > 0;
-      any_specular = any_specular || material.specular < 1;
+      any_specular = any_specular || material.has_specular();
     }
     if (any_transmission) extensions_used_.emplace_back("KHR_materials_diffuse_transmission");
     if (any_strength) extensions_used_.emplace_back("KHR_materials_emissive_strength");

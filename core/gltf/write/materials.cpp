@@ -75,9 +75,12 @@ std::string extension_members(const Material& material, int base) {
     members.json.object("KHR_materials_emissive_strength",
                         [&] { members.factor("emissiveStrength", strength, 1); });
   }
-  if (material.specular < 1) {
-    members.json.object("KHR_materials_specular",
-                        [&] { members.factor("specularFactor", material.specular, 1); });
+  if (material.has_specular()) {
+    members.json.object("KHR_materials_specular", [&] {
+      const glm::vec3& color = material.specular_color;
+      members.factors("specularColorFactor", std::array{color.x, color.y, color.z}, 1);
+      members.factor("specularFactor", material.specular, 1);
+    });
   }
   if (material.unlit) members.json.object("KHR_materials_unlit", [] {});
   return text;

@@ -19,7 +19,14 @@ namespace UnityEngine
         public Transform transform { get { return null; } }
         public T GetComponent<T>() { return default(T); }
     }
-    public class Transform : Component { }
+    public struct Vector3 { public Vector3(float x, float y, float z) { } }
+    public struct Quaternion { public Quaternion(float x, float y, float z, float w) { } }
+    public class Transform : Component
+    {
+        public Vector3 localPosition { get; set; }
+        public Quaternion localRotation { get; set; }
+        public Vector3 localScale { get; set; }
+    }
     public class GameObject : Object
     {
         public GameObject(string name) { }
@@ -54,6 +61,7 @@ namespace UnityEditor
     public static class PrefabUtility
     {
         public static Object InstantiatePrefab(Object asset) { return null; }
+        public static Object InstantiatePrefab(Object asset, Transform parent) { return null; }
         public static void UnpackPrefabInstance(GameObject instance, PrefabUnpackMode mode, InteractionMode action) { }
         public static GameObject SaveAsPrefabAsset(GameObject instance, string path) { return null; }
     }

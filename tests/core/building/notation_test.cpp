@@ -40,6 +40,42 @@ TEST(Notation, TakesTheRuleOfTheThesisByItselfAndBehindALot) {
   EXPECT_EQ(leaves("lot ~> facade(Scope.sy)\n" + thesis, {10, 8, 10}), "facade");
 }
 
+std::vector<double> bottoms(const Json& answer) {
+  std::vector<double> out;
+  for (const Json& shape : answer["shapes"]) {
+    if (shape["active"]) out.push_back(shape["scope"]["origin"][1]);
+  }
+  return out;
+}
+
+TEST(Notation, StacksSymbolsWhoseParametersAddUpToTheHeight) {
+  // Rule 4.2 of Kogovšek on a facade of 9 m: three floors of 3 m.
+  const Json floors = derived(with(thesis, {12, 9, 0.4}));
+  EXPECT_EQ(sizes(floors, 1), (std::vector<double>{3, 3, 3}));
+  EXPECT_EQ(bottoms(floors), (std::vector<double>{0, 3, 6}));
+  const Json uneven = derived(with("facade(h) ~> floor(h/2) attic(h/2 - 1) ledge(1)", {12, 8, 0.4}));
+  EXPECT_EQ(sizes(uneven, 1), (std::vector<double>{4, 3, 1}));
+  EXPECT_EQ(bottoms(uneven), (std::vector<double>{0, 4, 7}));
+}
+
+TEST(Notation, LeavesOtherSymbolsSideBySideInOneScope) {
+  const std::vector<double> whole{9, 9};
+  EXPECT_EQ(sizes(derived(with("facade(h) ~> floor(h/3) floor(h/3)", {12, 9, 1})), 1), whole);
+  EXPECT_EQ(sizes(derived(with("lot ~> facade(6) facade(h) ~> floor(h/2) floor(h/2)", {12, 9, 1})), 1),
+            whole);
+  EXPECT_EQ(sizes(derived(with("facade(h) --> floor(h/2) floor(h/2)", {12, 9, 1})), 1), whole);
+  EXPECT_EQ(sizes(derived(with("facade(h) ~> floor floor", {12, 9, 1})), 1), whole);
+}
+
+TEST(Notation, CutsTheGeometryOfAStack) {
+  BuildingParams params =
+      with("lot --> primitiveCone() cone(scope.sy)\ncone(h) ~> foot(h/2) tip(h/2)", {10, 8, 10});
+  const Json cone = derived(params);
+  const auto width = [&](std::size_t i) { return sizes(cone, 0).at(i); };
+  EXPECT_EQ(sizes(cone, 1), (std::vector<double>{4, 4}));
+  EXPECT_NEAR(width(1), width(0) / 2, 1e-9);
+}
+
 TEST(Notation, GivesAFirstRuleWithOneParameterTheHeightOfTheLot) {
   EXPECT_EQ(leaves("fac(h) ~> S(1r, h/2, 1r) half."), "half");
   EXPECT_THAT(warnings("fac(h) ~> S(1r, h/2, 1r) half."), HasSubstr("1:1 `fac` has a parameter"));

@@ -27,7 +27,7 @@ TensorField field_of(const std::vector<CityTensorField>& fields) {
   CityStreets streets;
   streets.tensor.fields = fields;
   std::vector<Issue> issues;
-  TensorField field(streets, square_region(), issues);
+  TensorField field(streets, square_region(), nullptr, issues);
   EXPECT_TRUE(issues.empty());
   return field;
 }
@@ -87,7 +87,7 @@ TEST(TensorField, NeedsTwoPointsOfAPolyline) {
   streets.tensor.fields.resize(2);
   streets.tensor.fields[1].field_type = CityFieldType::polyline;
   std::vector<Issue> issues;
-  const TensorField field(streets, square_region(), issues);
+  const TensorField field(streets, square_region(), nullptr, issues);
   ASSERT_EQ(issues.size(), 1U);
   EXPECT_EQ(issues[0].pointer, "/streets/tensor/fields/1/points");
 }

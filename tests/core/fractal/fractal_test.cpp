@@ -213,7 +213,7 @@ TEST(Fractal, WritesNestedRequestsInCanonicalForm) {
 TEST(ChaosGame, DrawsTheFernInItsBox) {
   Job job(3, Job::Options{});
   const Cloud cloud = play(instructions_of(fractal_params(R"({"method": "frcm", "instructions": "fern"})")),
-                           500'000, 100, job);
+                           StartPoints(), 500'000, 100, job);
   const Box box = bounds_of(cloud.position.span());
   // Ten units of the published fern are one here, its middle at (0.24, 5).
   EXPECT_NEAR(box.min.x * 10 + 0.24, -2.182, 0.01);
@@ -226,7 +226,7 @@ TEST(ChaosGame, ComesNearerToTheAttractorWithEachStep) {
   const Instructions gasket =
       instructions_of(fractal_params(R"({"method": "frcm", "instructions": "pascal_parity"})"));
   Job job(1, Job::Options{});
-  const Cloud cloud = play(gasket, 2000, 60, job);
+  const Cloud cloud = play(gasket, StartPoints(), 2000, 60, job);
   for (const glm::vec3& p : cloud.position) {
     // In the binary digits of a point of the gasket, x and y (from the lower left) never have both a one.
     const auto x = static_cast<std::uint32_t>((static_cast<double>(p.x) + 0.5) * 65536),
@@ -239,7 +239,7 @@ TEST(ChaosGame, ComesNearerToTheAttractorWithEachStep) {
 TEST(ChaosGame, ChoosesMapsByTheirProbabilities) {
   const Instructions fern = instructions_of(fractal_params(R"({"method": "frcm", "instructions": "fern"})"));
   Job job(1, Job::Options{});
-  const Cloud cloud = play(fern, 1'000'000, 0, job);
+  const Cloud cloud = play(fern, StartPoints(), 1'000'000, 0, job);
   std::array<double, 4> taken{};
   for (const std::uint8_t map : cloud.map) taken[map] += 1e-6;
   EXPECT_NEAR(taken[0], 0.01, 0.001);
@@ -250,9 +250,11 @@ TEST(ChaosGame, ChoosesMapsByTheirProbabilities) {
 TEST(ChaosGame, IsTheSameOnAnyNumberOfThreadsAndForAnyLength) {
   const Instructions sponge = instructions_of(fractal_params(R"({"method": "frcm"})"));
   Job one(7, {.threads = 1}), eight(7, {.threads = 8});
-  const Cloud a = play(sponge, 300'001, 10, one), b = play(sponge, 300'001, 10, eight);
+  const Cloud a = play(sponge, StartPoints(), 300'001, 10, one),
+              b = play(sponge, StartPoints(), 300'001, 10, eight);
   EXPECT_EQ(std::memcmp(a.position.data(), b.position.data(), a.position.bytes()), 0);
-  const Cloud few = play(sponge, 100, 0, one), more = play(sponge, 1000, 0, one);
+  const Cloud few = play(sponge, StartPoints(), 100, 0, one),
+              more = play(sponge, StartPoints(), 1000, 0, one);
   EXPECT_EQ(std::memcmp(few.position.data(), more.position.data(), few.position.bytes()), 0);
 }
 
@@ -342,7 +344,9 @@ TEST(UnusedParameters, MayDependOnOtherParameters) {
   EXPECT_THAT(unused(R"({"instructions": [{"scale": 0.5}, {"scale": 0.5, "probability": 2}]})"),
               testing::ElementsAre("/instructions/1/probability"));
   EXPECT_THAT(unused(R"({"method": "frcm", "voxels": 9, "color": "#000000", "element": "sphere"})"),
-              testing::UnorderedElementsAre("/voxels", "/color", "/element"));
+              testing::UnorderedElementsAre("/voxels", "/color"));
+  EXPECT_THAT(unused(R"({"method": "frcm", "start": "cube", "element": "sphere"})"),
+              testing::ElementsAre("/element"));
   EXPECT_THAT(unused(R"({"method": "frcm", "voxels": 9, "color": "#000000", "cloud": "elements"})"),
               IsEmpty());
   EXPECT_THAT(unused(R"({"method": "escape", "escape": {"constant": [0, 1]}})"),

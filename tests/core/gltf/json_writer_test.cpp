@@ -114,6 +114,19 @@ TEST(Materials, DescribeTheLightThatPassesThroughLeaves) {
       R"("pbrMetallicRoughness":{"baseColorFactor":[0.5,0.5,0.5,1.0],"baseColorTexture":{"index":4}}})");
 }
 
+TEST(Materials, HaveAColourOfReflections) {
+  Material material;
+  material.metallic = 1;
+  material.roughness = 1;
+  material.specular_color = {1, 0.5F, 0.25F};
+  EXPECT_EQ(described(material),
+            R"({"extensions":{"KHR_materials_specular":{"specularColorFactor":[1.0,0.5,0.25]}}})");
+  material.specular = 0.5F;
+  EXPECT_EQ(
+      described(material),
+      R"({"extensions":{"KHR_materials_specular":{"specularColorFactor":[1.0,0.5,0.25],"specularFactor":0.5}}})");
+}
+
 TEST(JsonWriter, SetsCommasBetweenMembersAndValues) {
   std::string text;
   JsonWriter json(text);

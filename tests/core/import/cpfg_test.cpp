@@ -114,7 +114,7 @@ TEST(Cpfg, RefusesUnknownTextAtItsLineAndColumn) {
   EXPECT_EQ(fault("A --> B\n"), "");
   EXPECT_THAT(fault("A B C\n"), StartsWith("4:1 found no keyword and no production"));
   EXPECT_THAT(fault("A --> B(fund(1,2))\n"), HasSubstr("4:9 unknown function `fund`"));
-  EXPECT_THAT(fault("#include \"x.h\"\n"), StartsWith("4:1 found `#include`"));
+  EXPECT_THAT(fault("#include \"x.h\"\n"), StartsWith("4:1 the file of this `#include`"));
   EXPECT_THAT(fault("#if 1\nA --> B\n"), StartsWith("4:1 found a choice without its `#endif`"));
   EXPECT_THAT(fault("A --> ?(1,2)B$\n"), StartsWith("4:7 found a sub-L-system"));
   EXPECT_THAT(fault("#define X [X]\nA --> X\n"), StartsWith("5:7 found macros that contain themselves"));

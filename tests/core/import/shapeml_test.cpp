@@ -54,11 +54,36 @@ TEST(Shapeml, MakesPercentagesOfWeights) {
   EXPECT_THAT(parameters_of(result)["rules"].get<std::string>(), HasSubstr("75.000000% :"));
 }
 
+TEST(Shapeml, WritesOperationsThatAreValuesInTheirPlace) {
+  const auto result = imported(
+      "shapeml",
+      "func F(length) = { sizeY(length) [ cube Part_ ] translateY(length) };\n"
+      "func twice(length) = { ^F(length) ^F(0.5 * length) };\n"
+      "const flat = { sizeY(0) };\n"
+      "rule Axiom = { set(\"wide\", 2) sizeX(wide) ^twice(4) ^flat quad splitFace(\"all\", ^End) };\n"
+      "rule End = { End_ };\n");
+  ASSERT_TRUE(result) << reports(result)[0];
+  const std::map<std::string, int> expected = {{"End_", 1}, {"Part_", 2}};
+  EXPECT_EQ(leaves_of(result), expected);
+  const json derived = json::parse(*derive(result->request, {}));
+  std::vector<double> heights;
+  for (const json& shape : derived.at("shapes")) {
+    if (shape.at("symbol") != "Part_") continue;
+    heights.push_back(shape.at("scope").at("size")[1]);
+    EXPECT_EQ(shape.at("scope").at("size")[0], 2);
+  }
+  EXPECT_THAT(heights, testing::ElementsAre(4, 2));
+  EXPECT_THAT(reports(imported("shapeml", "func f(a) = { sizeX(a) };\nrule Axiom = { ^f(1, 2) };")),
+              Contains(HasSubstr("2:17 found 2 arguments")));
+  EXPECT_THAT(reports(imported("shapeml", "func f() = { ^f() };\nrule Axiom = { ^f() };")),
+              Contains(HasSubstr("more than 30 deep")));
+}
+
 TEST(Shapeml, ReportsWhatHasNoCounterpart) {
   EXPECT_THAT(reports(imported("shapeml", "rule Axiom = { torus(1, 2, 3, 4) A_ };")),
               Contains(HasSubstr("no rule, and no operation")));
   EXPECT_THAT(reports(imported("shapeml", "rule Axiom = { ^other };")),
-              Contains(HasSubstr("operations as values")));
+              Contains(HasSubstr("no rule, and no operation")));
   EXPECT_THAT(reports(imported("shapeml", "rule Axiom = { cube\n metallic(1) A_ };")),
               Contains(HasSubstr("2:2 `metallic` has no counterpart")));
   EXPECT_THAT(reports(imported("shapeml", "rule Axiom = { splitX(\"fs\", 1, { A_ }) };")),

@@ -150,7 +150,9 @@ TEST(Growth, StopsAnExplosionThatRandomChoicesHide) {
 
 TEST(Growth, RefusesMoreSegmentsThanTrianglesAllowBeforeItDraws) {
   Job job = job_of(0);
-  EXPECT_THROW((void)generate(grammar_of("F", {"F -> F+F-F+F"}, 12), context_of(job)), Stop);
+  LsystemParams whole = grammar_of("F", {"F -> F+F-F+F"}, 12);
+  whole.share = LsystemParams::Share::never;
+  EXPECT_THROW((void)generate(whole, context_of(job)), Stop);
   EXPECT_EQ(job.budget()->used(), 0U);
   Limits limits;
   limits.triangles = 16 * 100;

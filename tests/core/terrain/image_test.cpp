@@ -131,6 +131,19 @@ TEST(TerrainImage, ReadsJpegs) {
               Each(::testing::DoubleNear(20, 0.4)));
 }
 
+TEST(TerrainImage, ReadsGreyOfPicturesWithLossesButNoDigits) {
+  FileBytes grey;
+  for (int i = 0; i < 32 * 32; ++i)
+    grey.insert(grey.end(), 3, static_cast<std::uint8_t>(4 * (i % 32) + i / 32));
+  for (const FileBytes& file : {lossy_webp_file(grey, 32), jpeg_file(grey, 32, 3)}) {
+    const std::vector<double> made = heights(image_of(file, TerrainEncoding::grey));
+    ASSERT_EQ(made.size(), 1024U);
+    for (std::size_t i = 0; i < made.size(); ++i) EXPECT_NEAR(made[i], grey[3 * i] / 2.55, 4);
+    EXPECT_THAT(refusal(image_of(file, TerrainEncoding::terrain_rgb)),
+                HasSubstr("changes the digits of heights"));
+  }
+}
+
 TEST(TerrainImage, FillsAndCountsVoids) {
   // A plane with holes: what fills them lies on the plane within a step of the grid.
   constexpr int side = 33;

@@ -62,6 +62,16 @@ inline FileBytes webp_file(const FileBytes& pixels, int width) {
   return file;
 }
 
+/// A WebP with losses, of RGB.
+inline FileBytes lossy_webp_file(const FileBytes& pixels, int width) {
+  std::uint8_t* data = nullptr;
+  const int height = static_cast<int>(pixels.size()) / 3 / width;
+  const std::size_t size = WebPEncodeRGB(pixels.data(), width, height, 3 * width, 75, &data);
+  FileBytes file(data, data + size);
+  WebPFree(data);
+  return file;
+}
+
 /// A TIFF of one strip without compression, low byte first.
 class TiffText {
  public:

@@ -20,6 +20,21 @@ function tint(share: number): [number, number, number] {
   return [0, 1, 2].map((index) => low[index]! + (high[index]! - low[index]!) * (at % 1)) as [number, number, number];
 }
 
+/** The heights of one line as a graph from west to east. */
+export function draw_profile({ width, min, max, heights }: Heights): HTMLElement {
+  const span = max - min || 1, wide = 640, high = 200;
+  const points = heights.map((height, index) => `${rounded(index / (width - 1) * wide)},${rounded((max - height) / span * high)}`).join(' ');
+  const graph = document.createElementNS('http://www.w3.org/2000/svg', 'svg');
+  graph.setAttribute('viewBox', `-4 -4 ${wide + 8} ${high + 8}`);
+  graph.setAttribute('role', 'img');
+  graph.setAttribute('class', 'profile');
+  graph.setAttribute('aria-label', `Profile of ${width} samples, from ${rounded(min)} to ${rounded(max)} m`);
+  const line = document.createElementNS('http://www.w3.org/2000/svg', 'polyline');
+  for (const [name, value] of [['points', points], ['fill', 'none'], ['stroke', 'currentColor'], ['stroke-width', '1.5'], ['vector-effect', 'non-scaling-stroke']] as const) line.setAttribute(name, value);
+  graph.append(line);
+  return el('figure', {}, graph, el('figcaption', {}, `${grouped(width)} samples from west to east, ${rounded(min)} to ${rounded(max)} m`));
+}
+
 export function draw_map(map: Heights): HTMLElement {
   const { width, height, heights } = map;
   const span = map.max - map.min || 1;

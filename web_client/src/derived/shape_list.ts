@@ -1,13 +1,17 @@
 /** Lists the shapes of a derivation, draws their scopes as boxes over the model, and describes the selected one. */
 import { el, grouped, rounded } from '../dom';
-import { is_members } from '../form/schema';
+import { is_members, type Members } from '../form/schema';
+import { edit_at, with_edit } from './edits';
 import type { Overlay } from './overlay';
 import type { ScopeBox } from '../viewer/boxes';
 
-export interface Shape { id: number; parent?: number | null; symbol: string; parameters?: unknown; active?: boolean; rule?: string; line?: number; choice?: number; scope: ScopeBox }
+export interface Shape { id: number; path?: string | null; parent?: number | null; symbol: string; parameters?: unknown; active?: boolean; rule?: string; line?: number; choice?: number; scope: ScopeBox }
 
 export const is_shapes = (value: unknown): value is Shape[] =>
   Array.isArray(value) && value.length > 0 && value.every((each) => is_members(each) && 'symbol' in each && is_members(each['scope']));
+
+/** The parameters that the list changes. */
+export interface Edited { parameters(): Members; write(parameters: Members): void }
 
 /** More boxes would hide the model and each other. */
 const most = 20_000;
@@ -17,6 +21,7 @@ export class ShapeList {
   private readonly shapes: Shape[];
   private readonly overlay: Overlay | null;
   private readonly lead: ((line: number) => void) | null;
+  private readonly edited: Edited;
   private readonly details = el('div', { class: 'picked', role: 'status' });
   private readonly symbols: string[];
   private readonly on = el('input', { type: 'checkbox', class: 'switch', id: 'show-shapes' });
@@ -24,8 +29,9 @@ export class ShapeList {
   private seen: Shape[] = [];
   private picked: Shape | undefined;
 
-  constructor(shapes: Shape[], overlay: Overlay | null, lead: ((line: number) => void) | null) {
+  constructor(shapes: Shape[], overlay: Overlay | null, lead: ((line: number) => void) | null, edited: Edited) {
     this.shapes = shapes;
+    this.edited = edited;
     this.overlay = overlay;
     this.lead = lead;
     const counts = new Map<string, number>();
@@ -47,6 +53,9 @@ export class ShapeList {
     this.on.checked = before.on.checked;
     if ([...this.kind.options].some((option) => option.value === before.kind.value)) this.kind.value = before.kind.value;
     if (this.on.checked) this.lay_over();
+    const path = before.picked?.path;
+    const again = path ? this.shapes.find((each) => each.path === path) : undefined;
+    if (again) this.describe(again);
   }
 
   lay_over(): void {
@@ -57,9 +66,12 @@ export class ShapeList {
   }
 
   pick(index: number): void {
-    const shape = this.seen[index];
+    this.describe(this.seen[index]);
+  }
+
+  private describe(shape: Shape | undefined): void {
     this.picked = shape;
-    this.overlay?.mark_box(index);
+    this.overlay?.mark_box(shape ? this.seen.indexOf(shape) : -1);
     if (!shape) { this.details.replaceChildren(); return; }
     const parents: string[] = [];
     for (let up = shape.parent; up !== null && up !== undefined && parents.length < 20; ) {
@@ -81,8 +93,23 @@ export class ShapeList {
       ...(parents.length > 0 ? [row('Made of', parents.join(' › '))] : []),
       ...rule_rows('Made by', this.shapes.find((each) => each.id === shape.parent)),
       ...rule_rows('Replaced by', shape),
+      ...(shape.path ? [row('Path', shape.path)] : []),
       row('Size', shape.scope.size.map(rounded).join(' × ') + ' m'),
       row('Corner', shape.scope.origin.map(rounded).join(', ') + ' m'),
-      ...(shape.parameters !== undefined && JSON.stringify(shape.parameters) !== '{}' && JSON.stringify(shape.parameters) !== '[]' ? [row('Parameters', JSON.stringify(shape.parameters))] : [])));
+      ...(shape.parameters !== undefined && JSON.stringify(shape.parameters) !== '{}' && JSON.stringify(shape.parameters) !== '[]' ? [row('Parameters', JSON.stringify(shape.parameters))] : [])), ...(shape.path ? [this.changes(shape.path, shape)] : []));
+  }
+
+  /** Buttons that change the selected shape alone. Only symbols whose rule has been used are offered. */
+  private changes(path: string, shape: Shape): HTMLElement {
+    const { parameters, write } = this.edited;
+    const present = edit_at(parameters(), path);
+    const rules = [...new Set(this.shapes.filter((each) => each.rule !== undefined).map((each) => each.symbol))].filter((symbol) => symbol !== shape.symbol);
+    const rule = el('select', { id: 'edit-rule' }, el('option', { value: '' }, 'its own'), ...rules.map((symbol) => el('option', { value: symbol, selected: symbol === present?.['rule'] }, symbol)));
+    rule.addEventListener('change', () => write(with_edit(parameters(), path, rule.value ? { rule: rule.value } : null)));
+    return el('div', { class: 'changes', role: 'group', 'aria-label': 'Change this shape' }, el('h4', {}, 'Change this shape'),
+      el('div', { class: 'row' }, el('label', { for: 'edit-rule' }, 'Rule'), rule),
+      el('div', { class: 'row' },
+        el('button', { type: 'button', id: 'edit-remove', onclick: () => write(with_edit(parameters(), path, { remove: true })) }, 'Remove'),
+        ...(present ? [el('button', { type: 'button', id: 'edit-undo', onclick: () => write(with_edit(parameters(), path, null)) }, 'Undo the change')] : [])));
   }
 }

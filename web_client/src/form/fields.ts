@@ -7,6 +7,7 @@ import { colors_field, image_field, request_field, vector_field } from './row_fi
 import { is_members, type Schema } from './schema';
 import { choice_field, color_field, json_field, number_field, rows_field, switch_field, word_field } from './simple_fields';
 import { text_field } from './text_field';
+import { texture_field } from './texture_field';
 
 /** Selects a list field: any items, a fixed number of numbers, colours, or lines of text. */
 function list_for({ items, minItems, maxItems }: Schema): Draw {
@@ -19,7 +20,7 @@ function list_for({ items, minItems, maxItems }: Schema): Draw {
 
 /** Draws the field that fits the schema. */
 function field_for(schema: Schema): Draw {
-  if (schema.enum) return choice_field;
+  if (schema.enum) return schema['x-widget'] === 'texture' ? texture_field : choice_field;
   if (schema.oneOf) {
     const types = schema.oneOf.map((one) => one.type);
     return types.every((type) => type === 'number' || type === 'integer' || type === 'string') ? word_field : variant_field;

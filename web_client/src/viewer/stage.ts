@@ -160,6 +160,11 @@ export class Stage {
     if (this.background) this.set_sky(true);
   }
 
+  /** The colour of fog: that of the page behind the view. */
+  get haze(): number { return this.dark ? 0x2a332e : 0xdde5e0; }
+
+  set_light_color(color: string): void { this.sun.color.set(color); }
+
   set_shadow(on: boolean): void {
     this.sun.castShadow = on;
     this.shade.visible = on;

@@ -1,5 +1,5 @@
 /** The view. It renders only after changes, and holds one model at a time. */
-import { Box3, NeutralToneMapping, PCFShadowMap, Scene, Vector3, WebGLRenderer, type Group, type PerspectiveCamera } from 'three';
+import { Box3, Fog, NeutralToneMapping, PCFShadowMap, Scene, Vector3, WebGLRenderer, type Group, type PerspectiveCamera } from 'three';
 import { measured } from '../grower';
 import { Comparison } from './beside';
 import { Scopes, drop_boxes, type ScopeBox } from './boxes';
@@ -51,6 +51,7 @@ export class Viewer {
   private marks: Group | null = null;
   private box = new Box3(new Vector3(-1, 0, -1), new Vector3(1, 2, 1));
   private points = corners_of(this.box);
+  private has_fog = false;
   /** Keeps the camera in place for every model, so that growth is visible. */
   held = false;
   private frame = 0;
@@ -101,6 +102,7 @@ export class Viewer {
     this.box = model.box;
     this.points = model.points;
     this.stage.surround(model.box);
+    this.place_fog();
     this.eye.stop_at(model);
     this.walker.land(model.root, this.stage.floor, model.box);
     this.dress();
@@ -213,11 +215,30 @@ export class Viewer {
   set_theme(dark: boolean): void {
     this.stage.set_theme(dark);
     this.modes.wire.color.set(dark ? 0xf2f7f4 : 0x10231a);
+    this.place_fog();
     this.draw();
   }
 
   set_sky(on: boolean): void {
     this.scene.background = this.stage.set_sky(on);
+    this.draw();
+  }
+
+  /** Fog that begins behind the nearest point of the model and hides what is far behind it. */
+  set_fog(on: boolean): void {
+    this.has_fog = on;
+    this.place_fog();
+    this.draw();
+  }
+
+  private place_fog(): void {
+    const size = this.box.getSize(new Vector3()).length();
+    this.scene.fog = this.has_fog ? new Fog(this.stage.haze, size * 0.6, size * 3) : null;
+  }
+
+  /** The colour of the movable light, as #rrggbb. */
+  set_light_color(color: string): void {
+    this.stage.set_light_color(color);
     this.draw();
   }
 

@@ -161,13 +161,12 @@ class Client:
         return self._transport.call(target, text_of(request))
 
     def _ask(self, request: Request, etag: Optional[str]) -> Answer:
-        """The model, or 304 if it still has this ETag."""
-        if etag:
-            try:
-                return self._transport.call(links.permalink_path(request), headers={"If-None-Match": etag})
-            except ValueError:
-                pass  # too long for a link
-        return self._post("/v1/generate", request)
+        """The model by its permalink, or 304 if it still has this ETag. A request that is too long for a link is posted."""
+        try:
+            link = links.permalink_path(request)
+        except ValueError:
+            return self._post("/v1/generate", request)
+        return self._transport.call(link, headers={"If-None-Match": etag} if etag else {})
 
 
 def _read_json(path: str) -> Dict[str, Any]:

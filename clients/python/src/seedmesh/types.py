@@ -104,6 +104,16 @@ class BuildingParametersShapeGrammar(_BuildingParametersShapeGrammarRequired, to
     marker_size: float
 
 
+class _BuildingParametersEditsItemRequired(TypedDict):
+    shape: str
+
+
+class BuildingParametersEditsItem(_BuildingParametersEditsItemRequired, total=False):
+    attributes: Dict[str, Union[float, str, bool]]
+    rule: str
+    remove: bool
+
+
 class BuildingParametersDerivation(TypedDict, total=False):
     order: Literal['breadth', 'depth']
     mode: Literal['parallel', 'sequential']
@@ -114,6 +124,14 @@ class _EmissionRequired(TypedDict):
 
 
 class Emission(_EmissionRequired, total=False):
+    strength: float
+
+
+class _SpecularRequired(TypedDict):
+    color: str
+
+
+class Specular(_SpecularRequired, total=False):
     strength: float
 
 
@@ -130,6 +148,7 @@ class BuildingParametersMaterialsValue(TypedDict, total=False):
     metallic: float
     opacity: float
     emission: "Emission"
+    specular: "Specular"
     tile: List[float]
     images: "Images"
     texture: Literal['auto', 'none', 'brick', 'plaster', 'roof_tile', 'slate', 'planks', 'ashlar', 'concrete', 'sheet']
@@ -150,6 +169,7 @@ class BuildingParameters(TypedDict, total=False):
     size: List[float]
     footprint: List[List[List[float]]]
     attributes: Dict[str, Union[float, str, bool]]
+    edits: List["BuildingParametersEditsItem"]
     iterations: int
     derivation: "BuildingParametersDerivation"
     repeat: Literal['nearest', 'ceil']
@@ -176,6 +196,7 @@ class CityParametersMaps(TypedDict, total=False):
     density: Union[str, "Polygons"]
     water: Union[str, "Polygons"]
     obstacles: Union[str, "Polygons"]
+    height: str
 
 
 class CityParametersGivenStreetsFeaturesItemGeometry(TypedDict):
@@ -220,24 +241,28 @@ class CityParametersStreetsClassesHighway(TypedDict, total=False):
     width: float
     lanes: int
     sidewalk: float
+    grade: float
 
 
 class CityParametersStreetsClassesMajor(TypedDict, total=False):
     width: float
     lanes: int
     sidewalk: float
+    grade: float
 
 
 class CityParametersStreetsClassesMinor(TypedDict, total=False):
     width: float
     lanes: int
     sidewalk: float
+    grade: float
 
 
 class CityParametersStreetsClassesLane(TypedDict, total=False):
     width: float
     lanes: int
     sidewalk: float
+    grade: float
 
 
 class CityParametersStreetsClasses(TypedDict, total=False):
@@ -248,7 +273,7 @@ class CityParametersStreetsClasses(TypedDict, total=False):
 
 
 class CityParametersStreetsTensorFieldsItem(TypedDict, total=False):
-    type: Literal['grid', 'radial', 'boundary', 'polyline']
+    type: Literal['grid', 'radial', 'boundary', 'polyline', 'height']
     position: List[float]
     angle: float
     size: float
@@ -272,11 +297,12 @@ class CityParametersStreetsWards(TypedDict, total=False):
 class CityParametersStreets(TypedDict, total=False):
     method: Literal['growth', 'tensor', 'wards', 'given']
     productions: List[str]
-    pattern: Literal['organic', 'raster', 'radial']
-    minor_pattern: Literal['organic', 'raster', 'radial']
+    pattern: Literal['organic', 'raster', 'radial', 'slope']
+    minor_pattern: Literal['organic', 'raster', 'radial', 'slope']
     angle: float
     centre: List[float]
     major_spacing: float
+    highway_spacing: float
     block: List[float]
     fill: float
     length: float
@@ -290,6 +316,8 @@ class CityParametersStreets(TypedDict, total=False):
     minimal_angle: float
     dead_ends: float
     crossings: float
+    roundabouts: float
+    roundabout_radius: float
     classes: "CityParametersStreetsClasses"
     bridge_length: float
     tensor: "CityParametersStreetsTensor"
@@ -328,6 +356,7 @@ class CityParametersBuildings(TypedDict, total=False):
 
 class CityParameters(TypedDict, total=False):
     area: "CityParametersArea"
+    terrain: "Child"
     maps: "CityParametersMaps"
     given: "CityParametersGiven"
     streets: "CityParametersStreets"
@@ -367,11 +396,14 @@ class FractalParameters(TypedDict, total=False):
     stages: List[int]
     columns: int
     text: str
+    smallest: float
     surface: Literal['faces', 'merged', 'pieces']
     size: float
     color: str
+    specular: "Specular"
     palette: List[str]
     points: int
+    start: Literal['element', 'cube']
     drop: int
     cloud: Literal['points', 'elements', 'voxels']
     voxels: int
@@ -489,6 +521,7 @@ class LsystemParametersMaterialsItem(TypedDict, total=False):
     metallic: float
     opacity: float
     emission: "Emission"
+    specular: "Specular"
     texture: "Texture"
     texture_seed: int
     images: "Images"
@@ -540,6 +573,7 @@ class LsystemParameters(_LsystemParametersRequired, total=False):
     sides: int
     stacks: int
     taper: Literal['linear', 'none']
+    share: Literal['auto', 'always', 'never']
     levels: Literal['outline', 'slices']
     adapt: bool
     weld: bool
@@ -754,6 +788,7 @@ class SceneParameters(TypedDict, total=False):
     competition: float
     camera: "SceneParametersCamera"
     chunks: int
+    words: bool
 
 
 class TerrainParametersLayersItem(TypedDict, total=False):
@@ -849,14 +884,14 @@ class TerrainParametersHeightmap(TypedDict, total=False):
 
 
 class TerrainParameters(TypedDict, total=False):
-    algorithm: Literal['fault_formation', 'poisson_faulting', 'triangular_edge', 'diamond_square', 'square_square', 'fbm', 'image', 'expression']
+    algorithm: Literal['fault_formation', 'poisson_faulting', 'triangular_edge', 'diamond_square', 'square_square', 'fbm', 'brownian', 'image', 'expression']
     expression: str
     layers: List["TerrainParametersLayersItem"]
     iterations: int
     extra_iterations: int
     resolution: int
     size: float
-    shape: Literal['plane', 'sphere']
+    shape: Literal['plane', 'sphere', 'profile']
     amplitude: float
     hurst: float
     corners: List[float]
@@ -885,6 +920,7 @@ class TerrainParameters(TypedDict, total=False):
     skirt: float
     base: float
     palette: Literal['alpine', 'desert', 'tropical', 'arctic', 'volcanic', 'moon', 'grey', 'none']
+    specular: "Specular"
     water_level: float
     texture: int
     detail: bool
@@ -924,6 +960,7 @@ class TreeParametersLeaf(TypedDict, total=False):
     color: str
     autumn: str
     evergreen: bool
+    specular: "Specular"
     images: "Images"
 
 
@@ -1028,6 +1065,7 @@ TreeParameters = TypedDict("TreeParameters", {
     'bark_color': str,
     'bark_seed': int,
     'bark_images': "Images",
+    'bark_specular': "Specular",
     'age': float,
     'mature_age': float,
     'season': Literal['spring', 'summer', 'autumn', 'winter'],
@@ -1054,6 +1092,8 @@ TreeParameters = TypedDict("TreeParameters", {
     'PrunePowerHigh': float,
     'sway': "TreeParametersSway",
     'Leaves': int,
+    'LeafDistrib': int,
+    'counting': Literal['paper', 'arbaro'],
     'LeafScale': float,
     'LeafScaleX': float,
     'LeafBend': float,

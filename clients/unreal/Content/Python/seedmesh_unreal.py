@@ -3,6 +3,7 @@
     import seedmesh_unreal
     seedmesh_unreal.import_model({"preset": "oak", "seed": 7, "output": {"lods": 3}}, "oak_7")
     seedmesh_unreal.import_all()
+    seedmesh_unreal.plant({"preset": "orchard"}, "orchard")
 """
 import json
 import os
@@ -66,6 +67,41 @@ def add_level(meshes: List[Any], coarser: List[Any], level: int) -> None:
         source = by_name.get(mesh.get_name())
         if source is not None and editor.set_lod_from_static_mesh(mesh, level, source, 0, True) < 0:
             raise RuntimeError(f"level {level} of {mesh.get_name()} could not be set")
+
+
+def plant(request: Dict[str, Any], name: str) -> int:
+    """Imports the models of a scene request, and adds their copies to the open level as foliage. The result is the number of copies
+    of models. The terrain of the scene is not part of it."""
+    derived = seedmesh.Client().derive({**request})  # type: ignore[call-overload]
+    world = unreal.get_editor_subsystem(unreal.UnrealEditorSubsystem).get_editor_world()
+    for model, child in derived["models"].items():
+        transforms = [transform_of(each) for each in derived["placements"] if each["model"] == model]
+        for path in import_model(child, f"{name}_{model}"):
+            kind = foliage_type(unreal.EditorAssetLibrary.load_asset(path), f"{folder}/{name}_{model}")
+            unreal.InstancedFoliageActor.add_instances(world, kind, transforms)
+    return len(derived["placements"])
+
+
+def foliage_type(mesh: Any, target: str) -> Any:
+    """A new foliage type for a static mesh."""
+    name = mesh.get_name() + "_foliage"
+    if unreal.EditorAssetLibrary.does_asset_exist(f"{target}/{name}"):
+        unreal.EditorAssetLibrary.delete_asset(f"{target}/{name}")
+    tools = unreal.AssetToolsHelpers.get_asset_tools()
+    kind = tools.create_asset(name, target, unreal.FoliageType_InstancedStaticMesh, unreal.FoliageType_InstancedStaticMeshFactory())
+    kind.set_editor_property("mesh", mesh)
+    unreal.EditorAssetLibrary.save_loaded_asset(kind)
+    return kind
+
+
+def transform_of(placement: Dict[str, Any]) -> Any:
+    """A placement in Unreal's axes, as Interchange turns those of glTF: centimetres, and Y exchanged with Z. Exchanging two axes
+    turns the direction of rotations."""
+    x, y, z = placement["translation"]
+    i, j, k, w = placement["rotation"]
+    a, b, c = placement["scale"]
+    turn = unreal.Quat(-i, -k, -j, w)
+    return unreal.Transform(unreal.Vector(100 * x, 100 * z, 100 * y), turn.rotator(), unreal.Vector(a, c, b))
 
 
 def import_all() -> int:

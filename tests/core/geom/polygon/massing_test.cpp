@@ -3,7 +3,9 @@
 #include <gmock/gmock.h>
 
 #include <glm/geometric.hpp>
+#include <set>
 
+#include "core/geom/polygon/massing_merge.h"
 #include "tests/core/geom/plans.h"
 
 namespace seedmesh {
@@ -143,6 +145,34 @@ TEST(Massing, ClosesEveryRoofOverPlansByChance) {
     expect_sound(random_star(rng.at("star"), 3 + static_cast<std::uint32_t>(seed) % 20, seed % 3 == 0), seed);
     expect_sound(random_blocks(rng.at("blocks"), 3 + seed % 6), seed);
   }
+}
+
+/// Whether two points are one in single precision. Four walls meet there, so that no body is closed.
+bool touches_itself(const Plan& plan) {
+  std::set<std::pair<float, float>> points;
+  for (const PlanRing& ring : plan.rings) {
+    for (const glm::dvec2& p : ring) {
+      if (!points.emplace(static_cast<float>(p.x), static_cast<float>(p.y)).second) return true;
+    }
+  }
+  return false;
+}
+
+TEST(Massing, StaysClosedAsItIsWritten) {
+  // Spikes, holes, courtyards and sides that are nearly parallel; points are written in single precision.
+  int count = 0;
+  for (std::uint64_t number = 0; number < 1500; ++number) {
+    const Plan plan = real_like_plan(Rng::of_seed(number).at("written"), number);
+    if (touches_itself(plan)) continue;
+    ++count;
+    for (int i = 0; i < roof_count; ++i) {
+      const Job job = job_of();
+      Mass mass = mass_of(plan, options_of(static_cast<MassRoof>(i)), job);
+      for (glm::dvec3& p : mass.point) p = glm::dvec3(glm::vec3(p));
+      ASSERT_TRUE(merge_points(mass)) << number << " " << mass_roof_names[static_cast<std::size_t>(i)];
+    }
+  }
+  EXPECT_GT(count, 1200);
 }
 
 TEST(SmallestBox, TurnsWithThePlan) {

@@ -1,0 +1,290 @@
+#include "core/generators/city/ground_mesh.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "core/base/math.h"
+#include "core/geom/mesh/weld.h"
+#include "core/geom/polygon/delaunay.h"
+
+namespace seedmesh::city {
+namespace {
+
+using glm::dvec2;
+
+constexpr double same_height = 1e-3;                              // m
+constexpr double inner_spacing = 10;                              // of vertices inside of parts, m
+constexpr double border_distance = 4;                             // of these vertices from edges, m
+constexpr double foundation_ledge = 0.1, foundation_depth = 0.5;  // m
+
+bool is_inside_part(const Part& part, const dvec2& metres) {
+  bool is_in = false;
+  for (const CmRing& ring : part.rings) is_in ^= is_inside(ring, metres * 100.0);
+  return is_in;
+}
+
+bool is_near_border(const Part& part, const dvec2& metres) {
+  for (const CmRing& ring : part.rings) {
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      const double off =
+          distance_to_segment(metres * 100.0, in_cm(ring[i]), in_cm(ring[(i + 1) % ring.size()]));
+      if (off < border_distance * 100) return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace
+
+GroundMesh::GroundMesh(const CityPlan& plan, const Surface& surface, const Job& job)
+    : plan_(plan), surface_(surface), job_(job), triangulator_(&job) {
+  mesh_.position = Array<glm::vec3>(job);
+  mesh_.normal = Array<glm::vec3>(job);
+  mesh_.uv[0] = Array<glm::vec2>(job);
+  mesh_.index.wide = Array<std::uint32_t>(job);
+}
+
+void GroundMesh::add_part(std::uint32_t number) {
+  const Part& part = plan_.parts[number];
+  points_.clear();
+  sizes_.clear();
+  for (const CmRing& ring : part.rings) {
+    const std::size_t first = points_.size();
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      const CmPoint& next = ring[(i + 1) % ring.size()];
+      points_.push_back(in_metres(ring[i]));
+      surface_.points_between(ring[i], next, between_);
+      points_.insert(points_.end(), between_.begin(), between_.end());
+    }
+    sizes_.push_back(static_cast<std::uint32_t>(points_.size() - first));
+  }
+  const auto& corners = triangulator_.run(points_, sizes_, 0);
+  corners_.assign(corners.begin(), corners.end());
+  inner_.clear();
+  if (!surface_.is_level() && part.street == no_index && part.node == no_index) add_inner_points(part);
+  if (part.kind == PartKind::lot && !surface_.is_level()) add_inner_points(part);
+  refine_triangles(points_, corners_, inner_, &job_);
+  const auto first = static_cast<std::uint32_t>(mesh_.position.size());
+  for (const dvec2& p : points_) add_vertex(p, surface_.height(number, p), {0, 1, 0}, glm::vec2(p));
+  add_triangles(first);
+}
+
+void GroundMesh::add_carriageway(std::uint32_t number, StreetLayer layer) {
+  const Part& part = plan_.parts[number];
+  const StreetStrips& strips = surface_.strips(part.street);
+  if (strips.lines.size() < 2) {
+    if (layer == StreetLayer::asphalt) add_part(number);
+    return;
+  }
+  const CrossSection& section = plan_.class_of(part.street);
+  const auto shares_of = [](const std::vector<StripPiece>& pieces, std::vector<double>& shares) {
+    for (const StripPiece& piece : pieces) {
+      if (piece.from > 0) shares.push_back(piece.from);
+    }
+  };
+  std::vector<StripPiece> before, here = pieces_of(strips.kinds[0], section), after;
+  double station = 0;
+  for (std::size_t i = 0; i < strips.kinds.size(); ++i) {
+    after = i + 1 < strips.kinds.size() ? pieces_of(strips.kinds[i + 1], section) : std::vector<StripPiece>{};
+    StripSides sides;
+    sides.start = strips.lines[i];
+    sides.end = strips.lines[i + 1];
+    sides.station = station;
+    sides.length = glm::length(sides.end.left + sides.end.right - sides.start.left - sides.start.right) / 2;
+    shares_of(before, sides.start_shares);
+    shares_of(here, sides.start_shares);
+    shares_of(here, sides.end_shares);
+    shares_of(after, sides.end_shares);
+    const PlanarEdge& edge = plan_.graph.edges[part.street];
+    const auto add_corner = [&](std::uint32_t node, std::vector<dvec2>& corner) {
+      const CmPoint& at = plan_.graph.nodes[node];
+      const CmRing& ring = part.rings[0];
+      if (std::find(ring.begin(), ring.end(), at) != ring.end()) corner.push_back(in_metres(at));
+    };
+    if (i == 0) add_corner(edge.from, sides.start_corner);
+    if (i + 1 == strips.kinds.size()) add_corner(edge.to, sides.end_corner);
+    for (std::vector<double>* shares : {&sides.start_shares, &sides.end_shares}) {
+      std::sort(shares->begin(), shares->end());
+      shares->erase(std::unique(shares->begin(), shares->end()), shares->end());
+    }
+    for (const StripPiece& piece : here) {
+      if (piece.is_marking == (layer == StreetLayer::markings)) add_strip(number, sides, piece);
+    }
+    station += sides.length;
+    before = std::move(here);
+    here = std::move(after);
+  }
+}
+
+/// One piece of a strip. Its corners at the ends of the strip include those of the neighbours.
+void GroundMesh::add_strip(std::uint32_t number, const StripSides& sides, const StripPiece& piece) {
+  points_.clear();
+  std::vector<glm::vec2> uv;
+  const double width = glm::length(sides.start.right - sides.start.left);
+  const auto add = [&](const CrossLine& line, double share, double station) {
+    points_.push_back(point_across(line, share));
+    uv.emplace_back(static_cast<float>(station), static_cast<float>(share * width));
+  };
+  // Counter-clockwise: along the right side, across the end, back along the left side, across the start.
+  const double end = sides.station + sides.length;
+  add(sides.start, piece.to, sides.station);
+  add(sides.end, piece.to, end);
+  const auto add_corner = [&](const std::vector<dvec2>& corner, double at) {
+    for (const dvec2& p : corner) {
+      points_.push_back(p);
+      uv.emplace_back(static_cast<float>(at), static_cast<float>(width / 2));
+    }
+  };
+  add_corner(sides.end_corner, end);
+  for (std::size_t k = sides.end_shares.size(); k-- > 0;) {
+    const double share = sides.end_shares[k];
+    if (share > piece.from && share < piece.to) add(sides.end, share, end);
+  }
+  add(sides.end, piece.from, end);
+  add(sides.start, piece.from, sides.station);
+  for (const double share : sides.start_shares) {
+    if (share > piece.from && share < piece.to) add(sides.start, share, sides.station);
+  }
+  add_corner(sides.start_corner, sides.station);
+  sizes_ = {static_cast<std::uint32_t>(points_.size())};
+  const auto& corners = triangulator_.run(points_, sizes_, 0);
+  corners_.assign(corners.begin(), corners.end());
+  if (points_.size() > 4) refine_triangles(points_, corners_, {}, &job_);
+  const auto first = static_cast<std::uint32_t>(mesh_.position.size());
+  for (std::size_t i = 0; i < points_.size(); ++i)
+    add_vertex(points_[i], surface_.height(number, points_[i]), {0, 1, 0}, uv[i]);
+  add_triangles(first);
+}
+
+/// A lattice over the whole city, without the points that are near the border of the part.
+void GroundMesh::add_inner_points(const Part& part) {
+  if (part.kind == PartKind::water) return;
+  dvec2 low = points_[0], high = points_[0];
+  for (const dvec2& p : points_) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+  }
+  for (double y = std::ceil(low.y / inner_spacing) * inner_spacing; y < high.y; y += inner_spacing) {
+    job_.check();
+    for (double x = std::ceil(low.x / inner_spacing) * inner_spacing; x < high.x; x += inner_spacing) {
+      const dvec2 p(x, y);
+      if (is_inside_part(part, p) && !is_near_border(part, p)) inner_.push_back(p);
+    }
+  }
+}
+
+/// Adds the triangles of the last part, and the normals of its vertices where it is not level.
+void GroundMesh::add_triangles(std::uint32_t first) {
+  // Twice the area seen from above, in square metres. Corners on a straight border make triangles without area, which
+  // cover nothing.
+  constexpr float least = 1e-6F;
+  std::vector<glm::vec3> normals(points_.size(), glm::vec3(0));
+  for (std::size_t i = 0; i + 2 < corners_.size(); i += 3) {
+    const std::array<std::uint32_t, 3> at = {corners_[i], corners_[i + 1], corners_[i + 2]};
+    const glm::vec3 &p = mesh_.position[first + at[0]], &q = mesh_.position[first + at[1]],
+                    &r = mesh_.position[first + at[2]];
+    const glm::vec3 normal = glm::cross(q - p, r - p);
+    if (normal.y <= least) continue;
+    for (const std::uint32_t corner : at) {
+      normals[corner] += normal;
+      mesh_.index.wide.push_back(first + corner);
+    }
+  }
+  if (surface_.is_level()) return;
+  for (std::size_t i = 0; i < normals.size(); ++i) {
+    const float length = std::sqrt(glm::dot(normals[i], normals[i]));
+    if (length > 0) mesh_.normal[first + i] = normals[i] / length;
+  }
+}
+
+void GroundMesh::add_walls(std::uint32_t number) {
+  const Part& part = plan_.parts[number];
+  if (part.kind == PartKind::water) return;
+  for (const CmRing& ring : part.rings) {
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      const CmPoint &a = ring[i], &b = ring[(i + 1) % ring.size()];
+      const std::uint32_t beyond = surface_.part_beyond(a, b);
+      if (beyond == no_index && !part.is_wall) continue;
+      surface_.points_between(a, b, between_);
+      between_.push_back(in_metres(b));
+      dvec2 before = in_metres(a);
+      double along = 0;
+      const auto low_at = [&](const dvec2& p) {
+        return beyond != no_index ? surface_.height(beyond, p)
+                                  : surface_.height(number, p) - surface_.wall_height();
+      };
+      double high = surface_.height(number, before), low = low_at(before);
+      for (const dvec2& p : between_) {
+        const double next_high = surface_.height(number, p), next_low = low_at(p);
+        if (high - low > same_height || next_high - next_low > same_height)
+          add_wall({before.x, std::min(low, high), before.y}, {p.x, std::min(next_low, next_high), p.y}, high,
+                   next_high, along);
+        along += glm::length(p - before);
+        before = p;
+        high = next_high;
+        low = next_low;
+      }
+    }
+  }
+}
+
+/// The upright face along an edge whose left side is higher; a triangle where one end has no height.
+void GroundMesh::add_wall(const glm::dvec3& a_low, const glm::dvec3& b_low, double a_high, double b_high,
+                          double along) {
+  const dvec2 a(a_low.x, a_low.z), b(b_low.x, b_low.z), edge = b - a;
+  const double length = std::sqrt(glm::dot(edge, edge));
+  // The right side of the edge, seen from above; north is -Z.
+  const glm::vec3 normal(static_cast<float>(edge.y / length), 0, static_cast<float>(edge.x / length));
+  const auto start = static_cast<float>(along), end = static_cast<float>(along + length);
+  const auto rise = [](double high, double low) { return static_cast<float>(high - low); };
+  const std::uint32_t first = add_vertex(a, a_low.y, normal, {start, 0});
+  const std::uint32_t second = add_vertex(b, b_low.y, normal, {end, 0});
+  const bool has_start = a_high - a_low.y > same_height, has_end = b_high - b_low.y > same_height;
+  if (has_end) {
+    const std::uint32_t third = add_vertex(b, b_high, normal, {end, rise(b_high, b_low.y)});
+    for (const std::uint32_t corner : {first, second, third}) mesh_.index.wide.push_back(corner);
+    if (!has_start) return;
+    const std::uint32_t fourth = add_vertex(a, a_high, normal, {start, rise(a_high, a_low.y)});
+    for (const std::uint32_t corner : {first, third, fourth}) mesh_.index.wide.push_back(corner);
+    return;
+  }
+  const std::uint32_t third = add_vertex(a, a_high, normal, {start, rise(a_high, a_low.y)});
+  for (const std::uint32_t corner : {first, second, third}) mesh_.index.wide.push_back(corner);
+}
+
+void GroundMesh::add_foundation(const Lot& lot) {
+  double lowest = 0;
+  constexpr double plinth = 0.02;  // m: keeps its top apart from the house's underside
+  const double top_height = surface_.floor_height(lot, lowest) + plinth;
+  const math::SinCos turn = math::sincos_degrees(lot.house->turn);
+  const double x = lot.house->width / 2 + foundation_ledge, y = lot.house->depth / 2 + foundation_ledge;
+  std::array<dvec2, 4> ring = {dvec2(-x, -y), {x, -y}, {x, y}, {-x, y}};
+  for (dvec2& p : ring)
+    p = lot.house->position + dvec2(p.x * turn.cos - p.y * turn.sin, p.x * turn.sin + p.y * turn.cos);
+  const double low = lowest - foundation_depth;
+  std::array<std::uint32_t, 4> top{};
+  for (std::size_t k = 0; k < 4; ++k) {
+    const dvec2 &a = ring[k], &b = ring[(k + 1) % 4];
+    add_wall({a.x, low, a.y}, {b.x, low, b.y}, top_height, top_height, 0);
+  }
+  for (std::size_t k = 0; k < 4; ++k) top[k] = add_vertex(ring[k], top_height, {0, 1, 0}, glm::vec2(ring[k]));
+  for (const std::size_t k : {0U, 1U, 2U, 0U, 2U, 3U}) mesh_.index.wide.push_back(top[k]);
+}
+
+Mesh GroundMesh::take(Job& job) {
+  weld(mesh_, job);
+  return std::move(mesh_);
+}
+
+std::uint32_t GroundMesh::add_vertex(const dvec2& p, double height, const glm::vec3& normal,
+                                     const glm::vec2& uv) {
+  mesh_.position.push_back(
+      {static_cast<float>(p.x), static_cast<float>(height), static_cast<float>(0 - p.y)});
+  mesh_.normal.push_back(normal);
+  mesh_.uv[0].push_back(uv);
+  return static_cast<std::uint32_t>(mesh_.position.size() - 1);
+}
+
+}  // namespace seedmesh::city

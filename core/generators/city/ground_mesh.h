@@ -1,0 +1,60 @@
+#pragma once
+/// The triangles of the parts of a city: their surfaces, and the walls, kerbs and quays between parts of different heights.
+/// Parts share all vertices along their common edges.
+#include <vector>
+
+#include "core/base/job.h"
+#include "core/generators/city/surface.h"
+#include "core/geom/polygon/triangulate.h"
+#include "core/model/mesh.h"
+
+namespace seedmesh::city {
+
+class GroundMesh {
+ public:
+  GroundMesh(const CityPlan& plan, const Surface& surface, const Job& job);
+
+  /// Adds the surface of a part, with texture coordinates in metres east and north.
+  void add_part(std::uint32_t part);
+
+  /// Adds the carriageway of a street, without or with only its markings. Texture coordinates are metres along and across.
+  /// Where it has no strips, add_part() adds it whole.
+  enum class StreetLayer { asphalt, markings };
+  void add_carriageway(std::uint32_t part, StreetLayer layer);
+
+  /// Adds the upright faces along edges where the part on the other side is lower, for example kerbs. Texture
+  /// coordinates are metres along the edge and upwards.
+  void add_walls(std::uint32_t part);
+
+  /// The foundation below a house: upright faces from the lowest ground to its floor, 10 cm outside of its walls.
+  void add_foundation(const Lot& lot);
+
+  std::uint64_t triangles() const { return mesh_.index.wide.size() / 3; }
+  bool is_empty() const { return mesh_.index.wide.size() == 0; }
+
+  Mesh take(Job& job);
+
+ private:
+  /// A strip of a carriageway: the lines at both ends, and the shares of the way across where each has vertices.
+  struct StripSides {
+    CrossLine start, end;
+    std::vector<double> start_shares, end_shares;
+    std::vector<glm::dvec2> start_corner, end_corner;  ///< nodes on the border of the area
+    double station = 0, length = 0;                    ///< along the street, metres
+  };
+  void add_strip(std::uint32_t part, const StripSides& sides, const StripPiece& piece);
+  void add_inner_points(const Part& part);
+  void add_wall(const glm::dvec3& a_low, const glm::dvec3& b_low, double a_high, double b_high, double along);
+  std::uint32_t add_vertex(const glm::dvec2& p, double height, const glm::vec3& normal, const glm::vec2& uv);
+  void add_triangles(std::uint32_t first);
+
+  const CityPlan& plan_;
+  const Surface& surface_;
+  const Job& job_;
+  Mesh mesh_;
+  Triangulator triangulator_;
+  std::vector<glm::dvec2> points_, between_, inner_;
+  std::vector<std::uint32_t> sizes_, corners_;
+};
+
+}  // namespace seedmesh::city

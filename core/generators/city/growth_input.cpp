@@ -1,0 +1,66 @@
+// What the ground, obstacles and given streets allow.
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/math.h"
+#include "core/generators/city/growth.h"
+#include "core/generators/city/landform.h"
+#include "generated/params/city.h"
+
+namespace seedmesh::city {
+
+using glm::dvec2;
+
+double GrowthInput::limit_of(std::uint32_t kind) const {
+  const CityClasses& classes = streets.classes;
+  if (kind == static_cast<std::uint32_t>(EdgeClass::highway)) return classes.highway.grade;
+  return kind == static_cast<std::uint32_t>(EdgeClass::minor) ? classes.minor.grade : classes.major.grade;
+}
+
+bool GrowthInput::is_too_steep(const dvec2& a, const dvec2& b, double grade_limit) const {
+  constexpr double excess = 1.5, deepest = 5;  // m
+  if (!landform) return false;
+  const dvec2 along = b - a;
+  const double length = std::sqrt(along.x * along.x + along.y * along.y) / 100;
+  const double from = landform->at(a / 100.0), to = landform->at(b / 100.0);
+  if (std::abs(to - from) > excess * grade_limit * length) return true;
+  const std::int32_t count = math::to_int32(length / 10) + 1;
+  for (std::int32_t n = 1; n < count; ++n) {
+    const double share = static_cast<double>(n) / count;
+    if (std::abs(landform->at((a + along * share) / 100.0) - from - (to - from) * share) > deepest)
+      return true;
+  }
+  return false;
+}
+
+bool GrowthInput::is_blocked(const dvec2& a, const dvec2& b, double grade_limit) const {
+  if (is_too_steep(a, b, grade_limit)) return true;
+  if (!obstacles) return false;
+  const dvec2 along = b - a;
+  const std::int32_t count = math::to_int32(std::sqrt(along.x * along.x + along.y * along.y) / 400) + 1;
+  for (std::int32_t n = 0; n <= count; ++n) {
+    if (is_blocked((a + along * (static_cast<double>(n) / count)) / 100.0)) return true;
+  }
+  return false;
+}
+
+bool GrowthInput::keeps_off_given(const StreetPiece& piece) const {
+  constexpr double near = 1400, least_cross_sine = 0.77;
+  if (!given) return true;
+  const dvec2 p = in_cm(piece.a), q = in_cm(piece.b), along = q - p;
+  for (const StreetPiece& other : given->pieces) {
+    const dvec2 a = in_cm(other.a), b = in_cm(other.b), across = b - a;
+    const double apart = std::min({distance_to_segment(p, a, b), distance_to_segment(q, a, b),
+                                   distance_to_segment(a, p, q), distance_to_segment(b, p, q)});
+    if (!segments_meet(piece.a, piece.b, other.a, other.b)) {
+      if (apart < near) return false;
+      continue;
+    }
+    const double sine = std::abs(along.x * across.y - along.y * across.x) /
+                        (distance(piece.a, piece.b) * distance(other.a, other.b));
+    if (sine < least_cross_sine || apart < near) return false;
+  }
+  return true;
+}
+
+}  // namespace seedmesh::city

@@ -1,0 +1,97 @@
+#include "core/generators/city/landform.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "core/base/math.h"
+#include "core/generators/terrain/plan.h"
+#include "core/schema/json.h"
+#include "generated/params/city.h"
+#include "generated/params/terrain.h"
+
+namespace seedmesh::city {
+namespace {
+
+constexpr char terrain_pointer[] = "/terrain/parameters";
+constexpr double most = 10'000;          // of a height, m
+constexpr double gradient_reach = 10.0;  // m
+
+}  // namespace
+
+Result<Landform> Landform::make(const CityParams& params, Job& job) {
+  Landform landform;
+  if (params.maps.height) {
+    std::vector<Issue> issues;
+    landform.heights_ = FieldMap::read(*params.maps.height, "/maps/height", {-1, -1}, {1, 1}, job, issues);
+    if (!landform.heights_) return Error{Code::invalid, std::move(issues)};
+    return landform;
+  }
+  if (!params.terrain) return landform;
+  IssueList errors;
+  const TerrainParams terrain = read_terrain(Json::parse(params.terrain->parameters), "", errors);
+  const std::uint64_t seed = params.terrain->seed.value_or(job.rng().at("city").at("terrain").key());
+  Job own = job.for_child(seed, terrain_pointer);
+  Result<terrain::Field> field = terrain::field_of(terrain, own);
+  if (!field) {
+    Error error = std::move(field).error();
+    for (Issue& issue : error.issues) issue.pointer.insert(0, terrain_pointer);
+    return error;
+  }
+  landform.field_ = std::move(*field);
+  if (terrain.water_level &&
+      *terrain.water_level > static_cast<double>(terrain::range_of(landform.field_, job).low))
+    landform.water_level_ = terrain.water_level;
+  return landform;
+}
+
+double Landform::at(const glm::dvec2& metres) const {
+  if (heights_) return std::clamp(heights_->value_at(metres), 0 - most, most);
+  if (field_.width == 0) return 0;
+  const double x = std::clamp(metres.x / field_.cell + (field_.width - 1) / 2.0, 0.0, field_.width - 1.0);
+  const double z = std::clamp((field_.depth - 1) / 2.0 - metres.y / field_.cell, 0.0, field_.depth - 1.0);
+  const std::int32_t i = std::min(math::to_int32(x), field_.width - 2);
+  const std::int32_t j = std::min(math::to_int32(z), field_.depth - 2);
+  const double u = x - i, v = z - j;
+  const auto height = [&](std::int32_t east, std::int32_t south) {
+    return static_cast<double>(field_.at(i + east, j + south));
+  };
+  return (height(0, 0) * (1 - u) + height(1, 0) * u) * (1 - v) +
+         (height(0, 1) * (1 - u) + height(1, 1) * u) * v;
+}
+
+glm::dvec2 Landform::gradient(const glm::dvec2& metres) const {
+  const glm::dvec2 east(gradient_reach, 0), north(0, gradient_reach);
+  return glm::dvec2(at(metres + east) - at(metres - east), at(metres + north) - at(metres - north)) /
+         (2 * gradient_reach);
+}
+
+bool Landform::covers(const glm::dvec2& low, const glm::dvec2& high) const {
+  if (field_.width == 0) return true;
+  const glm::dvec2 half = glm::dvec2(field_.width - 1, field_.depth - 1) * (field_.cell / 2);
+  return low.x >= 0 - half.x && low.y >= 0 - half.y && high.x <= half.x && high.y <= half.y;
+}
+
+void check_landform(const CityParams& params, const Job& job, std::vector<Issue>& issues) {
+  if (params.maps.height) {
+    FieldMap::read(*params.maps.height, "/maps/height", {-1, -1}, {1, 1}, job, issues);
+    if (params.terrain)
+      issues.push_back(
+          {IssueKind::conflict, "/maps/height", "found both `terrain` and `height`; expected one of them"});
+  }
+  if (!params.terrain || params.terrain->generator.empty()) return;
+  if (params.terrain->generator != "terrain") {
+    issues.push_back({IssueKind::invalid_value, "/terrain/generator",
+                      "found " + params.terrain->generator + "; expected terrain"});
+    return;
+  }
+  const Json parameters = Json::parse(params.terrain->parameters);
+  if (parameters.value("shape", "plane") != "plane")
+    issues.push_back({IssueKind::not_available, "/terrain/parameters/shape",
+                      "found a sphere; the ground of a city is a plane"});
+  if (parameters.contains("onto"))
+    issues.push_back(
+        {IssueKind::not_available, "/terrain/parameters/onto", "the ground of a city cannot follow a model"});
+}
+
+}  // namespace seedmesh::city

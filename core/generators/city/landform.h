@@ -1,0 +1,50 @@
+#pragma once
+/// The natural ground of a city: the height field of a terrain, an expression, or level ground at height 0. Positions
+/// are metres east and north.
+#include <optional>
+
+#include "core/base/job.h"
+#include "core/base/result.h"
+#include "core/generators/city/density.h"
+#include "core/generators/terrain/field.h"
+
+namespace seedmesh {
+struct CityParams;
+}
+
+namespace seedmesh::city {
+
+/// Immutable; threads may share it.
+class Landform {
+ public:
+  /// Level ground at height 0.
+  Landform() = default;
+
+  /// The ground of a request. Issues: those of the terrain, below /terrain/parameters, and of the expression at
+  /// /maps/height.
+  static Result<Landform> make(const CityParams& params, Job& job);
+
+  bool is_level() const { return !heights_ && field_.width == 0; }
+
+  /// The height of the natural ground; beyond the border of a terrain, that of its border.
+  double at(const glm::dvec2& metres) const;
+
+  /// The rise per metre to the east and to the north, as the mean over 20 metres.
+  glm::dvec2 gradient(const glm::dvec2& metres) const;
+
+  /// The height of the water of a terrain that is partly below it.
+  const std::optional<double>& water_level() const { return water_level_; }
+
+  /// Whether a rectangle lies within the terrain.
+  bool covers(const glm::dvec2& low, const glm::dvec2& high) const;
+
+ private:
+  terrain::Field field_;
+  std::optional<FieldMap> heights_;
+  std::optional<double> water_level_;
+};
+
+/// What the schema cannot say about the ground of a request.
+void check_landform(const CityParams& params, const Job& job, std::vector<Issue>& issues);
+
+}  // namespace seedmesh::city

@@ -1,0 +1,90 @@
+#pragma once
+/// The surface of the finished city: the height of every part of the partition. On level ground carriageways are at
+/// height 0. On a terrain carriageways and sidewalks follow the profiles of the streets, and the ground of a block joins
+/// their outer edges and the natural ground by embankments of at most 1:2. Where the streets around a block differ too
+/// much for that, its border lies above or below the sidewalk, and a wall stands there.
+#include <span>
+
+#include "core/generators/city/markings.h"
+#include "core/generators/city/plan.h"
+
+namespace seedmesh::city {
+
+constexpr double kerb_height = 0.13;  // m
+constexpr double water_depth = 1.2;   // of water below the lowest point of its shore, m
+
+class Surface {
+ public:
+  /// Keeps a reference to the plan, which has to stay as it is. `wall_height` is that of a town wall.
+  Surface(const CityPlan& plan, double wall_height, Job& job);
+
+  bool is_level() const { return plan_.heights.is_level(); }
+  const CityPlan& plan() const { return plan_; }
+  double wall_height() const { return wall_height_; }
+
+  /// The height of a part at a position in metres on it.
+  double height(std::uint32_t part, const glm::dvec2& metres) const;
+
+  /// The positions in metres strictly between two corners of a part, from `a` to `b`, at which its outline has further
+  /// vertices; the same for both parts that have the edge. Kerbs have those of the strips of their street; other edges
+  /// have some on a terrain only.
+  void points_between(const CmPoint& a, const CmPoint& b, std::vector<glm::dvec2>& points) const;
+
+  /// The strips of an edge's carriageway.
+  const StreetStrips& strips(std::uint32_t edge) const { return strips_[edge]; }
+
+  /// The part on the other side of the edge from `a` to `b` of some part; no_index outside of the area.
+  std::uint32_t part_beyond(const CmPoint& a, const CmPoint& b) const;
+
+  /// The height of the floor of a lot's house: the highest ground below it. `lowest` becomes the lowest.
+  double floor_height(const Lot& lot, double& lowest) const;
+
+ private:
+  struct DirectedEdge {
+    CmPoint a, b;
+    std::uint32_t part = 0;
+  };
+  /// A point of the border of a ground, and its height.
+  struct BorderPoint {
+    glm::dvec2 at{0};
+    double height = 0;
+  };
+  /// The ground of a block, or of a part without a block.
+  struct Ground {
+    std::vector<std::uint32_t> parts;
+    std::vector<BorderPoint> border;
+  };
+
+  /// The further vertices of an edge of a carriageway, from the lesser of its ends to the greater.
+  struct DividedEdge {
+    CmPoint a, b;
+    std::uint32_t first = 0, count = 0;  ///< into `edge_points_`
+  };
+
+  void divide_carriageways();
+  void divide_edge(const CmPoint& from, const CmPoint& to, std::span<const glm::dvec2> points);
+  bool is_street_space(const Part& part) const;
+  double street_height(const Part& part, const glm::dvec2& metres) const;
+  void collect_border(Ground& ground) const;
+  double ground_height(const Ground& ground, const glm::dvec2& metres) const;
+  void limit_natural_ground(const Job& job);
+  double natural_height(const glm::dvec2& metres) const;
+  double level_of_water(const Part& part) const;
+
+  const CityPlan& plan_;
+  double wall_height_;
+  std::vector<DirectedEdge> edges_;   ///< of all parts, sorted
+  std::vector<StreetStrips> strips_;  ///< by edge
+  std::vector<DividedEdge> divided_;  ///< sorted
+  std::vector<glm::dvec2> edge_points_;
+  std::vector<Ground> grounds_;
+  std::vector<std::uint32_t> ground_of_;  ///< by part
+  std::vector<double> water_level_;       ///< by part
+  // Natural heights on a lattice, without slopes that need a wall.
+  glm::dvec2 low_{0};
+  double cell_ = 1;
+  std::int32_t columns_ = 0, rows_ = 0;
+  std::vector<double> natural_;
+};
+
+}  // namespace seedmesh::city

@@ -1,0 +1,18 @@
+#pragma once
+/// Warnings that follow from the last word.
+#include <cstdint>
+#include <vector>
+
+#include "core/base/result.h"
+#include "core/generators/lsystem/grammar.h"
+
+namespace seedmesh::lsystem {
+
+/// Warns of unmatched braces, which draw nothing.
+void warn_of_braces(std::uint64_t open, std::uint64_t stray, std::vector<Warning>& warnings);
+
+/// Warns where the numbers of modules of each kind in the last word show unmatched braces, or that nothing is drawn.
+void warn_of_word(const Grammar& grammar, const std::vector<std::uint64_t>& counts,
+                  std::vector<Warning>& warnings);
+
+}  // namespace seedmesh::lsystem

@@ -1,0 +1,30 @@
+#pragma once
+/// Heights along one line from west to east, as a graph.
+///
+/// Fractional Brownian motion is a Gaussian process with the variance d^2H of the difference at the distance d
+/// (Mandelbrot and Van Ness, "Fractional Brownian motions, fractional noises and applications", 1968).
+#include "core/base/array.h"
+#include "core/base/rng.h"
+#include "core/model/model.h"
+
+namespace seedmesh {
+struct TerrainParams;
+}
+
+namespace seedmesh::terrain {
+
+/// The longest profile of fractional Brownian motion, because its cost is the square of the number of samples.
+constexpr int longest_brownian = 4097;
+
+/// `count` heights, of which the first is 0. The last has the standard deviation `amplitude`. The process is exact:
+/// each step is drawn from its distribution given all steps before it (Hosking, "Modeling persistence in hydrological
+/// time series using fractional differencing", 1984). 0 < hurst < 1. About 1 ns for each pair of samples.
+Array<float> brownian_heights(int count, double hurst, double amplitude, Rng rng, const Job& job);
+
+/// The heights of the request. Its shape is profile.
+Array<float> profile_heights(const TerrainParams& params, const Job& job);
+
+/// The graph as lines in the plane z = 0, centred on x = 0.
+Model profile_model(const TerrainParams& params, Job& job);
+
+}  // namespace seedmesh::terrain

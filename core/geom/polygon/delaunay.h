@@ -1,0 +1,21 @@
+#pragma once
+/// Better triangles for surfaces over a plane: flips towards the Delaunay triangulation, and points inside.
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <span>
+#include <vector>
+
+#include "core/base/job.h"
+
+namespace seedmesh {
+
+/// Improves a triangulation of a polygon. Edges that only one triangle has are its outline and stay. Lawson, "Software for
+/// C1 surface interpolation", 1977: an edge is flipped where the circle about one triangle holds the opposite corner of
+/// the other. Triangles of area 0 at straight corners of the outline disappear.
+///
+/// `triangles` holds three numbers of `points` each, counter-clockwise. The points of `inner` that lie inside are
+/// appended to `points` and become corners. `job` may be null. Cost: about n square root of n for n inner points.
+void refine_triangles(std::vector<glm::dvec2>& points, std::vector<std::uint32_t>& triangles,
+                      std::span<const glm::dvec2> inner, const Job* job);
+
+}  // namespace seedmesh

@@ -1,0 +1,110 @@
+// Single parts of a model: a shape of a building, a plant of a scene, a texture, the light; and files of proctree.js.
+import assert from 'node:assert/strict';
+import fs from 'node:fs';
+import { after, before, test } from 'node:test';
+import { difference, fragment_of, launch, open, open_menu, picture, program, serve, until_shown } from './support.mjs';
+
+let server, browser;
+before(async () => { server = await serve(program); browser = await launch(); });
+after(async () => { await browser?.close(); await server?.stop(); });
+
+const at = (request) => `${server.url}/${fragment_of(request)}`;
+const parameters_of = (page) => page.evaluate(async () => {
+  const text = location.hash.slice(1).split('.')[0].replaceAll('-', '+').replaceAll('_', '/');
+  const bytes = Uint8Array.from(atob(text), (character) => character.charCodeAt(0));
+  return JSON.parse(await new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream('deflate-raw'))).text()).parameters;
+});
+
+/** The address follows changes after a short pause. */
+async function becomes(page, member, wanted) {
+  for (let tries = 0; tries < 50 && JSON.stringify((await parameters_of(page))[member]) !== JSON.stringify(wanted); tries += 1) await page.waitForTimeout(100);
+  assert.deepEqual((await parameters_of(page))[member], wanted);
+}
+
+test('a selected shape can be removed, get another rule, and be restored', { timeout: 300_000 }, async () => {
+  const rules = 'Lot --> split(x) { ~1: Bay | ~1: Bay }\nBay --> split(y) { ~1: Low | ~1: Low }\nLow --> Wall.\nDoor --> color("#aa3322") Leaf.';
+  const page = await open(browser, at({ generator: 'building', seed: 1, parameters: { rules, size: [8, 6, 2] } }));
+  await page.click('#hint-away');
+  await page.click('#tab-result');
+  await page.waitForSelector('#show-shapes');
+  await page.selectOption('#shape-kind', '=Bay');
+  await page.check('#show-shapes');
+  const box = await page.locator('#picture').boundingBox();
+  await page.mouse.click(box.x + box.width * 0.56, box.y + box.height * 0.5);
+  await page.waitForSelector('#edit-remove');
+  const path = /PathLot\/Bay\[(\d)\]/.exec(await page.textContent('.picked'));
+  assert.ok(path, await page.textContent('.picked'));
+  await until_shown(page, () => page.click('#edit-remove'));
+  await becomes(page, 'edits', [{ shape: `Lot/Bay[${path[1]}]`, remove: true }]);
+  await page.waitForSelector('#edit-undo');
+  await until_shown(page, () => page.selectOption('#edit-rule', 'Low'));
+  await becomes(page, 'edits', [{ shape: `Lot/Bay[${path[1]}]`, rule: 'Low' }]);
+  await page.waitForSelector('#edit-undo');
+  await until_shown(page, () => page.click('#edit-undo'));
+  await becomes(page, 'edits', undefined);
+});
+
+test('a click on a plant shows its word, and its request is saved', { timeout: 300_000 }, async () => {
+  const request = {
+    generator: 'scene', seed: 1,
+    parameters: {
+      ground: { size: 12 },
+      layers: [{ name: 'tree', model: { generator: 'lsystem', seed: 4, parameters: { axiom: 'F', productions: ['F -> F[+F]F'], iterations: 2 } }, variants: 1, place: { method: 'positions', positions: [{ at: [0, 0] }] } }],
+    },
+  };
+  const page = await open(browser, at(request));
+  await page.click('#hint-away');
+  await page.click('#tab-result');
+  await page.waitForSelector('.plants');
+  const box = await page.locator('#picture').boundingBox();
+  await page.mouse.click(box.x + box.width * 0.5, box.y + box.height * 0.55);
+  await page.waitForSelector('#save-plant');
+  assert.equal(await page.textContent('.picked pre'), 'F[+F]F[+F[+F]F]F[+F]F');
+  assert.match(await page.textContent('.picked'), /Branches4Depth2/);
+  const [download] = await Promise.all([page.waitForEvent('download'), page.click('#save-plant')]);
+  const saved = JSON.parse(fs.readFileSync(await download.path(), 'utf8'));
+  assert.equal(saved.generator, 'lsystem');
+  assert.deepEqual(saved.parameters.productions, ['F -> F[+F]F']);
+  assert.equal((await server.post('/v1/validate', saved)).status, 200);
+});
+
+test('fog and coloured light change the view and not the request', { timeout: 300_000 }, async () => {
+  const page = await open(browser, at({ generator: 'fractal', seed: 0, parameters: { iterations: 1 } }));
+  await page.click('#hint-away');
+  const before = await parameters_of(page);
+  await open_menu(page);
+  for (const act of [() => page.check('#fog'), () => page.fill('#light-color', '#ff2000')]) {
+    const earlier = await picture(page);
+    await act();
+    let share = 0;
+    for (let tries = 0; tries < 20 && share < 0.001; tries += 1) share = difference(earlier, await picture(page), 0.04);
+    assert.ok(share >= 0.001, String(share));
+  }
+  assert.deepEqual(await parameters_of(page), before);
+});
+
+test('a tree of the model proctree is saved as a file of proctree.js', { timeout: 300_000 }, async () => {
+  const page = await open(browser, at({ generator: 'tree', seed: 1, parameters: { model: 'proctree', mSeed: 262, mLevels: 3 } }));
+  await page.click('#hint-away');
+  await page.click('#download-menu > summary');
+  const [download] = await Promise.all([page.waitForEvent('download'), page.click('#save-proctree')]);
+  assert.match(download.suggestedFilename(), /\.proctree\.json$/);
+  const saved = JSON.parse(fs.readFileSync(await download.path(), 'utf8'));
+  assert.equal(Object.keys(saved).length, 22);
+  assert.equal(saved.levels, 3);
+});
+
+test('a bark is chosen by its picture', { timeout: 300_000 }, async () => {
+  const page = await open(browser, at({ generator: 'tree', seed: 1, parameters: { model: 'proctree', mLevels: 2 } }));
+  await page.click('#hint-away');
+  await page.click('#tab-parameters');
+  const field = page.locator('[data-pointer="/parameters/bark"]');
+  await field.evaluate((element) => { for (let up = element.closest('details'); up; up = up.parentElement?.closest('details')) up.open = true; });
+  await field.locator('summary', { hasText: 'Pictures' }).click();
+  const birch = field.locator('button[title="birch bark"]');
+  await birch.scrollIntoViewIfNeeded();
+  await page.waitForFunction(() => { const image = document.querySelector('[data-pointer="/parameters/bark"] button[title="birch bark"] img'); return image?.complete && image.naturalWidth === 96; });
+  await until_shown(page, () => birch.click());
+  await becomes(page, 'bark', 'birch_bark');
+  assert.equal(await field.locator('select').first().inputValue(), 'birch_bark');
+});
