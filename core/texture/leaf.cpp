@@ -17,7 +17,7 @@ using glm::dvec2;
 using glm::vec2;
 
 // Blossoms and shoots of needles have fewer, narrow leaves more, so that all twigs have similar gaps.
-constexpr int leaves_of_a_twig = 21, blossoms_of_a_spray = 9, narrow_leaves_of_a_twig = 39;
+constexpr int leaves_of_a_twig = 31, blossoms_of_a_spray = 9, narrow_leaves_of_a_twig = 57;
 // Rows between two checks of the deadline.
 constexpr int rows_a_look = 32;
 // The share of the accent colour in the heart of a blossom, and where on the petals it ends.
@@ -52,12 +52,14 @@ class View {
 
 class Painter {
  public:
-  /// `has_hearts`: blades have the accent colour at their base.
-  Painter(const LeafDrawing& drawing, Relief& relief, Rng rng, bool has_hearts, const Job& job)
+  /// `has_hearts`: blades have the accent colour at their base. Leaves of twigs differ more, and are darker at their
+  /// base, where others shade them.
+  Painter(const LeafDrawing& drawing, Relief& relief, Rng rng, bool has_hearts, bool is_twig, const Job& job)
       : view_(drawing, relief.height.size()),
         relief_(relief),
         rng_(rng),
         has_hearts_(has_hearts),
+        is_twig_(is_twig),
         job_(job) {}
 
   /// `woody` lines have the accent colour.
@@ -107,7 +109,8 @@ class Painter {
 
   void fill(const LeafBlade& blade, const Coverage& coverage, const Window& window, std::uint64_t number) {
     Rng own = rng_.at("blade").at(number);
-    const auto own_tone = static_cast<float>(own.uniform(-0.1, 0.1));
+    const auto own_tone = static_cast<float>(own.uniform(-1, 1)) * (is_twig_ ? 0.16F : 0.1F);
+    const float rise = is_twig_ ? 0.24F : 0.1F;
     const vec2 base(blade.base), along = vec2(blade.tip - blade.base);
     const float by_length = 1 / glm::dot(along, along);
     const vec2 across =
@@ -121,7 +124,7 @@ class Painter {
         if (cover <= 0) continue;
         const vec2 p = view_.leaf(x, y) - base;
         const float t = clamp_share(glm::dot(p, along) * by_length), side = glm::dot(p, across);
-        const float tone = 0.42F + own_tone + 0.05F * (side > 0 ? 1.0F : -1.0F) + 0.1F * t;
+        const float tone = 0.47F - 0.5F * rise + own_tone + 0.05F * (side > 0 ? 1.0F : -1.0F) + rise * t;
         mix(relief_.tone.at(x, y), tone, cover);
         mix(relief_.height.at(x, y), 0.62F - 0.25F * side * side, cover);
         mix(relief_.accent.at(x, y), has_hearts_ ? heart * step_between(heart_end, 0, t) : 0, cover);
@@ -174,7 +177,7 @@ class Painter {
   View view_;
   Relief& relief_;
   Rng rng_;
-  bool has_hearts_;
+  bool has_hearts_, is_twig_;
   const Job& job_;
 };
 
@@ -307,20 +310,8 @@ void let_light_through(Material& material, LeafShape shape) {
   material.specular = leaf_specular;
 }
 
-// At most 0.4: opaque to half a texel beyond the middle of the edge, so that distant leaves do not become
-// thinner.
-float leaf_cutoff(std::string_view kind) {
-  switch (leaf_picture(kind).shape) {
-    case LeafShape::needles:
-      return 0.2F;
-    case LeafShape::willow:
-    case LeafShape::palm:
-    case LeafShape::compound:
-      return 0.3F;
-    default:
-      return 0.4F;
-  }
-}
+// Mip levels are means of alpha. Below this, dense textures of fine parts close in the distance.
+float leaf_cutoff(std::string_view kind) { return leaf_picture(kind).count > 1 ? 0.5F : 0.45F; }
 
 Painting paint_leaf(std::string_view kind, int size, std::uint64_t seed, const Tint& tint, const Job& job) {
   const LeafPicture picture = leaf_picture(kind);
@@ -328,7 +319,8 @@ Painting paint_leaf(std::string_view kind, int size, std::uint64_t seed, const T
   Relief relief{Field(job, size, 0.4F), Field(job, size, 0.45F), Field(job, size, 0), Field(job, size, 0)};
   const LeafDrawing drawing = draw_leaf(picture.shape, {}, picture.count);
   const bool is_spray = picture.shape == LeafShape::petal && picture.count > 1;
-  Painter painter(drawing, relief, rng, is_spray, job);
+  const bool is_twig = picture.count > 1 && !is_spray;
+  Painter painter(drawing, relief, rng, is_spray, is_twig, job);
   const bool is_woody = picture.count > 1 || picture.shape == LeafShape::needles;
   for (std::size_t i = 0; i < drawing.stalks.size(); ++i) {
     painter.paint_line(drawing.stalks[i], i, i < drawing.woody && is_woody ? 0.9F : 0.15F);

@@ -9,6 +9,7 @@
 
 #include "core/model/model.h"
 #include "core/texture/bond.h"
+#include "core/texture/ground.h"
 #include "core/texture/noise.h"
 
 namespace seedmesh::texture {
@@ -207,7 +208,7 @@ Relief sheet(int size, Rng rng, const Job& job) {
 
 struct Painter {
   Relief (*paint)(int size, Rng rng, const Job& job);
-  glm::vec3 main;     ///< sRGB bytes, of those that are not grey
+  glm::vec3 main;     ///< sRGB bytes; of grey ones only where their grey is not the usual one
   float dark, light;  ///< as multiples of the main colour
   glm::vec3 accent;   ///< sRGB bytes; of grey ones too
   float depth;        ///< metres
@@ -215,9 +216,20 @@ struct Painter {
 };
 
 constexpr WallKind kinds[] = {
-    {"brick", brick_tile, false},      {"plaster", plaster_tile, true}, {"roof_tile", roof_tile_tile, true},
-    {"slate", slate_tile, true},       {"planks", planks_tile, true},   {"ashlar", ashlar_tile, true},
-    {"concrete", concrete_tile, true}, {"sheet", sheet_tile, true},
+    {"brick", brick_tile, false},
+    {"plaster", plaster_tile, true},
+    {"roof_tile", roof_tile_tile, true},
+    {"slate", slate_tile, true},
+    {"planks", planks_tile, true},
+    {"ashlar", ashlar_tile, true},
+    {"concrete", concrete_tile, true},
+    {"sheet", sheet_tile, true},
+    {"grass_ground", {ground_tile, ground_tile}, true},
+    {"soil_ground", {ground_tile, ground_tile}, true},
+    {"rock_ground", {ground_tile, ground_tile}, true},
+    {"scree_ground", {ground_tile, ground_tile}, true},
+    {"sand_ground", {ground_tile, ground_tile}, true},
+    {"snow_ground", {ground_tile, ground_tile}, true},
 };
 
 constexpr Painter painters[] = {
@@ -229,10 +241,22 @@ constexpr Painter painters[] = {
     {ashlar, {}, 0.7F, 1.14F, {158, 156, 150}, 0.014F, 0.95F, 0.86F, 0.95F, 0.35F},
     {concrete, {}, 0.74F, 1.12F, {}, 0.008F, 0.95F, 0.85F, 0.95F, 0.3F},
     {sheet, {}, 0.8F, 1.1F, {}, 0.035F, 0.5F, 0.45F, 0.5F, 0.3F},
+    {grass_ground, {}, 0.28F, 1.3F, {}, 0.022F, 0.98F, 0.8F, 0.9F, 0.55F},
+    {soil_ground, {}, 0.42F, 1.3F, {}, 0.03F, 0.98F, 0.82F, 0.9F, 0.5F},
+    {rock_ground, {}, 0.34F, 1.3F, {}, 0.03F, 0.96F, 0.75F, 0.9F, 0.55F},
+    {scree_ground, {}, 0.32F, 1.3F, {}, 0.08F, 0.98F, 0.78F, 0.9F, 0.6F},
+    {sand_ground, {232, 232, 232}, 0.8F, 1.1F, {}, 0.02F, 0.95F, 0.78F, 0.9F, 0.25F},
+    {snow_ground, {240, 240, 240}, 0.9F, 1.06F, {}, 0.035F, 0.8F, 0.5F, 0.7F, 0.15F},
 };
 static_assert(std::size(kinds) == std::size(painters));
 
 glm::vec3 of_bytes(const glm::vec3& bytes) { return bytes * (1 / 255.0F); }
+
+/// The main tone of a grey kind, in sRGB.
+std::uint8_t main_grey(const WallKind& kind) {
+  const float own = painters[&kind - kinds].main.x;
+  return own > 0 ? static_cast<std::uint8_t>(own) : grey_byte;
+}
 
 }  // namespace
 
@@ -245,11 +269,17 @@ const WallKind* wall_kind(std::string_view name) {
 
 glm::vec3 wall_grey() { return glm::vec3(linear_of_srgb(grey_byte)); }
 
+float grey_of(std::string_view name) {
+  const WallKind* const kind = wall_kind(name);
+  assert(kind != nullptr && kind->is_grey);
+  return linear_of_srgb(main_grey(*kind));
+}
+
 Painting paint_wall(std::string_view name, int size, std::uint64_t seed, const Tint& tint, const Job& job) {
   const WallKind* const kind = wall_kind(name);
   assert(kind != nullptr);
   const Painter& p = painters[kind - kinds];
-  const glm::vec3 main = kind->is_grey ? glm::vec3(grey_byte) : p.main;
+  const glm::vec3 main = kind->is_grey ? glm::vec3(main_grey(*kind)) : p.main;
   Finish finish;
   finish.ramp =
       ramp_round(of_bytes(main), p.dark, p.light, of_bytes(p.accent), kind->is_grey ? Tint{} : tint);

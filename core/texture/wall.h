@@ -1,6 +1,6 @@
 #pragma once
-/// Textures of building surfaces by seed: brick, plaster, roof tiles, slate, planks, ashlar, concrete and
-/// sheet metal. They tile seamlessly in both directions and have a size in metres. Up the wall or the slope
+/// Textures of surfaces by seed: brick, plaster, roof tiles, slate, planks, ashlar, concrete and sheet metal of
+/// buildings, and the grounds of ground.h. They tile seamlessly in both directions and have a size in metres. Up the wall or the slope
 /// is up in the image.
 #include <glm/vec2.hpp>
 #include <span>
@@ -25,6 +25,9 @@ const WallKind* wall_kind(std::string_view name);
 
 /// The mean grey of such textures, linear.
 glm::vec3 wall_grey();
+
+/// The main grey of one kind that is grey, linear.
+float grey_of(std::string_view name);
 
 /// `name` is the name of one of wall_kinds(). Cost: about 30 ns a texel.
 Painting paint_wall(std::string_view name, int size, std::uint64_t seed, const Tint& tint, const Job& job);

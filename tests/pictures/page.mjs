@@ -68,7 +68,11 @@ window.draw = async (url, view, { size, sun }) => {
   prepare(size);
   const { scene: model } = await new GLTFLoader().loadAsync(url), scene = new THREE.Scene();
   scene.add(model);
-  model.traverse((each) => { each.castShadow = each.receiveShadow = true; });
+  const sharpness = Math.min(8, renderer.capabilities.getMaxAnisotropy());
+  model.traverse((each) => {
+    each.castShadow = each.receiveShadow = true;
+    for (const map of ['map', 'normalMap', 'roughnessMap', 'aoMap']) if (each.material?.[map]) each.material[map].anisotropy = sharpness;
+  });
   const box = new THREE.Box3().setFromObject(model);
   lights(scene, box, sun);
   // Positions of views of buildings count from the middle of the foot of the front.

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <cstring>
-#include <map>
 #include <set>
 #include <unordered_map>
 #include <utility>
@@ -65,36 +64,11 @@ void simulate_cache(const Mesh& mesh, std::uint64_t& misses, std::uint64_t& used
   misses += static_cast<std::uint64_t>(loads);
 }
 
-enum class Count { whole, first_of_pair, second_of_pair };
-
-/// Finds sheets with faces on both sides, whose triangles occur in both windings with the same vertices. Only
-/// the first of each pair counts, and its normal may point to either side.
-std::vector<Count> paired_triangles(const Mesh& mesh) {
-  const std::size_t triangles = mesh.index.size() / 3;
-  std::vector<Count> counts(triangles, Count::whole);
-  std::map<Face, std::size_t> known;
-  for (std::size_t t = 0; t < triangles; ++t) {
-    Face f{mesh.index.at(3 * t), mesh.index.at(3 * t + 1), mesh.index.at(3 * t + 2)};
-    std::rotate(f.begin(), std::min_element(f.begin(), f.end()), f.end());
-    const auto twin = known.find(Face{f[0], f[2], f[1]});
-    if (twin == known.end()) {
-      known.emplace(f, t);
-      continue;
-    }
-    counts[twin->second] = Count::first_of_pair;
-    counts[t] = Count::second_of_pair;
-    known.erase(twin);
-  }
-  return counts;
-}
-
 double diagonal(const Box& box) { return glm::length(glm::dvec3(box.max) - glm::dvec3(box.min)); }
 
 void measure_triangles(const Mesh& mesh, MeshMeasures& m) {
   const double size = diagonal(bounds_of(mesh.position.span()));
-  const std::vector<Count> counts = paired_triangles(mesh);
   for (std::size_t t = 0; t < mesh.index.size() / 3; ++t) {
-    if (counts[t] == Count::second_of_pair) continue;
     const Face f{mesh.index.at(3 * t), mesh.index.at(3 * t + 1), mesh.index.at(3 * t + 2)};
     const glm::dvec3 a = mesh.position[f[0]], b = mesh.position[f[1]], c = mesh.position[f[2]];
     const glm::dvec3 normal = glm::cross(b - a, c - a);
@@ -104,7 +78,6 @@ void measure_triangles(const Mesh& mesh, MeshMeasures& m) {
     }
     m.area += 0.5 * glm::length(normal);
     m.volume += glm::dot(a, glm::cross(b, c)) / 6;
-    if (counts[t] == Count::first_of_pair) continue;
     for (std::uint32_t corner : f) {
       if (!mesh.normal.empty() && glm::dot(normal, glm::dvec3(mesh.normal[corner])) < 0) ++m.flipped_corners;
     }
@@ -194,9 +167,7 @@ void measure_topology(const std::vector<const Mesh*>& primitives, MeshMeasures& 
     if (mesh->topology != Topology::triangles) continue;
     std::vector<std::uint32_t> ids;
     for (const glm::vec3& p : mesh->position) ids.push_back(weld.number(p));
-    const std::vector<Count> counts = paired_triangles(*mesh);
     for (std::size_t t = 0; t < mesh->index.size() / 3; ++t) {
-      if (counts[t] == Count::second_of_pair) continue;
       Face f{ids[mesh->index.at(3 * t)], ids[mesh->index.at(3 * t + 1)], ids[mesh->index.at(3 * t + 2)]};
       if (f[0] == f[1] || f[1] == f[2] || f[0] == f[2]) continue;
       for (std::size_t k = 0; k < 3; ++k) {

@@ -1607,6 +1607,8 @@ export interface TerrainParameters {
   water_level?: number;
   /** Pixels a side of a colour texture and a normal map of the whole field, instead of vertex colours. 0: none. Not on a sphere. */
   texture?: number;
+  /** Textures that repeat each two metres on the ground: grass, soil, rock, scree, sand or snow by palette, height and slope, each with colour, normals and roughness. They multiply the vertex colours. Steep ground is mapped from its side. Not with texture, and not on a sphere or a model. */
+  detail?: boolean;
   /** Applies the heights to the surface of another model instead of a plane. They keep their metres and continue mirrored beyond their edges, so that there is no seam. The model keeps its materials. */
   onto?: TerrainParametersOnto;
   /** The contents of the formats png16, png8, rgb24, rgba32 and r16. */
@@ -1655,7 +1657,7 @@ export interface TreeParametersLeaf {
   density?: number;
   /** Factor for the length and width that the model gives. */
   size?: number;
-  /** two_sided: one face that is visible from both sides; renderers turn its normal around at the back, and crowns seen from below the leaves are dark. outward: both sides of a leaf are faces with one normal, which points out of the crown, so that its upper side is as bright as the lower ones are dark. Such leaves have twice the triangles and no generated normal map, and a strict check of meshes reports their faces as duplicates. auto: two_sided. Leaves that share a mesh (output.instancing) are always two_sided. */
+  /** two_sided: one face that is visible from both sides; renderers turn its normal around at the back, and crowns seen from below are dark. outward: thin leaves with faces on both sides, whose normals turn out of the crown as far as they stay on the side of their faces. Such leaves have twice the triangles and no generated normal map. auto: two_sided in the profiles unreal and unity, whose foliage materials turn normals themselves, and outward otherwise. Leaves that share a mesh (output.instancing) are always two_sided. */
   faces?: "auto" | "two_sided" | "outward";
   /** 0 gives every leaf its own normals. 1 gives it the normals of the surface of the crown, so that distant crowns look smoother. */
   crown_normals?: number;

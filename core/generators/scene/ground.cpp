@@ -183,6 +183,7 @@ Result<Model> Ground::model(const SceneParams& params, const GenerateContext& co
     Job own = job.for_child(seed_, terrain_pointer);
     Demand demand;
     demand.lods = params.camera ? 1 : context.demand.lods;
+    demand.textures = context.demand.textures;
     Result<Model> made = of_terrain(terrain::dressed(*terrain_, field_, {own, demand, context.generators}));
     if (!made) return made;
     model = std::move(*made);

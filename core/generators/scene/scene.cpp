@@ -148,6 +148,7 @@ Result<Model> generate(const SceneParams& params, const GenerateContext& context
   Pieces pieces;
   Demand demand;
   demand.lods = level_count_of(params, context.demand);
+  demand.two_sided_leaves = context.demand.two_sided_leaves;
   demand.growth = context.demand.growth;
   if (demand.growth) {
     const Result<std::uint32_t> bones = bones_for({*ground, planting, variant_table}, context.generators);

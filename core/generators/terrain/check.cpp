@@ -203,6 +203,7 @@ class Check {
     refuse(params_.skirt > 0, "/skirt");
     refuse(params_.base.has_value(), "/base");
     refuse(params_.texture > 0, "/texture");
+    refuse(params_.detail, "/detail");
     if (params_.shape != TerrainShape::profile) return;
     refuse(!params_.layers.empty(), "/layers");
     refuse(params_.water_level.has_value(), "/water_level");
@@ -332,6 +333,7 @@ class Check {
     refuse(params_.skirt > 0, "/skirt");
     refuse(params_.base.has_value(), "/base");
     refuse(params_.water_level.has_value(), "/water_level");
+    refuse(params_.detail, "/detail");
     const bool moves = params_.onto->mapping == TerrainMapping::displacement;
     if (moves && params_.texture > 0)
       fault(IssueKind::conflict, "/texture",
@@ -347,6 +349,9 @@ class Check {
             "a grid has every sample and no error; expected the mesh rtin or greedy");
     if (params_.base && params_.skirt > 0)
       fault(IssueKind::conflict, "/skirt", "a closed solid has no skirt");
+    if (params_.detail && params_.texture > 0)
+      fault(IssueKind::conflict, "/detail",
+            "a ground with a texture of the whole field has no details that repeat; expected texture 0");
     if (params_.texture > 0 && params_.texture < least_texture)
       fault(IssueKind::out_of_range, "/texture",
             "found " + std::to_string(params_.texture) + "; expected 0, or " + std::to_string(least_texture) +

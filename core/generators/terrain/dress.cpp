@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 
 #include "core/base/parallel.h"
 #include "core/generators/terrain/decimate.h"
+#include "core/generators/terrain/ground_classes.h"
 #include "core/generators/terrain/maps.h"
 #include "core/generators/terrain/model_parts.h"
 #include "core/generators/terrain/plan.h"
@@ -65,7 +67,12 @@ class Dressing {
     Node root;
     root.name = "terrain";
     model.nodes.push_back(std::move(root));
-    const int ground = add_material(model, ground_material(params_.specular));
+    if (has_detail()) {
+      sites_.emplace(sites());
+      classes_.emplace(palette_of(params_), field_, window_of(params_), *sites_, ground_colors_,
+                       ground_material(params_.specular), model);
+    }
+    const int ground = has_detail() ? -1 : add_material(model, ground_material(params_.specular));
     if (params_.texture > 0) {
       add_pictures(model, ground);
     } else if (params_.palette != TerrainPalette::none &&
@@ -78,6 +85,15 @@ class Dressing {
   }
 
  private:
+  bool has_detail() const { return params_.detail && params_.texture == 0 && demand_.textures > 0; }
+
+  /// Adds a mesh of the ground, or with details its primitives by class.
+  int add_ground_mesh(Model& model, std::string name, Mesh mesh, int ground) const {
+    if (!classes_) return add_mesh(model, std::move(name), std::move(mesh), ground);
+    model.meshes.push_back({std::move(name), classes_->divide(mesh, *sites_, job_)});
+    return static_cast<int>(model.meshes.size()) - 1;
+  }
+
   Sites sites() const { return {field_, window_of(params_), job_.rng().at("terrain"), job_}; }
 
   /// Returns the function that gives the colour of a sample of a coarse mesh; empty without colours. The sites
@@ -121,7 +137,7 @@ class Dressing {
       Ground made = whole_ground(level, model);
       if (level > 0 && made.mesh.elements() >= coarsest_) break;
       coarsest_ = made.mesh.elements();
-      const int mesh = add_mesh(model, level_name("ground", level), std::move(made.mesh), ground);
+      const int mesh = add_ground_mesh(model, level_name("ground", level), std::move(made.mesh), ground);
       if (walled) {
         if (earth < 0) earth = add_material(model, wall_material());
         model.meshes[static_cast<std::size_t>(mesh)].primitives.push_back(
@@ -175,8 +191,9 @@ class Dressing {
       Piece& made = pieces[i];
       const int node = add_child(model, name, -1);
       for (std::size_t k = 0; k < made.meshes.size(); ++k)
-        show(model.nodes[static_cast<std::size_t>(node)],
-             add_mesh(model, level_name(name, static_cast<int>(k)), std::move(made.meshes[k]), ground));
+        show(
+            model.nodes[static_cast<std::size_t>(node)],
+            add_ground_mesh(model, level_name(name, static_cast<int>(k)), std::move(made.meshes[k]), ground));
       for (std::size_t k = 0; k < made.notes.size(); ++k) note(static_cast<int>(k), made.notes[k]);
     }
   }
@@ -279,6 +296,8 @@ class Dressing {
   float level_;
   GroundColors ground_colors_;
   Shading shading_;
+  std::optional<Sites> sites_;            ///< with details
+  std::optional<GroundClasses> classes_;  ///< with details
   Array<glm::u8vec4> colors_;
   std::size_t coarsest_ = 0;  ///< triangles of the coarsest level so far
   std::vector<Note> notes_;   ///< by level; empty for the finest

@@ -19,6 +19,8 @@ static_assert(static_cast<int>(TreeBuild::bunch) - first_build == static_cast<in
 
 // Share of the area of a square that the leaf or the twig on it fills: between 0.32 for needles and 0.59.
 constexpr float filled_card = 0.5F;
+// Between both sides of a leaf, as a share of its length: 0.2 to 2 mm.
+constexpr float thickness = 0.003F;
 
 /// The area of all faces.
 float area_of(const Mesh& mesh) {
@@ -151,13 +153,18 @@ Mesh leaf_of(const TreeParams& params, int level, const Job& job) {
 Mesh drawn_leaf(const TreeParams& params, int level, const GenerateContext& context) {
   Mesh mesh = leaf_of(params, level, context.job);
   if (!has_outward_faces(params, context.demand)) return mesh;
-  // Both sides of a triangle one after the other, so that its vertices are still in the cache.
-  Array<std::uint32_t> both(context.job);
-  const Array<std::uint32_t>& front = mesh.index.wide;
-  for (std::size_t i = 0; i < front.size(); i += 3) {
-    for (const std::size_t corner : {i, i + 1, i + 2, i, i + 2, i + 1}) both.push_back(front[corner]);
+  const auto front = static_cast<std::uint32_t>(mesh.position.size());
+  const std::size_t corners = mesh.index.wide.size();
+  for (std::uint32_t i = 0; i < front; ++i) {
+    const glm::vec3 normal = mesh.normal[i];
+    mesh.position.push_back(mesh.position[i] - thickness * normal + 0.0F);
+    mesh.normal.push_back(-normal + 0.0F);
+    mesh.uv[0].push_back(mesh.uv[0][i]);
   }
-  mesh.index.wide = std::move(both);
+  for (std::size_t i = 0; i < corners; i += 3) {
+    for (const std::size_t corner : {i, i + 2, i + 1})
+      mesh.index.wide.push_back(mesh.index.wide[corner] + front);
+  }
   return mesh;
 }
 
@@ -182,8 +189,8 @@ void fit_leaves(Organs& organs, const TreeParams& params, const Mesh& leaf, cons
   const float across = std::max(1e-3F, box.max.x - box.min.x);
   const TreeBuild build = build_of(params);
   const bool is_round = build == TreeBuild::cross || build == TreeBuild::bunch;
-  const double density = drawn_leaves(params);
-  const auto size = static_cast<float>(params.leaf.size / std::sqrt(std::max(density, 1e-3)));
+  // Fewer leaves at a distance are larger, so that the total area stays the same (section 4.9 of the paper).
+  const auto size = static_cast<float>(params.leaf.size / std::sqrt(shares_at(params).leaves));
   job.check();
   for (Organ& organ : organs.organ) {
     const float width = organ.scale.x * size / across, length = organ.scale.y * size;

@@ -19,7 +19,8 @@ struct LeafMotion {
 /// The mesh of a leaf of length 1, with faces on one side.
 Mesh leaf_of(const TreeParams& params, int level, const Job& job);
 
-/// The same, with all faces in both windings and the same vertices if leaves have outward faces.
+/// The same as a thin leaf if leaves have outward faces: all faces once more with vertices of their own, 0.003 of
+/// the length below the first ones, in the opposite winding.
 Mesh drawn_leaf(const TreeParams& params, int level, const GenerateContext& context);
 
 /// The vertex colours of the leaves, or none where all leaves have the same colour. `leaf`: drawn_leaf() of the

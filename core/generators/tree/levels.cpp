@@ -10,12 +10,15 @@ namespace {
 
 // Share of the width of a card that its texture fills.
 constexpr float filled_card = 0.7F;
+// A twig that is left out opens gaps in the twigs behind it, so each level has only this share fewer.
+constexpr double fewer_twigs = 0.1;
 
 }  // namespace
 
 TreeLevels::TreeLevels(const Skeleton& skeleton, const TreeParams& params, const GenerateContext& context) {
   Job& job = context.job;
   if (context.demand.lods < 2 || skeleton.organs.organ.empty() || !has_leaves(params)) return;
+  has_twigs = build_of(params) == TreeBuild::twig;
   const Mesh coarsest = leaf_of(params, most_levels - 1, job);
   const float filled = build_of(params) == TreeBuild::mesh ? 1.0F : filled_card;
   const Limbs& limbs = skeleton.limbs;
@@ -36,7 +39,8 @@ TreeLevels::TreeLevels(const Skeleton& skeleton, const TreeParams& params, const
 
 double TreeLevels::leaves_at(const Detail& detail, std::uint64_t leaf_count, std::uint64_t triangles_per_leaf,
                              std::uint64_t triangles_before) const {
-  const double least = detail.organs(), wanted = std::max(least, foliage->share_for(detail.loss()));
+  const double least = has_twigs ? 1 - fewer_twigs * detail.level() : detail.organs();
+  const double wanted = std::max(least, foliage->share_for(detail.loss()));
   const auto level = static_cast<std::size_t>(detail.level());
   const std::uint64_t other = level < bark.size() ? bark[level] : 0,
                       most = Detail::fewer_than(triangles_before);

@@ -21,6 +21,7 @@ struct TreeLevels {
 
   std::optional<FoliageLevels> foliage;  ///< if there are leaves
   Array<float> shown;                    ///< visible share of the bark of each joint; empty: all of it
+  bool has_twigs = false;                ///< the leaves are pictures of twigs, through which one sees
   double seen = 1;                       ///< visible share of the area of the whole bark
   std::vector<std::uint64_t> bark;       ///< triangles of the bark of each level so far
 };

@@ -140,7 +140,8 @@ bool has_leaf_texture(const TreeParams& params) {
 }
 
 bool has_outward_faces(const TreeParams& params, const Demand& demand) {
-  return !demand.share_organs && params.leaf.leaf_faces == TreeLeafFaces::outward;
+  if (demand.share_organs || params.leaf.leaf_faces == TreeLeafFaces::two_sided) return false;
+  return params.leaf.leaf_faces == TreeLeafFaces::outward || !demand.two_sided_leaves;
 }
 
 glm::vec3 color_of_leaves(const TreeParams& params) {

@@ -1,7 +1,6 @@
 #include "core/geom/lod/thin.h"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
 #include <numeric>
@@ -24,7 +23,6 @@ struct Pieces {
   std::vector<std::uint32_t> of_vertex;
   std::vector<std::uint32_t> first;      ///< the least vertex of each
   std::vector<std::uint32_t> triangles;  ///< of each
-  std::vector<bool> paired;              ///< each triangle occurs in both windings, with the same vertices
 };
 
 /// For each vertex the lowest vertex at the same position.
@@ -80,15 +78,8 @@ Pieces pieces_of(const Mesh& mesh, const Job& job) {
     }
   }
   pieces.triangles.assign(pieces.first.size(), 0);
-  std::vector<std::uint64_t> sums(pieces.first.size(), 0);  // 0 where each triangle occurs twice
-  for (std::size_t i = 0; i < mesh.index.size(); i += 3) {
-    const std::uint32_t piece = pieces.of_vertex[mesh.index.at(i)];
-    ++pieces.triangles[piece];
-    std::array<std::uint32_t, 3> corners{mesh.index.at(i), mesh.index.at(i + 1), mesh.index.at(i + 2)};
-    std::sort(corners.begin(), corners.end());
-    sums[piece] ^= key_at(key_at(corners[0], corners[1]), corners[2]);
-  }
-  for (const std::uint64_t sum : sums) pieces.paired.push_back(sum == 0);
+  for (std::size_t i = 0; i < mesh.index.size(); i += 3)
+    ++pieces.triangles[pieces.of_vertex[mesh.index.at(i)]];
   return pieces;
 }
 
@@ -112,13 +103,11 @@ Areas areas_of(const Mesh& mesh, const Pieces& pieces) {
   return areas;
 }
 
-/// The number of small open pieces. The area vectors of a closed piece have the sum 0, and so have those of a
-/// sheet with faces on both sides.
+/// The number of small open pieces. The area vectors of a closed piece have the sum 0.
 std::size_t count_leaves(const Pieces& pieces, const Areas& areas) {
   std::size_t leaves = 0;
   for (std::size_t i = 0; i < areas.sum.size(); ++i) {
-    const bool open =
-        pieces.paired[i] || glm::dot(areas.sum[i], areas.sum[i]) > 1e-4 * areas.area[i] * areas.area[i];
+    const bool open = glm::dot(areas.sum[i], areas.sum[i]) > 1e-4 * areas.area[i] * areas.area[i];
     leaves += open && pieces.triangles[i] <= most_triangles ? 1 : 0;
   }
   return leaves;

@@ -16,6 +16,8 @@ using glm::dvec3;
 
 // Triangles below this share of a leaf's square are lines.
 constexpr double least_area = 1e-6;
+// From this coarseness on, the finest level of a bent square is not folded, and coarser levels are the same.
+constexpr int unfolded = 3;
 // The distance of stalks below the blades that they carry.
 constexpr double stalk_depth = 0.004;
 
@@ -26,7 +28,10 @@ struct Point {
 /// A flat leaf in space: each blade is folded about its midrib, then everything is bent down along an arc.
 class Bend {
  public:
-  Bend(const LeafForm& form) : fold_(math::sincos(form.fold)), droop_(form.droop), is_afar_(form.level > 0) {}
+  Bend(const LeafForm& form)
+      : fold_(math::sincos(form.fold)),
+        droop_(form.droop),
+        is_afar_(form.level > 0 && form.coarseness < unfolded) {}
 
   /// A point at the distance `off` to the right of the midrib of its blade; `across` is the direction in
   /// which `off` grows.
@@ -183,10 +188,10 @@ void add_turned(Mesh& mesh, std::size_t vertices, std::size_t corners, math::Sin
   for (std::size_t i = 0; i < corners; ++i) mesh.index.wide.push_back(mesh.index.wide[i] + shift);
 }
 
-/// Columns and rows. A coarse square is flat at once; from level to level the number falls step by step.
+/// Columns and rows. The coarsest square is flat; from level to level the number falls step by step.
 std::array<int, 2> bent_square(const LeafForm& form) {
   constexpr std::array<std::array<int, 2>, 4> squares{{{2, 4}, {2, 3}, {2, 2}, {1, 2}}};
-  if (form.coarseness >= 3) return {1, 1};
+  if (form.coarseness >= 4) return {1, 1};
   return squares[static_cast<std::size_t>(std::clamp(form.coarseness + form.level, 0, 3))];
 }
 

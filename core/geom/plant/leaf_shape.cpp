@@ -315,7 +315,9 @@ LeafDrawing spray(const LeafDetail& detail, int count) {
 LeafDrawing twig(LeafShape shape, const LeafDetail& detail, int count) {
   if (shape == LeafShape::needles) return needle_twig(count);
   if (shape == LeafShape::petal) return spray(detail, count);
-  return leafy_twig(single(shape, detail), count);
+  // Maples bear their leaves in pairs.
+  return leafy_twig(single(shape, detail), count,
+                    shape == LeafShape::maple ? Phyllotaxis::opposite : Phyllotaxis::alternate);
 }
 
 void measure(LeafDrawing& drawing) {

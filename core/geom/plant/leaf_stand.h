@@ -7,14 +7,16 @@
 
 namespace seedmesh {
 
-/// The placement of a leaflet: its base, the direction of its tip in degrees to the right of +y, its length.
+/// The placement of a leaflet: its base, the direction of its tip in degrees to the right of +y, its length, and the
+/// factor of its width, below 1 for a leaflet that is seen from the side.
 struct Stand {
   glm::dvec2 at{0};
-  double degrees = 0, length = 1;
+  double degrees = 0, length = 1, width = 1;
 
   glm::dvec2 operator()(glm::dvec2 p) const {
     const math::SinCos turn = math::sincos_degrees(degrees);
-    return at + glm::dvec2{p.x * turn.cos + p.y * turn.sin, p.y * turn.cos - p.x * turn.sin} * length;
+    const double x = p.x * width;
+    return at + glm::dvec2{x * turn.cos + p.y * turn.sin, p.y * turn.cos - x * turn.sin} * length;
   }
 };
 
@@ -30,7 +32,7 @@ inline void add_blade(LeafDrawing& drawing, const LeafBlade& blade, const Stand&
   for (glm::dvec2& p : moved_blade.left) p = stand(p);
   moved_blade.base = stand(blade.base);
   moved_blade.tip = stand(blade.tip);
-  moved_blade.half_width *= stand.length;
+  moved_blade.half_width *= stand.length * stand.width;
   for (LeafLine& vein : moved_blade.veins) vein = moved(vein, stand);
   drawing.blades.push_back(std::move(moved_blade));
 }

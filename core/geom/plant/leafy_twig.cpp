@@ -20,9 +20,13 @@ struct Shoot {
   int leaves = 1;
 };
 
-/// Leaves alternately along a shoot, larger towards its middle, that ends in a leaf. They leave gaps between
-/// them, so that a twig does not look like one leaf.
-void add_shoot(LeafDrawing& drawing, const LeafDrawing& leaf, const Shoot& shoot, double size) {
+/// How much of a leaf's length and width is seen, in turn: leaves hang by 20 to 50 degrees, and are rolled.
+constexpr double seen_length[] = {1, 0.9, 0.97, 0.8, 0.94},
+                 seen_width[] = {1, 0.74, 0.92, 0.62, 0.84, 0.96, 0.7};
+
+/// Leaves along a shoot, larger towards its middle, that ends in a leaf.
+void add_shoot(LeafDrawing& drawing, const LeafDrawing& leaf, const Shoot& shoot, double size,
+               Phyllotaxis phyllotaxis) {
   const math::SinCos turn = math::sincos_degrees(shoot.degrees);
   const dvec2 along = dvec2{turn.sin, turn.cos} * shoot.length;
   drawing.stalks.push_back({shoot.at, shoot.at + along, 0.016, 0.007});
@@ -30,23 +34,26 @@ void add_shoot(LeafDrawing& drawing, const LeafDrawing& leaf, const Shoot& shoot
     for (const LeafLine& line : leaf.stalks) drawing.stalks.push_back(moved(line, stand));
     for (const LeafBlade& blade : leaf.blades) add_blade(drawing, blade, stand);
   };
+  const bool is_opposite = phyllotaxis == Phyllotaxis::opposite;
   for (int i = 0; i + 1 < shoot.leaves; ++i) {
-    const double share = (i + 0.6) / shoot.leaves;
+    const int node = is_opposite ? i / 2 * 2 : i;
+    const double share = (node + (is_opposite ? 1 : 0.6)) / shoot.leaves;
     const double angle = (i % 2 == 0 ? 1 : -1) * (64 - 26 * share + 9 * (i % 3 - 1));
     const double rise = 0.78 + 0.22 * math::sincos(math::pi * share).sin;
-    add({shoot.at + along * share, shoot.degrees + angle, size * rise * (0.94 + 0.06 * (i % 3))});
+    add({shoot.at + along * share, shoot.degrees + angle, size * rise * seen_length[i % 5],
+         seen_width[i % 7]});
   }
   add({shoot.at + along, shoot.degrees, size * 0.85});
 }
 
 }  // namespace
 
-LeafDrawing leafy_twig(const LeafDrawing& leaf, int count) {
+LeafDrawing leafy_twig(const LeafDrawing& leaf, int count, Phyllotaxis phyllotaxis) {
   LeafDrawing drawing;
   // Narrow leaves are longer, so that they cover as much.
   const double width = leaf.blades.empty() ? usual_width : leaf.blades.front().half_width;
   const double stretch = std::sqrt(std::clamp(usual_width / std::max(width, 1e-3), 1.0, most_stretch));
-  const double size = 1.2 * stretch / std::sqrt(static_cast<double>(count)), end = 1 - 0.85 * size;
+  const double size = 1.5 * stretch / std::sqrt(static_cast<double>(count)), end = 1 - 0.85 * size;
   const int aside = count / 4;
   const Shoot shoots[] = {{{0, 0}, 0, end, count - 2 * aside},
                           {{0, 0.16 * end}, 46, 0.62 * end, aside},
@@ -55,7 +62,7 @@ LeafDrawing leafy_twig(const LeafDrawing& leaf, int count) {
   for (const Shoot& shoot : shoots) {
     if (shoot.leaves < 1) continue;
     LeafDrawing own;
-    add_shoot(own, leaf, shoot, size);
+    add_shoot(own, leaf, shoot, size, phyllotaxis);
     drawing.stalks.insert(drawing.stalks.begin() + static_cast<std::ptrdiff_t>(woody), own.stalks.front());
     ++woody;
     drawing.stalks.insert(drawing.stalks.end(), own.stalks.begin() + 1, own.stalks.end());

@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 #include "core/base/quick_math.h"
 #include "core/base/wide.h"
-#include "core/geom/mesh/four.h"
 #include "core/geom/mesh/tangents.h"
+#include "core/geom/plant/organ_rows.h"
 
 namespace seedmesh {
 namespace {
@@ -20,6 +19,7 @@ static_assert(sizeof(Lanes3) == 3 * lanes * sizeof(float) && sizeof(Lanes4) == 4
 // A normal that follows a crown has at least the first cosine to its faces; one with less is turned to the
 // second.
 constexpr float least_over = 0.1F, wanted_over = 0.15F;
+constexpr int most_passes = 4;
 
 /// Of each lane: the columns of the rotation, the columns multiplied by the scale, and the inverse of the
 /// scale, which normals are multiplied by before they are rotated.
@@ -150,8 +150,8 @@ SEEDMESH_WIDE void away_from(const glm::vec3& middle, const Lanes3& position, La
 }
 
 /// Between a normal and the direction outward, on the side of the normal.
-SEEDMESH_WIDE void mix_outward(float share, const Lanes3& outward, const Lanes3& normal,
-                               Lanes3& __restrict out) {
+SEEDMESH_WIDE void mix_on_own_side(float share, const Lanes3& outward, const Lanes3& normal,
+                                   Lanes3& __restrict out) {
   for (std::size_t l = 0; l < lanes; ++l) {
     const glm::vec3 own = at(normal, l), away = at(outward, l);
     const float side = dot_of(away, own) < 0.0F ? -1.0F : 1.0F;
@@ -171,14 +171,14 @@ SEEDMESH_WIDE void ellipsoid_normal(const glm::vec3& middle, const glm::vec3& by
   }
 }
 
-/// Between the direction outward and the normal or its opposite, whichever points outward.
-SEEDMESH_WIDE void mix_on_outer_side(float share, const Lanes3& outward, const Lanes3& normal,
-                                     Lanes3& __restrict out) {
+/// Between a normal and the direction outward.
+SEEDMESH_WIDE void mix_outward(float share, const Lanes3& outward, const Lanes3& normal,
+                               Lanes3& __restrict out) {
   for (std::size_t l = 0; l < lanes; ++l) {
     const glm::vec3 own = at(normal, l), away = at(outward, l);
-    const float side = (dot_of(away, own) < 0.0F ? -1.0F : 1.0F) * (1.0F - share);
     put(out, l,
-        {away.x * share + own.x * side, away.y * share + own.y * side, away.z * share + own.z * side});
+        {own.x + (away.x - own.x) * share, own.y + (away.y - own.y) * share,
+         own.z + (away.z - own.z) * share});
   }
 }
 
@@ -211,6 +211,19 @@ SEEDMESH_WIDE void lean_toward(const Lanes3& face, const Lanes3& normal, Lanes3&
   }
 }
 
+/// Turns a normal where it is too flat to a face, at right angles to the face as far as possible. `turned` gets the
+/// vector before it is normalised.
+SEEDMESH_WIDE void turn_beside(const Lanes3& face, const Lanes3& normal, Lanes3& __restrict turned) {
+  constexpr float by_share = wanted_over / 0.98868600F;  // sqrt(1 - wanted_over^2)
+  for (std::size_t l = 0; l < lanes; ++l) {
+    const glm::vec3 here = at(normal, l), f = at(face, l);
+    const float over = dot_of(here, f);
+    const glm::vec3 beside{here.x - f.x * over, here.y - f.y * over, here.z - f.z * over};
+    const float by = by_share * std::sqrt(dot_of(beside, beside)) + 1e-6F;
+    put(turned, l, {beside.x + f.x * by, beside.y + f.y * by, beside.z + f.z * by});
+  }
+}
+
 SEEDMESH_WIDE void select_flat(const Lanes3& face, const Lanes3& turned, Lanes3& __restrict normal) {
   for (std::size_t l = 0; l < lanes; ++l) {
     const glm::vec3 here = at(normal, l), other = at(turned, l);
@@ -219,49 +232,12 @@ SEEDMESH_WIDE void select_flat(const Lanes3& face, const Lanes3& turned, Lanes3&
   }
 }
 
-using SixteenFloats = float __attribute__((vector_size(64)));
-static_assert(sizeof(SixteenFloats) == lanes * sizeof(float));
-
-/// Transposes `count` >= 4 rows, in squares of four by four: writes all rows of each lane, lane after lane.
-SEEDMESH_WIDE void write_columns(const float* rows, std::size_t count, float* out) {
-  for (std::size_t done = 0; done < count; done += Four::size) {
-    const std::size_t first = std::min(done, count - Four::size);
-    SixteenFloats a, b, c, d;
-    std::memcpy(&a, rows + first * lanes, sizeof(a));
-    std::memcpy(&b, rows + (first + 1) * lanes, sizeof(b));
-    std::memcpy(&c, rows + (first + 2) * lanes, sizeof(c));
-    std::memcpy(&d, rows + (first + 3) * lanes, sizeof(d));
-    const SixteenFloats low = __builtin_shufflevector(a, b, 0, 16, 1, 17, 4, 20, 5, 21, 8, 24, 9, 25, 12, 28,
-                                                      13, 29),
-                        low2 = __builtin_shufflevector(c, d, 0, 16, 1, 17, 4, 20, 5, 21, 8, 24, 9, 25, 12, 28,
-                                                       13, 29),
-                        high = __builtin_shufflevector(a, b, 2, 18, 3, 19, 6, 22, 7, 23, 10, 26, 11, 27, 14,
-                                                       30, 15, 31),
-                        high2 = __builtin_shufflevector(c, d, 2, 18, 3, 19, 6, 22, 7, 23, 10, 26, 11, 27, 14,
-                                                        30, 15, 31);
-    // Lane k of every four.
-    const SixteenFloats lane[4] = {
-        __builtin_shufflevector(low, low2, 0, 1, 16, 17, 4, 5, 20, 21, 8, 9, 24, 25, 12, 13, 28, 29),
-        __builtin_shufflevector(low, low2, 2, 3, 18, 19, 6, 7, 22, 23, 10, 11, 26, 27, 14, 15, 30, 31),
-        __builtin_shufflevector(high, high2, 0, 1, 16, 17, 4, 5, 20, 21, 8, 9, 24, 25, 12, 13, 28, 29),
-        __builtin_shufflevector(high, high2, 2, 3, 18, 19, 6, 7, 22, 23, 10, 11, 26, 27, 14, 15, 30, 31)};
-    float* to = out + first;
-    for (std::size_t k = 0; k < Four::size; ++k) {
-      const FourFloats quarters[4] = {__builtin_shufflevector(lane[k], lane[k], 0, 1, 2, 3),
-                                      __builtin_shufflevector(lane[k], lane[k], 4, 5, 6, 7),
-                                      __builtin_shufflevector(lane[k], lane[k], 8, 9, 10, 11),
-                                      __builtin_shufflevector(lane[k], lane[k], 12, 13, 14, 15)};
-      for (std::size_t q = 0; q < Four::size; ++q)
-        std::memcpy(to + (k + Four::size * q) * count, &quarters[q], sizeof(FourFloats));
-    }
-  }
-}
-
-/// Transposes `count` rows and writes the first `organs` lanes.
-void write_rows(const float* rows, std::size_t count, std::size_t organs, float* out) {
-  if (organs == lanes && count >= Four::size) return write_columns(rows, count, out);
-  for (std::size_t l = 0; l < organs; ++l) {
-    for (std::size_t row = 0; row < count; ++row) *out++ = rows[row * lanes + l];
+/// Takes the vertex's own normal where the turned one is behind the face or flat to it.
+SEEDMESH_WIDE void select_restored(const Lanes3& face, const Lanes3& own, Lanes3& __restrict normal) {
+  for (std::size_t l = 0; l < lanes; ++l) {
+    const glm::vec3 here = at(normal, l), other = at(own, l), f = at(face, l);
+    const bool is_off = dot_of(here, f) < 0.01F * std::sqrt(dot_of(f, f));
+    put(normal, l, {is_off ? other.x : here.x, is_off ? other.y : here.y, is_off ? other.z : here.z});
   }
 }
 
@@ -274,6 +250,7 @@ OrganBlock::OrganBlock(const Mesh& surface, const FoliageOptions& options, std::
       axes_(axes),
       position_(job, surface.position.size()),
       normal_(job, surface.position.size()),
+      own_(job, options.crown && options.outward ? surface.position.size() : 0),
       tangent_(job, surface.tangent.empty() ? axes.size() : surface.tangent.size()) {}
 
 void OrganBlock::place(const Array<Organ>& organs, std::span<const std::uint32_t> numbers) {
@@ -303,6 +280,7 @@ void OrganBlock::place(const Array<Organ>& organs, std::span<const std::uint32_t
           own);
     }
     normal_[i] = own;
+    if (!own_.empty()) own_[i] = own;
     if (!surface_.tangent.empty()) turn_tangent(turns, surface_.tangent[i], own, tangent_[i]);
     if (!options_.crown) continue;
     const auto its_own = [&](std::size_t l) { return at(own, l); };
@@ -314,12 +292,19 @@ void OrganBlock::place(const Array<Organ>& organs, std::span<const std::uint32_t
     }
     to_units(vector, its_own, vector);
     if (options_.outward)
-      mix_on_outer_side(options_.crown_share, vector, own, normal_[i]);
-    else
       mix_outward(options_.crown_share, vector, own, normal_[i]);
+    else
+      mix_on_own_side(options_.crown_share, vector, own, normal_[i]);
     to_units(normal_[i], its_own, normal_[i]);
   }
-  if (options_.crown && !options_.outward) turn_toward_faces();
+  if (options_.crown && options_.outward) {
+    // Normals of bent surfaces have several faces: turning a normal for one of them may turn it off another.
+    int pass = 0;
+    while (pass < most_passes && turn_toward_faces()) ++pass;
+    if (pass == most_passes) restore_turned_off();
+  } else if (options_.crown) {
+    turn_toward_faces();
+  }
   Lanes3 u, across;
   for (std::size_t i = 0; i < axes_.size(); ++i) {
     if (i == 0 || axes_[i] != axes_[i - 1]) place_axes(turns, axes_[i], u, across);
@@ -327,8 +312,17 @@ void OrganBlock::place(const Array<Organ>& organs, std::span<const std::uint32_t
   }
 }
 
-/// Keeps normals that follow a crown on the side of all their faces.
-void OrganBlock::turn_toward_faces() {
+void OrganBlock::restore_turned_off() {
+  const std::uint32_t* corner = surface_.index.wide.data();
+  for (const std::uint32_t* end = corner + surface_.index.wide.size(); corner != end; corner += 3) {
+    Lanes3 face;
+    if (!face_of(position_.data(), normal_.data(), corner, face)) continue;
+    for (int k = 0; k < 3; ++k) select_restored(face, own_[corner[k]], normal_[corner[k]]);
+  }
+}
+
+bool OrganBlock::turn_toward_faces() {
+  bool has_turned = false;
   const std::uint32_t* corner = surface_.index.wide.data();
   for (const std::uint32_t* end = corner + surface_.index.wide.size(); corner != end; corner += 3) {
     Lanes3 face, turned;
@@ -339,14 +333,19 @@ void OrganBlock::turn_toward_faces() {
           return glm::vec3{0, 1, 0};
         },
         face);
+    has_turned = true;
     for (int k = 0; k < 3; ++k) {
       Lanes3& normal = normal_[corner[k]];
-      lean_toward(face, normal, turned);
+      if (options_.outward)
+        turn_beside(face, normal, turned);
+      else
+        lean_toward(face, normal, turned);
       to_units(
           turned, [&](std::size_t l) { return at(face, l); }, turned);
       select_flat(face, turned, normal);
     }
   }
+  return has_turned;
 }
 
 void OrganBlock::write(std::size_t count, glm::vec3* position, glm::vec3* normal, glm::vec4* tangent) const {

@@ -81,44 +81,6 @@ void drop_flat_triangles(const Column& position, Array<std::uint32_t>& corners) 
   corners.resize(kept);
 }
 
-Array<std::uint32_t> taken_pairs(Array<std::uint32_t>& corners, Job& job) {
-  struct Sides {
-    std::array<std::uint32_t, 3> at;
-    std::uint32_t triangle;
-    bool turned;
-  };
-  const std::size_t triangles = corners.size() / 3;
-  Array<Sides> all(job, triangles);
-  for (std::size_t t = 0; t < triangles; ++t) {
-    if (t % check_interval == 0) job.check();
-    std::array<std::uint32_t, 3> at{corners[3 * t], corners[3 * t + 1], corners[3 * t + 2]};
-    std::rotate(at.begin(), std::min_element(at.begin(), at.end()), at.end());
-    const bool turned = at[1] > at[2];
-    if (turned) std::swap(at[1], at[2]);
-    all[t] = {at, static_cast<std::uint32_t>(t), turned};
-  }
-  std::sort(all.begin(), all.end(), [](const Sides& a, const Sides& b) {
-    return a.at != b.at ? a.at < b.at : a.triangle < b.triangle;
-  });
-  std::vector<bool> paired(triangles, false);
-  for (std::size_t i = 0; i + 1 < triangles; ++i) {
-    if (all[i].at == all[i + 1].at && all[i].turned != all[i + 1].turned)
-      paired[all[i].triangle] = paired[all[i + 1].triangle] = true;
-  }
-  Array<std::uint32_t> taken(job);
-  std::size_t kept = 0;
-  for (std::size_t t = 0; t < triangles; ++t) {
-    for (std::size_t c = 0; c < 3; ++c) {
-      if (paired[t])
-        taken.push_back(corners[3 * t + c]);
-      else
-        corners[kept++] = corners[3 * t + c];
-    }
-  }
-  corners.resize(kept);
-  return taken;
-}
-
 void drop_doubled_triangles(const Column& position, Array<std::uint32_t>& corners, Job& job) {
   const std::size_t triangles = corners.size() / 3;
   Array<std::uint64_t> hashes(job, triangles);  // upper half: hash; lower half: triangle

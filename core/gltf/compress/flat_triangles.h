@@ -14,10 +14,6 @@ bool has_flat_triangle(const Column& position, std::span<const std::uint32_t> co
 /// Removes triangles without area; the others keep their order.
 void drop_flat_triangles(const Column& position, Array<std::uint32_t>& corners);
 
-/// Moves the triangles that occur in both windings with the same vertices to the returned array: sheets with
-/// faces on both sides, which are doubled on purpose. All triangles keep their order. O(n log n).
-Array<std::uint32_t> taken_pairs(Array<std::uint32_t>& corners, Job& job);
-
 /// Removes doubled triangles. Where a thin piece has become flat, its two sides are one triangle in opposite
 /// windings: both go. Of equal triangles with equal winding one stays. O(n log n) in triangles.
 void drop_doubled_triangles(const Column& position, Array<std::uint32_t>& corners, Job& job);

@@ -231,15 +231,11 @@ void clean(Part& part, Job& job) {
   if (kept == vertices && !has_flat_triangle(part.columns.front(), given)) return;
   if (corners.empty()) corners.append(given);
   part.index->slice = {};  // rewrite() stores another
-  Array<std::uint32_t> pairs = taken_pairs(corners, job);
   if (!first.empty()) {
     for (std::uint32_t& corner : corners) corner = first[corner];
-    for (std::uint32_t& corner : pairs) corner = first[corner];
   }
   drop_flat_triangles(part.columns.front(), corners);
-  drop_flat_triangles(part.columns.front(), pairs);
-  if (corners.size() + pairs.size() < before) drop_doubled_triangles(part.columns.front(), corners, job);
-  corners.append(pairs.span());
+  if (corners.size() < before) drop_doubled_triangles(part.columns.front(), corners, job);
   rewrite(part, corners, job);
 }
 

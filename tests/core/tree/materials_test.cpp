@@ -28,7 +28,7 @@ TEST(Materials, CutLeavesOutOfAnImageWithAlpha) {
   const Material cut = leaf_with(with_alpha), whole = leaf_with(without_alpha);
   EXPECT_EQ(cut.alpha_mode, AlphaMode::mask);
   EXPECT_FALSE(cut.base_color_texture.repeat) << "the far edge would be seen at this one";
-  EXPECT_TRUE(cut.double_sided);
+  EXPECT_FALSE(cut.double_sided) << "leaves have faces on both sides";
   EXPECT_EQ(whole.alpha_mode, AlphaMode::opaque);
 }
 
@@ -59,7 +59,7 @@ TEST(Materials, ShowLeavesFromBothSidesUnlessTheirFacesAreOutward) {
   const auto is_two_sided = [](TreeLeafFaces faces, const Demand& demand) {
     return leaves_with(faces, demand).front().double_sided;
   };
-  EXPECT_TRUE(is_two_sided(TreeLeafFaces::auto_, core));
+  EXPECT_FALSE(is_two_sided(TreeLeafFaces::auto_, core));
   EXPECT_TRUE(is_two_sided(TreeLeafFaces::auto_, engine));
   EXPECT_TRUE(is_two_sided(TreeLeafFaces::auto_, shared));
   EXPECT_FALSE(is_two_sided(TreeLeafFaces::outward, engine));

@@ -1023,6 +1023,7 @@ class TerrainParameters(TypedDict, total=False):
     specular: "Specular"
     water_level: float
     texture: int
+    detail: bool
     onto: "TerrainParametersOnto"
     heightmap: "TerrainParametersHeightmap"
 

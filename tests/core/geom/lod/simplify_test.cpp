@@ -159,15 +159,6 @@ TEST(Foliage, IsKnownByItsPieces) {
   const Job job(1, Job::Options{});
   EXPECT_TRUE(is_foliage(leaves(job, 20), job));
   EXPECT_FALSE(is_foliage(leaves(job, 3), job));
-  Mesh both_sides = leaves(job, 20);
-  const std::size_t corners = both_sides.index.wide.size();
-  for (std::size_t i = 0; i < corners; i += 3) {
-    for (const std::size_t corner : {i, i + 2, i + 1}) {
-      const std::uint32_t vertex = both_sides.index.wide[corner];
-      both_sides.index.wide.push_back(vertex);
-    }
-  }
-  EXPECT_TRUE(is_foliage(both_sides, job)) << "leaves with faces on both sides";
   EXPECT_FALSE(is_foliage(torus(job, 12, 24), job));
   EXPECT_FALSE(is_foliage(Mesh{}, job));
 }

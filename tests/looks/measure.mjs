@@ -1,0 +1,130 @@
+// Measures the looks of a GLB file without any code of the project: areas, textures, texture coordinates.
+import { NodeIO } from '@gltf-transform/core';
+import { ALL_EXTENSIONS } from '@gltf-transform/extensions';
+import { PNG } from 'pngjs';
+
+const io = new NodeIO().registerExtensions(ALL_EXTENSIONS);
+
+const subtract = (a, b) => a.map((each, i) => each - b[i]);
+const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
+const length = (v) => Math.hypot(...v);
+
+/** The primitives of a file, with arrays and the decoded colour and normal textures (null where there are none). */
+export async function primitives_of(bytes) {
+  const document = await io.readBinary(new Uint8Array(bytes)), decoded = new Map();
+  const picture = (texture) => {
+    if (!texture) return null;
+    if (!decoded.has(texture)) decoded.set(texture, PNG.sync.read(Buffer.from(texture.getImage())));
+    return decoded.get(texture);
+  };
+  return document.getRoot().listMeshes().flatMap((mesh) => mesh.listPrimitives().map((primitive) => {
+    const material = primitive.getMaterial();
+    const array = (name) => primitive.getAttribute(name);
+    return {
+      mesh: mesh.getName(), material: material.getName(), cutoff: material.getAlphaCutoff(), is_cut: material.getAlphaMode() === 'MASK', factor: material.getBaseColorFactor(),
+      color: picture(material.getBaseColorTexture()), normal: picture(material.getNormalTexture()),
+      uv_set: material.getBaseColorTextureInfo()?.getTexCoord() ?? 0, index: primitive.getIndices().getArray(),
+      vertices: array('POSITION').getCount(),
+      at: (name, i) => array(name).getElement(i, []),
+      has: (name) => array(name) !== null,
+    };
+  }));
+}
+
+/** Calls body(corners, area) for each triangle. */
+export function each_triangle(primitive, body) {
+  for (let i = 0; i < primitive.index.length; i += 3) {
+    const corners = [...primitive.index.slice(i, i + 3)], [a, b, c] = corners.map((corner) => primitive.at('POSITION', corner));
+    body(corners, length(cross(subtract(b, a), subtract(c, a))) / 2);
+  }
+}
+
+export function area_of(primitive) {
+  let sum = 0;
+  each_triangle(primitive, (_, area) => { sum += area; });
+  return sum;
+}
+
+export function box_of(primitives) {
+  const low = [Infinity, Infinity, Infinity], high = [-Infinity, -Infinity, -Infinity];
+  for (const primitive of primitives) {
+    for (let i = 0; i < primitive.vertices; ++i) {
+      primitive.at('POSITION', i).forEach((each, k) => { low[k] = Math.min(low[k], each); high[k] = Math.max(high[k], each); });
+    }
+  }
+  return { low, high };
+}
+
+/** The share of the texels of a texture that the alpha test keeps, for each of the first mip levels: means of two by two texels. */
+export function coverage_by_level(picture, cutoff, levels) {
+  let { width, height } = picture, alpha = Array.from({ length: width * height }, (_, i) => picture.data[4 * i + 3] / 255);
+  const shares = [];
+  for (let level = 0; level < levels; ++level) {
+    shares.push(alpha.filter((each) => each >= cutoff).length / alpha.length);
+    const half = width / 2;
+    alpha = Array.from({ length: half * (height / 2) }, (_, i) => {
+      const x = 2 * (i % half), y = 2 * Math.floor(i / half);
+      return (alpha[y * width + x] + alpha[y * width + x + 1] + alpha[(y + 1) * width + x] + alpha[(y + 1) * width + x + 1]) / 4;
+    });
+    width = half;
+    height /= 2;
+  }
+  return shares;
+}
+
+/** Mean and 95 % quantile of the slopes of a normal map, in degrees. */
+export function slopes_of(picture) {
+  const slopes = [];
+  for (let i = 0; i < picture.data.length; i += 4) {
+    const n = [0, 1, 2].map((c) => picture.data[i + c] / 127.5 - 1);
+    slopes.push((Math.acos(Math.min(1, n[2] / length(n))) * 180) / Math.PI);
+  }
+  slopes.sort((a, b) => a - b);
+  return { mean: slopes.reduce((a, b) => a + b, 0) / slopes.length, p95: slopes[Math.floor(0.95 * slopes.length)] };
+}
+
+/** Texels a metre of each triangle: the root of its area in texels by its area in square metres, with that area. */
+export function texel_densities(primitive) {
+  const densities = [];
+  each_triangle(primitive, (corners, area) => {
+    const [a, b, c] = corners.map((corner) => primitive.at(`TEXCOORD_${primitive.uv_set}`, corner));
+    const texels = Math.abs((b[0] - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (b[1] - a[1])) / 2 * primitive.color.width * primitive.color.height;
+    if (area > 0) densities.push({ density: Math.sqrt(texels / area), area });
+  });
+  return densities.sort((a, b) => a.density - b.density);
+}
+
+const linear = (byte) => (byte <= 10 ? byte / 3294.6 : ((byte / 255 + 0.055) / 1.055) ** 2.4);
+const luminance = ([r, g, b]) => 0.2126 * r + 0.7152 * g + 0.0722 * b;
+
+/** The mean linear colour of the texels of a texture that the alpha test keeps. */
+export function mean_color(picture, cutoff = 0) {
+  const sum = [0, 0, 0];
+  let count = 0;
+  for (let i = 0; i < picture.data.length; i += 4) {
+    if (picture.data[i + 3] / 255 < cutoff) continue;
+    for (let c = 0; c < 3; ++c) sum[c] += linear(picture.data[i + c]);
+    ++count;
+  }
+  return sum.map((each) => each / count);
+}
+
+/** Mean luminance of a primitive: its texture times its factor and its vertex colours. */
+export function albedo_of(primitive) {
+  const base = mean_color(primitive.color, primitive.is_cut ? primitive.cutoff : 0), sum = [0, 0, 0];
+  for (let i = 0; i < primitive.vertices; ++i) primitive.at('COLOR_0', i).slice(0, 3).forEach((each, c) => { sum[c] += each / primitive.vertices; });
+  return luminance(base.map((each, c) => each * sum[c] * primitive.factor[c]));
+}
+
+/** Standard deviation of the hue of the vertices, in degrees, with a base colour. */
+export function hue_deviation(primitive, base) {
+  let sum = 0, squares = 0;
+  for (let i = 0; i < primitive.vertices; ++i) {
+    const [r, g, b] = primitive.at('COLOR_0', i).map((each, c) => each * (base[c] ?? 1));
+    const hue = (Math.atan2(Math.sqrt(3) * (g - b), 2 * r - g - b) * 180) / Math.PI;
+    sum += hue;
+    squares += hue * hue;
+  }
+  const mean = sum / primitive.vertices;
+  return Math.sqrt(squares / primitive.vertices - mean * mean);
+}
