@@ -153,8 +153,9 @@ constexpr Generator rows[] = {
                                                 .keeps_budget = true,
                                                 .formats = scene_formats}),
     Row<CityParams, read_city, write_city, city::check, city::generate, city::derive, city::appraise,
-        city::vocabulary>::row<city::encode>(
-        {.name = "city", .has_collision = true, .formats = city_formats}),
+        city::vocabulary>::row<city::encode>({.name = "city",
+                                              .has_collision = true,
+                                              .formats = city_formats}),
     Row<FractalParams, read_fractal, write_fractal, fractal::check, fractal::generate, fractal::derive,
         fractal::appraise,
         fractal::vocabulary>::row<fractal::encode, fractal::check_format>({.name = "fractal",

@@ -10,7 +10,7 @@
 namespace seedmesh::world {
 namespace {
 
-constexpr double deviation_share = 0.93;  ///< fitted to walks through worlds with random parameters
+constexpr double deviation_share = 0.95;  ///< fitted to walks through worlds with random parameters
 
 /// The deviation of an octave of noise of amplitude 1; `q` is the distance of samples by the wavelength.
 double of_noise(double q) {
