@@ -21,7 +21,7 @@ const made = 'build/golden';
 fs.mkdirSync(made, { recursive: true });
 
 // Shared libraries whose version can change bytes. Each row lists those that were called while it was made.
-const libraries = { sleef: /libsleef\.so/, meshoptimizer: /libmeshoptimizer\.so/, png: /libpng16\.so/, deflate: /libdeflate\.so/, zlib: /libz\.so/ };
+const libraries = { sleef: /libsleef\.so/, meshoptimizer: /libmeshoptimizer\.so/, png: /libpng16\.so/, deflate: /libdeflate\.so/, zlib: /libz\.so/, webp: /libwebp\.so/ };
 
 /** Runs the program of one build; fails loudly, because a table with missing rows compares to nothing. */
 function run_table(preset, arguments_, environment = {}) {

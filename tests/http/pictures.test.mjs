@@ -49,7 +49,7 @@ test('a picture shows the model, from the side that the query names', async () =
   assert.ok(difference(front, await get('view=right')) > 0.02);
   assert.ok(difference(front, await get('view=top')) > 0.1);
   assert.equal(difference(front, await get('view=0,8')), 0);
-  assert.ok(difference(front, await get('view=front&ground=none'), 8) > 0.03);
+  assert.ok(difference(front, await get('view=front&ground=none'), 8) > 0.02);
   assert.equal(difference(front, await get('view=front&ground=plane')), 0);
   // The middle is the house, and the upper corners are the sky.
   const at = (x, y) => [...front.subarray(3 * (128 * y + x), 3 * (128 * y + x) + 3)];
