@@ -176,6 +176,13 @@ Result<ExportedFile> export_request(const Request&, std::string_view, const Job:
   return invalid("/parameters/model", "Letters are no trees.");
 }
 
+// No request has a picture.
+std::string PictureWish::text() const { return {}; }
+Result<PictureWish> read_picture_wish(Overrides&) { return PictureWish{}; }
+Result<Product> draw_picture(const Request&, const PictureWish&, const Job::Options&, TextureStore*) {
+  return invalid("/output", "There are no pictures.");
+}
+
 // No request is a world.
 class WorldMemory {};
 struct OpenWorld::Body {};
