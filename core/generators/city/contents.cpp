@@ -155,7 +155,9 @@ void add_border(SolidBuilder& solid, const BorderPiece& piece, const std::array<
   };
   const auto top = static_cast<float>(height);
   if (kind != CityBorder::fence) {
-    add(0, length, kind == CityBorder::hedge ? 0.3 : 0.15, 0 - border_depth, top);
+    // The gap keeps pieces that meet in a line from sharing edges.
+    const double gap = std::min(0.01, length / 4);
+    add(gap, length - gap, kind == CityBorder::hedge ? 0.3 : 0.15, 0 - border_depth, top);
     return;
   }
   add(0, length, 0.02, 0.1F, top);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include "core/base/math.h"
@@ -44,6 +45,13 @@ GroundMesh::GroundMesh(const CityPlan& plan, const Surface& surface, const Job& 
   mesh_.normal = Array<glm::vec3>(job);
   mesh_.uv[0] = Array<glm::vec2>(job);
   mesh_.index.wide = Array<std::uint32_t>(job);
+  dvec2 low = in_metres(plan.area[0][0]), high = low;
+  for (const CmPoint& p : plan.area[0]) {
+    low = glm::min(low, in_metres(p));
+    high = glm::max(high, in_metres(p));
+  }
+  // Coordinates are rounded to single precision.
+  least_ = static_cast<float>(std::max(1e-6, 3e-12 * glm::dot(high - low, high - low)));
 }
 
 void GroundMesh::add_part(std::uint32_t number) {
@@ -177,16 +185,13 @@ void GroundMesh::add_inner_points(const Part& part) {
 
 /// Adds the triangles of the last part, and the normals of its vertices where it is not level.
 void GroundMesh::add_triangles(std::uint32_t first) {
-  // Twice the area seen from above, in square metres. Corners on a straight border make triangles without area, which
-  // cover nothing.
-  constexpr float least = 1e-6F;
   std::vector<glm::vec3> normals(points_.size(), glm::vec3(0));
   for (std::size_t i = 0; i + 2 < corners_.size(); i += 3) {
     const std::array<std::uint32_t, 3> at = {corners_[i], corners_[i + 1], corners_[i + 2]};
     const glm::vec3 &p = mesh_.position[first + at[0]], &q = mesh_.position[first + at[1]],
                     &r = mesh_.position[first + at[2]];
     const glm::vec3 normal = glm::cross(q - p, r - p);
-    if (normal.y <= least) continue;
+    if (normal.y <= least_) continue;
     for (const std::uint32_t corner : at) {
       normals[corner] += normal;
       mesh_.index.wide.push_back(first + corner);

@@ -51,6 +51,9 @@ class GroundMesh {
   const CityPlan& plan_;
   const Surface& surface_;
   const Job& job_;
+  /// Twice the area seen from above, in square metres, up to which a triangle is left out. Corners on a straight border
+  /// make triangles without area, which cover nothing.
+  float least_ = 0;
   Mesh mesh_;
   Triangulator triangulator_;
   std::vector<glm::dvec2> points_, between_, inner_;

@@ -2,6 +2,7 @@
 /// else.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
@@ -30,10 +31,12 @@ Json drawn_number(const Json& schema, Rng& rng) {
 
 Json drawn_object(const Json& schema, Rng& rng) {
   Json object = Json::object();
+  const Json required = schema.value("required", Json::array());
   for (const auto& [name, property] : schema["properties"].items()) {
     if (name.ends_with("images")) continue;  // files, not numbers: tests/core/texture
     Rng own = rng.at(name);
-    if (own.unit() < 0.5) object[name] = drawn(property, own.at("value"));
+    const bool is_required = std::find(required.begin(), required.end(), name) != required.end();
+    if (own.unit() < 0.5 || is_required) object[name] = drawn(property, own.at("value"));
   }
   return object;
 }
