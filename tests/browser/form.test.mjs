@@ -286,7 +286,9 @@ test('the client source contains no parameter name', () => {
     // A notation of the editor, an attribute and a class name of elements.
     'expression', 'class', 'colors',
     // A method of elements, and a module of the page.
-    'remove', 'words']);
+    'remove', 'words',
+    // Members and kinds of the features of a city's plan, and a member of the derive response.
+    'type', 'features', 'properties', 'geometry', 'area', 'water', 'block', 'highway', 'sidewalk', 'major', 'heights']);
   assert.ok(names.has('productions'));
   for (const name of names) {
     assert.doesNotMatch(source, new RegExp(`parameters(\\.|\\[['"])${name}\\b`), name);

@@ -23,7 +23,7 @@ least.proctree_3 = [0.94, 0.89, 0.87, 0.85];
 for (const number of [0, 1, 4, 5, 6, 7]) least[`proctree_${number}`] = [0.95, 0.89, 0.88, 0.865];
 /** Leaves of these are pictures of twigs with gaps: a twig that is left out opens gaps that show no other one. */
 const twigs = ['birch', 'maple', 'quaking_aspen', 'aspen_from_afar', 'aspen_in_wind', 'willow', 'weeping_willow', 'black_oak', 'black_tupelo'];
-for (const name of ['oak', 'poplar', ...twigs]) least[name] = [0.85, 0.8, 0.75, 0.7];
+for (const name of ['oak', 'poplar', 'cherry', ...twigs]) least[name] = [0.94, 0.92, 0.9, 0.88];
 /** The same of every other tree. */
 const usual = [0.95, 0.92, 0.91, 0.9];
 /** Plants of L-systems whose outlines are the hardest to keep: of many corners, bare, in leaf, ribbed, and of limbs drawn twice. */

@@ -2722,6 +2722,8 @@ export type WorldPosition = [number, number, number];
 /** In the frame of the unit element. Values that do not apply, are unknown, or are too large for a number are null. */
 export interface FractalDerivation {
   pieces: number | null;
+  /** Pieces that are below the parameter smallest, and therefore points. */
+  points: number | null;
   dimension: number | null;
   exposed_quads: number | null;
   surface_area: number | null;

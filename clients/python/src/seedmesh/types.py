@@ -1699,6 +1699,7 @@ WorldPosition = List[float]
 
 class FractalDerivation(TypedDict):
     pieces: Union[float, None]
+    points: Union[float, None]
     dimension: Union[float, None]
     exposed_quads: Union[float, None]
     surface_area: Union[float, None]
