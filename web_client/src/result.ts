@@ -18,6 +18,8 @@ export interface Result {
   picked(index: number): void;
   /** The user has clicked at this point of the ground. */
   touched(x: number, z: number): void;
+  /** Asks again for the shown request, because what is asked for has changed. */
+  repeat(): void;
 }
 
 /** Longer texts are shortened on the page. The full text is in the server's response. */
@@ -85,7 +87,7 @@ export function wire_result(overlay: Overlay | null, lead: (line: number) => voi
       delete rest['shapes'];
     }
     if (is_scene(rest)) {
-      plants = new PlantList(rest, overlay, acts.plants);
+      plants = new PlantList({ ...rest }, overlay, acts.plants);
       parts.push(plants.element);
       delete (rest as Partial<typeof rest>).words;
     }
@@ -110,6 +112,7 @@ export function wire_result(overlay: Overlay | null, lead: (line: number) => voi
       if (is_unanswered) void ask();
     },
     picked(index) { shapes?.pick(index); },
+    repeat() { shown_for = null; void ask(); },
     touched(x, z) { if (in_sight) plants?.pick(x, z); },
   };
 }

@@ -180,7 +180,9 @@ export function wire_tools(core: Core): Tools {
       }
     },
     explain(schema) {
+      const before = named('derived');
       rules_schema = schema;
+      if (named('derived') !== undefined && before === undefined) result.repeat();
       steps.take(schema);
       if (store.current) part('save-proctree').hidden = !is_proctree(store.current.request);
       if (store.current) steps.follow(store.current);

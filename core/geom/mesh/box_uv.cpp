@@ -1,5 +1,6 @@
 #include "core/geom/mesh/box_uv.h"
 
+#include <array>
 #include <cmath>
 
 #include "core/model/index_width.h"
@@ -56,11 +57,22 @@ std::uint32_t copy_vertex(Mesh& mesh, std::uint32_t vertex) {
   return copy;
 }
 
+using Copies = std::array<Array<std::uint32_t>, directions>;
+
+/// A copy of a vertex for another direction that has the same coordinates; `none` if there is none.
+std::uint32_t equal_copy(const Copies& others, std::uint32_t vertex, const glm::vec2& uv, const Mesh& mesh) {
+  for (const Array<std::uint32_t>& copies : others) {
+    if (copies.empty() || copies[vertex] == none) continue;
+    if (mesh.uv[0][copies[vertex]] == uv) return copies[vertex];
+  }
+  return none;
+}
+
 void add_box_coordinates(Mesh& mesh, const Job& job) {
   constexpr std::size_t check_every = 12'288;
   const std::size_t before = mesh.position.size();
   Array<std::uint8_t> first(job, before, std::uint8_t{directions});  // the direction of the vertex itself
-  std::array<Array<std::uint32_t>, directions> others;               // copies for further directions
+  Copies others;                                                     // copies for further directions
   mesh.uv[0] = Array<glm::vec2>(job, before, glm::vec2(0));
   Array<std::uint32_t>& index = mesh.index.wide;
   for (std::size_t i = 0; i + 2 < index.size(); i += 3) {
@@ -75,11 +87,15 @@ void add_box_coordinates(Mesh& mesh, const Job& job) {
         mesh.uv[0][vertex] = projected(mesh.position[vertex], direction) + 0.0F;
       }
       if (first[vertex] == direction) continue;
+      const glm::vec2 uv = projected(mesh.position[vertex], direction) + 0.0F;
+      if (mesh.uv[0][vertex] == uv)
+        continue;  // two directions can give one projection, for example where x = z
       Array<std::uint32_t>& copies = others[direction];
       if (copies.empty()) copies = Array<std::uint32_t>(job, before, none);
+      if (copies[vertex] == none) copies[vertex] = equal_copy(others, vertex, uv, mesh);
       if (copies[vertex] == none) {
         copies[vertex] = copy_vertex(mesh, vertex);
-        mesh.uv[0].push_back(projected(mesh.position[vertex], direction) + 0.0F);
+        mesh.uv[0].push_back(uv);
       }
       index[corner] = copies[vertex];
     }
