@@ -36,7 +36,7 @@ const stand_ins: Record<string, string> = {
 };
 
 /** Extensions of glTF that the service writes, or that its readers may meet. */
-const kept_extensions = ['GLTFMeshGpuInstancing', 'GLTFMeshoptCompression'];
+const kept_extensions = ['GLTFMeshGpuInstancing', 'GLTFMeshoptCompression', 'GLTFTextureWebPExtension'];
 
 /** The text of a GLSL program without comments and idle spaces. Lines stay where they count: at # words. */
 export function tight(glsl: string): string {
