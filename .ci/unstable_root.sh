@@ -11,7 +11,10 @@ if [ "$(cat "$stamp" 2>/dev/null)" = "${packages[*]}" ]; then echo "$root is the
 state=$root/.apt
 mkdir -p "$state/lists/partial" "$state/archives/partial"
 : >"$state/status"
-echo 'deb [signed-by=/usr/share/keyrings/debian-archive-keyring.gpg] http://deb.debian.org/debian sid main' >"$state/sources.list"
+# The same package source as that of this Debian, without those of its security updates.
+mirror=$(apt-get indextargets --format '$(REPO_URI)' 'Created-By: Packages' | grep -v security | sort -u | head -1)
+[ -n "$mirror" ] || { echo "apt knows no package source: run 'apt-get update' first"; exit 1; }
+echo "deb [signed-by=/usr/share/keyrings/debian-archive-keyring.gpg] $mirror sid main" >"$state/sources.list"
 options=(-o APT::Sandbox::User= -o Debug::NoLocking=1
   -o Dir::Etc::sourcelist="$state/sources.list" -o Dir::Etc::sourceparts=/dev/null
   -o Dir::State::status="$state/status" -o Dir::State::lists="$state/lists" -o Dir::Cache::archives="$state/archives"
