@@ -28,7 +28,7 @@ async function ground_at(name, east, north) {
 }
 
 const presets = ['temperate_land.7', 'alpine.3', 'archipelago.5', 'boreal_plain.2'];
-/** Five views of four worlds, from the height of eyes up to 60 km, in all directions. From 97 km CesiumJS hides the whole tileset: its error is then below 16 pixels. */
+/** Five views of four worlds, from the height of eyes up to 60 km, in all directions. */
 const views = presets.flatMap((name, k) => [[2, -4], [40, -10], [400, -25], [6000, -40], [60_000, -80]].map(([above, pitch], n) => (
   { name, above, pitch, heading: (k * 5 + n) * 67 % 360, east: 1792 * k - 2500 * n, north: 3328 * n - 900 * k })));
 
@@ -62,7 +62,7 @@ test('3d-tiles-renderer finds no vertex of a tile outside the boxes above it', {
   await page.context().close();
 });
 
-const missed = { three: '80 requests', cesium: '72 requests' };
+const missed = { three: '82 requests, two files of them twice; 3.52 MB before HTTP coding', cesium: '72 requests; 3.10 MB before HTTP coding' };
 const bounds = { requests: 70, megabytes: 3, triangles: 500_000 };
 for (const client of ['three', 'cesium'])
   test(`the standard view of ${client} is within ${bounds.requests} requests, ${bounds.megabytes} MB and ${bounds.triangles} triangles`, { timeout: 120_000, todo: missed[client] }, async (t) => {
