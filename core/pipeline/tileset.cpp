@@ -220,6 +220,11 @@ std::string written(const Address& root, int levels, const Values* values) {
   return packed(std::move(text), chunk.bytes());
 }
 
+/// The error while no tile is drawn. CesiumJS hides a tileset whose error is below 16 pixels, so a world has its width.
+double error_of_absence(const Address& root, const Bounds& bounds) {
+  return root.level == 0 ? bounds.east - bounds.west : 2 * bounds.geometric_error;
+}
+
 }  // namespace
 
 bool operator==(const Address& a, const Address& b) { return a.level == b.level && a.x == b.x && a.y == b.y; }
@@ -229,7 +234,7 @@ std::string explicit_tileset(const Address& root, const Naming& naming, const Bo
   JsonWriter json(out);
   json.object([&] {
     append_asset(json);
-    member(json, "geometricError", 2 * bounds_of(root).geometric_error);
+    member(json, "geometricError", error_of_absence(root, bounds_of(root)));
     json.key("root");
     std::string tiles;
     TileWriter(tiles, root, naming, bounds_of).append(root, true);
@@ -249,7 +254,7 @@ std::string implicit_tileset(double extent, double error, const Naming& naming, 
     append_asset(json);
     json.key("schema");
     json.json(schema);
-    member(json, "geometricError", 2 * error);
+    member(json, "geometricError", error_of_absence({}, whole));
     json.object("root", [&] {
       append_box(json, whole);
       json.member("refine", "REPLACE");

@@ -44,7 +44,23 @@ sub vcl_recv {
   return (hash);
 }
 
+# A replica that does not answer costs another try at the next one by the same hash. What is posted is not repeated: its body is gone.
+sub vcl_backend_fetch {
+  if (bereq.retries > 0) {
+    set bereq.backend = replicas.backend(by = URL, alt = bereq.retries);
+  }
+}
+
+sub vcl_backend_error {
+  if (bereq.retries < 2 && (bereq.method == "GET" || bereq.method == "HEAD")) {
+    return (retry);
+  }
+}
+
 sub vcl_backend_response {
+  if (beresp.status == 503 && bereq.retries < 2 && (bereq.method == "GET" || bereq.method == "HEAD")) {
+    return (retry);
+  }
   # "no-cache" of the service means: ask again with the ETag.
   if (beresp.status == 200 && beresp.http.Cache-Control ~ "no-cache" && beresp.http.ETag) {
     set beresp.ttl = 1s;

@@ -1,13 +1,15 @@
 #!/usr/bin/env node
 // Three replicas behind HAProxy, nginx and Varnish, with the configuration that deploy/ ships: one is killed, all are restarted one by one,
 // under load; and a Redis that dies while they share it.
-//   cluster.mjs [seconds of each load] [haproxy, nginx or varnish alone]
+// Cameras fly over a world through nginx and Varnish while a replica is killed.
+//   cluster.mjs [seconds of each load] [haproxy, nginx, varnish or worlds alone]
 import { execFileSync, spawn } from 'node:child_process';
 import fs from 'node:fs';
 import http from 'node:http';
 import os from 'node:os';
 import path from 'node:path';
 import zlib from 'node:zlib';
+import { flights } from './flights.mjs';
 import { ask, program, rehearsal, serve, sleep, until } from './support.mjs';
 
 const seconds = Number(process.argv[2] ?? 6);
@@ -172,12 +174,15 @@ async function with_balancer(name) {
   for (const replica of replicas) await replica.stop();
 }
 
+const start_varnish = (ports) => start('varnishd', ['-F', '-a', `127.0.0.1:${front}`, '-f',
+  adapted('varnish/default.vcl', [], ports.map((port, i) => [`.host = "seedmesh-${i + 1}"; .port = "8080";`, `.host = "127.0.0.1"; .port = "${port}";`])),
+  '-n', path.join(folder, 'varnish'), '-s', 'malloc,64m', '-T', 'none']);
+
 async function with_varnish() {
   if (!there('varnishd')) { console.log('varnish is not installed: ./dev setup cluster'); verdicts.push(false); return; }
   const replicas = [];
   for (let i = 0; i < 3; ++i) replicas.push(await replica_of(rehearsal, flags(0).slice(2)));
-  const vcl = adapted('varnish/default.vcl', [], replicas.map((each, i) => [`.host = "seedmesh-${i + 1}"; .port = "8080";`, `.host = "127.0.0.1"; .port = "${each.port}";`]));
-  const child = start('varnishd', ['-F', '-a', `127.0.0.1:${front}`, '-f', vcl, '-n', path.join(folder, 'varnish'), '-s', 'malloc,64m', '-T', 'none']);
+  const child = start_varnish(replicas.map(({ port }) => port));
   await until(async () => (await ask(through, 'GET', target(1)).catch(() => ({}))).status === 200);
   const models = async () => (await Promise.all(replicas.map((each) => each.metric('seedmesh_models_total')))).reduce((a, b) => a + b, 0);
   const before = await models();
@@ -195,6 +200,28 @@ async function with_varnish() {
   let failed = 0;
   for (let seed = 0; seed < 60; ++seed) if ((await ask(through, 'GET', target(seed, 0))).status !== 200) ++failed;
   check(failed === 0, `varnish: with one of three dead ${failed} of 60 requests fail`);
+  child.kill('SIGTERM');
+  await child.gone;
+  for (const replica of replicas.slice(1)) await replica.stop();
+}
+
+/** Fifty cameras over three replicas of the real program: one is killed while they fly. A client never asks again for a tile that failed. */
+async function worlds_through(name, command, start_balancer) {
+  if (!there(command)) { console.log(`${name} is not installed: ./dev setup cluster`); verdicts.push(false); return; }
+  const replicas = [];
+  for (let i = 0; i < 3; ++i) replicas.push(await replica_of(program, ['--threads', '1', '--log-level', 'error']));
+  const child = start_balancer(replicas.map(({ port }) => port)), home = '/v1/worlds/temperate_land.7/';
+  await until(async () => (await ask(through, 'GET', `${home}tileset.json`).catch(() => ({}))).status === 200);
+  await sleep(1500);
+  const { answers, times } = await flights(through, home, 50, async () => {
+    await sleep(seconds * 1000);
+    replicas[0].child.kill('SIGKILL');
+    await sleep(seconds * 1000);
+  });
+  const others = [...answers].filter(([status]) => status !== 200 && status !== 304);
+  const at = (share) => times[Math.floor(share * (times.length - 1))].toFixed(0);
+  check(others.length === 0 && answers.get(200) > 500 && answers.get(304) > 0,
+    `${name}: 50 cameras fly over a world while one of three replicas is killed: ${[...answers].map(([status, n]) => `${n} of ${status}`).join(', ')}; p50 ${at(0.5)} ms, p95 ${at(0.95)} ms`);
   child.kill('SIGTERM');
   await child.gone;
   for (const replica of replicas.slice(1)) await replica.stop();
@@ -250,7 +277,11 @@ try {
   await same_bytes_everywhere();
   for (const name of Object.keys(balancers)) if (!only || only === name) await with_balancer(name);
   if (!only || only === 'varnish') await with_varnish();
-  await shared_cache();
+  if (!only || only === 'worlds') {
+    await worlds_through('nginx', 'nginx', balancers.nginx);
+    await worlds_through('varnish', 'varnishd', start_varnish);
+  }
+  if (only !== 'worlds') await shared_cache();
 } catch (error) {
   check(false, `nothing unforeseen: ${error.stack}`);
 } finally {

@@ -1,13 +1,16 @@
 /**
- * The page of a world: streams its tiles from the service and moves a camera through them. The address holds the world,
- * a preset with a seed or the token of a request, and the camera: #temperate_land.7@east,north,height,heading,pitch in
- * metres and degrees.
+ * The page of a world: streams its tiles from the service and moves a camera through them, in flight or on foot. The
+ * address holds the world, a preset with a seed or the token of a request, and the camera:
+ * #temperate_land.7@east,north,height,heading,pitch in metres and degrees, and ",walk" on foot.
  */
 import './style/world.css';
-import { Color, DirectionalLight, HemisphereLight, MathUtils, NeutralToneMapping, PerspectiveCamera, Scene, WebGLRenderer } from 'three';
+import { Color, DirectionalLight, HemisphereLight, MathUtils, NeutralToneMapping, type Object3D, PerspectiveCamera, Raycaster, Scene, Vector3, WebGLRenderer } from 'three';
 import { TilesRenderer } from '3d-tiles-renderer';
+import { get_preset, get_presets, get_schema, type Request } from './api';
+import { fragment_of, unpack } from './link';
+import { sliders } from './world_sliders';
 
-interface Pose { east: number; north: number; height: number; heading: number; pitch: number }
+interface Pose { east: number; north: number; height: number; heading: number; pitch: number; walks?: boolean }
 
 const canvas = document.querySelector('canvas')!, form = document.querySelector('form')!, status = document.querySelector('p')!;
 const presets = form.elements.namedItem('preset') as HTMLSelectElement, seed = form.elements.namedItem('seed') as HTMLInputElement;
@@ -16,6 +19,9 @@ const scene = new Scene(), camera = new PerspectiveCamera(60, 1, 2, 400_000), sk
 const held = new Set<string>();
 /** The first view of a world: above its middle, towards the north. */
 const start: Pose = { east: 0, north: 0, height: 2500, heading: 0, pitch: -25 };
+const eyes = 1.7, pace = 6; // metres above the ground, and metres a second
+const walk_button = form.elements.namedItem('walk') as HTMLButtonElement, panel = document.querySelector<HTMLElement>('.sliders')!;
+const ray = new Raycaster(), down = new Vector3(0, -1, 0);
 let pose: Pose = { ...start }, tiles: TilesRenderer | null = null, name = '';
 
 scene.background = sky;
@@ -28,16 +34,56 @@ const state = (text: string, word: string): void => { status.textContent = text;
 
 function write_address(): void {
   const round = (value: number): string => String(Math.round(value * 10) / 10);
-  history.replaceState(null, '', `#${name}@${[pose.east, pose.north, pose.height, pose.heading, pose.pitch].map(round).join(',')}`);
+  history.replaceState(null, '', `#${name}@${[pose.east, pose.north, pose.height, pose.heading, pose.pitch].map(round).join(',')}${pose.walks ? ',walk' : ''}`);
 }
 
 /** The world and the pose of an address; null where it holds no world. */
 function read_address(): { name: string; pose: Pose } | null {
   const [world = '', place = ''] = decodeURIComponent(location.hash.slice(1)).split('@');
-  const [east, north, height, heading, pitch] = place.split(',').map(Number);
+  const [east, north, height, heading, pitch] = place.split(',').map(Number), walks = place.endsWith(',walk');
   if (!/^[\w-]+(\.\d+)?$/.test(world)) return null;
   const has_pose = place !== '' && [east, north, height, heading, pitch].every((value) => Number.isFinite(value));
-  return { name: world, pose: has_pose ? { east: east!, north: north!, height: height!, heading: heading!, pitch: pitch! } : { ...start } };
+  return { name: world, pose: has_pose ? { east: east!, north: north!, height: height!, heading: heading!, pitch: pitch!, walks } : { ...start } };
+}
+
+/** Feet stand on the ground, on roads and on water, and not on plants and roofs. */
+function keep_ground(model: Object3D): void {
+  model.traverse((part) => {
+    for (let above: Object3D | null = part; above; above = above.parent)
+      if (/^(plants|buildings)/.test(above.name)) { part.raycast = () => undefined; return; }
+  });
+}
+
+/** The height of the ground below the camera; null while no tile is there. */
+function ground(): number | null {
+  if (!tiles) return null;
+  ray.set(new Vector3(pose.east, 9000, -pose.north), down);
+  return ray.intersectObject(tiles.group, true)[0]?.point.y ?? null;
+}
+
+/** The request behind a world's name. */
+async function request_of(world: string): Promise<Request> {
+  const [preset = '', number] = world.split('.');
+  return number === undefined ? unpack(world) : { ...await get_preset(preset), seed: number };
+}
+
+/** Fills the panel for the world; a slider that is let go shows another world from the same place. */
+async function show_sliders(world: string): Promise<void> {
+  const [request, schema] = await Promise.all([request_of(world), get_schema('world')]);
+  if (world !== name) return;
+  seed.value = String(request.seed);
+  panel.replaceChildren(...sliders(schema, request.parameters, (parameters) => {
+    void fragment_of({ ...request, seed: seed.value, parameters }, null).then(show);
+  }));
+}
+
+/** On foot or in flight. */
+function set_walk(walks: boolean): void {
+  pose.walks = walks;
+  walk_button.setAttribute('aria-pressed', String(walks));
+  camera.near = walks ? 0.3 : 2;
+  camera.updateProjectionMatrix();
+  write_address();
 }
 
 /** Streams the world of this name, `preset.seed` or a token. */
@@ -48,10 +94,12 @@ function show(world: string): void {
   tiles.setCamera(camera);
   tiles.group.rotation.x = -Math.PI / 2; // z up becomes y up
   tiles.addEventListener('load-error', ({ error }: { error: Error }) => state(`A file of the world cannot be loaded: ${error.message}`, 'failed'));
+  tiles.addEventListener('load-model', ({ scene: model }) => keep_ground(model));
   scene.add(tiles.group);
   const [preset = '', number = ''] = world.split('.');
   presets.value = number ? preset : '';
   seed.value = number;
+  void show_sliders(world).catch(() => panel.replaceChildren());
   state('Loading …', 'loading');
   resize();
   write_address();
@@ -67,13 +115,15 @@ function resize(): void {
 
 /** Moves the camera by the keys that are held. The speed grows with the height. */
 function move(seconds: number): void {
+  const below = pose.walks ? ground() : null;
+  if (below !== null) pose.height = below + eyes;
   const axis = (plus: string, minus: string): number => Number(held.has(plus)) - Number(held.has(minus));
   const forward = axis('KeyW', 'KeyS') + axis('ArrowUp', 'ArrowDown'), right = axis('KeyD', 'KeyA') + axis('ArrowRight', 'ArrowLeft'), up = axis('KeyE', 'KeyQ');
   if (!forward && !right && !up) return;
-  const step = seconds * Math.max(20, Math.abs(pose.height)) * (held.has('ShiftLeft') ? 4 : 1), turn = MathUtils.degToRad(pose.heading);
+  const step = seconds * (pose.walks ? pace : Math.max(20, Math.abs(pose.height))) * (held.has('ShiftLeft') ? 4 : 1), turn = MathUtils.degToRad(pose.heading);
   pose.east += step * (Math.sin(turn) * forward + Math.cos(turn) * right);
   pose.north += step * (Math.cos(turn) * forward - Math.sin(turn) * right);
-  pose.height += step * (up + (forward ? Math.tan(MathUtils.degToRad(pose.pitch)) * forward * 0.5 : 0));
+  if (!pose.walks) pose.height += step * (up + (forward ? Math.tan(MathUtils.degToRad(pose.pitch)) * forward * 0.5 : 0));
   write_address();
 }
 
@@ -100,21 +150,26 @@ canvas.addEventListener('pointermove', (event) => {
   pose.pitch = MathUtils.clamp(pose.pitch + event.movementY * 0.15, -89, 89);
   write_address();
 });
-canvas.addEventListener('wheel', (event) => { pose.height *= Math.exp(event.deltaY * 0.001); write_address(); }, { passive: true });
+canvas.addEventListener('wheel', (event) => { if (!pose.walks) pose.height *= Math.exp(event.deltaY * 0.001); write_address(); }, { passive: true });
 addEventListener('keydown', (event) => { if (!(event.target instanceof HTMLInputElement)) held.add(event.code); });
 addEventListener('keyup', (event) => held.delete(event.code));
 addEventListener('blur', () => held.clear());
 addEventListener('resize', resize);
-addEventListener('hashchange', () => { const at = read_address(); if (at) { pose = at.pose; show(at.name); } });
-form.addEventListener('submit', (event) => { event.preventDefault(); show(`${presets.value}.${seed.value}`); });
+addEventListener('hashchange', () => { const at = read_address(); if (at) { pose = at.pose; set_walk(at.pose.walks === true); show(at.name); } });
+walk_button.addEventListener('click', () => set_walk(!pose.walks));
+form.addEventListener('submit', (event) => { event.preventDefault(); void submit(); });
+
+/** Shows the chosen preset, or the world of the sliders, with the seed of the field. */
+async function submit(): Promise<void> {
+  show(presets.value ? `${presets.value}.${seed.value}` : await fragment_of({ ...await request_of(name), seed: seed.value }, null));
+}
 
 async function open(): Promise<void> {
-  const answer = await fetch('v1/presets');
-  const { presets: all } = await answer.json() as { presets: { name: string; generator: string; title: string }[] };
-  for (const { name: value, generator, title } of all) if (generator === 'world') presets.add(new Option(title, value));
+  for (const { name: value, generator, title } of await get_presets()) if (generator === 'world') presets.add(new Option(title, value));
   const at = read_address() ?? { name: `${presets.options[0]?.value ?? ''}.7`, pose: { ...start } };
   pose = at.pose;
   show(at.name);
+  set_walk(pose.walks === true);
   renderer.setAnimationLoop(draw);
 }
 void open().catch((error: unknown) => state(String(error), 'failed'));
