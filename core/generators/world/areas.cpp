@@ -23,6 +23,7 @@ class AreaFinder {
     side_ = frame_.side / count_;
     cells_ = cells_a_link(world, root.level);
     spacing_ = side_ / cells_;
+    for (const WorldClass& plant : world.params.plants) tallest_class_ = std::max(tallest_class_, plant.height);
     areas_.resize(static_cast<std::size_t>(count_) * static_cast<std::size_t>(count_));
   }
 
@@ -96,7 +97,7 @@ class AreaFinder {
     const auto tile = [&](int k) { return std::min(k / cells_, count_ - 1); };
     const auto is_low = [this](int k) { return k % cells_ == 0; };
     const int last = count_ * cells_;
-    bool is_known = false, grows = false;
+    double tallest = -1;
     for (int row = tile(j); row >= std::max(0, tile(j) - (is_low(j) && j < last ? 1 : 0)); --row) {
       for (int column = tile(i); column >= std::max(0, tile(i) - (is_low(i) && i < last ? 1 : 0)); --column) {
         Area& area = at(column, row);
@@ -108,19 +109,19 @@ class AreaFinder {
           if (is_border[k]) area.borders[k] = std::min(area.borders[k], sample.height);
         }
         area.rough.add(sample);
-        if (area.has_plants || !world_.has(Layer::plants)) continue;
-        if (!is_known) grows = any_grows(sample, east, north);
-        is_known = true;
-        area.has_plants = grows;
+        if (!world_.has(Layer::plants) || area.plant_height >= tallest_class_) continue;
+        if (tallest < 0) tallest = tallest_growing(sample, east, north);
+        area.plant_height = std::max(area.plant_height, tallest);
       }
     }
   }
 
-  bool any_grows(const GroundSample& sample, double east, double north) const {
-    const auto& plants = world_.params.plants;
-    return std::any_of(plants.begin(), plants.end(), [&](const WorldClass& plant) {
-      return may_grow(world_, plant, sample, east, north, spacing_);
-    });
+  double tallest_growing(const GroundSample& sample, double east, double north) const {
+    double tallest = 0;
+    for (const WorldClass& plant : world_.params.plants) {
+      if (plant.height > tallest && may_grow(world_, plant, sample, east, north, spacing_)) tallest = plant.height;
+    }
+    return tallest;
   }
 
   void add_water() {
@@ -229,6 +230,7 @@ class AreaFinder {
   int count_;      ///< of links along a side
   int cells_ = 0;  ///< along a link
   double side_ = 0, spacing_ = 0;
+  double tallest_class_ = 0;
   std::vector<Area> areas_;
 };
 

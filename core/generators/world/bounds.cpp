@@ -78,9 +78,10 @@ TileBounds link_bounds(const World& world, const TileKey& key, const Area& area,
     child.spacing /= 2;
     low -= most_skirt(world, child, area.rough);
   }
-  if (area.has_plants) {
-    high = std::max(high, area.high + between + plant_extent(world).up);
-    low = std::min(low, area.low - below - plant_extent(world).down);
+  if (area.plant_height > 0) {
+    const PlantExtent plants = plant_extent(area.plant_height);
+    high = std::max(high, area.high + between + plants.up);
+    low = std::min(low, area.low - below - plants.down);
   }
   low = std::min(low, own_skirt(world, frame, area, below));
   TileBounds box = in_plan(world, key);

@@ -255,14 +255,17 @@ PlantFile plant_file(const World& world, int plant_class, PlantForm form) {
   return file;
 }
 
+PlantExtent plant_extent(double height) {
+  const double tallest = height * greatest_size;
+  return {widest_plant * tallest, 1.05 * tallest, plant_depth + deepest_root * tallest};
+}
+
 PlantExtent plant_extent(const World& world) {
   PlantExtent extent;
   if (!world.has(Layer::plants)) return extent;
-  for (const WorldClass& plant : world.params.plants) {
-    extent.across = std::max(extent.across, widest_plant * plant.height * greatest_size);
-    extent.up = std::max(extent.up, 1.05 * plant.height * greatest_size);
-    extent.down = std::max(extent.down, plant_depth + deepest_root * plant.height * greatest_size);
-  }
+  double tallest = 0;
+  for (const WorldClass& plant : world.params.plants) tallest = std::max(tallest, plant.height);
+  if (!world.params.plants.empty()) extent = plant_extent(tallest);
   extent.across = std::ceil(extent.across);  // whole metres, so that sums with borders are exact
   return extent;
 }

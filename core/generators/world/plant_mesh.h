@@ -34,4 +34,7 @@ struct PlantExtent {
 };
 PlantExtent plant_extent(const World& world);
 
+/// The same for classes of at most this height, in metres.
+PlantExtent plant_extent(double height);
+
 }  // namespace seedmesh::world
