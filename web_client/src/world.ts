@@ -81,8 +81,6 @@ async function show_sliders(world: string): Promise<void> {
 function set_walk(walks: boolean): void {
   pose.walks = walks;
   walk_button.setAttribute('aria-pressed', String(walks));
-  camera.near = walks ? 0.3 : 2;
-  camera.updateProjectionMatrix();
   write_address();
 }
 
@@ -127,10 +125,20 @@ function move(seconds: number): void {
   write_address();
 }
 
+/** A near plane that grows with the height keeps water and land apart in the depth buffer. */
+function set_planes(): void {
+  const near = pose.walks ? 0.3 : MathUtils.clamp(Math.abs(pose.height) / 100, 1, 1000);
+  if (Math.abs(near / camera.near - 1) < 0.1) return;
+  camera.near = near;
+  camera.far = Math.max(400_000, 20 * Math.abs(pose.height));
+  camera.updateProjectionMatrix();
+}
+
 let last = performance.now(), calm = 0;
 function draw(now: number): void {
   move(Math.min(0.1, (now - last) / 1000));
   last = now;
+  set_planes();
   camera.position.set(pose.east, pose.height, -pose.north);
   camera.rotation.set(MathUtils.degToRad(pose.pitch), MathUtils.degToRad(-pose.heading), 0, 'YXZ');
   camera.updateMatrixWorld();

@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/geom/mesh/finish.h"
 #include "core/model/index_width.h"
 
 namespace seedmesh {
@@ -100,6 +101,9 @@ void add_box_coordinates(Mesh& mesh, const Job& job) {
       index[corner] = copies[vertex];
     }
   }
+  if (mesh.position.size() == before) return;
+  mesh.cache_ordered = false;  // the copies stand at the end of the vertices
+  order_for_cache(mesh, job);
 }
 
 bool lacks_coordinates(const Mesh& mesh) {
