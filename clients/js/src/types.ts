@@ -603,6 +603,17 @@ export interface CityParametersBuildings {
   landmarks?: CityParametersBuildingsLandmarksItem[];
 }
 
+/** Surface */
+export interface CityParametersSurfacesItem {
+  /** The name of the material in the model. */
+  name: "asphalt" | "junction" | "sidewalk" | "verge" | "park" | "square" | "lot" | "water" | "marking" | "wall" | "foundation" | "bridge";
+  color?: string;
+  /** 0 reflects like still water, 1 is matt. */
+  roughness?: number;
+  specular?: Specular;
+  emission?: Emission;
+}
+
 /** Street lamps at the kerbs, on both sides in turn. */
 export interface CityParametersFurnitureLamps {
   /** The distance between positions along one side of a street. */
@@ -729,6 +740,8 @@ export interface CityParameters {
   lots?: CityParametersLots;
   /** The buildings of the lots. */
   buildings?: CityParametersBuildings;
+  /** Materials of the ground and of walls, in place of the usual ones. */
+  surfaces?: CityParametersSurfacesItem[];
   /** Objects along the streets, as copies of shared models. Kinds that are not given are left out. */
   furniture?: CityParametersFurniture;
   /** Trees of the parks. Without this object, parks are lawns. */
@@ -806,6 +819,7 @@ export interface FractalParameters {
   size?: number;
   color?: string;
   specular?: Specular;
+  emission?: Emission;
   /** Colours of the maps (frcm), repeated if there are more maps. For escape, colours from early to late escape. */
   palette?: string[];
   /** Number of points. */
@@ -1093,6 +1107,8 @@ export interface SceneParametersGround {
   /** The outline: square, disc, or none for no ground. */
   outline?: "square" | "disc" | "none";
   color?: string;
+  specular?: Specular;
+  emission?: Emission;
 }
 
 /** Path */
@@ -1104,6 +1120,8 @@ export interface SceneParametersPathsItem {
   /** Whether the path is drawn. Otherwise it only keeps models away. */
   shown?: boolean;
   color?: string;
+  specular?: Specular;
+  emission?: Emission;
 }
 
 /** Area */
@@ -1113,6 +1131,8 @@ export interface SceneParametersAreasItem {
   /** The outer ring, then holes, in any direction. */
   outline: (([number, number])[])[];
   color?: string;
+  specular?: Specular;
+  emission?: Emission;
   /** 0 reflects like still water, 1 is matt. */
   roughness?: number;
 }
@@ -1603,6 +1623,7 @@ export interface TerrainParameters {
   /** Colours by height, slope and hollows. */
   palette?: "alpine" | "desert" | "tropical" | "arctic" | "volcanic" | "moon" | "grey" | "none";
   specular?: Specular;
+  emission?: Emission;
   /** A sheet of water at this height; on a sphere above its mean radius. */
   water_level?: number;
   /** Pixels a side of a colour texture and a normal map of the whole field, instead of vertex colours. 0: none. Not on a sphere. */
@@ -1674,6 +1695,7 @@ export interface TreeParametersLeaf {
   /** The tree keeps its leaves and their colour through the year. */
   evergreen?: boolean;
   specular?: Specular;
+  emission?: Emission;
   /** Images instead of the generated texture of the leaf, tip up, each a PNG or JPEG file as a data URI. */
   images?: Images;
 }
@@ -1869,6 +1891,7 @@ export interface TreeParameters {
   /** Images instead of the generated texture of the bark, each a PNG or JPEG file as a data URI. */
   bark_images?: Images;
   bark_specular?: Specular;
+  bark_emission?: Emission;
   /** Years since the seed sprouted. The shape changes continuously with the age. If left out or above mature_age, the tree is full-grown. */
   age?: number;
   /** Years after which the tree has the size that its parameters describe. */

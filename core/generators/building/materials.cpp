@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "core/generators/building/parts/parts.h"
-#include "core/generators/specular.h"
+#include "core/generators/material_members.h"
 #include "core/schema/color.h"
 #include "core/texture/data_uri.h"
 #include "generated/params/building.h"
@@ -261,12 +261,7 @@ int MaterialTable::make(const MaterialRequest& request) {
       material.base_color.w = static_cast<float>(own.opacity);
       material.alpha_mode = AlphaMode::blend;
     }
-    if (own.emission) {
-      const Color& glow = own.emission->color;
-      material.emissive =
-          glm::vec3(linear_of_srgb(glow.red), linear_of_srgb(glow.green), linear_of_srgb(glow.blue)) *
-          static_cast<float>(own.emission->strength);
-    }
+    set_emission(material, own.emission);
     set_specular(material, own.specular);
     if (const auto textures = textures_.find(name); textures != textures_.end()) {
       const Textures& p = textures->second;

@@ -4,12 +4,14 @@
 #include <array>
 #include <map>
 #include <string>
+#include <string_view>
 
 #include "core/generators/city/bridge_mesh.h"
 #include "core/generators/city/chunks.h"
 #include "core/generators/city/contents.h"
 #include "core/generators/city/ground_mesh.h"
 #include "core/generators/city/surface.h"
+#include "core/generators/material_members.h"
 #include "generated/params/city.h"
 
 namespace seedmesh::city {
@@ -26,12 +28,22 @@ constexpr Look looks[] = {
     {"park", {0x5f, 0x7d, 0x45}, 1.0F},     {"square", {0xa8, 0x9d, 0x88}, 0.9F},
     {"lot", {0x86, 0x8f, 0x6a}, 1.0F},      {"water", {0x35, 0x55, 0x66}, 0.2F},
 };
-Material material_of(const Look& look) {
+Material material_of(const Look& look, const CityParams& params) {
   Material material;
   material.name = look.name;
   material.base_color = {linear_of_srgb(look.color[0]), linear_of_srgb(look.color[1]),
                          linear_of_srgb(look.color[2]), 1};
   material.roughness = look.roughness;
+  for (const auto& own : params.surfaces) {
+    if (text_of(own.material) != std::string_view(look.name)) continue;
+    if (own.color) {
+      material.base_color = {linear_of_srgb(own.color->red), linear_of_srgb(own.color->green),
+                             linear_of_srgb(own.color->blue), 1};
+    }
+    if (own.roughness) material.roughness = static_cast<float>(*own.roughness);
+    set_specular(material, own.specular);
+    set_emission(material, own.emission);
+  }
   return material;
 }
 
@@ -49,8 +61,8 @@ void add_mesh(Model& model, const char* name, int material, Mesh mesh, int paren
 }
 
 /// The same with a material of its own.
-void add_mesh(Model& model, const char* name, const Look& look, Mesh mesh, int parent) {
-  model.materials.push_back(material_of(look));
+void add_mesh(Model& model, const char* name, Material material, Mesh mesh, int parent) {
+  model.materials.push_back(std::move(material));
   add_mesh(model, name, static_cast<int>(model.materials.size()) - 1, std::move(mesh), parent);
 }
 
@@ -74,14 +86,15 @@ std::vector<GroundPiece> ground_pieces(const CityPlan& plan, const Chunks& chunk
 }
 
 /// One mesh for each kind of part in each chunk.
-void add_ground(Model& model, const Surface& surface, const Chunks& chunks, ChunkNodes& nodes, Job& job) {
+void add_ground(Model& model, const Surface& surface, const CityParams& params, const Chunks& chunks,
+                ChunkNodes& nodes, Job& job) {
   const CityPlan& plan = surface.plan();
   std::map<std::string, int> materials;
   const auto add = [&](const char* name, const Look& look, GroundMesh& mesh, std::uint32_t chunk) {
     if (mesh.is_empty()) return;
     job.spend(Resource::triangles, mesh.triangles());
     const auto [material, is_new] = materials.try_emplace(name, static_cast<int>(model.materials.size()));
-    if (is_new) model.materials.push_back(material_of(look));
+    if (is_new) model.materials.push_back(material_of(look, params));
     add_mesh(model, name, material->second, mesh.take(job), nodes.group(chunk, "ground"));
   };
   for (const GroundPiece& piece : ground_pieces(plan, chunks)) {
@@ -104,7 +117,8 @@ void add_ground(Model& model, const Surface& surface, const Chunks& chunks, Chun
 }
 
 /// The parts of a town wall.
-void add_town_wall(Model& model, const CityPlan& plan, const Surface& surface, Job& job) {
+void add_town_wall(Model& model, const CityPlan& plan, const Surface& surface, const CityParams& params,
+                   Job& job) {
   GroundMesh mesh(plan, surface, job);
   for (std::uint32_t n = 0; n < plan.parts.size(); ++n) {
     if (!plan.parts[n].is_wall) continue;
@@ -113,11 +127,12 @@ void add_town_wall(Model& model, const CityPlan& plan, const Surface& surface, J
   }
   if (mesh.is_empty()) return;
   job.spend(Resource::triangles, mesh.triangles());
-  add_mesh(model, "wall", {"wall", {0x8d, 0x84, 0x74}, 0.95F}, mesh.take(job), 0);
+  add_mesh(model, "wall", material_of({"wall", {0x8d, 0x84, 0x74}, 0.95F}, params), mesh.take(job), 0);
 }
 
 /// The foundations of the houses on ground that is not level.
-void add_foundations(Model& model, const CityPlan& plan, const Surface& surface, Job& job) {
+void add_foundations(Model& model, const CityPlan& plan, const Surface& surface, const CityParams& params,
+                     Job& job) {
   if (surface.is_level()) return;
   GroundMesh mesh(plan, surface, job);
   for (const Lot& lot : plan.lots) {
@@ -125,14 +140,15 @@ void add_foundations(Model& model, const CityPlan& plan, const Surface& surface,
   }
   if (mesh.is_empty()) return;
   job.spend(Resource::triangles, mesh.triangles());
-  add_mesh(model, "foundations", {"foundation", {0x8f, 0x89, 0x80}, 0.95F}, mesh.take(job), 0);
+  add_mesh(model, "foundations", material_of({"foundation", {0x8f, 0x89, 0x80}, 0.95F}, params),
+           mesh.take(job), 0);
 }
 
-void add_bridges(Model& model, const CityPlan& plan, Job& job) {
+void add_bridges(Model& model, const CityPlan& plan, const CityParams& params, Job& job) {
   Mesh mesh = bridge_mesh(plan, job);
   if (mesh.elements() == 0) return;
   job.spend(Resource::triangles, mesh.elements());
-  add_mesh(model, "bridges", {"bridge", {0x8a, 0x88, 0x84}, 0.9F}, std::move(mesh), 0);
+  add_mesh(model, "bridges", material_of({"bridge", {0x8a, 0x88, 0x84}, 0.9F}, params), std::move(mesh), 0);
 }
 
 }  // namespace
@@ -169,10 +185,10 @@ Result<Model> city_model(const CityPlan& plan, const CityParams& params, const G
   const Surface surface(plan, params.streets.wards.wall_height, job);
   const Chunks chunks(plan, params);
   ChunkNodes nodes(model, chunks);
-  add_ground(model, surface, chunks, nodes, job);
-  add_town_wall(model, plan, surface, job);
-  add_foundations(model, plan, surface, job);
-  add_bridges(model, plan, job);
+  add_ground(model, surface, params, chunks, nodes, job);
+  add_town_wall(model, plan, surface, params, job);
+  add_foundations(model, plan, surface, params, job);
+  add_bridges(model, plan, params, job);
   if (auto error = add_contents(model, nodes, chunks, surface, params, context)) return std::move(*error);
   return model;
 }

@@ -7,7 +7,7 @@
 #include "core/base/math.h"
 #include "core/generators/child.h"
 #include "core/generators/fractal/faces.h"
-#include "core/generators/specular.h"
+#include "core/generators/material_members.h"
 #include "core/geom/mesh/flatten.h"
 #include "core/gltf/read/read.h"
 #include "generated/params/fractal.h"
@@ -222,6 +222,7 @@ Material plain_material(const FractalParams& params) {
   }
   material.roughness = 0.9F;
   set_specular(material, params.specular);
+  set_emission(material, params.emission);
   return material;
 }
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/generators/specular.h"
+#include "core/generators/material_members.h"
 #include "core/texture/data_uri.h"
 
 namespace seedmesh::lsystem {
@@ -121,12 +121,7 @@ Material MaterialSet::make(std::size_t index) const {
     material.base_color.w = static_cast<float>(given.opacity);
     material.alpha_mode = AlphaMode::blend;
   }
-  if (given.emission) {
-    const Color& glow = given.emission->color;
-    material.emissive =
-        glm::vec3(linear_of_srgb(glow.red), linear_of_srgb(glow.green), linear_of_srgb(glow.blue)) *
-        static_cast<float>(given.emission->strength);
-  }
+  set_emission(material, given.emission);
   set_specular(material, given.specular);
   if (has_texture(given)) {
     material.recipe = {std::string(text_of(given.texture)), static_cast<std::uint64_t>(given.texture_seed),

@@ -2,10 +2,12 @@
 #include "core/generators/scene/areas.h"
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <string>
 #include <tuple>
 
+#include "core/generators/material_members.h"
 #include "core/generators/scene/buildings.h"
 #include "core/geom/polygon/plan.h"
 #include "generated/params/scene.h"
@@ -17,12 +19,12 @@ namespace {
 // not flicker. All stay below paths.
 constexpr double lift = 0.01, step_up = 0.004, most_above = 0.024;
 
-using Key = std::tuple<std::string, std::uint32_t, double>;
+using Key = std::tuple<std::string, std::uint32_t, double, std::array<double, 4>>;
 
 Key key_of(const SceneArea& area) {
   const Color& color = area.color;
   return {area.name, static_cast<std::uint32_t>(color.red << 16U | color.green << 8U | color.blue),
-          area.roughness};
+          area.roughness, light_key(area)};
 }
 
 Mesh empty_mesh(const Job& job) {
@@ -83,6 +85,8 @@ void add_areas(Model& model, const std::vector<SceneArea>& areas, Job& job) {
     material.base_color = {linear_of_srgb(area.color.red), linear_of_srgb(area.color.green),
                            linear_of_srgb(area.color.blue), 1};
     material.roughness = static_cast<float>(area.roughness);
+    set_specular(material, area.specular);
+    set_emission(material, area.emission);
     Node node;
     node.name = area.name;
     node.parent = 0;

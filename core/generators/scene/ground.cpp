@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/math.h"
+#include "core/generators/material_members.h"
 #include "core/generators/scene/buildings.h"
 #include "core/generators/scene/path_bands.h"
 #include "core/generators/terrain/plan.h"
@@ -74,6 +75,8 @@ Model flat_model(const SceneGround& ground, const Extent& extent, bool round, co
     material.base_color = {linear_of_srgb(ground.color.red), linear_of_srgb(ground.color.green),
                            linear_of_srgb(ground.color.blue), 1};
     material.roughness = 0.95F;
+    set_specular(material, ground.specular);
+    set_emission(material, ground.emission);
     model.materials.push_back(material);
     model.meshes.push_back({"ground", {}});
     model.meshes.back().primitives.push_back({flat_mesh(extent, round, job), 0, {}});

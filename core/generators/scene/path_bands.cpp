@@ -1,12 +1,15 @@
 #include "core/generators/scene/path_bands.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "core/base/math.h"
+#include "core/generators/material_members.h"
 #include "core/generators/scene/ground.h"
 #include "core/schema/json.h"
 #include "generated/params/scene.h"
@@ -154,24 +157,27 @@ void add_mesh(Model& model, const std::string& name, Mesh mesh) {
 
 /// Paths of one mesh.
 struct PathGroup {
-  PathGroup(const Ground& ground, double cell, const Job& shared, const Color& paint)
-      : job(shared), band(ground, cell, job), color(paint) {}
+  PathGroup(const Ground& ground, double cell, const Job& shared, const ScenePath& path)
+      : job(shared), band(ground, cell, job), first(path) {}
   PathGroup(const PathGroup&) = delete;
   PathGroup& operator=(const PathGroup&) = delete;
   ~PathGroup() = default;
 
   Job job;  // other threads can be using the request's
   Band band;
-  Color color;
+  const ScenePath& first;  ///< gives the look of all
 };
 
 /// The mesh of a group, with the coarser levels of the ground.
 void add_group(Model& model, PathGroup& group, const std::vector<double>& errors, Job& job) {
   Material material;
   material.name = "path";
-  material.base_color = {linear_of_srgb(group.color.red), linear_of_srgb(group.color.green),
-                         linear_of_srgb(group.color.blue), 1};
+  const Color& color = group.first.color;
+  material.base_color = {linear_of_srgb(color.red), linear_of_srgb(color.green), linear_of_srgb(color.blue),
+                         1};
   material.roughness = 1;
+  set_specular(material, group.first.specular);
+  set_emission(material, group.first.emission);
   Node node;
   node.name = "path";
   node.parent = 0;
@@ -196,7 +202,7 @@ void add_path_bands(Model& model, const std::vector<ScenePath>& paths, const Gro
   const std::vector<double> errors = errors_of_levels(model);
   const bool joins = paths.size() > most_path_nodes;
   std::vector<std::unique_ptr<PathGroup>> groups;
-  std::map<std::uint32_t, std::size_t> group_of;
+  std::map<std::pair<std::uint32_t, std::array<double, 4>>, std::size_t> group_of;
   for (std::size_t number = 0; number < paths.size(); ++number) {
     const ScenePath& path = paths[number];
     if (!path.shown) continue;
@@ -204,8 +210,8 @@ void add_path_bands(Model& model, const std::vector<ScenePath>& paths, const Gro
     for (const auto& p : path.points) points.emplace_back(p[0], p[1]);
     const std::uint32_t rgb = std::uint32_t{path.color.red} << 16U | std::uint32_t{path.color.green} << 8U |
                               std::uint32_t{path.color.blue};
-    const auto [known, is_new] = group_of.emplace(rgb, groups.size());
-    if (is_new || !joins) groups.push_back(std::make_unique<PathGroup>(ground, cell, job, path.color));
+    const auto [known, is_new] = group_of.emplace(std::pair(rgb, light_key(path)), groups.size());
+    if (is_new || !joins) groups.push_back(std::make_unique<PathGroup>(ground, cell, job, path));
     PathGroup& group = joins ? *groups[known->second] : *groups.back();
     const Job::PointerScope scope(group.job, "/paths/" + std::to_string(number));
     group.band.lay(points, path.width / 2);

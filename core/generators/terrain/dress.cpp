@@ -70,9 +70,9 @@ class Dressing {
     if (has_detail()) {
       sites_.emplace(sites());
       classes_.emplace(palette_of(params_), field_, window_of(params_), *sites_, ground_colors_,
-                       ground_material(params_.specular), model);
+                       ground_material(params_), model);
     }
-    const int ground = has_detail() ? -1 : add_material(model, ground_material(params_.specular));
+    const int ground = has_detail() ? -1 : add_material(model, ground_material(params_));
     if (params_.texture > 0) {
       add_pictures(model, ground);
     } else if (params_.palette != TerrainPalette::none &&

@@ -39,7 +39,7 @@ class PlanetDressing {
 
  private:
   void add_ground(Model& model, Planet planet, const GroundColors& ground_colors) {
-    const int ground = add_material(model, ground_material(params_.specular));
+    const int ground = add_material(model, ground_material(params_));
     const GroundColors* colors = params_.palette == TerrainPalette::none ? nullptr : &ground_colors;
     for (int level = 0; level < demand_.lods; ++level) {
       if (level > 0) {

@@ -1,15 +1,16 @@
 #include "core/generators/terrain/model_parts.h"
 
-#include "core/generators/specular.h"
+#include "core/generators/material_members.h"
 #include "generated/params/terrain.h"
 
 namespace seedmesh::terrain {
 
-Material ground_material(const std::optional<TerrainSpecular>& specular) {
+Material ground_material(const TerrainParams& params) {
   Material material;
   material.name = "ground";
   material.roughness = 0.95F;
-  set_specular(material, specular);
+  set_specular(material, params.specular);
+  set_emission(material, params.emission);
   return material;
 }
 

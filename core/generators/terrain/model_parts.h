@@ -6,12 +6,12 @@
 #include "core/model/model.h"
 
 namespace seedmesh {
-struct TerrainSpecular;
+struct TerrainParams;
 }
 
 namespace seedmesh::terrain {
 
-Material ground_material(const std::optional<TerrainSpecular>& specular);
+Material ground_material(const TerrainParams& params);
 Material water_material();
 
 /// Indices of the added parts.

@@ -4,7 +4,7 @@
 #include <array>
 
 #include "core/base/math.h"
-#include "core/generators/specular.h"
+#include "core/generators/material_members.h"
 #include "core/texture/data_uri.h"
 #include "core/texture/leaf.h"
 
@@ -171,6 +171,7 @@ int add_bark_material(Model& model, const TreeParams& params, const Job& job) {
     }
   }
   set_specular(material, params.bark_specular);
+  set_emission(material, params.bark_emission);
   use_images(material, params.bark_images, "/bark_images", model, job);
   model.materials.push_back(std::move(material));
   return static_cast<int>(model.materials.size()) - 1;
@@ -184,6 +185,7 @@ LeafMaterials add_leaf_materials(Model& model, const TreeParams& params, const G
   material.double_sided = !has_own_sides;
   texture::let_light_through(material, static_cast<LeafShape>(params.leaf.leaf_shape));
   set_specular(material, params.leaf.specular);
+  set_emission(material, params.leaf.emission);
   const Color most = brightest(params.leaf);
   if (has_leaf_texture(params)) {
     material.recipe.kind =

@@ -23,7 +23,8 @@ class AreaFinder {
     side_ = frame_.side / count_;
     cells_ = cells_a_link(world, root.level);
     spacing_ = side_ / cells_;
-    for (const WorldClass& plant : world.params.plants) tallest_class_ = std::max(tallest_class_, plant.height);
+    for (const WorldClass& plant : world.params.plants)
+      tallest_class_ = std::max(tallest_class_, plant.height);
     areas_.resize(static_cast<std::size_t>(count_) * static_cast<std::size_t>(count_));
   }
 
@@ -119,7 +120,8 @@ class AreaFinder {
   double tallest_growing(const GroundSample& sample, double east, double north) const {
     double tallest = 0;
     for (const WorldClass& plant : world_.params.plants) {
-      if (plant.height > tallest && may_grow(world_, plant, sample, east, north, spacing_)) tallest = plant.height;
+      if (plant.height > tallest && may_grow(world_, plant, sample, east, north, spacing_))
+        tallest = plant.height;
     }
     return tallest;
   }

@@ -22,7 +22,7 @@ struct Area {
   std::array<double, 4> borders{1e12, 1e12, 1e12, 1e12};  ///< lowest at the west, south, east and north
   double lowest = 1e12, highest = -1e12;                  ///< of water, roads and houses
   Roughness rough;
-  double plant_height = 0;                                ///< of the tallest class that may grow here
+  double plant_height = 0;  ///< of the tallest class that may grow here
 
   double border() const { return *std::min_element(borders.begin(), borders.end()); }
 };

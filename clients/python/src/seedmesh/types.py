@@ -380,6 +380,17 @@ class CityParametersBuildings(TypedDict, total=False):
     landmarks: List["CityParametersBuildingsLandmarksItem"]
 
 
+class _CityParametersSurfacesItemRequired(TypedDict):
+    name: Literal['asphalt', 'junction', 'sidewalk', 'verge', 'park', 'square', 'lot', 'water', 'marking', 'wall', 'foundation', 'bridge']
+
+
+class CityParametersSurfacesItem(_CityParametersSurfacesItemRequired, total=False):
+    color: str
+    roughness: float
+    specular: "Specular"
+    emission: "Emission"
+
+
 class CityParametersFurnitureLamps(TypedDict, total=False):
     spacing: float
     share: float
@@ -457,6 +468,7 @@ class CityParameters(TypedDict, total=False):
     streets: "CityParametersStreets"
     lots: "CityParametersLots"
     buildings: "CityParametersBuildings"
+    surfaces: List["CityParametersSurfacesItem"]
     furniture: "CityParametersFurniture"
     parks: "CityParametersParks"
     yards: "CityParametersYards"
@@ -501,6 +513,7 @@ class FractalParameters(TypedDict, total=False):
     size: float
     color: str
     specular: "Specular"
+    emission: "Emission"
     palette: List[str]
     points: int
     start: Literal['element', 'cube']
@@ -684,6 +697,8 @@ class SceneParametersGround(TypedDict, total=False):
     size: float
     outline: Literal['square', 'disc', 'none']
     color: str
+    specular: "Specular"
+    emission: "Emission"
 
 
 class _SceneParametersPathsItemRequired(TypedDict):
@@ -694,6 +709,8 @@ class SceneParametersPathsItem(_SceneParametersPathsItemRequired, total=False):
     width: float
     shown: bool
     color: str
+    specular: "Specular"
+    emission: "Emission"
 
 
 class _SceneParametersAreasItemRequired(TypedDict):
@@ -703,6 +720,8 @@ class _SceneParametersAreasItemRequired(TypedDict):
 class SceneParametersAreasItem(_SceneParametersAreasItemRequired, total=False):
     name: str
     color: str
+    specular: "Specular"
+    emission: "Emission"
     roughness: float
 
 
@@ -1021,6 +1040,7 @@ class TerrainParameters(TypedDict, total=False):
     base: float
     palette: Literal['alpine', 'desert', 'tropical', 'arctic', 'volcanic', 'moon', 'grey', 'none']
     specular: "Specular"
+    emission: "Emission"
     water_level: float
     texture: int
     detail: bool
@@ -1061,6 +1081,7 @@ class TreeParametersLeaf(TypedDict, total=False):
     autumn: str
     evergreen: bool
     specular: "Specular"
+    emission: "Emission"
     images: "Images"
 
 
@@ -1166,6 +1187,7 @@ TreeParameters = TypedDict("TreeParameters", {
     'bark_seed': int,
     'bark_images': "Images",
     'bark_specular': "Specular",
+    'bark_emission': "Emission",
     'age': float,
     'mature_age': float,
     'season': Literal['spring', 'summer', 'autumn', 'winter'],

@@ -1,0 +1,45 @@
+#pragma once
+/// The members `specular` and `emission` of requests, which several generators have for their materials.
+#include <array>
+#include <optional>
+
+#include "core/model/model.h"
+
+namespace seedmesh {
+
+/// Sets colour and strength of the reflections of a material. Without a value the material stays as it is. `Given` is
+/// a generated struct with `color` and `strength`.
+template <class Given>
+void set_specular(Material& material, const std::optional<Given>& given) {
+  if (!given) return;
+  const auto& color = given->color;
+  material.specular_color = {linear_of_srgb(color.red), linear_of_srgb(color.green),
+                             linear_of_srgb(color.blue)};
+  material.specular = static_cast<float>(given->strength);
+}
+
+/// Sets the light that a material sends out, like set_specular.
+template <class Given>
+void set_emission(Material& material, const std::optional<Given>& given) {
+  if (!given) return;
+  const auto& color = given->color;
+  material.emissive =
+      glm::vec3(linear_of_srgb(color.red), linear_of_srgb(color.green), linear_of_srgb(color.blue)) *
+      static_cast<float>(given->strength);
+}
+
+/// Colour and strength of both members of `given`; equal for surfaces that look alike. Members that are not given are -1.
+template <class Given>
+std::array<double, 4> light_key(const Given& given) {
+  std::array<double, 4> key{-1, -1, -1, -1};
+  const auto set = [&key](std::size_t first, const auto& member) {
+    if (!member) return;
+    key[first] = 65'536.0 * member->color.red + 256.0 * member->color.green + member->color.blue;
+    key[first + 1] = member->strength;
+  };
+  set(0, given.specular);
+  set(2, given.emission);
+  return key;
+}
+
+}  // namespace seedmesh
