@@ -1,5 +1,5 @@
 /// The speed of worlds on one thread, in processor time: tiles of ground, leaves with plants and houses, a region that
-/// nobody has asked for, tiles of a flight, nested tilesets, and one sample of the ground.
+/// no request has asked for before, tiles of a flight, nested tilesets, and one sample of the ground.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -82,7 +82,7 @@ void bench_tiles(const std::string& name, const OpenWorld& world, const std::vec
   percentile(name + ", p99", seconds, 0.99, bytes.back());
 }
 
-/// Leaves of worlds that nobody has asked for: region, roads and plans are made as well.
+/// Leaves of worlds that no request has asked for before: region, roads and plans are made as well.
 void bench_cold() {
   std::vector<double> seconds;
   for (unsigned seed = 1; seed <= 9; ++seed) {

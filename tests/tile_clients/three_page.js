@@ -20,7 +20,7 @@ window.client = {
     if (url.endsWith('implicit.json')) tiles.registerPlugin(new ImplicitTilingPlugin());
     if (check_boxes) tiles.registerPlugin(new TilesetValidationPlugin());
     tiles.setCamera(camera);
-    tiles.setResolution(camera, Math.round(lines * camera.aspect), lines); // as if the window had so many lines
+    tiles.setResolution(camera, Math.round(lines * camera.aspect), lines); // as if the window had this number of lines
     tiles.group.rotation.x = -Math.PI / 2;
     tiles.addEventListener('load-error', ({ error, url: failed }) => faults.push(`${failed}: ${error.message}`));
     scene.add(tiles.group);
