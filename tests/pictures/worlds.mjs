@@ -35,7 +35,7 @@ try {
     const page = await browser.newPage({ viewport: { width: 800, height: 450 } });
     await page.goto(`${server.url}/world.html#${world}@${[east, north, up, heading, pitch]}`);
     await until_state(page, 'ready', 'failed');
-    await page.evaluate(() => { for (const each of document.querySelectorAll('form, p')) each.remove(); });
+    await page.evaluate(() => { for (const each of document.querySelectorAll('form, p, details, .sliders')) each.remove(); });
     const png = await page.screenshot({ timeout: 120_000 });
     let quality = 80, bytes;
     do bytes = await sharp(png).webp({ quality }).toBuffer(); while (bytes.length > 60_000 && (quality -= 8) > 20);
