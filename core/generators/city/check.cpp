@@ -58,6 +58,18 @@ void check_lots(const CityLots& lots, std::vector<Issue>& issues) {
                           number_text(lots.area[1]) + " m²"});
 }
 
+void check_surfaces(const CityParams& params, std::vector<Issue>& issues) {
+  for (std::size_t i = 0; i < params.surfaces.size(); ++i) {
+    for (std::size_t before = 0; before < i; ++before) {
+      if (params.surfaces[i].material != params.surfaces[before].material) continue;
+      issues.push_back({IssueKind::duplicate_key, "/surfaces/" + std::to_string(i) + "/name",
+                        "found \"" + std::string(text_of(params.surfaces[i].material)) +
+                            "\", which /surfaces/" + std::to_string(before) + " has already"});
+      break;
+    }
+  }
+}
+
 void check_rules(const CityParams& params, std::vector<Issue>& issues) {
   for (std::size_t i = 0; i < rules_of(params).size(); ++i) {
     const CityBuildingRule& rule = rules_of(params)[i];
@@ -85,6 +97,7 @@ void check_rules(const CityParams& params, std::vector<Issue>& issues) {
 
 std::vector<Issue> check(const CityParams& params, const CheckContext& context) {
   std::vector<Issue> issues;
+  check_surfaces(params, issues);
   check_area(params, context.job, issues);
   check_lots(params.lots, issues);
   check_rules(params, issues);

@@ -157,6 +157,17 @@ std::vector<Warning> remarks_on(const CityParams& params, const CityPlan& plan) 
   return warnings;
 }
 
+/// Surfaces that the model does not have, before materials get unique names.
+void warn_of_unused_surfaces(const CityParams& params, Model& model) {
+  for (std::size_t i = 0; i < params.surfaces.size(); ++i) {
+    const std::string_view name = text_of(params.surfaces[i].material);
+    const auto has_name = [&](const Material& material) { return material.name == name; };
+    if (std::any_of(model.materials.begin(), model.materials.end(), has_name)) continue;
+    model.warnings.push_back(
+        {"/surfaces/" + std::to_string(i), "this city has no surface \"" + std::string(name) + "\""});
+  }
+}
+
 std::optional<Error> refusal(const CityParams& params, const GenerateContext& context) {
   std::vector<Issue> issues = check(params, {context.job, context.generators});
   if (issues.empty()) return std::nullopt;
@@ -222,6 +233,7 @@ Result<Model> generate(const CityParams& params, const GenerateContext& context)
   job.progress("mesh", 0);
   Result<Model> model = city_model(*plan, params, context);
   if (!model) return model;
+  warn_of_unused_surfaces(params, *model);
   model->extras.push_back({"statistics", canonical_text(statistics_of(*plan, job))});
   for (Warning& each : remarks_on(params, *plan)) model->warnings.push_back(std::move(each));
   return model;
