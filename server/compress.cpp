@@ -62,8 +62,8 @@ class QuickGzip final : public Encoder {
   const std::unique_ptr<std::uint8_t[]> buffer_{new std::uint8_t[ISAL_DEF_LVL1_DEFAULT]};
 };
 
-/// gzip by libdeflate for answers that are encoded in one piece: an eighth smaller than by ISA-L for the JSON of a
-/// world, for at most a third of a millisecond.
+/// gzip by libdeflate for answers that are encoded in one piece. Beside ISA-L level 1, a map of a world is 9 % smaller
+/// and a tile 21 %. It costs 5 to 8 ms per MB, so at most half a millisecond for an answer of this size.
 class WholeGzip final : public Encoder {
  public:
   static constexpr std::uint64_t most = 64 * 1'024;  ///< bytes of an answer
