@@ -50,7 +50,9 @@ const aims = {
   'leaf with plants and houses, p50': { seconds: 0.008, megabytes: 0.04 },
   'leaf with plants and houses, p99': { seconds: 0.03 },
   'first leaf of a region': { seconds: 0.12 },
+  'first picture of a replica': { seconds: 1 },
   'tiles of a flight': { rate: 150 },
+  'samples of noise with gullies': { rate: 1e6 / 0.6 },
   'nested tileset, p50': { seconds: 0.008 },
 };
 /** The programs that print figures, a line each, and what runs beside them. */

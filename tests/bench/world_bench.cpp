@@ -1,11 +1,13 @@
 /// The speed of worlds on one thread, in processor time: tiles of ground, leaves with plants and houses, a region that
-/// no request has asked for before, tiles of a flight, nested tilesets, and one sample of the ground.
+/// no request has asked for before, the first picture of a replica, tiles of a flight, nested tilesets, and samples of
+/// noise with gullies.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <string>
 #include <vector>
 
+#include "core/generators/world/land.h"
 #include "core/pipeline.h"
 #include "core/pipeline/world.h"
 #include "tests/bench/report.h"
@@ -92,18 +94,62 @@ void bench_cold() {
   percentile("first leaf of a region", seconds, 0.5);
 }
 
-/// What a camera asks for that flies for 4 km: of each level, the tiles that come near.
-void bench_flight() {
-  const OpenWorld world = opened(full, 7);
+/// Of each level, the tiles within half of their side of a way from the middle to the east, at most 700 m from it.
+std::vector<TileAddress> along(const OpenWorld& world, double length) {
   std::vector<TileAddress> all;
   for (int level = 0; level < world.levels(); ++level) {
     const double side = world.extent() / static_cast<double>(std::int64_t{1} << level);
     const double reach = std::min(0.5 * side, 700.0);
-    const TileRange near = tiles_in(world, level, {-reach, -reach, 4000 + reach, reach});
+    const TileRange near = tiles_in(world, level, {-reach, -reach, length + reach, reach});
     for (std::int64_t y = near.south; y <= near.north; ++y) {
       for (std::int64_t x = near.west; x <= near.east; ++x) all.push_back({level, x, y});
     }
   }
+  return all;
+}
+
+/// The tilesets above the middle of a world that no request has asked for before, and the tiles around it.
+void bench_first_picture() {
+  std::vector<double> seconds;
+  for (unsigned seed = 21; seed <= 25; ++seed) {
+    const OpenWorld world = opened(full, seed);
+    const std::vector<TileAddress> all = along(world, 0);
+    seconds.push_back(once([&] {
+      for (int level = 0; level < world.levels(); level += world_tileset_levels) {
+        const std::int64_t middle = level == 0 ? 0 : std::int64_t{1} << (level - 1);
+        if (!world_tileset(world, {level, middle, middle}, "", one_thread())) std::abort();
+      }
+      for (const TileAddress& each : all) tile(world, each);
+    }));
+  }
+  percentile("first picture of a replica", seconds, 0.5);
+}
+
+void bench_samples() {
+  WorldParams params;
+  params.relief.mountains = 1600;
+  params.relief.gullies = 0.8;
+  const Result<world::World> land = world::read_world(params, 7);
+  if (!land) std::abort();
+  constexpr int side = 400;
+  constexpr double spacing = 7;
+  double sum = 0;
+  const double seconds = once([&] {
+    for (int y = 0; y < side; ++y) {
+      for (int x = 0; x < side; ++x) {
+        const double east = spacing * x, north = spacing * y;
+        sum += world::detail_at(*land, world::land_at(*land, east, north), east, north);
+      }
+    }
+  });
+  if (sum == 0) std::abort();  // the sum keeps the work from being removed
+  bench::report("samples of noise with gullies", "samples", side * side, seconds);
+}
+
+/// What a camera asks for that flies for 4 km: of each level, the tiles that come near.
+void bench_flight() {
+  const OpenWorld world = opened(full, 7);
+  const std::vector<TileAddress> all = along(world, 4000);
   for (const TileAddress& each : all) tile(world, each);
   bench::report("tiles of a flight", "tiles", static_cast<double>(all.size()), once([&] {
                   for (const TileAddress& each : all) tile(world, each);
@@ -130,6 +176,8 @@ int main() {
   bench_tiles("tile of ground and water", opened(bare, 7), around(12, 8));
   bench_tiles("leaf with plants and houses", opened(full, 7), around(14, 20));
   bench_cold();
+  bench_first_picture();
   bench_flight();
   bench_tilesets();
+  bench_samples();
 }
