@@ -1,5 +1,6 @@
 # A cache before several replicas, with Varnish 6.6 or later: one request for many equal ones, 304 from the cache, answers that are a
 # little old while no replica answers. Equal URLs go to the same replica.
+# Start it with `varnishd -p timeout_idle=75 ...`: after the default of 5 s it closes connections that clients are about to use again.
 vcl 4.1;
 
 import directors;
