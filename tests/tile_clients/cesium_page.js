@@ -21,7 +21,8 @@ window.client = {
     faults.length = 0;
     tileset = await Cesium.Cesium3DTileset.fromUrl(url, { maximumScreenSpaceError: 16 * innerHeight / lines });
     tileset.modelMatrix = frame;
-    tileset.tileFailed.addEventListener(({ url: failed, message }) => faults.push(`${failed}: ${message}`));
+    const own = tileset;
+    own.tileFailed.addEventListener(({ url: failed, message }) => { if (own === tileset) faults.push(`${failed}: ${message}`); });
     scene.primitives.add(tileset);
   },
   async view({ east, north, up, heading, pitch }) {
@@ -35,10 +36,10 @@ window.client = {
     });
     const end = performance.now() + 60_000;
     for (let calm = 0; calm < 10;) {
-      if (performance.now() > end) { faults.push('not all tiles came within 60 s'); break; }
+      if (performance.now() > end) { faults.push(`not all tiles came within 60 s: ${tileset.statistics.numberOfPendingRequests} requests, ${tileset.statistics.numberOfTilesProcessing} in work`); break; }
       await new Promise((resolve) => setTimeout(resolve, 8));
       widget.render();
-      calm = tileset.tilesLoaded ? calm + 1 : 0;
+      calm = tileset.tilesLoaded && tileset.statistics.selected > 0 ? calm + 1 : 0;
     }
     const { selected, numberOfTrianglesSelected: triangles } = tileset.statistics;
     return { tiles: selected, triangles, faults: [...faults] };
