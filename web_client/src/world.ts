@@ -20,6 +20,7 @@ const held = new Set<string>();
 /** The first view of a world: above its middle, towards the north. */
 const start: Pose = { east: 0, north: 0, height: 2500, heading: 0, pitch: -25 };
 const eyes = 1.7, pace = 6; // metres above the ground, and metres a second
+const above_all = 100_000; // metres; no ground is as high
 const walk_button = form.elements.namedItem('walk') as HTMLButtonElement, panel = document.querySelector<HTMLElement>('.sliders')!;
 const ray = new Raycaster(), down = new Vector3(0, -1, 0);
 let pose: Pose = { ...start }, tiles: TilesRenderer | null = null, name = '';
@@ -57,7 +58,7 @@ function keep_ground(model: Object3D): void {
 /** The height of the ground below the camera; null while no tile is there. */
 function ground(): number | null {
   if (!tiles) return null;
-  ray.set(new Vector3(pose.east, 9000, -pose.north), down);
+  ray.set(new Vector3(pose.east, above_all, -pose.north), down);
   return ray.intersectObject(tiles.group, true)[0]?.point.y ?? null;
 }
 
@@ -125,8 +126,12 @@ function move(seconds: number): void {
   write_address();
 }
 
-/** A near plane that grows with the height keeps water and land apart in the depth buffer. */
-function set_planes(): void {
+/**
+ * A near plane that grows with the height keeps water and land apart in the depth buffer. Errors of tiles are of heights;
+ * from far above, coasts are seen instead, and they need finer tiles.
+ */
+function set_view(): void {
+  if (tiles) tiles.errorTarget = pose.walks ? 16 : 16 / (1 + Math.abs(pose.height) / 5000);
   const near = pose.walks ? 0.3 : MathUtils.clamp(Math.abs(pose.height) / 100, 1, 1000);
   if (Math.abs(near / camera.near - 1) < 0.1) return;
   camera.near = near;
@@ -138,7 +143,7 @@ let last = performance.now(), calm = 0;
 function draw(now: number): void {
   move(Math.min(0.1, (now - last) / 1000));
   last = now;
-  set_planes();
+  set_view();
   camera.position.set(pose.east, pose.height, -pose.north);
   camera.rotation.set(MathUtils.degToRad(pose.pitch), MathUtils.degToRad(-pose.heading), 0, 'YXZ');
   camera.updateMatrixWorld();
@@ -165,7 +170,7 @@ addEventListener('blur', () => held.clear());
 addEventListener('resize', resize);
 addEventListener('hashchange', () => { const at = read_address(); if (at) { pose = at.pose; set_walk(at.pose.walks === true); show(at.name); } });
 walk_button.addEventListener('click', () => set_walk(!pose.walks));
-form.addEventListener('submit', (event) => { event.preventDefault(); void submit(); });
+form.addEventListener('submit', (event) => { event.preventDefault(); submit().catch((error: unknown) => state(String(error), 'failed')); });
 
 /** Shows the chosen preset, or the world of the sliders, with the seed of the field. */
 async function submit(): Promise<void> {
