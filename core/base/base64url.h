@@ -6,12 +6,14 @@
 
 namespace seedmesh {
 
+/// Encodes bytes as base64url without padding.
 std::string base64url(std::string_view bytes);
 
-/// The same in base64 with padding (section 4), for texts that are no URLs.
+/// Encodes bytes as standard base64 with padding (RFC 4648 section 4). For use outside URLs.
 std::string base64(std::string_view bytes);
 
-/// Strict: no padding, no other characters and no unused bits that are set, so that each value has one spelling.
+/// Decodes base64url. Returns nullopt for padding, other characters, or unused bits that are set. Each value therefore
+/// has exactly one encoding.
 std::optional<std::string> from_base64url(std::string_view text);
 
 }  // namespace seedmesh

@@ -1,18 +1,19 @@
 #pragma once
 /// Permalinks: URLs that contain a whole request. token = base64url(raw deflate(canonical JSON with `engine`)).
-/// Any replica can answer one.
+/// Any replica can answer a permalink, because it needs no stored state.
 #include <cstddef>
 #include <string>
 #include <string_view>
 
 namespace seedmesh {
 
-constexpr std::size_t longest_token = 8'000;  ///< a longer one does not fit into a URL
+constexpr std::size_t longest_token = 8'000;  ///< characters; for a longer token no permalink is written
 
-/// The token of a canonical request, which is the text of a JSON object. An engine version needs no escapes.
+/// Returns the token of a canonical request, which is the text of a JSON object. `engine` must contain no character
+/// that JSON escapes.
 std::string write_token(std::string_view canonical, std::string_view engine);
 
-/// "/v1/models/<token>.<extension>"
+/// Returns "/v1/models/<token>.<extension>".
 std::string permalink(std::string_view token, std::string_view extension);
 
 }  // namespace seedmesh
