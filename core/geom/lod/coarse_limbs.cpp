@@ -11,9 +11,9 @@ namespace {
 
 // Longer limbs are simplified in pieces of this many stations.
 constexpr std::size_t longest_piece = 2048;
-// Bisection of the price between the greatest one and this share of it: exact to a few triangles.
+// Bisection of the multiplier between the greatest one and this share of it: exact to a few triangles.
 constexpr int halvings = 40;
-constexpr float price_range = 1e-12F;
+constexpr float multiplier_range = 1e-12F;
 // Numbers of corners that skin() may use instead of that of the finest level, in descending order.
 constexpr int fewer_corners[] = {48, 32, 24, 16, 12, 10, 8, 6, 5, 4, 3};
 // Coefficients of the mean difference of the outline, as a share of a limb's width, over all directions. They
@@ -43,9 +43,9 @@ void Coarsening::read_limb(std::uint32_t head) {
   const std::size_t begin = stations_.size();
   const std::uint32_t start = is_root ? head : limbs_.parent[head];
   std::uint32_t joint = is_root ? chains_.next[head] : head;
-  const auto add_station = [&](std::uint32_t at, float radius, float worth) {
+  const auto add_station = [&](std::uint32_t at, float radius, float error) {
     const int own = options_.skin ? 0 : corners(radius, options_.sides);
-    stations_.push_back({at, place_of(at), radius, worth, static_cast<float>(own)});
+    stations_.push_back({at, place_of(at), radius, error, static_cast<float>(own)});
   };
   add_station(start, joint == Limbs::none ? 0.0F : limbs_.base_radius[joint], forever);
   double area = 0;
@@ -55,19 +55,19 @@ void Coarsening::read_limb(std::uint32_t head) {
     area += static_cast<double>(std::sqrt(glm::dot(step, step)) * width * shown(joint));
     add_station(joint, limbs_.radius[joint], 0);
   }
-  const float favour = favour_of(head);
-  area_.push_back(favour * static_cast<float>(area));
+  const float factor = random_factor(head);
+  area_.push_back(factor * static_cast<float>(area));
   const std::size_t end = stations_.size();
-  stations_.back().worth = forever;
-  for (std::size_t i = begin + longest_piece; i < end; i += longest_piece) stations_[i].worth = forever;
+  stations_.back().error = forever;
+  for (std::size_t i = begin + longest_piece; i < end; i += longest_piece) stations_[i].error = forever;
   for (std::size_t i = begin + 1; i + 1 < end; ++i) {
-    if (must_stay(stations_[i].joint, stations_[i + 1].joint)) stations_[i].worth = forever;
+    if (must_stay(stations_[i].joint, stations_[i + 1].joint)) stations_[i].error = forever;
   }
   for (std::size_t i = begin, next; i + 1 < end; i = next) {
-    for (next = i + 1; stations_[next].worth != forever;) ++next;
+    for (next = i + 1; stations_[next].error != forever;) ++next;
     simplify(i, next);
   }
-  for (std::size_t i = begin; i < end; ++i) stations_[i].worth *= favour;
+  for (std::size_t i = begin; i < end; ++i) stations_[i].error *= factor;
 }
 
 /// True where a joint has to be kept for another reason than its position.
@@ -81,7 +81,7 @@ bool Coarsening::must_stay(std::uint32_t joint, std::uint32_t next) const {
   return glm::dot(limbs_.frame[joint] * left, limbs_.frame[next] * left) < untwisted;
 }
 
-/// Computes the worth of all stations between two that are kept. It never exceeds that of the station that
+/// Computes the outline error of all stations between two that are kept. It never exceeds that of the station that
 /// splits the enclosing piece.
 void Coarsening::simplify(std::size_t first, std::size_t last) {
   struct Piece {
@@ -117,65 +117,65 @@ void Coarsening::simplify(std::size_t first, std::size_t last) {
       // A limb that is displaced by more than its width is missing at one position and superfluous at another.
       worst = std::max(worst, (std::min(away, 2 * each.radius) + thicker) * seen);
     }
-    const float worth = std::min(piece.most, worst * length);
-    stations_[at].worth = worth;
-    pieces.push_back({piece.first, at, worth});
-    pieces.push_back({at, piece.last, worth});
+    const float error = std::min(piece.most, worst * length);
+    stations_[at].error = error;
+    pieces.push_back({piece.first, at, error});
+    pieces.push_back({at, piece.last, error});
   }
 }
 
-/// The triangles that a limb costs, and the visible area that it loses.
-struct Coarsening::Bill {
-  double cost = 0, loss = 0;
+/// The triangles of a limb, and the visible area that it loses.
+struct Coarsening::LimbCost {
+  double triangles = 0, loss = 0;
   LimbCorners corners;
-  double sum(float price) const { return loss + static_cast<double>(price) * cost; }
+  double sum(float multiplier) const { return loss + static_cast<double>(multiplier) * triangles; }
 };
 
 /// `corners` is the number of corners of all rings; 0 uses those of the stations.
-Coarsening::Bill Coarsening::bill_of(std::size_t limb, int corners, float price) const {
-  Bill bill;
+Coarsening::LimbCost Coarsening::cost_of(std::size_t limb, int corners, float multiplier) const {
+  LimbCost cost;
   float before = stations_[begin(limb)].radius;
   for (std::size_t i = begin(limb); i < end(limb); ++i) {
     const Station& each = stations_[i];
     const float own = corners > 0 ? static_cast<float>(corners) : each.corners;
-    if (!stays(each, own, price)) {
-      bill.loss += static_cast<double>(each.worth);
+    if (!stays(each, own, multiplier)) {
+      cost.loss += static_cast<double>(each.error);
       continue;
     }
     const auto last = static_cast<double>(own);
     if (i == begin(limb)) {
-      bill.cost += options_.skin ? last - 2 : last;
+      cost.triangles += options_.skin ? last - 2 : last;
     } else if (i + 1 < end(limb)) {
-      bill.cost += 2 * last;
+      cost.triangles += 2 * last;
       before = each.radius;
     } else {
       const bool is_pointed = options_.pointed && each.radius < pointed_share * before;
-      bill.cost += options_.skin && corners == 3 ? 7 : (is_pointed ? 1 : 3) * last;
+      cost.triangles += options_.skin && corners == 3 ? 7 : (is_pointed ? 1 : 3) * last;
     }
   }
-  return bill;
+  return cost;
 }
 
-/// The bill with the number of corners that has the least sum at the price.
-Coarsening::Bill Coarsening::best_bill(std::size_t limb, float price) const {
-  if (!options_.skin) return bill_of(limb, 0, price);
+/// The cost with the number of corners that has the least sum.
+Coarsening::LimbCost Coarsening::best_cost(std::size_t limb, float multiplier) const {
+  if (!options_.skin) return cost_of(limb, 0, multiplier);
   const int finest = corners_[limb].finest;
-  Bill best = bill_of(limb, finest, price);
+  LimbCost best = cost_of(limb, finest, multiplier);
   best.corners = {corners_[limb].finest, corners_[limb].finest};
   for (const int corners : fewer_corners) {
     if (corners >= finest || corners < least_corners_) continue;
-    Bill bill = bill_of(limb, corners, price);
+    LimbCost cost = cost_of(limb, corners, multiplier);
     const float off = off_by_corners / static_cast<float>(corners * corners) +
                       off_by_finest / static_cast<float>(finest * finest);
-    bill.loss += static_cast<double>(off * area_[limb]);
-    bill.corners = {static_cast<std::uint8_t>(corners), corners_[limb].finest};
-    if (bill.sum(price) < best.sum(price)) best = bill;
+    cost.loss += static_cast<double>(off * area_[limb]);
+    cost.corners = {static_cast<std::uint8_t>(corners), corners_[limb].finest};
+    if (cost.sum(multiplier) < best.sum(multiplier)) best = cost;
   }
   return best;
 }
 
-/// Selects what to keep at a price, and returns its triangles.
-std::uint64_t Coarsening::count(float price) {
+/// Selects what to keep with a multiplier, and returns its triangles.
+std::uint64_t Coarsening::count(float multiplier) {
   is_fork_.assign(limbs_.size(), 0);
   double total = 0;
   for (std::size_t limb = area_.size(); limb-- > 0;) {  // children before parents
@@ -183,25 +183,26 @@ std::uint64_t Coarsening::count(float price) {
     bool carries = false;
     for (std::size_t i = begin(limb) + 1; i < end(limb); ++i)
       carries = carries || is_fork_[stations_[i].joint] != 0;
-    const Bill bill = best_bill(limb, price);
+    const LimbCost cost = best_cost(limb, multiplier);
     const std::uint32_t head = chains_.head[limb];
     const bool is_root = limbs_.parent[head] == Limbs::none;
-    const double lost = options_.skin ? bill.loss : 0;
-    const bool is_worth = static_cast<double>(area_[limb]) > lost + static_cast<double>(price) * bill.cost;
-    kept_[limb] = carries || (is_root && is_fork_[head]) || is_worth ? 1 : 0;
+    const double lost = options_.skin ? cost.loss : 0;
+    const bool loses_more =
+        static_cast<double>(area_[limb]) > lost + static_cast<double>(multiplier) * cost.triangles;
+    kept_[limb] = carries || (is_root && is_fork_[head]) || loses_more ? 1 : 0;
     if (!kept_[limb]) continue;
-    if (options_.skin) corners_[limb] = bill.corners;
-    total += bill.cost;
+    if (options_.skin) corners_[limb] = cost.corners;
+    total += cost.triangles;
     if (!is_root) is_fork_[limbs_.parent[head]] = 1;
   }
   return static_cast<std::uint64_t>(total);
 }
 
-float Coarsening::price_for(std::uint64_t triangles) {
+float Coarsening::multiplier_for(std::uint64_t triangles) {
   if (count(0) <= triangles) return 0;
   float high = 1e-30F;
   for (const float area : area_) high = std::max(high, area);
-  float low = high * price_range;
+  float low = high * multiplier_range;
   for (int i = 0; i < halvings && high > low * 1.001F; ++i) {
     const float middle = std::sqrt(low) * std::sqrt(high);
     (count(middle) > triangles ? low : high) = middle;

@@ -5,8 +5,8 @@
 /// Joints of a limb are selected after Douglas and Peucker, "Algorithms for the reduction of the number of
 /// points required to represent a digitized line or its caricature", 1973; the error is the area by which the
 /// outline changes. Twigs are removed as wholes: thin, short and hidden ones first. Both decisions compare
-/// the error with one price of a triangle (a Lagrange multiplier), which bisection finds. For skin() the
-/// price also decides how many corners each limb has; thick limbs keep more.
+/// the error with the number of triangles times a Lagrange multiplier, which bisection finds. For skin() the
+/// multiplier also decides how many corners each limb has; thick limbs keep more.
 #include <span>
 #include <vector>
 

@@ -34,7 +34,8 @@ std::uint32_t Coarsening::add(std::size_t limb, std::uint32_t joint, std::uint32
   return static_cast<std::uint32_t>(to.size() - 1);
 }
 
-void Coarsening::write_limb(std::size_t limb, float price, CoarseLimbs& out, Array<std::uint32_t>& place) {
+void Coarsening::write_limb(std::size_t limb, float multiplier, CoarseLimbs& out,
+                            Array<std::uint32_t>& place) {
   const std::uint32_t head = chains_.head[limb];
   const bool is_root = limbs_.parent[head] == Limbs::none;
   Limbs& to = out.limbs;
@@ -45,7 +46,7 @@ void Coarsening::write_limb(std::size_t limb, float price, CoarseLimbs& out, Arr
   float from_radius = stations_[before].radius;
   bool starts = !is_root, is_first = true;
   for (std::size_t i = before + 1; i < end(limb); ++i) {
-    if (!stays(limb, i, price)) continue;
+    if (!stays(limb, i, multiplier)) continue;
     const Station& last = stations_[i];
     const glm::vec3 to_position = last.position;
     float length = 0;
@@ -78,12 +79,12 @@ void Coarsening::write_limb(std::size_t limb, float price, CoarseLimbs& out, Arr
   }
 }
 
-CoarseLimbs Coarsening::write(float price) {
+CoarseLimbs Coarsening::write(float multiplier) {
   CoarseLimbs out{Limbs(job_), Array<std::uint32_t>(job_), {}};
   Array<std::uint32_t> place(job_, limbs_.size(), Limbs::none);
   for (std::size_t limb = 0; limb < area_.size(); ++limb) {
     if (limb % look_every == 0) job_.check();
-    if (kept_[limb]) write_limb(limb, price, out, place);
+    if (kept_[limb]) write_limb(limb, multiplier, out, place);
   }
   // An anchor at a removed joint moves to the nearest ancestor that is kept.
   for (std::uint32_t& anchor : out.limbs.anchor) {

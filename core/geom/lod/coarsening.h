@@ -17,7 +17,7 @@ struct Station {
   std::uint32_t joint = Limbs::none;
   glm::vec3 position{0};
   float radius = 0;
-  float worth = 0;    ///< area by which the outline changes without this station
+  float error = 0;    ///< area by which the outline changes without this station
   float corners = 3;  ///< of the ring at this station, for graft()
 };
 
@@ -36,36 +36,36 @@ class Coarsening {
 
   CoarseLimbs run() {
     read();
-    const float price = price_for(options_.triangles);
-    count(price);
-    return write(price);
+    const float multiplier = multiplier_for(options_.triangles);
+    count(multiplier);
+    return write(multiplier);
   }
 
  private:
   static constexpr float forever = std::numeric_limits<float>::infinity();
   static constexpr std::size_t look_every = 1024;
-  // Hidden limbs keep this share: they are visible through gaps, and where leaves are removed.
+  // The least visible share assumed for hidden limbs. They show through gaps and where leaves are removed.
   static constexpr float least_shown = 0.08F;
-  // A random factor of each limb's worth differs from 1 by at most this.
-  static constexpr float most_favour = 0.2F;
+  // The random factor of each limb's error differs from 1 by at most this.
+  static constexpr float most_deviation = 0.2F;
 
   void read();
   void read_limb(std::uint32_t head);
   void simplify(std::size_t first, std::size_t last);
-  float price_for(std::uint64_t triangles);
-  std::uint64_t count(float price);
-  struct Bill;
-  Bill bill_of(std::size_t limb, int corners, float price) const;
-  Bill best_bill(std::size_t limb, float price) const;
-  static bool stays(const Station& station, float corners, float price) {
-    return station.worth == forever || station.worth > price * 2 * corners;
+  float multiplier_for(std::uint64_t triangles);
+  std::uint64_t count(float multiplier);
+  struct LimbCost;
+  LimbCost cost_of(std::size_t limb, int corners, float multiplier) const;
+  LimbCost best_cost(std::size_t limb, float multiplier) const;
+  static bool stays(const Station& station, float corners, float multiplier) {
+    return station.error == forever || station.error > multiplier * 2 * corners;
   }
-  bool stays(std::size_t limb, std::size_t station, float price) const {
-    return stays(stations_[station], corners_at(limb, station), price);
+  bool stays(std::size_t limb, std::size_t station, float multiplier) const {
+    return stays(stations_[station], corners_at(limb, station), multiplier);
   }
   bool must_stay(std::uint32_t joint, std::uint32_t next) const;
-  CoarseLimbs write(float price);
-  void write_limb(std::size_t limb, float price, CoarseLimbs& out, Array<std::uint32_t>& place);
+  CoarseLimbs write(float multiplier);
+  void write_limb(std::size_t limb, float multiplier, CoarseLimbs& out, Array<std::uint32_t>& place);
   std::uint32_t add(std::size_t limb, std::uint32_t joint, std::uint32_t parent, CoarseLimbs& out) const;
 
   int corners(float radius, int sides) const { return corners_by_radius(radius, thickest_, sides); }
@@ -77,6 +77,7 @@ class Coarsening {
     const std::uint32_t joint = limbs_.parent[head] == Limbs::none ? chains_.next[head] : head;
     return joint == Limbs::none ? 0 : limbs_.base_radius[joint];
   }
+  /// Returns the corners that the limb has at the finest level.
   LimbCorners finest_corners(std::uint32_t head) const {
     if (!options_.skin) return {};
     if (options_.was_grafted) {
@@ -92,7 +93,7 @@ class Coarsening {
                              : options_.skin->sides);
     return {sides, sides};
   }
-  /// The factor of the radius that gives a tube with fewer corners the mean width of the finest one. After
+  /// Returns the factor by which the radius grows so that a tube with fewer corners keeps its mean width. After
   /// Cauchy, the mean width of a convex outline is its circumference divided by pi.
   float widening(std::size_t limb, float radius) const {
     const auto round = [](int n) { return n * math::sin(math::pi / n); };
@@ -102,10 +103,10 @@ class Coarsening {
                                     static_cast<std::uint8_t>(corners(radius, options_.finest_sides))};
     return own.now == own.finest ? 1.0F : static_cast<float>(round(own.finest) / round(own.now));
   }
-  /// A random factor, so that equal limbs are not all removed at the same price.
-  float favour_of(std::uint32_t head) const {
+  /// Returns the random factor of a limb. Without it, equal limbs would all be removed at the same multiplier.
+  float random_factor(std::uint32_t head) const {
     const std::uint64_t hash = key_at(key_of(head), 0xFA70);
-    return 1 + most_favour * (static_cast<float>(hash >> 40U) * 0x1p-23F - 1);
+    return 1 + most_deviation * (static_cast<float>(hash >> 40U) * 0x1p-23F - 1);
   }
   std::uint64_t key_of(std::uint32_t joint) const { return limbs_.key.empty() ? joint : limbs_.key[joint]; }
   const glm::vec3& place_of(std::uint32_t joint) const {
@@ -123,11 +124,11 @@ class Coarsening {
   Chains chains_;
   float thickest_ = 0, thickest_head_ = 0;
   int least_corners_ = 3;
-  std::vector<LimbCorners> corners_;   ///< for each limb, for skin(), at the price of the last count()
+  std::vector<LimbCorners> corners_;   ///< for each limb, for skin(), with the multiplier of the last count()
   std::vector<Station> stations_;      ///< limb by limb, each from its base
   std::vector<std::size_t> first_;     ///< first station of each limb; one more entry at the end
-  std::vector<float> area_;            ///< for each limb its visible area
-  std::vector<std::uint8_t> kept_;     ///< for each limb, at the price of the last count()
+  std::vector<float> area_;            ///< for each limb, its visible area times its random factor
+  std::vector<std::uint8_t> kept_;     ///< for each limb, with the multiplier of the last count()
   std::vector<std::uint8_t> is_fork_;  ///< for each joint: 1 where a kept limb branches off
 };
 

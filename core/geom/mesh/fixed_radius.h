@@ -7,10 +7,11 @@
 
 namespace seedmesh {
 
-/// Marks with 1 every point that has another point within `radius`, and possibly some points farther apart.
+/// Every point with a neighbour within `radius` gets 1. Some points with only farther neighbours may get 1 too.
 /// `is_duplicate` has one entry for each point: 1 where an earlier point has the same position; such points
 /// do not count as neighbours. `box` contains all points. Returns one mark for each point, or an empty array
-/// where no point has a neighbour. Runs on job.threads(). Cost: 5 ns for each point and thread.
+/// where no point has a neighbour. Runs on job.threads(). Cost: 5 ns a point on one thread, divided by the number of
+/// threads.
 Array<std::uint8_t> near_others(std::span<const glm::vec3> points, std::span<const std::uint8_t> is_duplicate,
                                 const Box& box, float radius, const Job& job);
 

@@ -24,14 +24,14 @@ struct Limbs {
   Array<std::int16_t> color;        ///< the turtle's colour index; material of the internode
   Array<std::uint16_t> order;       ///< 0 trunk, 1 its branches, ... (Gravelius)
   Array<glm::quat> frame;  ///< rotation that takes +Y to heading, -X to left, +Z to up; optional (empty)
-  /// The cross-section at the joint, 0 a circle, others count the caller's; optional (empty).
+  /// Cross-section at the joint: 0 is a circle, k is the caller's contour k - 1. Optional (empty).
   Array<std::uint8_t> contour;
   Array<float> birth;        ///< age in iterations at which the internode appears; optional (empty)
-  Array<std::uint64_t> key;  ///< identity, by which random choices are made; optional (empty)
+  Array<std::uint64_t> key;  ///< identity of the joint, the key of its random numbers; optional (empty)
   /// Of a root: the earlier joint that it moves with, or `none`; optional (empty).
   Array<std::uint32_t> anchor;
-  Array<float> share;  ///< how much there is of the internode in a plant between two steps, for the laws of
-                       ///< widths; optional (empty: all of it)
+  /// Fraction of the internode that has grown, for fractional iterations. Width rules use it. Optional (empty: 1).
+  Array<float> share;
 
   Limbs() = default;
   explicit Limbs(const Job& job);

@@ -56,7 +56,7 @@ struct FoliageOptions {
 
 /// One Foliage for each surface and colour in use, both rising. Organs that coincide with an earlier one of
 /// their surface, and organs without extent, are left out. A surface's tangents are transformed with it.
-/// Charges Resource::triangles before it allocates. Runs on job.threads(); the result does not depend on
+/// Spends Resource::triangles before it allocates. Runs on job.threads(); the result does not depend on
 /// their number. 3 ns a vertex and thread, twice that with a crown.
 std::vector<Foliage> place_organs(const Organs& organs, const FoliageOptions& options, Job& job);
 

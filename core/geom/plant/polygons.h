@@ -21,7 +21,7 @@ namespace seedmesh {
 /// - Results of one layer may become primitives of one mesh; each layer needs a mesh and a node of its own.
 ///
 /// Returns meshes sorted by layer, then by colour; none is empty. `bones`: the bone of each joint, copied to
-/// Mesh::bone; may be empty. Charges Resource::triangles. One thread. Linear time, except for large
+/// Mesh::bone; may be empty. Spends Resource::triangles. One thread. Linear time, except for large
 /// outlines (triangulate.h) and for many polygons on one edge (quadratic).
 std::vector<Bark> polygons(const Outlines& outlines, Job& job, std::span<const std::uint16_t> bones = {});
 

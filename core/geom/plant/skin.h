@@ -80,7 +80,7 @@ struct Bark {
 /// of the diagonal every edge belongs to two triangles that agree on the outside.
 ///
 /// Needs finite positions and radii >= 0. Returns one Bark for each colour index in use, by rising index.
-/// Charges Resource::triangles before it allocates. Runs on job.threads(); the result does not depend on
+/// Spends Resource::triangles before it allocates. Runs on job.threads(); the result does not depend on
 /// their number.
 std::vector<Bark> skin(const Limbs& limbs, const SkinOptions& options, Job& job);
 

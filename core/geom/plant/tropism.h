@@ -24,17 +24,17 @@ class Tropisms {
   explicit Tropisms(std::vector<Tropism> all);
 
   std::size_t size() const { return all_.size(); }
-  /// A number beyond the last tropism has no effect.
+  /// An index past the last tropism has no effect.
   void set(std::size_t index, double elasticity);
   void change(std::size_t index, double steps);
 
-  /// The frame after a segment, or a share of one, has been drawn.
+  /// Returns the frame turned by all tropisms after a segment. `share` is the drawn fraction of the segment.
   Frame turned(const Frame& frame, double share = 1) const;
 
   const std::vector<double>& elasticities() const { return elasticity_; }
 
   void push() { stack_.insert(stack_.end(), elasticity_.begin(), elasticity_.end()); }
-  void pop();  ///< nothing without a matching push
+  void pop();  ///< has no effect without a matching push
 
  private:
   std::vector<Tropism> all_;

@@ -72,7 +72,7 @@ class Turtle {
   void track_anchors() { tracks_anchors_ = true; }
 
   void push();  ///< throws Stop beyond limits.bracket_depth
-  void pop();   ///< nothing without a matching push
+  void pop();   ///< has no effect without a matching push
 
   /// A generalised cylinder: a limb along a Hermite curve through control points, with the headings as slopes
   /// and a smooth width. The first control point is here. Until it ends, draw() adds a control point and the

@@ -29,7 +29,7 @@ constexpr std::int64_t cross(const CmPoint& o, const CmPoint& a, const CmPoint& 
 inline glm::dvec2 in_cm(const CmPoint& p) { return {p.x, p.y}; }
 inline glm::dvec2 in_metres(const CmPoint& p) { return {p.x / 100.0, p.y / 100.0}; }
 
-/// The nearest whole centimetres of a position in centimetres; halves go up. Coordinates have to be in range.
+/// Returns the nearest whole centimetres of a position in centimetres; halves go up. Coordinates have to be in range.
 CmPoint rounded_cm(const glm::dvec2& cm);
 
 double distance(const CmPoint& a, const CmPoint& b);
@@ -50,10 +50,11 @@ std::int64_t doubled_area(std::span<const CmPoint> ring);
 /// Exact. Cost: quadratic in the worst case; edges far apart along x are not compared.
 bool is_simple(std::span<const CmPoint> ring);
 
-/// Whether `p` is inside a ring by the even-odd rule; points on the ring count as either.
+/// Returns whether `p` is inside a ring by the even-odd rule. For points on the ring the result is unspecified.
 bool is_inside(std::span<const CmPoint> ring, const glm::dvec2& p);
 
-/// Orders directions (b - a) by their angle from east, counter-clockwise, without any angle: -1, 0 or 1. Exact.
+/// Compares the directions from `origin` to `a` and to `b` by their counter-clockwise angle from east. Returns -1, 0 or
+/// 1. Exact; computes no angle.
 int compare_angles(const CmPoint& origin, const CmPoint& a, const CmPoint& b);
 
 }  // namespace seedmesh

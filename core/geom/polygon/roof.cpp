@@ -20,7 +20,7 @@ constexpr double plain_thickness = 0.12;
 /// Shares of the diagonal: points nearer than the first become one, and points of the plan are moved by up to the
 /// second before the slopes are made.
 struct Attempt {
-  double weld = 2e-6, shake = 0;
+  double weld = 2e-6, jitter = 0;
 };
 // Until a roof is closed. Near-parallel edges make slopes that are thin or end almost at the same point.
 constexpr Attempt attempts[] = {{2e-6, 0},    {2e-5, 0},    {2e-4, 0},    {2e-7, 0},    {1e-3, 0},
@@ -99,7 +99,7 @@ class RoofMaker {
     if (is_double) {
       double rise = options_.break_height;
       if (!(rise > 0) || options_.height) {
-        const auto once = sloped_surface(base_, {stage_of(math::pi / 4)}, attempt_.shake, job_);
+        const auto once = sloped_surface(base_, {stage_of(math::pi / 4)}, attempt_.jitter, job_);
         if (!once) return std::nullopt;
         const double way = height_of(*once), steep = tangent_of(options_.angle);
         rise = rise > 0 ? break_at(rise / *options_.height, way, steep, tangent_of(options_.upper_angle))
@@ -110,7 +110,7 @@ class RoofMaker {
     }
     std::optional<RoofSurface> body;
     if (options_.height) {
-      body = sloped_surface(base_, stages_, attempt_.shake, job_);
+      body = sloped_surface(base_, stages_, attempt_.jitter, job_);
       if (!body || !(height_of(*body) > 0)) return std::nullopt;
       const double factor = *options_.height / height_of(*body);
       for (RoofStage& stage : stages_) {
@@ -119,7 +119,7 @@ class RoofMaker {
       }
     }
     if (options_.flat_top) cut_at(*options_.flat_top);
-    body = sloped_surface(base_, stages_, attempt_.shake, job_);
+    body = sloped_surface(base_, stages_, attempt_.jitter, job_);
     if (!body) return body;
     const double first_tangent = options_.height ? 1 / slowest_speed() : tangent_of(options_.angle);
     lean_outwards(first_tangent);
@@ -234,7 +234,7 @@ class RoofMaker {
     } else {
       std::vector<RoofStage> stages = stages_;
       stages[0].rise += drop_;
-      surface = sloped_surface(wide, stages, attempt_.shake, job_);
+      surface = sloped_surface(wide, stages, attempt_.jitter, job_);
     }
     if (!surface) {
       roof_.warnings.push_back("the roof cannot have an overhang, so it ends at the walls");

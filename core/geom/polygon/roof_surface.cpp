@@ -15,12 +15,12 @@ using glm::dvec2;
 using glm::dvec3;
 
 // The share of the diagonal by which points are moved if a skeleton fails, and the number of attempts.
-constexpr double shake_share = 1e-6;
-constexpr int most_shakes = 3;
+constexpr double jitter_share = 1e-6;
+constexpr int most_attempts = 3;
 
 double cross(const dvec2& a, const dvec2& b) { return a.x * b.y - a.y * b.x; }
 
-Plan shaken(const Plan& plan, int round, double share) {
+Plan jittered(const Plan& plan, int round, double share) {
   if (round == 0) return plan;
   Plan moved = plan;
   const double reach = share * diagonal_of(plan);
@@ -38,8 +38,8 @@ Plan shaken(const Plan& plan, int round, double share) {
 /// One stage over one plan; `node` has the points of the plan in the surface.
 class Stages {
  public:
-  Stages(const RoofBase& base, const std::vector<RoofStage>& stages, double shake, const Job& job)
-      : stages_(stages), shake_(shake), job_(job) {
+  Stages(const RoofBase& base, const std::vector<RoofStage>& stages, double jitter, const Job& job)
+      : stages_(stages), jitter_(jitter), job_(job) {
     std::vector<std::uint32_t> node;
     for (const PlanRing& ring : base.plan.rings) {
       for (const dvec2& p : ring) {
@@ -62,8 +62,8 @@ class Stages {
     std::vector<double> speed;
     for (const std::uint32_t edge : base.source) speed.push_back(stages_[stage].speed[edge]);
     StraightSkeleton skeleton;
-    for (int round = shake_ > 0 ? 1 : 0; round <= most_shakes && !skeleton.is_sound; ++round) {
-      const Plan moved = shaken(base.plan, round, std::max(shake_, shake_share));
+    for (int round = jitter_ > 0 ? 1 : 0; round <= most_attempts && !skeleton.is_sound; ++round) {
+      const Plan moved = jittered(base.plan, round, std::max(jitter_, jitter_share));
       skeleton = straight_skeleton(moved, {speed, stages_[stage].rise}, job_);
     }
     if (!skeleton.is_sound) return false;
@@ -165,15 +165,15 @@ class Stages {
   }
 
   const std::vector<RoofStage>& stages_;
-  const double shake_;
+  const double jitter_;
   const Job& job_;
 };
 
 }  // namespace
 
 std::optional<RoofSurface> sloped_surface(const RoofBase& base, const std::vector<RoofStage>& stages,
-                                          double shake, const Job& job) {
-  Stages made(base, stages, shake, job);
+                                          double jitter, const Job& job) {
+  Stages made(base, stages, jitter, job);
   if (!made.is_sound) return std::nullopt;
   return std::move(made.surface);
 }
@@ -295,9 +295,9 @@ std::vector<std::vector<std::uint32_t>> lower_rings(const RoofSurface& surface, 
 }
 
 // rise / (rise + (way - rise / steep) * flat) = share, solved for the rise.
-double break_at(double share, double way, double steep, double flat) {
+double break_at(double share, double depth, double steep, double flat) {
   share = std::min(share, 1.0);
-  return share * way * flat / (1 - share + share * flat / steep);
+  return share * depth * flat / (1 - share + share * flat / steep);
 }
 
 double height_of(const RoofSurface& surface) {

@@ -76,8 +76,8 @@ struct BarkBuffers {
   std::vector<LimbStart> start;    ///< of each limb
   std::size_t corners = 0;         ///< vertices on rings
   std::size_t wide_corners = 0;    ///< those on rings of more corners than a small vertex cache holds
-  Meter triangles;                 ///< charges the request
-  bool is_part = false;            ///< one of several buffers that are joined later and charged then
+  Meter triangles;                 ///< spends triangles of the request
+  bool is_part = false;            ///< one of several buffers that are joined later and spent then
   std::uint64_t uncharged = 0;     ///< triangles of a part
 
   const std::uint32_t* corners_of(std::uint32_t triangle) const {
@@ -99,7 +99,7 @@ inline void reserve_vertices(BarkBuffers& bark, std::size_t count) {
     resize_vertices(bark, bark.vertices + bark.vertices / 2 + count + 64);
 }
 
-/// Charges `count` triangles and returns where their 3 * `count` corners go.
+/// Spends `count` triangles and returns where their 3 * `count` corners go.
 std::uint32_t* add_triangles(BarkBuffers& bark, std::size_t count);
 
 /// Adds the triangles from number `first` on that have a vertex on a loop to the list of loop triangles.

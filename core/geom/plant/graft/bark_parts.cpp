@@ -20,7 +20,7 @@ constexpr std::size_t most_parts = 8;
 constexpr std::uint64_t most_triangles_a_joint = 256, most_bytes_a_triangle = 64;
 // Parts may write one joint in this number twice, only to know the loops of their limbs.
 constexpr std::size_t joints_a_repeated = 4;
-// Triangles are charged in small amounts: the rest of a larger one would not be available to other meters.
+// Triangles are spent in small amounts: the rest of a larger one would not be available to other meters.
 constexpr std::uint64_t charged_at_once = 4096;
 
 /// The limbs after the first one, in contiguous parts.

@@ -7,8 +7,8 @@
 
 namespace seedmesh {
 
-/// Sets JoinMode::none for limbs that only skin() can draw: those with contours, and where the options ask
-/// for it, those that begin or pass through a point, and those that lie on another limb.
+/// Sets JoinMode::none for limbs that only skin() can draw: limbs with contours. With GraftOptions::points these are
+/// also limbs whose radius becomes 0. With GraftOptions::overlaps these are also limbs that coincide with others.
 void leave_to_skin(const Limbs& limbs, const Chains& chains, const Scale& scale, const GraftOptions& options,
                    Job& job, std::vector<JoinMode>& join);
 
@@ -16,7 +16,7 @@ void leave_to_skin(const Limbs& limbs, const Chains& chains, const Scale& scale,
 /// GraftOptions::has_no_surface, where a limb bends so sharply that even skin() makes it face inward.
 void append_skinned(const GraftInput& in, JoinedBark& bark, Job& job);
 
-/// Reports bark that is no surface: sets GraftOptions::has_no_surface where given, else throws Stop.
+/// Reports that no closed surface exists: sets GraftOptions::has_no_surface where given, else throws Stop.
 void refuse_bark(const GraftOptions& options, const char* reason, const Job& job);
 
 }  // namespace seedmesh

@@ -71,7 +71,7 @@ struct GraftCounts {
 /// position; unit normals that no face faces away from; no unused vertex; u and v in metres (unless `wrap`),
 /// one seam.
 ///
-/// Throws Stop where limbs overlap so densely that no surface is left. Charges
+/// Throws Stop where limbs overlap so densely that no surface is left. Spends
 /// Resource::triangles while it writes. Runs on job.threads(); the result does not depend on their number.
 /// Needs about 40 bytes a vertex beside the mesh, and twice the mesh where a limb had to be written again.
 /// `counts` may be null.

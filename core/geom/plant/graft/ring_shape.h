@@ -12,15 +12,15 @@ namespace seedmesh {
 /// Ribs deeper than this share of the radius get corners on every crest and in every trough.
 constexpr float deep_ribs = 0.1F;
 
-/// The largest radius with which a limb begins.
+/// Returns the largest base radius of all internodes.
 float thickest_base(const Limbs& limbs);
 
 inline bool has_deep_ribs(const GraftOptions& options) {
   return options.lobes > 0 && options.lobe_depth > deep_ribs;
 }
 
-/// The corners of a ring with ribs that has `sides` corners without ribs: at least three for each rib. Deep
-/// ribs have the same number all along the limb, at least four each.
+/// Returns the corners of a ring with ribs, which would have `sides` corners without ribs: at least three for each rib.
+/// With deep ribs all rings of the limb have the same number, at least four for each rib.
 inline int ribbed_corners(const GraftOptions& options, int sides) {
   if (options.lobes == 0) return sides;
   if (!has_deep_ribs(options)) return std::max({sides, 3 * options.lobes, 8});
@@ -42,7 +42,7 @@ struct RingTables {
 };
 RingTables ring_tables(const Limbs& limbs, const GraftOptions& options);
 
-/// corners_by_radius() without a power: the tables hold the radius at which each number begins.
+/// Returns the same as corners_by_radius(), but looks it up in the tables instead of calling pow().
 int corners_by_table(const RingTables& tables, const GraftOptions& options, float radius);
 
 }  // namespace seedmesh
