@@ -77,13 +77,15 @@ class CpfgReader {
   const ImportOptions& options_;
   CpfgMacros macros_;
   CpfgWords words_;
-  CpfgStatements statements_, between_;  ///< those of rules; those at the start and between steps
+  CpfgStatements statements_;  ///< converts statements in rules
+  CpfgStatements between_;     ///< converts statements of Start, StartEach and EndEach
   std::map<std::string, std::string> constants_;
-  std::optional<lang::Names> names_;  ///< the constants, once they are needed
+  std::optional<lang::Names> names_;  ///< the constants, filled at first use
   std::map<std::string, Line> symbols_;
   std::vector<CpfgRule> rules_[3];
   std::map<std::string, std::vector<double>> arrays_;
-  std::map<std::string, std::vector<std::size_t>> dimensions_;  ///< of arrays with more than one
+  /// Dimensions of arrays that have more than one.
+  std::map<std::string, std::vector<std::size_t>> dimensions_;
   TracedText start_, start_each_, end_each_;  ///< the blocks without braces, with their macros expanded
   Json parameters_ = Json::object();
   Imported out_;

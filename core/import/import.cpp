@@ -44,9 +44,9 @@ const ImportFormat* likeliest_format(std::string_view text) {
   const ImportFormat* likeliest = nullptr;
   int most = 0;
   for (const ImportFormat& row : rows) {
-    const int marks = row.marks(text);
-    if (marks <= most) continue;
-    most = marks;
+    const int score = row.score(text);
+    if (score <= most) continue;
+    most = score;
     likeliest = &row;
   }
   return likeliest;

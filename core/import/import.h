@@ -1,7 +1,7 @@
 #pragma once
-/// Converts foreign files to requests. Every format has one row, which the pipeline, the route, the program and the
-/// documentation read. A reader reports everything that it cannot parse as an error, and everything that a
-/// request cannot express as a warning.
+/// Converts foreign files to requests. Every format is one ImportFormat. The pipeline, the HTTP route, the command line
+/// and the documentation use this table. A reader reports everything that it cannot parse as an error, and everything
+/// that a request cannot express as a warning.
 #include <cstddef>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -18,7 +18,7 @@
 namespace seedmesh {
 
 /// The text of the request from byte `at` on comes from byte `from` of the foreign text. If verbatim, the bytes are
-/// the same (with a blank for each line end); otherwise all of them stand for the byte at `from`.
+/// the same (with a blank for each line end); otherwise every byte of the run maps to the byte at `from`.
 struct TextRun {
   std::size_t at = 0, from = 0;
   bool verbatim = false;
@@ -64,8 +64,8 @@ struct ImportFormat {
   /// format has no comments.
   std::string (*without_comments)(std::string_view text);
 
-  /// A score for how likely the text has this format, from its keywords; 0: it has none. `text` is valid UTF-8.
-  int (*marks)(std::string_view text);
+  /// Returns how well the keywords of a text match this format; 0: not at all. `text` is valid UTF-8.
+  int (*score)(std::string_view text);
 
   /// Reads valid UTF-8. All errors are reported, each with pointer "" and line and column (for JSON, with a pointer into
   /// the file). Cost: linear.

@@ -7,9 +7,9 @@
 
 namespace seedmesh {
 
-/// Replaces each use of operations by their tokens, with the arguments in brackets in the place of the parameters, and removes
-/// the definitions. An argument that is such a use, or the name of a rule behind `^`, gets braces. Tokens keep their
-/// offsets. Errors: uses nested more than 30 deep, more than 1,000,000 tokens.
+/// Replaces each use of a named operation by its tokens. Arguments replace parameters, in parentheses. Definitions are
+/// removed. An argument of the form `^name` is enclosed in braces. Tokens keep their offsets. Errors: a wrong number of
+/// arguments, more than 30 nested uses, more than 1,000,000 tokens.
 void expand_shapeml_operations(std::vector<lang::Token>& tokens, ForeignText& source);
 
 }  // namespace seedmesh

@@ -131,9 +131,9 @@ void unpack(ImportQuestion& question, std::string& main, const Job& job) {
     const std::string& content = text.get_ref<const std::string&>();
     const ImportFormat* const format =
         question.format.empty() ? likeliest_format(content) : find_import_format(question.format);
-    const int marks = format ? format->marks(content) : 0;
-    if (marks <= most) continue;
-    most = marks;
+    const int score = format ? format->score(content) : 0;
+    if (score <= most) continue;
+    most = score;
     chosen = name;
   }
   for (const auto& [name, text] : files.items()) {
