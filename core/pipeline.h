@@ -1,6 +1,7 @@
 #pragma once
 /// The interface of core: request text in, bytes out. The server and the program use core through this
-/// header. All functions may run on any number of threads at once; there is no global state.
+/// header. All functions are thread-safe. The only global state is constants and tables, such as that of presets, which
+/// are filled once.
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -28,7 +29,7 @@ class Request {
   std::string_view format() const;       ///< "glb", "gltf", "zip", ...
   const std::string& canonical() const;  ///< canonical JSON: without defaults, keys sorted
   std::uint64_t seed() const;
-  const std::string& name() const;  ///< of the model and its files, in characters of URLs
+  const std::string& name() const;  ///< name of the model and its files; only characters that URLs allow
 
  private:
   std::shared_ptr<const Body> body_;
@@ -49,7 +50,8 @@ using Overrides = std::vector<std::pair<std::string, std::string>>;
 std::optional<Result<Request>> read_preset(std::string_view name, const Overrides& overrides,
                                            const Limits& limits);
 
-/// The same request with another output.format. An error where the request does not allow the format.
+/// The same request with another output.format. Returns an error if the generator or an option does not support the
+/// format.
 Result<Request> with_format(const Request& request, std::string_view format);
 
 // The functions below run a request within `options`. The seed comes from the request alone.
@@ -70,25 +72,26 @@ struct Product {
     std::string name;
     double milliseconds;
   };
-  std::vector<Span> timing;  ///< derive, mesh, encode
+  std::vector<Span> timing;  ///< one span for each stage, such as derive, mesh, render and encode
 };
 /// Makes the model of a request. `texture_store` is the caller's; may be null.
 Result<Product> produce(const Request& request, const Job::Options& options,
                         TextureStore* texture_store = nullptr);
 
-/// How a picture of a model is taken: square, from a direction in degrees (azimuth 0 is +Z and 90 is +X).
+/// Options of a square picture of a model: its size, the direction of view in degrees (azimuth 0 is +Z and 90 is +X), and
+/// the ground plane.
 struct PictureWish {
   enum class Ground { auto_, none, plane };
   std::uint32_t size = 512;  ///< pixels a side, from 16 to 1024
   double azimuth = 35, elevation = 18;
   Ground ground = Ground::auto_;  ///< auto_: a plane below plants, buildings and fractals
-  std::string text() const;       ///< the same wish gives the same text
+  std::string text() const;       ///< equal options give the same text
 };
 /// Takes `size`, `view` and `ground` out of a query. Code::invalid holds every error, with the pointer "/<key>".
 Result<PictureWish> read_picture_wish(Overrides& query);
 
-/// A picture of the model of a request as WebP, drawn in software, with textures of at most 256 texels. Levels of
-/// detail, animation and format of the request have no effect. Its bytes are the same on every machine.
+/// A picture of the model of a request as WebP, drawn in software, with textures of at most 256 texels. The
+/// options lods, animation and format of the request are ignored. Its bytes are the same on every machine.
 Result<Product> draw_picture(const Request& request, const PictureWish& wish, const Job::Options& options,
                              TextureStore* texture_store = nullptr);
 
@@ -104,15 +107,15 @@ Result<std::string> derive(const Request& request, const Job::Options& options);
 /// `{valid, warnings, estimate}` as JSON text. Makes no model.
 Result<std::string> validate(const Request& request, const Job::Options& options);
 
-/// A file of another program. If `format` is empty, it is detected from the text. `entry` names one system of
-/// a file with several; empty means the only one.
+/// The input of import_request(): a file of another program. If `format` is empty, it is detected from the text. `entry`
+/// names one system of a file with several; empty means the only one.
 struct ImportQuestion {
   std::string_view format, entry, text;
   std::map<std::string, std::string> files = {};  ///< further files beside the text, by name
 };
 struct ImportedRequest {
   Request request;
-  std::string answer;             ///< {format, request, warnings} as JSON text
+  std::string answer;             ///< the response: {format, request, warnings} as JSON text
   std::vector<Warning> warnings;  ///< what a request cannot express; line and column of the file
 };
 /// Turns a file of another program into a request. Text that is not UTF-8 gives Code::malformed. An unknown
@@ -148,7 +151,7 @@ struct PresetInfo {
 };
 const std::vector<PresetInfo>& presets();
 std::optional<std::string> preset_json(std::string_view name);  ///< one whole request
-/// "There is no preset "ferm"; did you mean "fern"?"
+/// Returns the error message for an unknown preset, with the closest name: "There is no preset ...".
 std::string no_preset(std::string_view name);
 std::optional<std::string_view> schema_json(std::string_view name);  ///< "request", "lsystem", "output", ...
 std::vector<std::string_view> schema_names();

@@ -23,8 +23,8 @@ class TextPositions {
   TextPosition position_;
 };
 
-/// True while a reader should go on: up to max_errors + 1 errors, the last of which only shows that there are
-/// more.
+/// Returns true while there are at most max_errors errors, so that a reader should go on. One more error shows that the
+/// list was cut.
 inline bool has_room(const std::vector<TextError>& errors) { return errors.size() <= max_errors; }
 
 /// Adds the errors of `text`, the value at `pointer`, in the order of the text. It adds the first max_errors, and a

@@ -1,16 +1,16 @@
 #pragma once
-/// Packs finished meshes before the rest of their model exists, so that a large mesh takes little memory
+/// Compresses finished meshes before the rest of their model exists, so that a large mesh takes little memory
 /// meanwhile.
 #include "core/model/model.h"
 
 namespace seedmesh::gltf {
 
-/// Packs the meshes of a model or of a part of one: quantizes them and encodes all arrays that will have a
-/// view of their own. The bytes are those that write() with Dialect::compressed produces. Meshes that are not
+/// Compresses the meshes of a model or of a part of one: quantizes them and encodes all arrays that get their own
+/// bufferView. The bytes are those that write() with Dialect::compressed produces. Meshes that are not
 /// triangles, and meshes whose material will still get textures (and so tangents), stay as they are.
 ///
-/// The caller has called finish_meshes() and does not read the arrays again. The nodes already show the
-/// meshes with the levels that the file will have, and no other mesh will share their grids.
+/// Preconditions: finish_meshes() has been called, and nothing reads the arrays afterwards. Nodes refer to their final
+/// meshes and levels of detail. No later mesh uses the same grid, the origin and step to which positions are quantized.
 void pack(Model& model, Job& job);
 
 }  // namespace seedmesh::gltf

@@ -8,14 +8,14 @@
 
 namespace seedmesh::gltf {
 
-/// `asset` with the generator's name, and with Model::extras and the warnings as extras.
+/// Writes `asset`: generator name, version, and as extras Model::extras and the warnings.
 void append_asset(JsonWriter& json, const Model& model, const std::string& generator);
 
-/// `extras`; nothing where there are none.
+/// Writes `extras`. Writes nothing if there are none.
 void append_extras(JsonWriter& json, const std::vector<Extra>& extras);
 
-/// `extensions`: the names of KHR_materials_variants, and convex shapes of OMI_physics_shape with these meshes. Nothing
-/// where both are empty.
+/// Writes `extensions`: the names of KHR_materials_variants, and one convex OMI_physics_shape for each mesh index in
+/// `shapes`. Writes nothing if both are empty.
 void append_extensions(JsonWriter& json, const std::vector<std::string>& variants,
                        const std::vector<int>& shapes);
 
