@@ -44,7 +44,7 @@ class BodySource {
   std::span<Asset> assets_;
   Job& job_;
   SurfaceBuilder surfaces_{&job_};
-  /// By row, options, size, colour and material in force.
+  /// By row, options, size, current colour and current material.
   std::map<
       std::tuple<std::uint32_t, std::uint32_t, std::array<std::int64_t, 3>, std::uint32_t, std::uint32_t>,
       Asset>

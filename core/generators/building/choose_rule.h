@@ -4,13 +4,14 @@
 
 namespace seedmesh::building {
 
-// Numbers of steps that no successor has, for the random numbers of conditions and choices.
+// Reserved step numbers that no successor uses. They key the random numbers of conditions and of choices.
 constexpr std::uint64_t place_of_conditions = 0xFFFF'FFFF'0001U, place_of_choice = 0xFFFF'FFFF'0002U;
 
-/// The weight of a choice after others whose weights sum to `before`: its own, or what they leave of 1.
+/// Returns the weight of `choice`. Without a given weight it is 1 - `before`, where `before` is the sum of the earlier
+/// weights. The result is at least 0.
 double weight_of(Derivation& d, const Choice& choice, double before);
 
-/// The choice that replaces the shape; null: no rule holds.
+/// Returns the choice that replaces shape `index`, drawn with the key of the shape. Returns null if no rule holds.
 const Choice* choose(Derivation& d, std::uint32_t index);
 
 }  // namespace seedmesh::building

@@ -5,13 +5,15 @@
 
 namespace seedmesh::building {
 
-/// More shapes than this are not derived for an estimate.
+/// A building with more shapes than this gets no estimate.
 constexpr std::uint64_t most_appraised = 100'000;
 
 /// Triangles and bytes of the shapes. Triangles of boxes and rectangles are exact, those of solids follow
-/// from their corners, and built-in parts are made once for each size; none if there are more than 500 sizes.
-/// Bytes count shared meshes with their nodes, or merged meshes, as add_bodies chooses. Shapes that are too
-/// thin to be drawn count as well, so that the estimate may be too high.
+/// from their corners, and built-in parts are made once for each size. Returns nullopt for more than 500 sizes of
+/// parts, for assets that are no built-in part, and for flat parts.
+///
+/// Bytes follow add_bodies(): a shared mesh counts once plus its nodes, a merged mesh counts fully. Shapes that are
+/// too thin to be drawn count as well, so that the estimate may be too high.
 std::optional<Estimate> estimate_of(const Shapes& shapes, CopyForm copies, bool shares_all, Job& job);
 
 }  // namespace seedmesh::building

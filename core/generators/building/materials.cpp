@@ -196,7 +196,7 @@ int MaterialTable::material_of_part(std::string_view role, const Style& style) {
   const std::string* const color = shapes_->texts.find(style.color);
   if (params_.materials.contains(std::string(role))) return make({std::string(role), nullptr, true});
   if (color != nullptr && role == "stone") return make({name_of_color(*color), color, true});
-  // The frames and leaves of parts in the material "painted" have the colour in force.
+  // The frames and leaves of parts in the material "painted" have the current colour.
   const std::string* const material = shapes_->texts.find(style.material);
   const bool is_painted = material != nullptr && *material == "painted";
   if (color != nullptr && is_painted && (role == "frame" || role == "door"))
@@ -224,7 +224,7 @@ int MaterialTable::make(const MaterialRequest& request) {
   const auto given = params_.materials.find(name);
   const MaterialPreset* const known = find_preset(name);
   const texture::WallKind* const surface = surface_of(request);
-  // A material that is not known takes the colour in force, and a known one keeps its own. The surfaces of
+  // A material that is not known takes the current colour, and a known one keeps its own. The surfaces of
   // blueprints have many colours.
   const bool is_tinted = surface != nullptr || (params_.blueprint && surface_named(name) != nullptr);
   const bool takes_color = color != nullptr && (known == nullptr || is_tinted) &&

@@ -20,7 +20,7 @@ namespace seedmesh::building {
 /// Adds materials to the model when they are first used. The material of a shape is, in this order: its
 /// material by name, its colour, the one with the name of its symbol (Wall, Roof, Window, ...), plain
 /// plaster. If `textures` of the request says so, materials with names such as brick get textures made by
-/// seed (core/texture/wall.h) in the colour in force; built-in parts have none.
+/// seed (core/texture/wall.h) in the current colour; built-in parts have none.
 class MaterialTable {
  public:
   MaterialTable(Model& model, const BuildingParams& params, const Shapes& shapes,
@@ -31,7 +31,7 @@ class MaterialTable {
     made_.clear();
   }
   int material_of(const Shape& shape);
-  /// The material of a role of a built-in part. Stone has the colour in force, and so have frames and
+  /// The material of a role of a built-in part. Stone has the current colour, and so have frames and
   /// doors in the material "painted", unless `materials` of the request have the role.
   int material_of_part(std::string_view role, const Style& style);
   /// The size of one tile in metres if the material has textures, and so needs texture coordinates; else
@@ -43,7 +43,7 @@ class MaterialTable {
  private:
   struct MaterialRequest {
     const std::string& name;
-    const std::string* color;  ///< in force; may be null
+    const std::string* color;  ///< the current colour; may be null
     bool is_role;              ///< of a part
   };
   int make(const MaterialRequest& request);

@@ -10,13 +10,13 @@ struct Merging {
   const Shapes& shapes;
   MaterialTable& materials;
   BodySource& source;
-  glm::dvec3 low{0};    ///< lowest coordinates of all bodies
+  glm::dvec3 low{0};    ///< minimum corner of the box around all bodies
   double diagonal = 1;  ///< of the box around all bodies
 };
 
 /// The meshes of all layers; empty if nothing is drawn. Walls side by side share their corners, including
-/// those in the middle of a neighbour's edge (coplanar_rectangles.h). Spends Resource::triangles. `least` is
-/// the least number of layers, if there are as many bodies.
+/// those in the middle of a neighbour's edge (coplanar_rectangles.h). Spends Resource::triangles. Returns at least
+/// `least` layers, or one for each body if there are fewer bodies. Levels of detail need equal numbers of layers.
 std::vector<MeshGroup> merged_bodies(const Model& model, const Merging& merging,
                                      std::vector<DrawnBody>& bodies, std::size_t least, Job& job);
 

@@ -1,5 +1,5 @@
 #pragma once
-/// Rules as tokens.
+/// Splits the text of rules into tokens.
 #include <string>
 #include <string_view>
 #include <vector>
@@ -10,13 +10,13 @@
 
 namespace seedmesh::building {
 
-/// The tokens of rules. Comments are left out, the signs ≥ ≤ ≠ are >= <= !=, and every bracket knows its
-/// partner.
+/// The tokens of rules. Comments are left out, and the signs ≥ ≤ ≠ are >= <= !=. For each opening bracket, the index of
+/// its closing bracket is stored.
 class Tokens {
  public:
   Tokens(const Tokens&) = delete;
   Tokens& operator=(const Tokens&) = delete;
-  /// Imported files come behind the main file, with prefixes (load_files.h).
+  /// Tokens of imported files follow those of the main file. Their names get the prefix of the import (load_files.h).
   Tokens(const RuleText& text, std::string_view style, std::vector<lang::TextError>& faults);
   /// Gives token i another text, which has to outlive the tokens.
   void rename(std::size_t i, std::string_view text) { tokens_[i].text = text; }
@@ -32,14 +32,14 @@ class Tokens {
   bool is_main(std::size_t i) const { return at(i).offset <= main_size_; }  ///< a token of the main file
   const std::string& start() const { return loaded_.start; }
   const std::vector<lang::TextError>& warnings() const { return loaded_.warnings; }
-  /// Whether a name belongs to an imported file that the request does not have.
+  /// Returns whether the prefix of a name is an import whose file is missing from the request.
   bool is_missing(std::string_view name) const;
   bool has_imports() const { return loaded_.has_imports; }
-  /// Whether a comparison of each value of an array begins at token i: `.==` and the like.
+  /// Returns whether token i starts an elementwise array comparison, such as `.==`.
   bool is_each_comparison(std::size_t i) const;
-  /// The closing partner of an opening bracket; the end if it has none.
+  /// Returns the index of the closing bracket of an opening one; the end if it has none.
   std::size_t partner(std::size_t i) const { return partner_[i]; }
-  /// The token behind the expression that begins at i; i if none begins there.
+  /// Returns the index of the token after the expression that begins at i; i if none begins there.
   std::size_t behind_expression(std::size_t i) const;
 
  private:

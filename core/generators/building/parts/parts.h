@@ -21,10 +21,15 @@ struct PartPiece {
 
 /// Options of a part besides its size. A part ignores options that it does not have.
 struct PartOptions {
-  double angle = 0;  ///< radians: slope of the roof of a tower or dormer; 0: a default
-  int count = 0;     ///< sides of round parts, steps of stairs, panes of a window, saw teeth; 0: by size
-  double frame = 0;  ///< metres: width of the frame of a window or door, of a balcony rail; 0: by size
-  int room = 0;      ///< behind a window: 0 darkness, 1 curtains, 2 a blind, 3 a short curtain
+  /// Slope of the roof of a tower or dormer, in radians. 0 selects a default.
+  double angle = 0;
+  /// Number of sides, steps, panes, or teeth of a factory roof, depending on the part. 0 derives it from the size or
+  /// selects a default.
+  int count = 0;
+  /// Width of the frame of a window or door, or of a balcony rail, in metres. 0 derives it from the size.
+  double frame = 0;
+  /// What is behind a window: 0 darkness, 1 curtains, 2 a blind, 3 a short curtain.
+  int room = 0;
 
   friend auto operator<=>(const PartOptions&, const PartOptions&) = default;
 };
@@ -32,7 +37,7 @@ struct PartOptions {
 struct PartRow {
   std::string_view name;
   std::string_view text;  ///< one sentence for the vocabulary
-  glm::dvec3 size;        ///< its size in a scope without sizes
+  glm::dvec3 size;        ///< the size of the part where the scope has size 0 along all axes
   std::vector<PartPiece> (*make)(const glm::dvec3& size, const PartOptions& options, Job& job);
 };
 
@@ -47,7 +52,7 @@ const PartRow* part_named(std::string_view name);
 std::vector<PartPiece> make_part(const PartRow& row, const glm::dvec3& size, const PartOptions& options,
                                  Job& job);
 
-/// The material of a role, unless the request has another.
+/// The default material of a role. A material of that name in the request replaces it.
 struct PartMaterial {
   std::string_view role;
   std::string_view color;  ///< "#rrggbb"
