@@ -28,7 +28,8 @@ void set_emission(Material& material, const std::optional<Given>& given) {
       static_cast<float>(given->strength);
 }
 
-/// Colour and strength of both members of `given`; equal for surfaces that look alike. Members that are not given are -1.
+/// Returns (packed colour, strength) of `specular` and of `emission`. Materials with equal members have equal keys. A
+/// missing member gives -1.
 template <class Given>
 std::array<double, 4> light_key(const Given& given) {
   std::array<double, 4> key{-1, -1, -1, -1};

@@ -17,7 +17,7 @@ std::uint64_t ground_triangles(const CityPlan& plan, const Surface& surface, Job
 
 /// Nodes: "city" > "ground" > one node and mesh for each kind of part ("asphalt", "junction", ..., "lot");
 /// "city" > "buildings" > one node for each shared building; "city" > "landmarks", "furniture", "trees", "borders". With
-/// chunks, these groups are below a node for each chunk. Charges Resource::triangles.
+/// chunks, these groups are below a node for each chunk. Spends Resource::triangles.
 Result<Model> city_model(const CityPlan& plan, const CityParams& params, const GenerateContext& context);
 
 }  // namespace seedmesh::city

@@ -12,7 +12,7 @@ struct CityParams;
 
 namespace seedmesh::city {
 
-/// Adds all contents to the model. Charges Resource::triangles. Errors: those of requests inside.
+/// Adds all contents to the model. Spends Resource::triangles. Errors: those of requests inside.
 std::optional<Error> add_contents(Model& model, ChunkNodes& nodes, const Chunks& chunks,
                                   const Surface& surface, const CityParams& params,
                                   const GenerateContext& context);

@@ -1,5 +1,5 @@
 #pragma once
-/// A quantity that varies over the area: an expression over x and y, the brightness of an image, or polygons.
+/// FieldMap: a scalar field over the area, given as an expression over x and y, the brightness of an image, or polygons.
 #include <glm/vec2.hpp>
 #include <optional>
 #include <string>
@@ -20,8 +20,8 @@ using MapValue = std::variant<std::string, CityPolygons>;
 /// Immutable; threads may share it.
 class FieldMap {
  public:
-  /// Reads an expression, a PNG file as data URI that covers the box [low, high] (metres), its first row in the
-  /// north, or polygons with the value 1 inside. Issues: the text or the image cannot be read, at `pointer`.
+  /// Reads an expression, a PNG data URI or polygons. An image covers the box [low, high] in metres, with its first
+  /// row in the north. Polygons have the value 1 inside. Issues: the text or image cannot be read, at `pointer`.
   static std::optional<FieldMap> read(const MapValue& value, const std::string& pointer,
                                       const glm::dvec2& low, const glm::dvec2& high, const Job& job,
                                       std::vector<Issue>& issues);
@@ -29,7 +29,7 @@ class FieldMap {
   /// The value at a position in metres, between 0 and 1; 0 where the expression has no finite value.
   double at(const glm::dvec2& metres) const;
 
-  /// The same without bounds, for heights.
+  /// Like at(), but the value is not limited to 0..1. Used for heights.
   double value_at(const glm::dvec2& metres) const;
 
   /// The polygons, if the map consists of polygons.
@@ -42,7 +42,7 @@ class FieldMap {
   lang::Program program_;
   lang::Expression expression_;
   glm::dvec2 low_{0}, size_{1};
-  std::uint32_t width_ = 0, height_ = 0;  ///< 0: an expression
+  std::uint32_t width_ = 0, height_ = 0;  ///< size of the image in pixels; 0 for expressions and polygons
   Array<float> pixels_;
   std::vector<Rings> polygons_;
   bool has_polygons_ = false;

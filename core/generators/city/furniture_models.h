@@ -12,7 +12,7 @@ namespace seedmesh::city {
 /// and "cars". 1 for other names.
 std::uint32_t built_in_count(std::string_view kind);
 
-/// Model number `number` of a kind: one node with one mesh of 12 to 220 triangles. Charges them to the job.
+/// Model number `number` of a kind: one node with one mesh of 12 to 220 triangles. Spends them.
 Model built_in_model(std::string_view kind, std::uint32_t number, Job& job);
 
 /// Triangles of that model.

@@ -13,13 +13,14 @@ struct CityParams;
 
 namespace seedmesh::city {
 
-/// The landmarks of a request. One without a seed takes it from its number.
+/// The landmarks of a request. A landmark without a seed gets one from the seed of the request and its index.
 std::vector<Landmark> landmarks_of(const CityParams& params, const Job& job);
 
-/// Gives each landmark the lot on which it stands. The first one replaces the house of its lot.
+/// Finds the part and the lot below each landmark. Unless `plot` is free, the house of the lot is removed. The first
+/// landmark that fits gets the lot, and one that does not fit is marked too large.
 void place_landmarks(CityPlan& plan);
 
-/// Warnings about landmarks outside of the area, on streets and on water.
+/// Returns warnings about landmarks outside the area, on streets, on water, or larger than their lot.
 std::vector<Warning> landmark_warnings(const CityPlan& plan);
 
 }  // namespace seedmesh::city

@@ -1,7 +1,7 @@
 #pragma once
-/// Computes the street space and the blocks from the street graph. In each face the kerbs and then the
-/// borders of the blocks are the outline moved inwards. Each corner is computed once and shared by all
-/// polygons that meet there, so that the partition has neither gap nor overlap.
+/// Computes street areas and blocks from the street graph. Kerbs and block borders are inward offsets of the outline of
+/// each face of the graph. Each corner is computed once and shared by all polygons that meet there, so that the
+/// partition has neither gap nor overlap.
 #include "core/base/job.h"
 #include "core/generators/city/plan.h"
 
@@ -21,7 +21,7 @@ struct BlockOutline {
   std::vector<BlockEdge> edges;  ///< edge i runs from point i to the next
   /// Outlines of separate street networks inside the block, clockwise; their edges are not in `edges`.
   std::vector<CmRing> holes;
-  std::vector<std::uint32_t> hole_streets;  ///< streets around the holes
+  std::vector<std::uint32_t> hole_streets;  ///< edges of the street graph that surround the holes
 };
 
 /// Adds carriageways, junctions, sidewalks and verges to the plan, and returns the outlines of the blocks in the

@@ -24,7 +24,7 @@ inline Affine compose(const Affine& outer, const Affine& inner) {
 /// Jacobi rotations (Golub and Van Loan, "Matrix Computations", 8.5).
 double norm(const Affine& map);
 
-/// The factor of a similarity, which may mirror; nullopt for other maps.
+/// Returns the scale factor if the map is a similarity (reflections included), else nullopt.
 std::optional<double> similarity(const Affine& map);
 
 /// The map as scale, rotation and translation. It must be a similarity with the factor `scale`.

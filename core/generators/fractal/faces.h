@@ -29,7 +29,7 @@ std::uint64_t count_exposed(const Solid& solid, const Job& job);
 
 /// Every exposed square as two triangles. Squares of one plane that face the same way share vertices. The
 /// mesh is closed; where cells touch only along an edge, four squares meet. Triangles are ordered for the
-/// vertex cache, in bands eight squares wide. Charges Resource::triangles first. Slices are made in parallel.
+/// vertex cache, in bands eight squares wide. Spends Resource::triangles first. Slices are made in parallel.
 Mesh exposed_faces(const Solid& solid, const SideColors* colors, Job& job);
 
 }  // namespace seedmesh::fractal

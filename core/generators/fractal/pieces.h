@@ -1,5 +1,6 @@
 #pragma once
-/// Complete copies: a mesh contains the copies of some rounds, and nodes repeat it for the other rounds.
+/// Makes the copies of a fractal. The mesh holds the copies of the first rounds (iterations), and nodes repeat it for
+/// the others.
 #include <span>
 
 #include "core/generators/fractal/element.h"
@@ -7,8 +8,8 @@
 
 namespace seedmesh::fractal {
 
-/// How the rounds are divided between the mesh and its nodes so that the file is smallest. There are at most
-/// 400 nodes, because each is a draw call.
+/// The division of rounds into mesh and nodes that gives the smallest file. Nodes need similarity maps, no arrangement
+/// and no kept originals (Instructions::keeps). There are at most 400 nodes, because each is a draw call.
 struct Plan {
   int meshed = 0;              ///< rounds in the mesh; the other rounds are nodes
   double pieces = 0;           ///< number of all copies; above 2^53 the nearest double
@@ -19,16 +20,17 @@ struct Plan {
 
 double pieces_after(const Instructions& instructions, int rounds);
 
-/// Throws Stop if the limit of triangles would be exceeded. The message says which number of rounds is
-/// possible.
+/// Throws Stop if the limit of triangles would be exceeded. The message gives the largest number of rounds within the
+/// limit.
 Plan plan_of(const Instructions& instructions, const Element& element, int rounds, const Job& job);
 
 /// Adds the meshes and nodes of the fractal below node `parent`, scaled by `size`. The first materials of the
-/// model must be those of the element. Charges Resource::triangles.
+/// model must be those of the element. Spends Resource::triangles.
 void add_pieces(Model& model, int parent, const Instructions& instructions, const Element& element,
                 int rounds, double size, Job& job);
 
-/// Copies that are divided only while their frame is at least `smallest` wide; smaller ones become points.
+/// Copies are divided while the largest stretch of their map times `size` is at least `smallest`. Smaller copies become
+/// points.
 struct Division {
   int rounds = 0;       ///< at most this number of rounds
   double size = 1;      ///< edge of the unit element
@@ -38,17 +40,17 @@ struct DividedCount {
   std::uint64_t elements = 0, points = 0;
 };
 
-/// Visits all copies, so it costs about as much as making them. Throws Stop if copies and points exceed the
-/// limit of triangles.
+/// Visits all copies, so it costs about as much as making them. Throws Stop if triangles, lines and points together
+/// exceed the limit of triangles.
 DividedCount count_divided(const Instructions& instructions, const Element& element, const Division& division,
                            const Job& job);
 
-/// Adds the remaining copies as meshes, and a mesh of points, in nodes below `parent`. Charges
+/// Adds the copies of count_divided() as meshes and the points as one mesh, in nodes below `parent`. Spends
 /// Resource::triangles.
 void add_divided(Model& model, int parent, const Instructions& instructions, const Element& element,
                  const Division& division, Job& job);
 
-/// A copy of the mesh, scaled by `edge`, at each position. Spends the triangles.
+/// A copy of the mesh, scaled by `edge`, at each position. Spends Resource::triangles.
 Mesh scattered(const Mesh& element, std::span<const glm::vec3> positions, double edge, Job& job);
 
 }  // namespace seedmesh::fractal

@@ -15,9 +15,9 @@ void pair_brackets(const Grammar& grammar, const Word& word, Array<std::uint32_t
 /// module are neighbours.
 class ContextMatcher {
  public:
-  /// `written` is the word of the next step, which new contexts read. If Grammar::backward is set, it is
-  /// written from right to left, in one piece for each module; `pieces` then holds the first index of each
-  /// piece.
+  /// `written` is the word that this step produces. New contexts (`<<`, `>>`) are matched against it. If
+  /// Grammar::backward is set, it is written from right to left, in one piece for each module; `pieces` then holds the
+  /// first index of each piece.
   ContextMatcher(const Grammar& grammar, const Word& word, std::span<const std::uint32_t> partner,
                  const Word& written, const std::vector<std::size_t>& pieces, const Job& job)
       : grammar_(grammar),
@@ -48,7 +48,7 @@ class ContextMatcher {
   bool step_right(std::size_t& piece, std::size_t& at) const;
   bool skip_branch(std::size_t& piece, std::size_t& at);
   double* take_parameters(const Word& word, std::size_t position, double* to) const;
-  /// Moves from the end of a ring to its start, once for each match.
+  /// Wraps `at` from the end of a ring to its start, at most once for each match.
   void close_ring(std::size_t& at) {
     if (!grammar_.ring || has_wrapped_ || at != word_.size()) return;
     at = 0;

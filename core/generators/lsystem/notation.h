@@ -9,8 +9,8 @@
 ///   symbol     = one character | "@" character | a longer name that is declared or belongs to the turtle ;
 ///   label      = "p" digit { digit } ":" as in "The Algorithmic Beauty of Plants" ;
 ///
-/// White space only separates. A successor that is empty, "*" or "ε" erases the module. New contexts are
-/// matched against the word that is being written in this step.
+/// White space separates tokens and has no other meaning. A successor that is empty, "*" or "ε" erases the module. New
+/// contexts are matched against the word that is being written in this step.
 #include <array>
 #include <cstdint>
 #include <string>
@@ -70,7 +70,8 @@ class Symbols {
 };
 
 /// Returns the modules of text[slice]. Errors: an argument list that is not closed, an empty argument,
-/// characters that are not symbols. At most lang::max_errors errors are added.
+/// characters that are not symbols. Reading stops after lang::max_errors + 1 errors; the last one only shows that there
+/// are more.
 std::vector<WrittenModule> read_modules(std::string_view text, Slice slice, const Symbols& symbols,
                                         std::vector<lang::TextError>& errors);
 
@@ -84,14 +85,14 @@ std::size_t skip_spaces(std::string_view text, std::size_t at, std::size_t to);
 std::size_t label_length(std::string_view text, const Symbols& symbols);
 
 /// Splits the production in text[from, ...) at its arrow, context marks and colons. Errors: no arrow, no
-/// predecessor, two contexts of one side.
+/// predecessor, two contexts on the same side.
 WrittenProduction read_production(std::string_view text, std::vector<lang::TextError>& errors,
                                   std::size_t from = 0);
 
 /// Returns the position of an arrow outside parentheses in text[slice], or slice.to.
 std::size_t find_second_arrow(std::string_view text, Slice slice);
 
-/// Index of brackets, semicolons and signs of conditions of a text. Built in one pass. closing() takes
+/// An index of the brackets, semicolons and comparison operators of a text. It is built in one pass. closing() takes
 /// constant time, and the other queries O(log n).
 class Marks {
  public:

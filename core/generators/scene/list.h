@@ -8,13 +8,13 @@
 
 namespace seedmesh::scene {
 
-/// Returns the result of derive(), described in scene.h.
+/// Returns the JSON that derive() answers for a scene (scene.h describes it).
 Json placements_json(const SceneParams& params, const Ground& ground, const Planting& planting,
                      const VariantTable& variant_table, const Job& job);
 
 /// Returns a zip with placements.json, which lists all placements, and models/<name>.glb. Numbers have enough
-/// digits for a 32-bit float. `forecast` covers each variant once. Spends output bytes. Cost: below 1
-/// microsecond for each placement on one thread.
+/// digits for a 32-bit float. `forecast` predicts the cost of generating each variant once. Spends output bytes. Cost:
+/// below 1 microsecond for each placement on one thread.
 Result<Payload> placement_list(const SceneParams& params, const Ground& ground, const Planting& planting,
                                Forecast& forecast, const GenerateContext& context);
 

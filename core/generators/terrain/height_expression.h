@@ -1,6 +1,6 @@
 #pragma once
-/// Heights by an expression of the request (Kogovšek 2014, sections 5.3.4 and 6): the language of docs/expressions.md,
-/// and noise functions of a position.
+/// Computes heights from an expression in the request (Kogovšek 2014, sections 5.3.4 and 6). The language is that of
+/// docs/expressions.md plus noise functions of a position.
 #include <string_view>
 #include <vector>
 
@@ -10,11 +10,11 @@
 namespace seedmesh::terrain {
 
 /// One expression with its noise calls, compiled. The noise functions are noise(x, y) or noise(x, y, z), and fbm, ridged
-/// and billow with a constant number of octaves behind the position. Calls with the same arguments have the same value
+/// and billow, whose last argument is a constant number of octaves. Calls with the same arguments have the same value
 /// everywhere in one layer.
 class HeightExpression {
  public:
-  /// Parses `text`, which may use `names`; their slots are below `slots`. Adds the errors of the text.
+  /// Parses `text`, which may use `names`. All their slots must be less than `slots`. Adds the errors of the text.
   HeightExpression(std::string_view text, lang::Names names, std::uint32_t slots,
                    std::vector<lang::TextError>& errors);
   HeightExpression(const HeightExpression&) = delete;

@@ -31,7 +31,7 @@ void noise_sphere(Planet& planet, const NoisePlan& plan, Rng rng, const Job& job
 
 Range range_of(const Planet& planet);
 
-/// Returns the mesh, with area-weighted mean normals. `ground_colors` may be null: no colours. Charges
+/// Returns the mesh, with area-weighted mean normals. `ground_colors` may be null: no colours. Spends
 /// Resource::triangles.
 Mesh planet_mesh(const Planet& planet, const GroundColors* ground_colors, Rng rng, Job& job);
 

@@ -10,10 +10,10 @@
 namespace seedmesh::terrain {
 
 /// A triangle by the sample numbers x + z * stride (stride_of in rtin_errors.h). Its long side is a-b and its
-/// right angle is at c. It runs clockwise as seen from above, and so do both its halves.
+/// right angle is at c. Its corners are counter-clockwise as seen from above, and so are those of both halves.
 struct Half {
   std::uint32_t a = 0, b = 0, c = 0;
-  int level = 0;  ///< how often it can be split; each level doubles the area, from half a cell
+  int level = 0;  ///< number of splits down to half a cell; the area doubles with each level
 
   /// The coordinates of the two ends have even sums, so the mean number is that of the midpoint.
   std::uint32_t middle() const { return (a + b) / 2; }
@@ -21,7 +21,7 @@ struct Half {
   Half second() const { return {b, c, middle(), level - 1}; }
 };
 
-/// Returns the triangles `depth` splits below the two of the field, or their ancestors that stay whole.
+/// Splits the two triangles of the field `depth` times. Triangles whose error is at most `threshold` stay whole.
 inline std::vector<Half> parts_of(const RtinErrors& all, float threshold, int depth) {
   const float* errors = all.data();
   int level = 0;
@@ -44,7 +44,7 @@ inline std::vector<Half> parts_of(const RtinErrors& all, float threshold, int de
   return parts;
 }
 
-/// Returns the corners of such a triangle as positions of the field.
+/// The corners of a triangle as positions in the field.
 struct HalfCorners {
   GridPoint a, b, c;
   int level = 0;
@@ -76,8 +76,8 @@ void each_row_inside(const HalfCorners& half, const Visit& visit) {
   }
 }
 
-/// Returns the number of triangles within `root` in the mesh of the bound `threshold`, without a recursion:
-/// each sample of the mesh inside splits two triangles, a sample on an edge one.
+/// Counts the triangles within `root` of the mesh whose error is at most `threshold`, without recursion. A mesh sample
+/// inside `root` splits two triangles, one on an edge splits one.
 std::size_t count_whole(const RtinErrors& errors, float threshold, const Half& root);
 
 /// Returns the plane through the corners. Twice the area is a power of two, so the products here are exact.

@@ -31,14 +31,14 @@ bool fits_rtin(std::int32_t width, std::int32_t depth);
 
 /// Returns a right-triangulated irregular network (Evans, Kirkpatrick and Townsend, "Right-triangulated
 /// irregular networks", 2001): right triangles are split where their error exceeds the bound. Samples that
-/// the usual midpoint test leaves outside the bound are added until it holds. Charges Resource::triangles.
+/// the usual midpoint test leaves outside the bound are added until it holds. Spends Resource::triangles.
 /// Cost: 10 to 20 ns for each sample.
 Triangulation rtin(const Field& field, double max_error, Border border, Job& job);
 
 /// Returns a Delaunay triangulation by greedy insertion (Garland and Heckbert, "Fast polygonal approximation
 /// of terrains and height fields", 1995): the sample with the largest error comes next. It has about half the
 /// triangles of rtin() at the same error. A `whole` border keeps those samples that a greedy polyline along
-/// it needs for the border's bound; they depend on the border alone. Charges Resource::triangles. Cost: about
+/// it needs for the border's bound; they depend on the border alone. Spends Resource::triangles. Cost: about
 /// 1 microsecond for each triangle.
 Triangulation greedy(const Field& field, const Tolerance& tolerance, Border border, Job& job);
 Triangulation greedy(const Field& field, double max_error, Border border, Job& job);

@@ -1,7 +1,7 @@
 #pragma once
-/// The model of ez-tree 1.1 (Daniel Greenheck, MIT): limbs of straight sections, which turn by random angles, about
-/// their own axis and toward a direction; limbs of the next level at random positions; and, unless the form is
-/// evergreen, a limb of the next level that continues each limb at its tip.
+/// The model of ez-tree 1.1 (Daniel Greenheck, MIT). Limbs consist of straight sections. Each section turns by random
+/// angles, about its axis, toward a direction and toward a trellis. Limbs of the next level start at random positions.
+/// Unless the form is evergreen, one of them continues each limb at its tip.
 ///
 /// The order of all random choices is that of ez-tree, so that a saved seed gives the same limbs and leaves, within
 /// rounding. Foot at the origin, +Y up. Cost: linear in the size of the skeleton.

@@ -12,13 +12,15 @@ struct SwayingStem {
   double offset_x = 0, offset_y = 0;  ///< radians, random
 };
 
-/// Degrees by which the segment that begins at share `z` of the stem, where its radius is `radius`, turns
-/// about its two axes. With a0 = 4 length (1 - z) / radius, a1 = a0 wind / 50, a2 = a0 gust / 50 + a1 / 2 and
-/// b = offset + base_radius / length time / 15 these are (a1 sin b + a2 sin 0.7 b) / segments. Other than in
-/// the paper, no stem turns by more than 90 degrees in all.
+/// The rotation of one segment.
 struct SwayAngles {
-  double x = 0, y = 0;
+  double x = 0, y = 0;  ///< degrees about the left axis and the up axis of the frame
 };
+
+/// Returns the degrees by which a segment turns about its left and up axes. It starts at fraction `z` of the stem,
+/// where the radius is `radius`. With a0 = 4 length (1 - z) / radius, a1 = a0 wind / 50, a2 = a0 gust / 50 + a1 / 2
+/// and b = offset + base_radius / length time / 15 these are (a1 sin b + a2 sin 0.7 b) / segments. Unlike in the paper,
+/// a whole stem turns by at most 90 degrees.
 SwayAngles sway_angles(const TreeSway& sway, const SwayingStem& stem, double z, double radius);
 
 /// The frame of a segment turned by these angles.

@@ -1,5 +1,5 @@
 #pragma once
-/// A mesh of convex polygons that face upwards, clipped to a tile: water and roads.
+/// A mesh of convex polygons that face upwards, for water and roads. Only add_clipped() and add_ribbon() clip to the tile.
 #include <array>
 #include <glm/glm.hpp>
 #include <vector>
@@ -13,17 +13,17 @@ class FlatMesh {
  public:
   using Point = glm::dvec3;  ///< east, north, height; absolute
 
-  /// `base`: the height of position 0, a multiple of the step of the frame.
+  /// `base`: height in metres of the quantized height 0. It must be a multiple of frame.step.
   FlatMesh(const TileFrame& frame, double base, const std::array<std::uint8_t, 4>& color)
       : frame_(frame), base_(base), color_(color) {}
 
-  /// A convex polygon, counter-clockwise from above.
+  /// Adds a convex polygon, counter-clockwise seen from above.
   void add(const std::vector<Point>& polygon);
   void add_rectangle(double west, double south, double east, double north, double height);
-  /// The part of a convex polygon that lies in the tile.
+  /// Adds the part of a convex polygon that lies in the tile.
   void add_clipped(std::vector<Point> polygon);
-  /// The ribbon between two points with widths; it reaches beyond the second by a share of its width, so that bends
-  /// have no gap.
+  /// Adds a strip from one point to another, with a width at each. It extends past the second point by a fifth of its
+  /// width, which closes gaps at bends.
   void add_ribbon(const Point& from, double from_width, const Point& to, double to_width);
 
   TileMesh take() { return std::move(mesh_); }

@@ -1,7 +1,8 @@
 #pragma once
-/// Where plants stand. Candidates in cells of a grid compete by marks: "who has the lowest mark among the undecided
-/// within the spacing stays, who is within the spacing of one that stays goes", in five rounds. So a plant depends on
-/// candidates within five spacings and on nothing else, and any rectangle shows the same plants.
+/// Selects the positions of plants among random candidates in the cells of a grid. Each candidate has a random mark.
+/// Five rounds alternate. Odd rounds keep each undecided candidate with the lowest mark within the spacing. Even rounds
+/// remove undecided candidates near kept ones. A plant therefore depends only on candidates within five spacings, so
+/// every rectangle that contains a position gives the same result there.
 ///
 /// A finite form of the dependent thinning of Matérn 1960 ("Spatial variation").
 #include <vector>
@@ -14,9 +15,9 @@ constexpr int thinning_rounds = 5;
 
 struct Plant {
   double east = 0, north = 0;  ///< absolute; multiples of 1/64 m
-  double height = 0;           ///< of the foot
-  double size = 1;             ///< 0.7 to 1.3
-  double rank = 0;             ///< 0 to 1; coarse tiles show low ranks
+  double height = 0;           ///< height of the foot, slightly below the ground
+  double size = 1;             ///< random scale factor of the class height, 0.7 to 1.3
+  double rank = 0;             ///< random number, 0 to 1; coarse tiles show only plants with a low rank
 };
 
 /// The plants of a class in [west, east) x [south, north), which is inside the rectangle of `ground`. `reach`: how
@@ -27,7 +28,7 @@ std::vector<Plant> plants_in(const World& world, int plant_class, const Rectangl
 /// How much of the ground around a position the class covers, 0 to 1.
 double wood_cover(const World& world, int plant_class, const GroundSample& sample, double east, double north);
 
-/// Whether the class can grow within `spacing` metres of a sample: its conditions with a tolerance.
+/// Returns false only if moisture, temperature or the sea exclude the class within `spacing` metres of a sample.
 bool may_grow(const World& world, const WorldClass& plant, const GroundSample& sample, double east,
               double north, double spacing);
 

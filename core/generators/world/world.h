@@ -44,7 +44,7 @@ double greatest_error(const World& world);
 
 /// The content of a tile as binary glTF: core glTF with KHR_mesh_quantization. One root node has the middle of the
 /// tile as its translation; below it are nodes named by layer. `folder` leads from the tile to the folder that
-/// has the directory "a" of shared files. Charges Resource::triangles. `key` is in the tree.
+/// has the directory "a" of shared files. Spends Resource::triangles. `key` is in the tree.
 std::string tile_glb(const World& world, const TileKey& key, Job& job, std::string_view folder = "../../../");
 
 /// A file that tiles share, by the hash in its name.
