@@ -80,8 +80,8 @@ constexpr CommandRow rows[] = {
     {"@w", Command::multiply_width, "(factor)", 1, 1, "Multiplies the width.", "F@w(0.7)F"},
     {"@a", Command::multiply_turns, "(factor)", 1, 1,
      "Multiplies the turns of the following symbols that have no parameter.", "F+F@a(0.5)+F"},
-    {"@-", Command::mirror, "", 0, 0, "Exchanges left and right (+ and -, \\ and /) until the next @-.",
-     "[+F]@-+F"},
+    {"@-", Command::mirror, "", 0, 0,
+     "Exchanges left and right (+ and -, \\ and /) until the next @- or the end of the branch.", "[+F]@-+F"},
     {"?P", Command::ask_position, "(x,y,z)", 3, 3,
      "Queries the position of the turtle. The query replaces its parameters between two steps.",
      "F?P(0,0,0)F"},
@@ -91,7 +91,7 @@ constexpr CommandRow rows[] = {
     {"?E", Command::ask_surroundings, "(step[,now[,then[,light[,x,y,z]]]])", 1, 7,
      "Queries the environment. `step` becomes 1 where a step of that length along the heading is free, "
      "else 0. `now` and `then` become the distances to the surface before and after the step, negative "
-     "beyond it. `light` becomes 0 to 1, and x, y, z the direction to the surface.",
+     "inside an obstacle. `light` becomes 0 to 1, and x, y, z the direction to the surface.",
      "F?E(1)F"},
     {"@A", Command::enter_frame, "(frame)", 12, 12,
      "Moves to a frame: to its origin, with its y axis as heading and the length of y as scale.",
