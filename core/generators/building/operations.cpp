@@ -60,8 +60,8 @@ constexpr OperationRow rows[] = {
      "index, one of them.",
      "A ~> Comp(\"sidefaces\"){ B. }"},
     {"Snap", Op::snap, "w|w", Braces::absent, "axes, id",
-     "Makes snap lines of the planes of this shape across the given axes; splits along \"XS\" move their "
-     "borders to them.",
+     "Stores the planes of this shape across the given axes as snap planes. Splits along \"XS\" move their "
+     "nearest cuts to them.",
      "A ~> Snap(\"X\") Subdiv(\"XS\", 1r, 1r){ B. | C. }"},
     {"extrude", Op::extrude, "x|x", Braces::absent, "direction, height",
      "Extrudes faces along their normals, or in a direction: world.up, world.up.flatTop, vertex.normal, "
