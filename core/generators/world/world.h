@@ -1,6 +1,6 @@
 #pragma once
-/// An endless plane of land and sea by a seed, streamed as OGC 3D Tiles 1.1. A tile is a function of the request
-/// and its address: no tile needs another tile.
+/// A plane of land and sea by a seed, up to the extent of the request, streamed as OGC 3D Tiles 1.1. A tile is a
+/// function of the request and its address: no tile needs another tile.
 ///
 ///   region (drainage, lakes) -> height of a point -> villages -> roads -> fields, houses -> plants -> tiles
 ///
