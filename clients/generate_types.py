@@ -169,7 +169,7 @@ def request_type(reader, generator, is_child):
     parameters = Name(pascal(generator) + "Parameters") if generator else Map(Atom("any"))
     value.members["parameters"] = Member(parameters, text["parameters"], False)
     if not is_child:
-        value.members["output"] = Member(Name("Output"), "The form of the answer.", False)
+        value.members["output"] = Member(Name("Output"), "The form of the response.", False)
     return reader.define(pascal(generator or "preset") + ("Child" if is_child else "Request"), value)
 
 

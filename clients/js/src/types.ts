@@ -1,8 +1,8 @@
 // Generated from api_schema by clients/generate_types.py. Do not edit.
 
-/** The form of the answer. */
+/** The form of the response. */
 export interface Output {
-  /** The file format of the answer. glb is one binary glTF 2.0 file. gltf is glTF 2.0 as JSON with embedded buffers. zip contains a .gltf, its .bin and its images as separate files, stored uncompressed. Terrain also has height maps: png16 and png8 are grey, rgb24 and rgba32 pack a height into the channels of a PNG, and r16 has raw samples of 16 bits. Fractals also have ply (the points of frcm), png16 and png8 (escape times, grey or in colours). Scenes also have placements, a zip of placements.json and every model as a file of its own. Cities also have geojson, the plan. */
+  /** The file format of the response. glb is one binary glTF 2.0 file. gltf is glTF 2.0 as JSON with embedded buffers. zip contains a .gltf, its .bin and its images as separate files, stored uncompressed. Terrain also has height maps: png16 and png8 are grey, rgb24 and rgba32 pack a height into the channels of a PNG, and r16 has raw samples of 16 bits. Fractals also have ply (the points of frcm), png16 and png8 (escape times, grey or in colours). Scenes also have placements, a zip of placements.json and every model as a file of its own. Cities also have geojson, the plan. */
   format?: "glb" | "gltf" | "zip" | "png16" | "png8" | "rgb24" | "rgba32" | "r16" | "ply" | "placements" | "geojson";
   /** The program that reads the model. core: any reader of glTF 2.0, without required extensions. web: three.js, Babylon and other viewers, with quantized and compressed data and instances on the GPU. tiles: clients of 3D Tiles, with quantized data and instances on the GPU, without a compression that needs a decoder. unity, unreal, godot, blender: what the importer of that program supports, with names that it accepts. For height maps as r16 or png16, unity and unreal select the conventions of these engines for sizes, rows and scales. */
   profile?: "core" | "web" | "tiles" | "unity" | "unreal" | "godot" | "blender";
@@ -1329,7 +1329,7 @@ export interface SceneParametersLayersItemFoundation {
 
 /** Layer */
 export interface SceneParametersLayersItem {
-  /** The name of the layer in the answer and for other layers. With a name, random choices do not depend on the number of the layer. */
+  /** The name of the layer in the response and for other layers. With a name, random choices do not depend on the number of the layer. */
   name?: string;
   /** The model: a request of any generator except scene. */
   model: Child;
@@ -1397,7 +1397,7 @@ export interface SceneParameters {
   camera?: SceneParametersCamera;
   /** The copies of a model are divided into this number of groups by area, from west to east and from north to south, so that engines can skip groups out of view. */
   chunks?: number;
-  /** Whether the answer of derive has the word of each model that is an L-system, with the numbers of its modules and branches and its depth. The shapes of the scene stay the same. */
+  /** Whether the response of derive has the word of each model that is an L-system, with the numbers of its modules and branches and its depth. The shapes of the scene stay the same. */
   words?: boolean;
 }
 
@@ -2266,7 +2266,7 @@ export interface WorldParametersPlantsItem {
   stem?: string;
 }
 
-/** An endless plane of land and sea by a seed, streamed as OGC 3D Tiles 1.1. A tile depends on the request and its address alone. */
+/** A plane of land and sea by a seed, up to `extent` a side, streamed as OGC 3D Tiles 1.1. A tile depends on the request and its address alone. */
 export interface WorldParameters {
   /** The side of the square that is streamed: a power of two from 2^15. Leaves have a side of 64 m. */
   extent?: number;
@@ -2411,7 +2411,7 @@ export interface BuildingRequest {
   seed?: Seed;
   /** The parameters of the generator, by the generator's own schema. */
   parameters?: BuildingParameters;
-  /** The form of the answer. */
+  /** The form of the response. */
   output?: Output;
 }
 
@@ -2425,7 +2425,7 @@ export interface CityRequest {
   seed?: Seed;
   /** The parameters of the generator, by the generator's own schema. */
   parameters?: CityParameters;
-  /** The form of the answer. */
+  /** The form of the response. */
   output?: Output;
 }
 
@@ -2439,7 +2439,7 @@ export interface FractalRequest {
   seed?: Seed;
   /** The parameters of the generator, by the generator's own schema. */
   parameters?: FractalParameters;
-  /** The form of the answer. */
+  /** The form of the response. */
   output?: Output;
 }
 
@@ -2453,7 +2453,7 @@ export interface LsystemRequest {
   seed?: Seed;
   /** The parameters of the generator, by the generator's own schema. */
   parameters?: LsystemParameters;
-  /** The form of the answer. */
+  /** The form of the response. */
   output?: Output;
 }
 
@@ -2467,7 +2467,7 @@ export interface SceneRequest {
   seed?: Seed;
   /** The parameters of the generator, by the generator's own schema. */
   parameters?: SceneParameters;
-  /** The form of the answer. */
+  /** The form of the response. */
   output?: Output;
 }
 
@@ -2481,7 +2481,7 @@ export interface TerrainRequest {
   seed?: Seed;
   /** The parameters of the generator, by the generator's own schema. */
   parameters?: TerrainParameters;
-  /** The form of the answer. */
+  /** The form of the response. */
   output?: Output;
 }
 
@@ -2495,7 +2495,7 @@ export interface TreeRequest {
   seed?: Seed;
   /** The parameters of the generator, by the generator's own schema. */
   parameters?: TreeParameters;
-  /** The form of the answer. */
+  /** The form of the response. */
   output?: Output;
 }
 
@@ -2509,7 +2509,7 @@ export interface WorldRequest {
   seed?: Seed;
   /** The parameters of the generator, by the generator's own schema. */
   parameters?: WorldParameters;
-  /** The form of the answer. */
+  /** The form of the response. */
   output?: Output;
 }
 
@@ -2522,7 +2522,7 @@ export interface PresetRequest {
   seed?: Seed;
   /** The parameters of the generator, by the generator's own schema. */
   parameters?: { [key: string]: unknown };
-  /** The form of the answer. */
+  /** The form of the response. */
   output?: Output;
 }
 
