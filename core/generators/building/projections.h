@@ -6,15 +6,15 @@
 
 namespace seedmesh::building {
 
-/// The projection in force of a set, or that was set up. Without either, and for shapes that are flat, it is the scope in
+/// The projection of a set that was applied (projectUV) or set up. Without either, and for shapes that are flat, it is the scope in
 /// metres: u along x, v along y (of a lot along -z), from the origin of the scope.
 Projection projection_of(const Derivation& d, const ShapeState& state, int set);
 /// Whether a set has a projection, so that it means the same for all faces of a solid.
 bool has_projection(const Derivation& d, const ShapeState& state, int set);
-/// Puts a projection in force.
+/// Applies a projection.
 void use_projection(Derivation& d, ShapeState& state, int set, const Projection& projection);
 
-/// The number of the projection that a set has set up or in force; 0: none.
+/// The number of the projection that a set has set up or applied; 0: none.
 std::uint32_t projection_id(const Derivation& d, const ShapeState& state, int set, bool in_force);
 void set_projection_id(Derivation& d, ShapeState& state, int set, bool in_force, std::uint32_t id);
 /// Stores a projection and returns its number.

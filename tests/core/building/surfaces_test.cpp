@@ -252,7 +252,7 @@ TEST(Surfaces, OfOwnRulesNeedARequest) {
   EXPECT_EQ(kinds_of(model_of(params)), std::set<std::string>{"plaster"});
 }
 
-TEST(Materials, StoneOfAPartTakesTheColourInForce) {
+TEST(Materials, StoneOfAPartTakesTheCurrentColour) {
   const auto materials = [](const char* rules, std::map<std::string, BuildingMaterial> given = {}) {
     BuildingParams params = with(rules, {1, 3, 1});
     params.materials = std::move(given);
