@@ -42,7 +42,7 @@ struct Grant {
   enum class By { nothing, key, signature };
   By by = By::nothing;
   std::string key;                      ///< name of the API key
-  std::optional<std::int64_t> expires;  ///< of the signature, in seconds since 1970
+  std::optional<std::int64_t> expires;  ///< end of the signature, in seconds since 1970
   std::size_t target_size = 0;          ///< characters of the undecoded target without the signature
   std::shared_ptr<const void> slot;  ///< counts as one concurrent request of the key until the last copy ends
 };

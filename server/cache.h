@@ -22,7 +22,7 @@ namespace seedmesh {
 struct CachedModel {
   Product product;
   std::shared_ptr<const Payload> payload;  ///< the bytes, moved out of `product`
-  std::string token;                       ///< of the permalink; "" where it is too long for a URL
+  std::string token;                       ///< token of the permalink; "" where it is too long for a URL
   bool shared = false;                     ///< it came from the shared cache
 };
 

@@ -36,7 +36,7 @@ struct Config {
   bool plain_for_private = false;              ///< no compression for loopback and private addresses
   std::uint64_t cache_bytes = 256U << 20U;
   std::uint64_t texture_bytes = 64U << 20U;
-  std::uint64_t world_bytes = 64U << 20U;  ///< of regions, roads and towns that tiles share
+  std::uint64_t world_bytes = 64U << 20U;  ///< bytes of regions, roads and towns that tiles share
   std::string log_level = "info";
   std::vector<ApiKey> api_keys;
   double key_rate = 0;      ///< requests per second of one API key; 0: no limit

@@ -23,7 +23,7 @@ class JsonPositions {
   /// A key that its object has twice.
   struct Duplicate {
     std::string key;
-    TextPosition position;  ///< of the second one
+    TextPosition position;  ///< position of the second one
   };
   const std::optional<Duplicate>& duplicate() const { return duplicate_; }
 

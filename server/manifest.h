@@ -28,7 +28,7 @@ struct ManifestOptions {
 
 /// A line of the file.
 struct ManifestJob {
-  std::size_t line = 0;  ///< from 1
+  std::size_t line = 0;  ///< line number, from 1
   std::string name;
   std::string request;  ///< JSON
 };

@@ -16,7 +16,7 @@ struct SourceAnswer {
     made,         ///< `payload` and `etag`
     same,         ///< the model still has the validator that was given
     refused,      ///< `issues`, at least one
-    stopped,      ///< by the stop token
+    stopped,      ///< stopped by the stop token
     unreachable,  ///< `reason`; other requests have no chance either
   };
   Kind kind = Kind::made;

@@ -9,7 +9,7 @@ namespace seedmesh {
 struct RedisAddress {
   std::string host;  ///< "" where `path` is set
   int port = 6379;
-  std::string path;  ///< of a Unix socket
+  std::string path;  ///< path of a Unix socket
   std::string user, password;
   int database = 0;
 };

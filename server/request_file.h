@@ -14,7 +14,7 @@ inline constexpr std::string_view request_file_suffix = ".seedmesh";
 
 /// A file that is made beside the request file.
 struct RequestFileOutput {
-  std::string name;     ///< of the file, without a folder
+  std::string name;     ///< name of the file, without a folder
   std::string request;  ///< JSON
 };
 

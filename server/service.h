@@ -33,7 +33,7 @@ namespace seedmesh {
 struct TaggedRequest {
   Request request;
   std::string tag;
-  std::string token = {};  ///< of its permalink; "" if not computed yet, or too long for a URL
+  std::string token = {};  ///< token of its permalink; "" if not computed yet, or too long for a URL
 };
 
 TaggedRequest tagged(Request request);
@@ -58,7 +58,7 @@ class TargetCache {
 /// A text that does not change while the program runs.
 struct StaticText {
   std::string text, tag;
-  std::string encoded;  ///< in the requested coding; "" for identity and small texts
+  std::string encoded;  ///< body in the requested coding; "" for identity and small texts
 };
 
 /// Static texts by path and coding, made at the first request: compressing the OpenAPI document for each client

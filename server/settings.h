@@ -18,7 +18,7 @@ struct Setting {
   std::function<std::string(Config&, std::string_view)> set;
   std::function<nlohmann::ordered_json(const Config&)> get;
   bool is_switch = false;
-  std::string unit = "TEXT";  ///< of the value, for the help
+  std::string unit = "TEXT";  ///< unit of the value, for the help
 };
 
 const std::vector<Setting>& setting_rows();

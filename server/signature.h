@@ -27,7 +27,7 @@ enum class SignatureState { absent, good, wrong, expired };
 struct SignatureCheck {
   SignatureState state = SignatureState::absent;
   std::size_t target_size = 0;          ///< characters of the target without expires, key and signature
-  std::optional<std::int64_t> expires;  ///< of a good or expired signature
+  std::optional<std::int64_t> expires;  ///< end of a good or expired signature
 };
 
 /// Verifies a signature in constant time. `expired` is reported only for a genuine signature.

@@ -13,13 +13,13 @@ inline constexpr char lock_file_name[] = "seedmesh.lock";
 struct LockedOutput {
   std::uint64_t bytes = 0;
   std::string engine;
-  std::string etag;    ///< of the server's response; "" where it had none
+  std::string etag;    ///< ETag of the response of the server; "" where it had none
   std::string sha256;  ///< hexadecimal
 };
 
 struct LockEntry {
   std::string request;  ///< hexadecimal SHA-256 of the request file; "" if an output is missing
-  std::map<std::string, LockedOutput> outputs;  ///< by the name of the file, without a folder
+  std::map<std::string, LockedOutput> outputs;  ///< outputs, by the name of the file, without a folder
 };
 
 /// Entries by the path of the request file, relative to the directory, with slashes.

@@ -21,7 +21,7 @@ struct NamedWorld {
   Kind kind = Kind::own;
   Request request;
   OpenWorld open;
-  std::string token;  ///< of this engine; "" where it is too long
+  std::string token;  ///< token with this engine version; "" where it is too long
 };
 
 /// Reads the name of a world. 414 for a token that is too long; 400 for one that cannot be decoded; 404 for an unknown
@@ -53,7 +53,7 @@ struct WorldPath {
   enum class Kind { tileset, implicit, nested, subtree, tile, shared, map };
   Kind kind = Kind::tileset;
   TileAddress address = {};
-  std::string_view name = {};  ///< of a shared file
+  std::string_view name = {};  ///< name of a shared file
 
   bool is_root() const { return kind == Kind::tileset || kind == Kind::implicit; }
 };

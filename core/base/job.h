@@ -170,7 +170,7 @@ class Job {
 
   std::uint64_t seed_;
   bool is_child_ = false;
-  std::string prefix_;    ///< from the parameters of the outermost request to those of this one
+  std::string prefix_;    ///< path from the parameters of the outermost request to those of this one
   std::string fallback_;  ///< pointer of limits that have none
   std::shared_ptr<State> state_;
 };

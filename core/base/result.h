@@ -53,14 +53,14 @@ enum class Resource : std::uint8_t {
   triangles,
   output_bytes,
   memory_bytes,
-  file_bytes,  ///< of one file inside the output; the bound is that of its format
-  vertices,    ///< of one mesh, whose indices have 32 bits
+  file_bytes,  ///< bytes of one file inside the output; the bound is that of its format
+  vertices,    ///< vertices of one mesh, whose indices have 32 bits
   points,
-  segments,  ///< of a turtle
-  joints,    ///< of a skeleton
+  segments,  ///< segments of a turtle
+  joints,    ///< joints of a skeleton
   leaves,
   iterations,
-  depth,  ///< of nested brackets, lists, expressions or requests
+  depth,  ///< depth of nested brackets, lists, expressions or requests
   json_values,
   steps,  ///< of a loop that rules run: rule applications, matches, cells
 };

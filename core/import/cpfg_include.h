@@ -11,7 +11,7 @@ namespace seedmesh {
 
 struct JoinedText {
   std::string text;
-  std::vector<TextPart> parts;        ///< where the bytes of `text` come from
+  std::vector<TextPart> parts;        ///< sources of the bytes of `text`
   std::vector<std::string> included;  ///< names of the files that were used
 };
 

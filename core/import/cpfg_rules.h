@@ -12,7 +12,7 @@ namespace seedmesh {
 
 struct CpfgRule {
   TracedText left, predecessor, right, condition, successor, weight;  ///< empty if absent
-  std::size_t at = 0;                                                 ///< of the line
+  std::size_t at = 0;                                                 ///< offset of the line
   bool is_strict = false;  ///< it replaces several modules together
 
   bool has_context() const { return is_strict || left.size() > 0 || right.size() > 0; }

@@ -39,7 +39,7 @@ class ForeignText {
   void trace(std::size_t& offset, std::string* message) const;
 
   std::string_view text_, foreign_;
-  std::vector<TextPart> parts_;  ///< in their order; empty: both texts are the same
+  std::vector<TextPart> parts_;  ///< parts in their order; empty: both texts are the same
   std::vector<Issue> issues_;
   std::vector<Warning> warnings_;
   std::size_t unlisted_ = 0;  ///< errors that were not kept

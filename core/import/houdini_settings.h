@@ -11,7 +11,7 @@ namespace seedmesh {
 struct HoudiniSetting {
   std::string_view name;
   double value;
-  std::size_t at = 0;  ///< in the file
+  std::size_t at = 0;  ///< offset in the file
 };
 std::span<const HoudiniSetting> houdini_settings();
 

@@ -27,7 +27,7 @@ struct TextRun {
 /// The source of a value of the request, so that an error of the generator is reported at the line and column of the
 /// foreign text.
 struct Origin {
-  std::string pointer;        ///< into the request, such as "/parameters/productions/2"
+  std::string pointer;        ///< pointer into the request, such as "/parameters/productions/2"
   std::vector<TextRun> runs;  ///< the first begins at byte 0; a number has one run
 };
 
@@ -47,7 +47,7 @@ struct ImportOptions {
   std::string entry;  ///< name of the system to import, if the file has several; empty: the only one
   std::map<std::string, std::string>
       files;                 ///< further files beside the text, by name, such as a view file of cpfg
-  const Job* job = nullptr;  ///< of the request, for its limits, stop and deadline; null: there are none
+  const Job* job = nullptr;  ///< job of the request, for its limits, stop and deadline; null: there are none
 
   void check() const {
     if (job) job->check();

@@ -77,7 +77,8 @@ struct MapBounds {
 struct MapData {
   std::vector<MapFeature> features;
   MapUnit unit = MapUnit::degrees;
-  std::optional<MapBounds> bounds;  ///< of the part of the world that the file covers, where it says so
+  /// Bounds of the part of the world that the file covers, where it says so.
+  std::optional<MapBounds> bounds;
   /// Polygons that no tag describes are buildings, as in files of footprints.
   bool plain_polygons_are_buildings = false;
   MapWarnings warnings;

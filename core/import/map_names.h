@@ -7,7 +7,7 @@ namespace seedmesh {
 
 struct FootprintName {
   std::string_view key;   ///< such as "building:levels"
-  std::string_view unit;  ///< that the values lack: "" or " ft"
+  std::string_view unit;  ///< unit that the values lack: "" or " ft"
 };
 
 /// The keys of OpenStreetMap for a name such as "numFloors", "HEIGHT", or "building_l", as shape files shorten it; empty

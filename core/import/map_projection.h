@@ -22,7 +22,7 @@ class TransverseMercator {
  private:
   glm::dvec2 from_equator(const glm::dvec2& position) const;
   double longitude_, latitude_;
-  double north_ = 0;  ///< of the origin from the equator
+  double north_ = 0;  ///< distance of the origin from the equator
 };
 
 /// Longitude and latitude in degrees of a position of Web Mercator (EPSG:3857) in metres.

@@ -25,7 +25,7 @@ struct MapConversion {
   const Job& job;
   MapUnit unit = MapUnit::degrees;
   std::optional<TransverseMercator> projection;  ///< null for metres
-  glm::dvec2 origin{0};                          ///< of metres
+  glm::dvec2 origin{0};                          ///< origin of the coordinates in metres
 
   Json buildings = Json::array(), areas = Json::array(), paths = Json::array();
   Json broadleaved = Json::array(), needleleaved = Json::array();  ///< positions of trees

@@ -24,7 +24,7 @@ class Program::Emitter {
   struct Operand {
     Storage storage = Storage::numbers;
     std::uint32_t index = 0;  ///< slot or register
-    double value = 0;         ///< of a constant
+    double value = 0;         ///< value of a constant
     bool is_truth = false;    ///< is 0 or 1
     std::uint32_t text = 0;   ///< not 0: the constant is this text, and `value` is NaN
 

@@ -57,7 +57,7 @@ class Names {
     bool is_constant = false;
     std::uint32_t slot = 0;
     double value = 0;
-    std::uint32_t count = 0;  ///< of the elements of an array; 0: the name is a value
+    std::uint32_t count = 0;  ///< number of the elements of an array; 0: the name is a value
   };
   const Binding* find(std::string_view name) const;  ///< null if unknown; valid until the next change
   /// The latest constant of this name, even if a slot hides it; null if there is none.
@@ -84,7 +84,7 @@ class Names {
 
   std::vector<Binding> bindings_;
   std::map<std::string, std::vector<std::uint32_t>, std::less<>>
-      indices_;  ///< of each name into bindings_, the latest last
+      indices_;  ///< indices of each name into bindings_, the latest last
   std::map<std::string, Defined, std::less<>> functions_;
   mutable std::uint32_t hints_ = 0;
 };
@@ -148,7 +148,7 @@ struct Expression {
   std::uint32_t first = 0, count = 0;  ///< instructions
   bool is_constant = false;            ///< its value is always `value`
   Form form = Form::constant;
-  Operation operation = Operation::copy;  ///< of the two middle forms
+  Operation operation = Operation::copy;  ///< operation of the two middle forms
   double value = 0;
   std::uint32_t text = 0;             ///< not 0: the constant is this text, and `value` is NaN
   std::uint32_t left = 0, right = 0;  ///< slots

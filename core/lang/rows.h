@@ -41,7 +41,7 @@ class RowEvaluator {
   const Program& program_;
   const Expression& expression_;
   std::vector<double> registers_, constants_;
-  std::vector<std::uint32_t> constant_rows_;  ///< of Program::numbers_, from the first one in use on
+  std::vector<std::uint32_t> constant_rows_;  ///< rows of Program::numbers_, from the first one in use on
   std::uint32_t first_number_ = 0;
 };
 

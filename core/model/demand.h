@@ -21,9 +21,9 @@ struct Demand {
   int textures = 512;                ///< width and height in texels; 0: no textures
   bool tangents = true;              ///< the generator writes tangents where it makes them cheaply itself
   bool impostor = false;             ///< an impostor is the coarsest level of each plant of a scene
-  CopyForm copies = CopyForm::any;   ///< of repeated parts of a scene or a building
+  CopyForm copies = CopyForm::any;   ///< form of repeated parts of a scene or a building
   std::uint64_t most_triangles = 0;  ///< for generators that keep a budget themselves; 0: no budget
-  std::uint32_t most_bones = 240;    ///< of the animation "growth"
+  std::uint32_t most_bones = 240;    ///< largest number of bones of the animation "growth"
   bool packs = false;  ///< no later stage reads finished meshes, so they may be packed (gltf/compress/pack.h)
 };
 

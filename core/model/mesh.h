@@ -51,7 +51,7 @@ struct Mesh {
   Array<glm::vec4> weights;
   Array<std::uint16_t> bone;   ///< instead of joints and weights: the only joint that moves the vertex
   Indices index;               ///< 3 for each triangle, 2 for each line
-  Box bounds;                  ///< of `position`; set by finish()
+  Box bounds;                  ///< bounds of `position`; set by finish()
   bool cache_ordered = false;  ///< the triangles are in vertex cache order already
   bool no_minus_zero = false;  ///< positions, normals, uv[0] and tangents have no -0
   std::shared_ptr<const PackedMesh> packed;  ///< replaces all arrays; null where the arrays are in use

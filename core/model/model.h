@@ -20,13 +20,13 @@ struct Image {
   std::string name;
   std::string mime = "image/png";
   std::vector<std::uint8_t> bytes;
-  std::string uri;                         ///< where the bytes are; empty: here
+  std::string uri;                         ///< address of the bytes; empty: they are here
   bool is_given = false;                   ///< it came with the request, and keeps its format
   std::shared_ptr<const Image> webp = {};  ///< the same as WebP, for readers of EXT_texture_webp; null: none
 };
 
 struct TextureUse {
-  int texture = -1;  ///< into Model::textures
+  int texture = -1;  ///< index into Model::textures
   int uv_set = 0;
   bool repeat = true;
 };
@@ -46,8 +46,8 @@ struct TextureRecipe {
 /// their textures (core/texture/impostor.h).
 struct ImpostorRecipe {
   struct Part {
-    int mesh = -1;    ///< into Model::meshes
-    glm::mat4 at{1};  ///< from the mesh to the frame of the impostor
+    int mesh = -1;    ///< index into Model::meshes
+    glm::mat4 at{1};  ///< transform from the mesh to the frame of the impostor
   };
   std::vector<Part> parts;  ///< empty: the material is no impostor
 };
@@ -67,7 +67,7 @@ struct Material {
   bool double_sided = false;
   bool unlit = false;           ///< writes KHR_materials_unlit, never as required
   float specular = 1;           ///< strength of reflections
-  glm::vec3 specular_color{1};  ///< of reflections that are seen straight on, linear
+  glm::vec3 specular_color{1};  ///< colour of reflections that are seen straight on, linear
   /// Share of the light that passes through a thin sheet and leaves it diffusely on the other side, and its
   /// colour as a multiple of the base colour (linear); above 0 writes KHR_materials_diffuse_transmission.
   float transmission = 0;
@@ -115,7 +115,7 @@ struct Node {
   std::string name;
   int parent = -1;
   Transform transform;
-  int mesh = -1;          ///< into Model::meshes
+  int mesh = -1;          ///< index into Model::meshes
   std::vector<int> lods;  ///< coarser meshes than `mesh`, finest first; -1: the node is hidden there
   /// Shares of the screen's height below which each of `lods` is shown, falling; empty: the usual ones.
   std::vector<float> screen;
@@ -165,9 +165,10 @@ struct Model {
 };
 
 struct ModelCounts {
-  std::uint64_t triangles = 0, lines = 0, points = 0;  ///< as drawn: with instances, without coarser levels
-  std::uint64_t vertices = 0;                          ///< as stored
-  std::uint64_t bytes = 0;                             ///< of all vertex and index data as stored
+  /// Numbers as drawn: with instances, without coarser levels.
+  std::uint64_t triangles = 0, lines = 0, points = 0;
+  std::uint64_t vertices = 0;  ///< number as stored
+  std::uint64_t bytes = 0;     ///< bytes of all vertex and index data as stored
 };
 ModelCounts count(const Model& model);
 

@@ -10,11 +10,11 @@ namespace seedmesh {
 
 struct Request::Body {
   const Generator* generator = nullptr;  ///< never null in a Request
-  Generator::Params params;              ///< of that generator
+  Generator::Params params;              ///< parameters of that generator
   OutputParams output;
   std::uint64_t seed = 0;
   std::string canonical;
-  std::string name;  ///< of the model (names.h)
+  std::string name;  ///< name of the model (names.h)
 };
 
 /// Canonical JSON of generator, parameters, seed and output.

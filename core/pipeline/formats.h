@@ -13,7 +13,7 @@ namespace seedmesh {
 struct FormatInfo {
   std::string_view name;  ///< the value of output.format
   std::string_view media_type;
-  std::string_view extension;  ///< in file names and URLs
+  std::string_view extension;  ///< extension in file names and URLs
   bool is_model = false;       ///< glTF, which every generator makes; the others belong to some generators
 };
 

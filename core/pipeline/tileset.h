@@ -31,7 +31,7 @@ constexpr int levels_a_subtree = 5;
 /// What a file names the others by: `<prefix>c/3/1/7.glb`, `<prefix>e/4/0/2.json`, `<prefix>s/5/3/3.subtree`.
 struct Naming {
   std::string_view prefix;  ///< relative to the address of the file; ends with "/" or is empty
-  int levels = 0;           ///< of the tree; its last level has no children
+  int levels = 0;           ///< levels of the tree; its last level has no children
   int first_content = 0;    ///< tiles above this level have no content
   std::function<bool(const Address&)> holds = {};  ///< tiles that the tree has; empty: all
 };

@@ -27,7 +27,7 @@ class OpenWorld {
   struct Body;
   explicit OpenWorld(std::shared_ptr<const Body> body) : body_(std::move(body)) {}
   const Body& body() const { return *body_; }
-  int levels() const;     ///< of the tree; the last has the leaves
+  int levels() const;     ///< levels of the tree; the last has the leaves
   double extent() const;  ///< side of the world in metres
 
  private:

@@ -16,9 +16,10 @@ class Job;
 
 /// The limits of parse_json.
 struct JsonLimits {
-  std::size_t depth = 64;          ///< of nested lists and objects
-  std::size_t values = 2'000'000;  ///< of any type; a value takes up to 80 bytes, its text as few as 2
-  const Job* job = nullptr;        ///< checked for stop and deadline, so that Stop is thrown; may be null
+  std::size_t depth = 64;  ///< depth of nested lists and objects
+  /// Number of values of any type; a value takes up to 80 bytes, its text as few as 2.
+  std::size_t values = 2'000'000;
+  const Job* job = nullptr;  ///< checked for stop and deadline, so that Stop is thrown; may be null
 };
 
 /// Parses a JSON text strictly after RFC 8259. Duplicate members, invalid UTF-8, text after the value, NaN and

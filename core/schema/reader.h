@@ -75,7 +75,7 @@ struct IntegerRule {
 struct Form;
 
 struct TextRule {
-  std::size_t least = 0;  ///< in code points
+  std::size_t least = 0;  ///< least length in code points
   std::size_t most = std::numeric_limits<std::size_t>::max();
   const Form* form = nullptr;
 };
@@ -83,7 +83,7 @@ struct TextRule {
 struct CountRule {
   std::size_t least = 0;
   std::size_t most = std::numeric_limits<std::size_t>::max();
-  const Form* names = nullptr;  ///< of the keys of a map
+  const Form* names = nullptr;  ///< names of the keys of a map
 };
 
 /// "Polygon", "FeatureCollection" or another type of RFC 7946 where the value is GeoJSON; else an empty text.

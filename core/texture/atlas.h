@@ -20,7 +20,7 @@ class Atlas {
   struct Cell {
     std::uint32_t size;     ///< texels along a side
     std::uint32_t edge;     ///< empty texels around the image
-    std::uint32_t samples;  ///< of a texel along each axis
+    std::uint32_t samples;  ///< number of samples of a texel along each axis
   };
   /// Writes the samples of the canvas as texels of the cell that begins at `corner`. The image covers as many
   /// texels as the samples do. Colours continue beyond the outline, so that no mip level has a rim. Threads

@@ -11,7 +11,7 @@ namespace seedmesh::texture {
 /// Numbers of a TIFF that are no shades: signed integers, integers of 32 bits, or floating-point numbers.
 struct Samples {
   std::uint32_t width = 0, height = 0;
-  Array<float> values;  ///< of the first channel, in rows from the north or the top
+  Array<float> values;  ///< values of the first channel, in rows from the north or the top
 };
 
 /// Either a picture or samples.

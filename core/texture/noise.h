@@ -60,7 +60,7 @@ class NoiseRows {
 
  private:
   const Noise& noise_;
-  std::vector<float> slope_, offset_;  ///< of the corners of a row
+  std::vector<float> slope_, offset_;  ///< slopes and offsets of the corners of a row
   std::vector<float> values_[2];
 };
 

@@ -20,7 +20,7 @@ namespace seedmesh::texture {
 struct PictureView {
   std::uint32_t width = 0, height = 0;
   int channels = 1;                  ///< 1 grey, 2 grey and alpha, 3 RGB, 4 RGBA
-  int bits = 8;                      ///< of a channel: 8, or 16 in the byte order of the machine
+  int bits = 8;                      ///< bits of a channel: 8, or 16 in the byte order of the machine
   std::span<const std::byte> bytes;  ///< width * height * channels * bits / 8
   /// With up to 256 colours, the one channel of 8 bits holds numbers of colours.
   std::span<const glm::u8vec3> palette = {};

@@ -41,7 +41,7 @@ struct Ramp {
 /// How a relief becomes images.
 struct Finish {
   Ramp ramp;
-  float depth = 0.02F;     ///< from height 0 to 1, as a share of the width of the image
+  float depth = 0.02F;     ///< depth from height 0 to 1, as a share of the width of the image
   float rough_low = 0.9F;  ///< roughness at height 0
   float rough_high = 0.8F;
   float rough_accent = 0.9F;

@@ -16,9 +16,10 @@ namespace seedmesh::http {
 /// How fast a client has to read a response. Only the time counts in which the socket takes no more bytes, so a
 /// response that fits into the buffers of the kernel is never too slow.
 struct ReadingPace {
-  std::chrono::steady_clock::duration timeout = std::chrono::seconds(30);  ///< for each `step`
+  std::chrono::steady_clock::duration timeout = std::chrono::seconds(30);  ///< timeout for each `step`
   std::uint64_t step = 64 * 1'024;  ///< bytes; single bytes do not extend the timeout
-  std::chrono::steady_clock::duration grace = std::chrono::seconds(10);  ///< of waiting before `rate` holds
+  /// Time of waiting before `rate` holds.
+  std::chrono::steady_clock::duration grace = std::chrono::seconds(10);
   double rate = 0;  ///< least bytes per second from the first wait on; 0: no limit
 };
 

@@ -26,10 +26,10 @@ struct ServerOptions {
   std::shared_ptr<const TlsIdentity> tls;   ///< null: plain HTTP
   std::size_t connections = 512;            ///< open at the same time; a further one receives 503
   std::uint64_t body_memory = 256U << 20U;  ///< bytes of all bodies together; a further body receives 503
-  std::chrono::seconds head_time{10};       ///< for a whole head, or a TLS handshake
-  std::chrono::seconds body_time{30};       ///< for a whole body
-  std::chrono::seconds idle_time{75};       ///< between two requests of one connection
-  ReadingPace pace;                         ///< of a client that reads a response
+  std::chrono::seconds head_time{10};       ///< time for a whole head, or a TLS handshake
+  std::chrono::seconds body_time{30};       ///< time for a whole body
+  std::chrono::seconds idle_time{75};       ///< time between two requests of one connection
+  ReadingPace pace;                         ///< pace of a client that reads a response
 };
 
 /// One request with its response, reported after the last byte was written.
@@ -37,7 +37,7 @@ struct Exchange {
   const Request& request;
   const Response& response;
   std::uint64_t sent;  ///< bytes, head included
-  double seconds;      ///< from the arrival of the request to the end of the response
+  double seconds;      ///< time from the arrival of the request to the end of the response
   bool complete;       ///< false where the client left before the end, or read too slowly
   bool slow;           ///< the client read too slowly
 };

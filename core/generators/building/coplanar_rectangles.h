@@ -36,7 +36,7 @@ class CoplanarRectangles {
   };
   struct Rect {
     std::uint32_t drawn = 0, frame = 0, plane = 0;
-    int axis = 1;  ///< of the normal
+    int axis = 1;  ///< axis of the normal
     double at = 0;
     glm::dvec2 low{0}, high{0};
     Corner first, last;      ///< lowest and highest corner
@@ -56,7 +56,7 @@ class CoplanarRectangles {
   std::vector<glm::dmat3> frames_;
   std::vector<Plane> planes_;
   std::vector<Rect> rects_;
-  std::vector<std::uint32_t> places_;  ///< by drawn shape: its row in rects_
+  std::vector<std::uint32_t> places_;  ///< row in rects_, by drawn shape
 };
 
 }  // namespace seedmesh::building

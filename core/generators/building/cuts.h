@@ -24,7 +24,7 @@ struct Cell {
   double size = 0;
   Measure measure = Measure::absolute;
   bool is_group = false;
-  std::uint32_t first = 0, count = 0;  ///< of a group
+  std::uint32_t first = 0, count = 0;  ///< range of the cells of a group
   std::uint32_t part = 0;              ///< what the cell is, for the caller
 };
 

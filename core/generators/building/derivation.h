@@ -15,7 +15,7 @@ namespace seedmesh::building {
 /// What the steps of one successor have in common.
 struct Frame {
   std::uint32_t shape = 0;  ///< the shape that is replaced
-  std::uint64_t key = 0;    ///< of the successor, for random numbers
+  std::uint64_t key = 0;    ///< key of the successor, for random numbers
   ShapeState before;        ///< the state when the rule or the bracket began, for center()
   bool is_carried = false;  ///< new shapes are, or stand on, a face of a mass, so they are no masses
 };
@@ -52,10 +52,10 @@ struct Derivation {
   std::uint32_t seen_shape = none, filled_attributes = none;
   bool is_filled = false;  ///< the slots hold the values of `seen`
   Rng random{0};
-  const Component* component = nullptr;                            ///< that selectors classify
-  std::map<std::uint32_t, std::vector<lang::TaggedValue>> locals;  ///< of with(...), by shape
+  const Component* component = nullptr;                            ///< the component that selectors classify
+  std::map<std::uint32_t, std::vector<lang::TaggedValue>> locals;  ///< values of with(...), by shape
   int depth_of_inline = 0;
-  int guarded_steps = 0;  ///< around this place, whose faults are warnings
+  int guarded_steps = 0;  ///< number of enclosing steps whose errors are warnings
 
   // Equal rows of the tables of `out` are stored once.
   std::map<Style, std::uint32_t> style_ids;
@@ -65,9 +65,12 @@ struct Derivation {
   std::map<UvSets, std::uint32_t> uv_set_ids;
   std::map<std::vector<std::uint32_t>, std::uint32_t> tag_set_ids;
   std::map<std::string, std::uint32_t, std::less<>> named_solids;
-  std::array<Solid, 3> squares;                                          ///< by the axis of the normal
-  std::unordered_map<std::uint64_t, std::uint32_t> side_axes;            ///< of boxes, by axes and side
-  std::map<std::pair<std::uint32_t, int>, std::uint32_t> raised_solids;  ///< by what was raised, and how
+  /// Squares, indexed by the axis of the normal.
+  std::array<Solid, 3> squares;
+  /// Axes of the sides of boxes, by axes and side.
+  std::unordered_map<std::uint64_t, std::uint32_t> side_axes;
+  /// Raised solids, by what was raised, and how.
+  std::map<std::pair<std::uint32_t, int>, std::uint32_t> raised_solids;
 
   EditSearch edits;
   std::vector<std::uint32_t> warned;  ///< byte offsets in the rules that already have a warning

@@ -11,7 +11,7 @@ struct Merging {
   MaterialTable& materials;
   BodySource& source;
   glm::dvec3 low{0};    ///< minimum corner of the box around all bodies
-  double diagonal = 1;  ///< of the box around all bodies
+  double diagonal = 1;  ///< diagonal of the box around all bodies
 };
 
 /// The meshes of all layers; empty if nothing is drawn. Walls side by side share their corners, including

@@ -13,14 +13,14 @@
 namespace seedmesh::building {
 
 struct Loop {
-  std::uint32_t first = 0, count = 0;  ///< into Solid::corners
+  std::uint32_t first = 0, count = 0;  ///< range in Solid::corners
 };
 
 struct Face {
   std::uint32_t first_loop = 0, loop_count = 0;  ///< the outer loop first
   bool is_round = false;                         ///< part of a curved surface with smooth normals
   std::uint8_t tag = 0;                          ///< set by an offset: face_is_inside or face_is_border
-  std::uint32_t tags = 0;                        ///< into Shapes::tag_sets
+  std::uint32_t tags = 0;                        ///< index into Shapes::tag_sets
 };
 
 constexpr std::uint8_t face_is_inside = 1, face_is_border = 2;

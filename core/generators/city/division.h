@@ -82,7 +82,7 @@ class Division {
   std::vector<Piece> pieces_;
   std::uint32_t inner_ = no_index;
   double cut_aspect_ = 0;        ///< the greatest aspect of the pieces of the cut that is sought
-  std::vector<double> offsets_;  ///< of the corners from a cut; kept for its memory
+  std::vector<double> offsets_;  ///< offsets of the corners from a cut; kept for its memory
 };
 
 /// The pieces along the streets of a block by its straight skeleton (Vanegas et al. 2012), and, where `depth` (cm) is

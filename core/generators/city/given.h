@@ -18,9 +18,9 @@ std::vector<CrossSection> classes_of(const CityParams& params);
 
 /// A given line whose corners are the nodes where others meet it.
 struct GivenLine {
-  std::string pointer;  ///< of its feature
+  std::string pointer;  ///< pointer of its feature
   CmRing points;
-  std::uint32_t section = 0;  ///< into the list of cross sections, from first_given on
+  std::uint32_t section = 0;  ///< index into the list of cross sections, from first_given on
   int level = 0;
 };
 

@@ -14,15 +14,15 @@ class Landform;
 /// A point of the middle of a street.
 struct ProfilePoint {
   CmPoint at;
-  double station = 0;  ///< along the street from its first node, metres
+  double station = 0;  ///< distance along the street from its first node, metres
   double height = 0;
 };
 
 /// The heights of all streets. Empty on level ground.
 struct StreetHeights {
-  std::vector<double> node;          ///< by node, metres
-  std::vector<ProfilePoint> points;  ///< of all streets, both nodes of each included
-  std::vector<std::uint32_t> first;  ///< by edge, and one more: into `points`
+  std::vector<double> node;          ///< heights, indexed by node, metres
+  std::vector<ProfilePoint> points;  ///< points of all streets, both nodes of each included
+  std::vector<std::uint32_t> first;  ///< index into `points`, by edge and one more
 
   bool is_level() const { return node.empty(); }
 };

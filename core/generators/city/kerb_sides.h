@@ -8,10 +8,10 @@ namespace seedmesh::city {
 
 /// What is left of a half-edge, by its number.
 struct KerbSide {
-  std::vector<CmPoint> corner;        ///< at its start, after the half-edge before it; the kerb
+  std::vector<CmPoint> corner;        ///< corner at its start, after the half-edge before it; the kerb
   std::vector<CmPoint> outer_corner;  ///< the same for the border of the block
-  CmPoint to{};                       ///< where the kerb ends
-  CmPoint cut_from{}, cut_to{};       ///< where the carriageway begins and ends
+  CmPoint to{};                       ///< point where the kerb ends
+  CmPoint cut_from{}, cut_to{};       ///< points where the carriageway begins and ends
   std::uint32_t before = no_index, after = no_index;  ///< half-edges of the same outline
   bool is_laid_out = false;                           ///< its face is part of the area
   const CmPoint& from() const { return corner.back(); }

@@ -29,7 +29,7 @@ struct ConstraintLimits {
   double clearance = 3000;
   double cos_minimal_angle = 0.82;  ///< cosine of the least angle between arms
   double cos_border_angle = 0.71;   ///< the same at the border of the area
-  double least_length = 900;        ///< of an edge
+  double least_length = 900;        ///< least length of an edge
   double beside = 700;              ///< least distance of an edge from nodes that it does not join
 };
 
@@ -37,7 +37,7 @@ enum class PieceState { free, joined, failed };
 
 struct PieceResult {
   PieceState state = PieceState::failed;
-  std::uint32_t node = 0;  ///< where the piece ends
+  std::uint32_t node = 0;  ///< node where the piece ends
 };
 
 class Network {
@@ -64,7 +64,7 @@ class Network {
  private:
   struct Hit {
     std::uint32_t edge = 0;
-    double share = 0;  ///< of the piece
+    double share = 0;  ///< share of the piece
     glm::dvec2 at{0};
   };
   std::optional<Hit> first_hit(std::uint32_t from, const glm::dvec2& end) const;

@@ -21,15 +21,15 @@ struct CityObject {
   glm::dvec2 position{0};  ///< metres east and north
   double turn = 0;         ///< degrees, counter-clockwise from above
   double scale = 1;
-  std::uint32_t model = 0;  ///< into the models of its kind
+  std::uint32_t model = 0;  ///< index into the models of its kind
   std::uint32_t part = 0;   ///< of the plan, on which it stands
 };
 
 /// All objects of one kind. Without requests, it has the built-in models of its name (furniture_models.h).
 struct ObjectKind {
   std::string name;
-  std::string pointer;            ///< of its requests
-  std::span<const Child> models;  ///< of the parameters
+  std::string pointer;            ///< pointer of its requests
+  std::span<const Child> models;  ///< models of the parameters
   std::vector<CityObject> objects;
 
   std::uint32_t model_count() const;

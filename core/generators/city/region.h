@@ -19,9 +19,9 @@ struct OutlineEdge {
 };
 
 struct Region {
-  std::vector<CmRing> rings;                        ///< of the land, which is to the left of each edge
-  std::vector<std::vector<std::uint8_t>> is_shore;  ///< by ring and edge
-  std::vector<OutlineEdge> outline;                 ///< of land and water
+  std::vector<CmRing> rings;                        ///< rings of the land, which is to the left of each edge
+  std::vector<std::vector<std::uint8_t>> is_shore;  ///< 1 on shores, indexed by ring and edge
+  std::vector<OutlineEdge> outline;                 ///< outline of land and water
 };
 
 /// The region of an area without water.

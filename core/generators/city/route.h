@@ -9,8 +9,8 @@ namespace seedmesh::city {
 
 /// Where a segment leaves or enters the land.
 struct OutlineHit {
-  double share = 0;  ///< of the segment
-  double sine = 0;   ///< of the angle between both; 0 near a corner of the outline
+  double share = 0;  ///< share of the segment
+  double sine = 0;   ///< sine of the angle between both; 0 near a corner of the outline
   bool is_shore = false;
 };
 

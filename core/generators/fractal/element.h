@@ -17,7 +17,7 @@ struct Element {
   std::vector<Primitive> primitives;
   std::vector<Material> materials;
   std::vector<Warning> warnings;
-  std::uint64_t bytes = 0;     ///< of vertices and indices
+  std::uint64_t bytes = 0;     ///< bytes of vertices and indices
   std::uint64_t elements = 0;  ///< triangles, or lines
 };
 

@@ -31,7 +31,7 @@ class BitGrid {
  public:
   BitGrid(const Job& job, glm::ivec3 low, glm::ivec3 size);
 
-  glm::ivec3 low() const { return low_; }  ///< of the first cell, in cells of the last round
+  glm::ivec3 low() const { return low_; }  ///< corner of the first cell, in cells of the last round
   glm::ivec3 size() const { return size_; }
   std::size_t row_words() const { return words_; }
   std::uint64_t* row(int y, int z) { return bits_.data() + offset(y, z); }

@@ -15,7 +15,7 @@ struct Plan {
   double pieces = 0;           ///< number of all copies; above 2^53 the nearest double
   std::uint64_t elements = 0;  ///< triangles or lines stored
   std::uint64_t nodes = 0;
-  std::uint64_t bytes = 0;  ///< of the GLB, approximately
+  std::uint64_t bytes = 0;  ///< bytes of the GLB, approximately
 };
 
 double pieces_after(const Instructions& instructions, int rounds);
@@ -32,9 +32,9 @@ void add_pieces(Model& model, int parent, const Instructions& instructions, cons
 /// Copies are divided while the largest stretch of their map times `size` is at least `smallest`. Smaller copies become
 /// points.
 struct Division {
-  int rounds = 0;       ///< at most this number of rounds
+  int rounds = 0;       ///< largest number of rounds
   double size = 1;      ///< edge of the unit element
-  double smallest = 0;  ///< in the unit of `size`
+  double smallest = 0;  ///< least size of copies that are divided, in the unit of `size`
 };
 struct DividedCount {
   std::uint64_t elements = 0, points = 0;

@@ -16,7 +16,7 @@ constexpr Axes axes_by_x{0, 1, 2}, axes_by_z{2, 1, 0};
 /// world axes of the grid.
 struct Side {
   const BitGrid* grid;
-  Axes axes;       ///< of the world
+  Axes axes;       ///< axes of the world
   int slice_axis;  ///< 1 or 2, of the grid
   int step;        ///< +1 or -1 along it
 
@@ -60,7 +60,7 @@ class CornerRows {
         bits_(words_ * rows_) {}
 
   void clear() { std::fill(bits_.begin(), bits_.end(), 0); }
-  std::size_t words() const { return words_; }  ///< of a row
+  std::size_t words() const { return words_; }  ///< number of words of a row
   std::uint64_t* row(int r) { return bits_.data() + static_cast<std::size_t>(r) * words_; }
   const std::uint64_t* row(int r) const { return bits_.data() + static_cast<std::size_t>(r) * words_; }
   std::size_t count() const {
@@ -83,7 +83,7 @@ class CornerRows {
   const Side& side_;
   std::size_t words_, rows_;
   std::vector<std::uint64_t> bits_;
-  std::vector<std::uint32_t> numbers_;  ///< for the first corner of each word
+  std::vector<std::uint32_t> numbers_;  ///< number of the first corner of each word
 };
 
 inline std::array<Side, 6> sides_of(const Solid& solid) {

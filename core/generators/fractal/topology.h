@@ -10,7 +10,7 @@ namespace seedmesh::fractal {
 struct SolidTopology {
   std::uint64_t cells = 0;
   std::uint64_t squares = 0;             ///< exposed
-  std::uint64_t edges = 0, corners = 0;  ///< of the surface, each position counted once
+  std::uint64_t edges = 0, corners = 0;  ///< numbers for the surface; each position counts once
   std::uint64_t four_face_edges = 0;  ///< edges at which two cells touch; the surface is not a manifold there
   std::uint64_t pinched_corners = 0;  ///< corners at which the surface touches itself
   /// Closed surfaces: the outsides of bodies and the walls of cavities; 0 if the surface is not a manifold.

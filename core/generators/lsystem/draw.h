@@ -116,7 +116,7 @@ class Drawing {
   Turtle turtle_;
   Grown grown_;
   std::vector<Turtle::Pose> shapes_;  ///< poses at which the open polygons of a growing module started
-  std::vector<const LsystemSurface*> surfaces_;  ///< in the order of their names
+  std::vector<const LsystemSurface*> surfaces_;  ///< surfaces in the order of their names
   Angle yaw_, pitch_, roll_;
   double last_degrees_ = 0;  ///< cache: most angles given as arguments repeat
   math::SinCos last_{0, 1};

@@ -45,7 +45,7 @@ class DrawingCache {
   const GenerateContext context_;
   Job& job_;
   Meter meter_;
-  std::vector<Piece> pieces_;  ///< by number of steps, then kind
+  std::vector<Piece> pieces_;  ///< pieces, indexed by number of steps, then kind
   std::size_t recordings_ = 0;
 };
 

@@ -28,7 +28,7 @@ struct Kind {
   std::uint32_t arity = 0;           ///< number of values; a frame has twelve
   Command command = Command::none;   ///< command that the turtle executes
   bool ignored = false;              ///< skipped when contexts are matched
-  std::vector<std::uint8_t> frames;  ///< by written parameter: 1 for a frame; empty where there is none
+  std::vector<std::uint8_t> frames;  ///< for each written parameter 1 for a frame; empty where there is none
   std::uint32_t written() const {    ///< number of parameters in the text
     return frames.empty() ? arity : static_cast<std::uint32_t>(frames.size());
   }
@@ -43,7 +43,7 @@ struct Range {
 /// A module of an axiom or a successor. Its arguments are expressions over the slots of the production.
 struct Template {
   KindId kind = 0;
-  std::uint32_t first_argument = 0;  ///< into Grammar::arguments; Kind::written() elements
+  std::uint32_t first_argument = 0;  ///< index into Grammar::arguments; Kind::written() elements
   std::uint64_t occurrence = 0;      ///< hash of the symbol and its occurrence number in the successor
 };
 
@@ -63,7 +63,7 @@ struct Step {
   Range templates;
   lang::Expression value;
   std::uint32_t slot = 0;
-  std::uint32_t target = 0;  ///< into Grammar::steps
+  std::uint32_t target = 0;  ///< index into Grammar::steps
   lang::Expression index{};
 };
 
@@ -80,8 +80,8 @@ struct Production {
   bool weighted = false;
   lang::Expression condition;
   lang::Expression weight;
-  Range successor;          ///< into Grammar::templates; with statements: all that they can write
-  Range code;               ///< into Grammar::steps; empty: the successor has no statements
+  Range successor;          ///< range in Grammar::templates; with statements: all that they can write
+  Range code;               ///< range in Grammar::steps; empty: the successor has no statements
   Range before;             ///< steps that run before the condition
   std::uint32_t bound = 0;  ///< number of slots of parameters; locals follow
   std::string pointer;
@@ -92,7 +92,7 @@ struct Production {
 /// Productions in the order of matching: productions with context first, then the order of the text.
 struct Rules {
   std::vector<Production> productions;  ///< grouped by predecessor
-  std::vector<Range> of_kind;           ///< by kind
+  std::vector<Range> of_kind;           ///< ranges of productions, indexed by kind
   bool context = false;                 ///< true where a production has a context
   bool random = false;                  ///< true where there are weights or random functions
   std::vector<std::uint8_t>
@@ -109,7 +109,7 @@ struct FrameExpression {
     lang::Expression by[3];
   };
   std::uint32_t slot = identity;  ///< first of twelve slots
-  std::vector<Part> parts;        ///< in the order of execution
+  std::vector<Part> parts;        ///< parts in the order of execution
   static constexpr std::uint32_t identity = ~std::uint32_t{0};
 };
 

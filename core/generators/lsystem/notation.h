@@ -105,7 +105,7 @@ class Marks {
 
  private:
   static bool has(const std::vector<std::uint32_t>& positions, Slice slice);
-  std::vector<std::uint32_t> partner_;  ///< by byte: the closing partner of an opening bracket
+  std::vector<std::uint32_t> partner_;  ///< index of the closing partner of an opening bracket, by byte
   std::vector<std::uint32_t> semicolons_, comparisons_;
 };
 

@@ -15,7 +15,8 @@ class TextWriter {
 
   std::string text;
   bool truncated = false;
-  const std::vector<std::uint64_t>& counts() const { return counts_; }  ///< by kind
+  /// Numbers of modules, indexed by kind.
+  const std::vector<std::uint64_t>& counts() const { return counts_; }
 
  private:
   const Grammar& grammar_;

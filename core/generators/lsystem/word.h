@@ -35,7 +35,7 @@ class Derivation {
   void run(Range statements, std::uint64_t stream);
 
   CodeRunner code_;
-  std::vector<double> slots_;  ///< of statements between steps; the variables are the first
+  std::vector<double> slots_;  ///< slots of statements between steps; the variables are the first
   std::uint32_t step_ = 0;
 };
 

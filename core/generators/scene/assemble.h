@@ -14,7 +14,7 @@ struct Plan {
 
 struct Pieces {
   Model ground;
-  std::vector<Model> models;  ///< by VariantTable::variants
+  std::vector<Model> models;  ///< indexed by VariantTable::variants
 };
 
 /// Returns the scene as one model. Nodes: "scene" > ground; "scene" > layer > variant, whose copies are

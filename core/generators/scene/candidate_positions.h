@@ -70,7 +70,7 @@ Array<Placement> clustered(const Extent& part, const ClusterPlan& plan, Stretch 
                            const Job& job);
 
 struct RowPlan {
-  glm::dvec2 spacing{1};  ///< along a row, and between rows, in metres
+  glm::dvec2 spacing{1};  ///< spacing along a row, and between rows, in metres
   double angle = 0;       ///< radians, counter-clockwise from east seen from above
   double stagger = 0;
   double jitter = 0;

@@ -68,7 +68,7 @@ class Forecast {
   Amounts limits_;
   std::uint64_t ground_ = 0;  ///< lower bound of its triangles
   bool merges_ = false;
-  std::vector<Row> rows_;  ///< by VariantTable::variants
+  std::vector<Row> rows_;  ///< indexed by VariantTable::variants
 };
 
 }  // namespace seedmesh::scene

@@ -63,7 +63,7 @@ class Ground {
   std::shared_ptr<const TerrainParams> terrain_;  ///< may be null: level ground
   std::uint64_t seed_ = 0;
   terrain::Field field_;
-  Array<std::uint8_t> levelled_;  ///< by sample: 1 under a foundation; empty without foundations
+  Array<std::uint8_t> levelled_;  ///< for each sample 1 under a foundation; empty without foundations
 };
 
 }  // namespace seedmesh::scene

@@ -17,7 +17,7 @@ constexpr std::size_t starts_of_a_layer = 16;
 
 /// The start of a plant's growth.
 struct Start {
-  std::size_t number = 0;  ///< below starts_of_a_layer
+  std::size_t number = 0;  ///< number below starts_of_a_layer
   float seconds = 0;
 };
 
@@ -26,7 +26,7 @@ Start start_of(const SceneLayer& layer, const Placement& placement);
 
 /// Data for the growth of a plant variant, and its skinned mesh. Without joints the plant does not grow.
 struct GrowingPlant {
-  int mesh = -1;             ///< into the meshes of the scene
+  int mesh = -1;             ///< index into the meshes of the scene
   std::vector<Node> joints;  ///< parents are indices into this list; -1: the placement
   std::vector<glm::mat4> inverse_bind;
   Animation animation;  ///< channel targets are indices into `joints`

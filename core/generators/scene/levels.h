@@ -9,7 +9,7 @@ namespace seedmesh::scene {
 
 /// Levels of detail and bounds of a variant.
 struct LodInfo {
-  std::vector<std::uint64_t> triangles;  ///< of each mesh, finest first
+  std::vector<std::uint64_t> triangles;  ///< triangles of each mesh, finest first
   bool has_impostor = false;             ///< an impostor follows the meshes
   double radius = 0;                     ///< radius of a bounding sphere, in metres
   double middle = 0;                     ///< height of the centre of that sphere, in metres

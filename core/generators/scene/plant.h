@@ -16,7 +16,7 @@ struct SceneParams;
 namespace seedmesh::scene {
 
 struct Planting {
-  std::vector<Array<Placement>> layers;  ///< by SceneParams::layers
+  std::vector<Array<Placement>> layers;  ///< indexed by SceneParams::layers
   std::vector<Warning> warnings;
 };
 

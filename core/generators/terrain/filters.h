@@ -68,7 +68,7 @@ void slip(Field& field, const ThermalPlan& plan, const Job& job);
 
 struct DropletPlan {
   int droplets = 65'536;
-  double lifetime = 32;  ///< in samples
+  double lifetime = 32;  ///< lifetime in samples
   double inertia = 0.1, capacity = 4, erosion = 0.3, deposition = 0.3, evaporation = 0.02;
   double radius = 2;  ///< radius of the ground that a drop erodes, in samples; at most 8
 };

@@ -34,7 +34,7 @@ class GroundClasses {
   struct Used {
     Kind kind;
     int material;
-    float lighter;  ///< by which vertex colours make up for the grey of the texture
+    float lighter;  ///< factor of vertex colours that makes up for the grey of the texture
   };
   Shares shares(const Site& site) const;
   std::size_t use_of(const Shares& shares) const;

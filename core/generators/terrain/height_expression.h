@@ -39,7 +39,7 @@ class HeightExpression {
 
   lang::Program program_;
   lang::Expression height_;
-  std::vector<NoiseCall> calls_;  ///< in the order of their slots; each uses only calls before it
+  std::vector<NoiseCall> calls_;  ///< calls in the order of their slots; each uses only calls before it
   std::vector<std::string> used_;
   std::uint32_t slots_;
 };

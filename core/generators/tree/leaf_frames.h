@@ -31,7 +31,7 @@ class LeafFrames {
   /// For one leaf.
   struct Angles {
     double rotate = 0, down = 0;  ///< degrees about the stem and down from it, without variation
-    std::uint64_t key = 0;        ///< of its random numbers
+    std::uint64_t key = 0;        ///< key of its random numbers
   };
 
   bool is_full() const { return count_ == capacity; }

@@ -42,7 +42,7 @@ int add_bark_material(Model& model, const TreeParams& params, const Job& job);
 
 /// Materials of all seasons with leaves as Model::variants. They share one texture and differ in colour.
 struct LeafMaterials {
-  int material = -1;          ///< of the season of the request
+  int material = -1;          ///< material of the season of the request
   std::vector<int> variants;  ///< indices by Model::variants; may be empty
 };
 LeafMaterials add_leaf_materials(Model& model, const TreeParams& params, const GenerateContext& context);

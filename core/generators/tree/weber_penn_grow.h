@@ -27,10 +27,10 @@ struct WeberPennGrowth {
 
   // Memory that stems reuse.
   std::vector<WeberPennStem> clones;
-  std::vector<double> offsets;         ///< of the children or leaves on a piece of a stem
+  std::vector<double> offsets;         ///< offsets of the children or leaves on a piece of a stem
   std::vector<double> steps;           ///< offsets before they are gathered in whorls
   std::vector<double> stops;           ///< offsets of the joints on a piece
-  std::vector<WeberPennJoint> joints;  ///< on a piece
+  std::vector<WeberPennJoint> joints;  ///< joints on a piece
   std::vector<Frame> trial_frames;
 };
 

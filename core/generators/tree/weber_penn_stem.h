@@ -28,8 +28,8 @@ struct WeberPennTree {
 };
 
 struct WeberPennStem {
-  Frame frame;                        ///< of its first segment
-  glm::dvec3 position{0};             ///< where it begins
+  Frame frame;                        ///< frame of its first segment
+  glm::dvec3 position{0};             ///< position where it begins
   std::uint32_t joint = Limbs::none;  ///< the joint from which it grows
   int level = 0;                      ///< 0 for trunks and their clones
   int trunk = 0;                      ///< the number of a trunk; also of its clones
@@ -42,10 +42,10 @@ struct WeberPennStem {
   int segment = 0;
   double uncurve = 0;
   double share = 1;
-  double readiness = 1;           ///< to split; halved by a split
+  double readiness = 1;           ///< readiness to split; halved by a split
   double carried_splits = 0;      ///< rounding error of the number of splits so far
   double carried_children = 0.5;  ///< part of the way to the next child that is behind
-  int children_before = 0;        ///< on earlier segments
+  int children_before = 0;        ///< number of children on earlier segments
 };
 
 /// Gives trunk `number`, which has no joint yet; called for 0, 1, ... The first one draws the height of the tree.

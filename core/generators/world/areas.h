@@ -20,9 +20,9 @@ int cells_a_link(const World& world, int root_level);
 struct Area {
   double low = 1e12, high = -1e12;
   std::array<double, 4> borders{1e12, 1e12, 1e12, 1e12};  ///< lowest at the west, south, east and north
-  double lowest = 1e12, highest = -1e12;                  ///< of water, roads and houses
+  double lowest = 1e12, highest = -1e12;                  ///< height range of water, roads and houses
   Roughness rough;
-  double plant_height = 0;  ///< of the tallest class that may grow here
+  double plant_height = 0;  ///< height of the tallest class that may grow here
 
   double border() const { return *std::min_element(borders.begin(), borders.end()); }
 };

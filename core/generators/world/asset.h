@@ -18,9 +18,9 @@ struct Asset {
   std::string file;  ///< the content: vertices, indices and images
   /// {accessors, bufferViews, meshes, materials, textures, images, samplers} of glTF; its one buffer is the file.
   Json parts;
-  std::array<double, 3> low{}, high{};  ///< of all vertices; +Y up
+  std::array<double, 3> low{}, high{};  ///< corners of the box around all vertices; +Y up
   std::uint64_t triangles = 0;
-  std::uint64_t size = 0;  ///< of all of it in memory
+  std::uint64_t size = 0;  ///< size of all of it in memory
   std::uint64_t bytes() const { return size; }
 };
 

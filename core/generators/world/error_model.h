@@ -12,9 +12,9 @@ namespace seedmesh::world {
 
 /// What the ground of an area is like: the greatest values over the area.
 struct Roughness {
-  double ruggedness = 0;                       ///< of Land
-  std::array<double, range_octaves> ridges{};  ///< of Land
-  double slope = 0;                            ///< of the land
+  double ruggedness = 0;                       ///< ruggedness of Land
+  std::array<double, range_octaves> ridges{};  ///< ridges of Land
+  double slope = 0;                            ///< slope of the land
   bool has_sea_floor = false;
   double valley = 0;  ///< metres that rivers and lakes cut into the land; 0 without water nearby
   double works = 0;   ///< metres that roads are above or below the ground

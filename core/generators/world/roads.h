@@ -30,7 +30,7 @@ struct Site {
 };
 
 struct RoadPoint {
-  double east = 0, north = 0, height = 0;  ///< of the carriageway
+  double east = 0, north = 0, height = 0;  ///< position of the carriageway
   bool is_bridge = false;
   double works = 0;  ///< metres above or below the ground
 };

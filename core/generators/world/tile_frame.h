@@ -8,10 +8,10 @@ namespace seedmesh::world {
 
 struct TileFrame {
   double side = 0;                           ///< metres
-  double spacing = 0;                        ///< of terrain samples
+  double spacing = 0;                        ///< spacing of terrain samples
   double west = 0, south = 0;                ///< absolute; the coordinates of samples are exact
   double middle_east = 0, middle_north = 0;  ///< absolute
-  double step = 0;  ///< of quantized positions: a power of two that follows from the side alone
+  double step = 0;  ///< step of quantized positions: a power of two that follows from the side alone
 };
 
 inline TileFrame frame_of(const World& world, const TileKey& key) {

@@ -18,7 +18,7 @@ struct Station {
   glm::vec3 position{0};
   float radius = 0;
   float error = 0;    ///< area by which the outline changes without this station
-  float corners = 3;  ///< of the ring at this station, for graft()
+  float corners = 3;  ///< corners of the ring at this station, for graft()
 };
 
 class Coarsening {

@@ -8,7 +8,7 @@ namespace seedmesh {
 /// Lengths below which a part of the model cannot be distinguished from a point. Readers of a file weld
 /// vertices at 1e-6 of its diagonal; vertices of skin() keep a multiple of that distance.
 struct Scale {
-  Box box;             ///< of all joints
+  Box box;             ///< box of all joints
   float size = 0;      ///< diagonal of the model with its bark, an upper bound
   float shortest = 0;  ///< an internode not longer than this is left out
   float thinnest = 0;  ///< a radius below this is a point
@@ -27,7 +27,7 @@ enum Mark : std::uint8_t {
 struct Chains {
   Array<std::uint32_t> next;  ///< the joint that continues the limb of this one, Limbs::none at its end
   Array<std::uint32_t> head;  ///< first joints: roots, and the first joint of each side branch; rising
-  Array<std::uint8_t> mark;   ///< of Mark
+  Array<std::uint8_t> mark;   ///< bits of Mark
 };
 
 /// Links the joints of every limb and finds internodes that coincide (same ends in either order, same radii).

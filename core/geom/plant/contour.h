@@ -26,7 +26,7 @@ Contour make_contour(std::span<const glm::dvec2> outline);
 
 /// A vertex of a cross-section.
 struct ContourCorner {
-  glm::vec2 at;      ///< for a radius of 1
+  glm::vec2 at;      ///< position for a radius of 1
   glm::vec2 normal;  ///< outward unit vector, the mean of both edges
   float round;       ///< length of the outline from its first point, for a radius of 1
 };

@@ -21,7 +21,7 @@ class FoliageShade {
     float hue = 0;        ///< standard deviation, degrees
     float tint = 0;       ///< largest difference in brightness between leaves, 0 .. 1
     glm::vec3 color{1};   ///< linear colour of the leaves, for the rotation of the hue
-    float leaf_area = 1;  ///< of an organ of scale 1, m^2
+    float leaf_area = 1;  ///< leaf area of an organ of scale 1, m^2
   };
 
   /// Linear in joints and organs; 8 bytes a joint and at most 16 KiB for the grid. Borrows nothing.
@@ -42,8 +42,8 @@ class FoliageShade {
   glm::vec3 low_{0};
   float cell_ = 1;
   int count_[3] = {1, 1, 1};
-  Array<float> light_;  ///< of each cell
-  Array<float> hue_;    ///< of each joint: of its limb and of the limb that leaves the trunk, degrees
+  Array<float> light_;  ///< light of each cell
+  Array<float> hue_;    ///< hue for each joint, of its limb and of the limb that leaves the trunk, degrees
   glm::vec3 ratio_a_degree_{0};  ///< change of the colour, as a share of it
 };
 

@@ -30,7 +30,7 @@ struct GrowthOptions {
 };
 
 struct Bone {
-  glm::vec3 position{0};  ///< where it begins
+  glm::vec3 position{0};  ///< position where it begins
   std::int32_t parent = -1;
   std::uint32_t born = 0;  ///< class of birth, 0..birth_classes-1
 };
@@ -39,7 +39,7 @@ struct GrowthPlan {
   static constexpr std::uint32_t birth_classes = 24;
 
   std::vector<Bone> bones;    ///< parents first; the first is the ground, at the origin
-  Array<std::uint16_t> bone;  ///< of each joint, the bone that moves its internode
+  Array<std::uint16_t> bone;  ///< bone that moves the internode of each joint
   /// The bone of the ground is scaled too: there is no limb, or there are too many plants.
   bool ground_grows = false;
   double seconds = 8;

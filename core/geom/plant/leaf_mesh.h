@@ -28,7 +28,7 @@ struct LeafForm {
   int coarseness = 0;
   /// Level of detail: each has fewer points than the one before, and follows the surface of level 0.
   int level = 0;
-  int twig_leaves = 9;      ///< as in the texture
+  int twig_leaves = 9;      ///< number of leaves of a twig, as in the texture
   bool shows_twig = false;  ///< all builds made of squares use the texture of a twig, not of a leaf
 };
 
@@ -54,7 +54,7 @@ enum class PatchBasis { bezier, b_spline };
 struct PatchForm {
   std::span<const glm::vec3> points;  ///< 16 for each patch
   PatchBasis basis = PatchBasis::bezier;
-  int divisions = 6;  ///< of each side of a patch
+  int divisions = 6;  ///< number of divisions of each side of a patch
 };
 /// u runs along a row, v from row to row; the normal is along du x dv. Triangles without area are left out,
 /// as at a side that is a point. After Farin, "Curves and Surfaces for CAGD", 2002.

@@ -18,7 +18,7 @@ enum class LeafShape {
   willow,    ///< lanceolate
   birch,     ///< triangular, toothed
   cordate,   ///< heart-shaped
-  lobed,     ///< as of oaks
+  lobed,     ///< a lobed leaf, as of oaks
   maple,     ///< palmately lobed
   ginkgo,    ///< a fan
   compound,  ///< pinnate: leaflets in pairs, as of ashes
@@ -26,7 +26,7 @@ enum class LeafShape {
   needles,   ///< a shoot of needles, as of firs
   palm,      ///< a frond
   kite,      ///< four corners, the leaf of Kogovšek's thesis
-  petal,     ///< of a flower
+  petal,     ///< the petal of a flower
 };
 constexpr int leaf_shape_count = 13;
 std::span<const std::string_view> leaf_shape_names();
@@ -46,7 +46,7 @@ struct LeafBlade {
 };
 
 struct LeafDrawing {
-  std::vector<LeafBlade> blades;  ///< in drawing order: later blades lie above
+  std::vector<LeafBlade> blades;  ///< blades in drawing order: later blades lie above
   std::vector<LeafLine> stalks;   ///< petiole, rachis, needles
   std::size_t woody = 1;          ///< the first `woody` stalks are drawn as wood
   glm::dvec2 low{0}, high{0};     ///< bounding square with a small margin; the texture covers it

@@ -23,7 +23,7 @@ struct Internode {
 /// The mitred ring where two internodes meet: in the plane across `tangent`.
 struct Turn {
   glm::vec3 tangent{0};
-  float cosine = 1;  ///< of half the angle between the two
+  float cosine = 1;  ///< cosine of half the angle between the two
   float reach = 0;   ///< how far the ring leans along either internode
 };
 
@@ -110,7 +110,7 @@ class MitreCheck {
   struct Ring {
     Turn turn;
     float radius = 0;
-    float taper = 0;        ///< of the bark before it: change of radius divided by the free length
+    float taper = 0;        ///< taper of the bark before it: change of radius divided by the free length
     bool is_gentle = true;  ///< turn and taper are so small that no face there can face inward
   };
 
@@ -118,8 +118,8 @@ class MitreCheck {
   bool keeps_faces_outside(const Ring& ring, float taper_after) const;
 
   const Scale* scale_;
-  float side_cosine_;   ///< of half the angle between two corners of a cross-section
-  float gentle_reach_;  ///< of a radius: turns up to it are gentle
+  float side_cosine_;   ///< cosine of half the angle between two corners of a cross-section
+  float gentle_reach_;  ///< reach in units of the radius: turns up to it are gentle
   Ring last_;
 };
 

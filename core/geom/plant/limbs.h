@@ -17,8 +17,9 @@ struct Limbs {
   static constexpr std::uint32_t none = 0xFFFFFFFFU;
 
   Array<glm::vec3> position;
-  Array<float> radius;              ///< of the internode at this joint, its far end
-  Array<float> base_radius;         ///< of the internode at its near end (at the parent); unused at roots
+  Array<float> radius;  ///< radius of the internode at this joint, its far end
+  /// Radius of the internode at its near end (at the parent); unused at roots.
+  Array<float> base_radius;
   Array<std::uint32_t> parent;      ///< `none` at a root; always less than the joint's own index
   Array<std::uint8_t> starts_limb;  ///< 1: begins a side branch at its parent
   Array<std::int16_t> color;        ///< the turtle's colour index; material of the internode
@@ -56,7 +57,7 @@ struct Organs {
 
 /// Filled polygons drawn by the turtle between { and }, in the order of their closing.
 struct Outline {
-  std::uint32_t first = 0, count = 0;  ///< into Outlines::vertex
+  std::uint32_t first = 0, count = 0;  ///< range in Outlines::vertex
   std::int16_t color = 0;
   std::uint64_t key = 0;
   std::uint32_t limb_joint = Limbs::none;  ///< the joint that it moves with

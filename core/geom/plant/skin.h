@@ -12,8 +12,8 @@ namespace seedmesh {
 
 /// The number of corners of all rings of a limb.
 struct LimbCorners {
-  std::uint8_t now = 3;     ///< at this level of detail
-  std::uint8_t finest = 3;  ///< at the finest level
+  std::uint8_t now = 3;     ///< number of corners at this level of detail
+  std::uint8_t finest = 3;  ///< number of corners at the finest level
 };
 
 struct SkinOptions {

@@ -16,9 +16,9 @@ namespace seedmesh {
 /// layer below.
 struct ShadowOptions {
   double cell = 0.5;     ///< m
-  double shade = 0.2;    ///< of the cell itself
-  double falloff = 1.6;  ///< from layer to layer
-  int layers = 6;        ///< below the cell
+  double shade = 0.2;    ///< shade of the cell itself
+  double falloff = 1.6;  ///< divisor of the shade from layer to layer
+  int layers = 6;        ///< number of layers below the cell
 };
 
 /// An internode with which others can collide.
@@ -26,7 +26,7 @@ struct Stretch {
   glm::dvec3 from{0}, to{0};
   double radius = 0;
   std::uint32_t system = 0;
-  std::uint32_t joint = 0, parent = 0;  ///< in the system's Limbs
+  std::uint32_t joint = 0, parent = 0;  ///< joints in the system's Limbs
   std::uint32_t limb = 0,
                 limb_below = 0;  ///< any number for each limb: its own, and that of its parent joint
 };
@@ -79,7 +79,7 @@ class Surroundings {
 
   Options options_;
   Job& job_;
-  double cell_ = 1;  ///< of the grid of internodes
+  double cell_ = 1;  ///< cell size of the grid of internodes
   std::vector<Stretch> grown_;
   Array<Cell> cells_;  ///< sorted
   KeySums shades_;     ///< the shade of each cell

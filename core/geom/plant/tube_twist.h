@@ -12,7 +12,7 @@ constexpr float most_twist = static_cast<float>(math::pi) / 4;
 
 /// The twist of a cross-section along one internode.
 struct Twist {
-  glm::vec3 side{0};  ///< to the corner at 0 degrees, at the internode's end
+  glm::vec3 side{0};  ///< direction to the corner at 0 degrees, at the internode's end
   float cosine = 1;
 };
 

@@ -47,7 +47,8 @@ class TubeWriter {
     const Scale& scale;
     const Palette& palette;
     const SkinOptions& options;
-    const std::vector<TubeTables>& tables;  ///< by number of sides; empty for numbers that no limb has
+    /// Tables, indexed by number of sides; empty for numbers that no limb has.
+    const std::vector<TubeTables>& tables;
   };
 
   TubeWriter(const Context& context, TubeCursor* cursors)
@@ -71,7 +72,8 @@ class TubeWriter {
 
   struct Ring {
     glm::vec3 centre{0};
-    glm::vec3 side_u{0}, side_v{0};      ///< to the corners at 0 and 90 degrees, radius and mitre included
+    /// Vectors to the corners at 0 and 90 degrees, radius and mitre included.
+    glm::vec3 side_u{0}, side_v{0};
     glm::vec3 normal_u{0}, normal_v{0};  ///< unit vectors in the ring's plane
     glm::vec3 tangent{0};
     float radius = 0;
@@ -81,7 +83,7 @@ class TubeWriter {
     std::int16_t next_color = 0;
     std::uint8_t contour = 0, next_contour = 0;
     float blend = 0;         ///< the weight of the next contour
-    float spin = 0;          ///< of the internode before (spin_of)
+    float spin = 0;          ///< spin of the internode before (spin_of)
     bool is_turned = false;  ///< must still be turned by half a side
     float sides_on = 0;      ///< the number of sides that it was turned by
   };
@@ -131,7 +133,7 @@ class TubeWriter {
 
   Context context_;
   CrossSection section_;
-  std::uint32_t finest_sides_ = 0;  ///< of the limb
+  std::uint32_t finest_sides_ = 0;  ///< number of sides of the limb at the finest level
   TubeCursor* cursors_;
   TubeCursor* here_ = nullptr;
   Piece piece_;
@@ -140,16 +142,18 @@ class TubeWriter {
   bool is_turned_ = false;            ///< was the last ring turned by half a side?
   std::vector<bool> is_ring_turned_;  ///< of the piece, where rings may be turned
   Internode internode_;               ///< the current one
-  float radius_ = 0;                  ///< of the ring where it begins
-  float reach_ = 0;                   ///< of that ring's mitre
-  glm::vec3 u_{0};                    ///< of the frame at the current internode's end; v is along x u
-  glm::vec3 first_u_{0};              ///< the same at its beginning
-  float spin_ = 0;                    ///< of the current internode, where it is visible
-  float twist_ = 1;                   ///< cosine of the angle between the two, where it is visible
-  float v_so_far_ = 0;                ///< of the limb up to the beginning of the current internode
-  float by_length_ = 1;               ///< v of the current internode for each metre
-  float slowest_ = 1;                 ///< v for each metre at the beginning of the limb
-  float turns_ = 0;                   ///< repetitions of a wrapped texture around the limb; 0: not chosen yet
+  float radius_ = 0;                  ///< radius of the ring where it begins
+  float reach_ = 0;                   ///< reach of that ring's mitre
+  /// Direction u of the frame at the current internode's end; v is along x u.
+  glm::vec3 u_{0};
+  glm::vec3 first_u_{0};  ///< direction u at its beginning
+  float spin_ = 0;        ///< spin of the current internode, where it is visible
+  float twist_ = 1;       ///< cosine of the angle between the two, where it is visible
+  /// Texture coordinate v of the limb up to the beginning of the current internode.
+  float v_so_far_ = 0;
+  float by_length_ = 1;  ///< v of the current internode for each metre
+  float slowest_ = 1;    ///< v for each metre at the beginning of the limb
+  float turns_ = 0;      ///< repetitions of a wrapped texture around the limb; 0: not chosen yet
 };
 
 }  // namespace seedmesh

@@ -19,7 +19,7 @@ struct TurtleReport {
   std::uint64_t segments = 0;
   double total_length = 0;
   std::uint64_t vertices = 0;  ///< polygon vertices
-  glm::dvec3 min{0}, max{0};   ///< of the axes of drawn segments; zero where there are none
+  glm::dvec3 min{0}, max{0};   ///< box around the axes of drawn segments; zero where there are none
 };
 
 class Turtle {
@@ -148,7 +148,8 @@ class Turtle {
   /// internode then starts a limb of its own. The report counts the copy; with `is_measured`, its bounds too.
   void pass_copy(const Recording& recording, bool is_measured);
 
-  std::uint32_t last_joint() const { return state_.last; }  ///< of this branch; none before its first segment
+  /// Last joint of this branch; none before its first segment.
+  std::uint32_t last_joint() const { return state_.last; }
   bool is_joined() const { return state_.joint != Limbs::none; }  ///< the next internode continues a joint
   /// True where the next internode starts a new limb.
   bool begins_limb() const { return state_.begins_branch; }
@@ -172,7 +173,7 @@ class Turtle {
     Frame frame;
     double width = 0;
     double scale = 1, turn_scale = 1, side = 1;
-    std::uint32_t joint = Limbs::none;  ///< where the next internode begins; none after a move
+    std::uint32_t joint = Limbs::none;  ///< joint where the next internode begins; none after a move
     std::uint32_t last = Limbs::none;   ///< the last joint of this branch, also after a move
     std::uint16_t order = 0;
     std::int16_t color = 0;
@@ -215,7 +216,7 @@ class Turtle {
   State state_;
   std::vector<State> stack_;
   Control control_;                ///< while is_sweeping
-  std::vector<Control> controls_;  ///< of the states on the stack that are in a cylinder
+  std::vector<Control> controls_;  ///< control points of the states on the stack that are in a cylinder
   struct Polygon {
     Array<glm::dvec3> vertices;
     std::uint32_t joint;  ///< the turtle's last joint when it was opened
@@ -230,7 +231,7 @@ class Turtle {
   bool tracks_anchors_ = false;
   bool draws_wires_ = false;
   bool draws_contours_ = false;
-  Array<glm::dvec3>* places_ = nullptr;  ///< of joints before rounding, while a recording is drawn
+  Array<glm::dvec3>* places_ = nullptr;  ///< positions of joints before rounding, while a recording is drawn
 };
 
 /// A recorded drawing. A copy takes 4 ns a joint, or 2 ns for wires.
@@ -243,7 +244,7 @@ class Turtle::Recording {
   friend class Turtle;
   Array<glm::dvec3> places_;
   State start_, end_;
-  float radius_ = 0;                 ///< of the joint that it grows from
+  float radius_ = 0;                 ///< radius of the joint that it grows from
   std::uint32_t shared_joints_ = 0;  ///< 1: joint 0 stands for the joint that the drawing grows from
   double reach_ = 0;                 ///< the largest sum of the absolute coordinates of a joint
   TurtleReport report_;

@@ -32,7 +32,7 @@ class WindField {
 
  private:
   const Limbs& limbs_;
-  Array<glm::vec2> sway_;  ///< at each joint
+  Array<glm::vec2> sway_;  ///< sway at each joint
   float height_ = 0, most_ = 1e-9F, thickest_ = 1e-9F;
 };
 

@@ -40,7 +40,7 @@ struct MassOptions {
   MassRoof roof = MassRoof::flat;
   double base = 0;         ///< height of the floor
   double eaves = 3;        ///< height where the walls end and the roof begins; above `base`
-  double roof_height = 0;  ///< of the highest point above the eaves; 0 for a flat roof
+  double roof_height = 0;  ///< height of the highest point above the eaves; 0 for a flat roof
   /// Unit vector of the plan down a slope, across the ridge. Without it: across the longer side of the smallest
   /// rectangle, for a skillion roof outwards over the longest edge.
   std::optional<glm::dvec2> direction;

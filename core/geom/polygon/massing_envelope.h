@@ -14,7 +14,7 @@ constexpr double saltbox_ridge = 0.35;
 struct Envelope {
   struct Plane {
     glm::dvec2 rise{0};  ///< metres of height for each metre along x and y
-    double height = 0;   ///< at the origin of the plan
+    double height = 0;   ///< height at the origin of the plan
     double at(const glm::dvec2& p) const { return height + rise.x * p.x + rise.y * p.y; }
   };
   std::vector<Plane> planes;

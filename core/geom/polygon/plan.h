@@ -65,7 +65,7 @@ std::vector<std::uint32_t> triangulate(const Plan& plan, ThinTriangles thin = Th
 /// A plan made from another. Each edge is parallel to an edge of the original.
 struct DerivedPlan {
   Plan plan;
-  std::vector<std::uint32_t> source;  ///< by edge of `plan`: the edge of the original
+  std::vector<std::uint32_t> source;  ///< edge of the original, indexed by edge of `plan`
 };
 
 /// The region between an edge and its new position.
@@ -76,7 +76,7 @@ struct PlanStrip {
 
 struct Setback {
   std::vector<DerivedPlan> remainder;  ///< the rest inside: none, one or several plans
-  std::vector<PlanStrip> strips;       ///< by edge; with the remainder they fill the plan
+  std::vector<PlanStrip> strips;       ///< strips, indexed by edge; with the remainder they fill the plan
 };
 
 /// Moves each edge i inwards by distances[i] >= 0 with mitred corners, by the weighted straight skeleton

@@ -16,7 +16,7 @@ namespace seedmesh {
 struct PlanarEdge {
   static constexpr std::uint32_t removed = 0xFFFFFFFFU;
   std::uint32_t from = 0, to = 0;  ///< nodes; both `removed` if the edge was split or removed
-  std::uint32_t tag = 0;           ///< of the caller
+  std::uint32_t tag = 0;           ///< tag of the caller
   bool is_removed() const { return from == removed; }
 };
 

@@ -20,7 +20,7 @@ enum class RoofKind {
   pyramid,  ///< one apex over the centroid; a hip roof if the plan is not star-shaped from there
   shed,     ///< one slope, from the edge `low_edge`
   mansard,  ///< a steep slope and a flatter slope above it, from every edge
-  gambrel,  ///< the same with vertical ends
+  gambrel,  ///< a mansard with vertical ends
 };
 
 struct RoofOptions {
@@ -32,7 +32,7 @@ struct RoofOptions {
   double break_height = 0;       ///< mansard, gambrel: where the slope changes; 0: at 0.3 of the way inwards
   double overhang = 0;           ///< metres along the slope, past the eaves
   double verge = 0;              ///< metres beyond vertical ends, horizontally
-  double thickness = 0;          ///< of the cover, vertically; 0 with an overhang means 0.12
+  double thickness = 0;          ///< thickness of the cover, vertically; 0 with an overhang means 0.12
   std::optional<double> flat_top;     ///< hip, gable, mansard, gambrel: height of a horizontal cut
   std::uint32_t low_edge = 0;         ///< shed
   std::vector<std::uint32_t> gables;  ///< gable, gambrel: edges with vertical ends; empty: chosen by shape
@@ -42,7 +42,7 @@ struct RoofOptions {
 enum class RoofRole {
   slope,   ///< or the horizontal top
   gable,   ///< a vertical wall
-  base,    ///< at height 0 within the walls; faces down
+  base,    ///< base at height 0 within the walls; faces down
   soffit,  ///< underside of the cover
   fascia,  ///< vertical edge of the cover
 };
@@ -62,7 +62,7 @@ struct RoofFace {
 
 struct Roof {
   std::vector<glm::dvec3> point;  ///< shared by faces that meet
-  std::vector<RoofFace> faces;    ///< of the body, then of the cover
+  std::vector<RoofFace> faces;    ///< faces of the body, then of the cover
   double height = 0;              ///< of the highest point
   /// One sentence for each option that could not be used; the roof is flat or of the kind that the sentence
   /// names.

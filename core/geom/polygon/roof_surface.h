@@ -11,9 +11,9 @@ namespace seedmesh {
 struct RoofSurface {
   static constexpr std::uint32_t none = 0xFFFFFFFFU;
   struct Face {
-    std::uint32_t edge = none;   ///< of the plan of the roof; none: horizontal
+    std::uint32_t edge = none;   ///< edge of the plan of the roof; none: horizontal
     double speed = 0;            ///< metres inwards for each metre up; 0: vertical
-    glm::dvec2 direction{1, 0};  ///< of the edge
+    glm::dvec2 direction{1, 0};  ///< direction of the edge
     std::vector<std::uint32_t> outline;
     std::vector<std::vector<std::uint32_t>> holes;
   };
@@ -23,14 +23,14 @@ struct RoofSurface {
 
 /// The slopes of one stage of a roof, and the height that the stage rises.
 struct RoofStage {
-  std::vector<double> speed;  ///< by edge of the plan of the roof; metres inwards for each metre up
+  std::vector<double> speed;  ///< metres inwards for each metre up, indexed by edge of the plan of the roof
   double rise = std::numeric_limits<double>::infinity();
 };
 
 /// The plan of a roof, or that plan offset outwards for an overhang.
 struct RoofBase {
   Plan plan;
-  std::vector<std::uint32_t> source;  ///< by edge: the edge of the plan of the roof
+  std::vector<std::uint32_t> source;  ///< edge of the plan of the roof, indexed by edge
   double height = 0;
 };
 

@@ -24,14 +24,14 @@ struct SkeletonFace {
 
 /// A closed outline at the end time, counter-clockwise around the rest of the plan.
 struct SkeletonFront {
-  std::vector<std::uint32_t> node;  ///< of its points
+  std::vector<std::uint32_t> node;  ///< nodes of its points
   std::vector<std::uint32_t> edge;  ///< edge[i] goes from point i to the next
 };
 
 struct StraightSkeleton {
   std::vector<glm::dvec3> node;       ///< x and y in plan, z is the time; first the points of the plan
-  std::vector<SkeletonFace> faces;    ///< by edge, rising; an edge may have several
-  std::vector<SkeletonFront> fronts;  ///< at the end time; empty if nothing is left
+  std::vector<SkeletonFace> faces;    ///< faces, sorted by edge; an edge may have several
+  std::vector<SkeletonFront> fronts;  ///< fronts at the end time; empty if nothing is left
   /// Whether the result passed its check: every face has a simple, counter-clockwise outline in the plane of
   /// its edge, and the areas of faces and fronts sum to the area of the plan. If false, do not use the
   /// result.

@@ -26,7 +26,7 @@ class Wavefront {
   struct Source {
     glm::dvec2 direction{0}, normal{0};  ///< the normal is to the left
     double offset = 0, speed = 1;        ///< normal . p = offset + speed * time
-    std::uint32_t edge = 0;              ///< of the plan
+    std::uint32_t edge = 0;              ///< edge of the plan
     bool is_step = false;                ///< a vertical side added where an edge stops, not of the plan
   };
   /// A piece of the border of a face, which lies to its left.
@@ -50,7 +50,7 @@ class Wavefront {
   struct Corner {
     glm::dvec2 place{0}, velocity{0};
     double time = 0;
-    std::uint32_t node = 0;         ///< where it began
+    std::uint32_t node = 0;         ///< node where it began
     std::uint32_t in = 0, out = 0;  ///< the edges before and after it
     bool is_alive = true, can_hit = false;
   };
@@ -157,10 +157,10 @@ class Wavefront {
   std::vector<Line> lines_;
   bool uses_grid_ = false;
   double horizon_ = -1;          ///< hits up to this time are in the queue
-  double horizon_before_ = -1;   ///< of the previous grid; hits up to it are already in the queue
-  double ahead_ = 0;             ///< from the time when the grid was made to the horizon
+  double horizon_before_ = -1;   ///< horizon of the previous grid; hits up to it are already in the queue
+  double ahead_ = 0;             ///< time from the making of the grid to the horizon
   double least_ahead_ = 0;       ///< up to this time ahead, the size of the grid is not limited
-  glm::dvec2 low_{0}, high_{0};  ///< of the grid
+  glm::dvec2 low_{0}, high_{0};  ///< corners of the grid
   std::size_t cells_ = 0;
   std::size_t changes_ = 0;  ///< edges that changed since the grid was made
   double effort_ = 1;        ///< multiplies the limit of candidate pairs in a grid
@@ -174,7 +174,7 @@ class Wavefront {
   std::vector<std::uint32_t> touched_;  ///< edges changed since the last round
   /// Open ends by node, each as 2 * edge, plus 1 if the edge starts there.
   std::map<std::uint32_t, std::set<std::uint32_t>> ends_;
-  std::map<std::uint32_t, std::vector<Joint>> joints_;  ///< by node
+  std::map<std::uint32_t, std::vector<Joint>> joints_;  ///< joints, indexed by node
   std::set<std::uint32_t> changed_nodes_, closing_nodes_;
   /// Edges with two open ends, by their two nodes, the lower first.
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::set<std::uint32_t>> spans_;

@@ -41,7 +41,7 @@ struct WriteOptions {
   Dialect dialect = {};
   /// Names of images: `<stem>_<name>_<hash>` (core/gltf/content_names.h). Empty: their own names.
   std::string image_stem = {};
-  std::vector<Extra> scene_extras = {};  ///< of the scene of each file
+  std::vector<Extra> scene_extras = {};  ///< extras of the scene of each file
   /// Null, or count() of the model; updated where the dialect drops vertices or triangles.
   ModelCounts* counts = nullptr;
   /// In metres. The steps of quantized meshes are chosen for an extent of at least this. Tiles of one world give

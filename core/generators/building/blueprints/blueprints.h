@@ -8,7 +8,7 @@ namespace seedmesh::building {
 
 struct Blueprint {
   std::string_view name;
-  std::string_view rules;  ///< in CityEngine's notation; attributes have ranges
+  std::string_view rules;  ///< rules in CityEngine's notation; attributes have ranges
 };
 
 /// All blueprints, sorted by name.

@@ -38,7 +38,7 @@ class PartWriter {
   /// upwards. `sides` is rounded up to a multiple of 4, so that the solid touches all sides of its box.
   struct Turn {
     glm::dvec3 foot{0};      ///< middle of the lower end
-    glm::dvec2 radius{0.5};  ///< along x and z
+    glm::dvec2 radius{0.5};  ///< radii along x and z
     int sides = 24;
   };
   void turn(std::string_view role, const std::vector<ProfilePoint>& profile, const Turn& turn);

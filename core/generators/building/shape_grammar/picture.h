@@ -21,7 +21,7 @@ struct PictureLine {
 
 /// A labelled point, or two or three points that also determine a direction and a size.
 struct PictureMarker {
-  std::uint32_t label = 0;  ///< into PictureGrammar::labels
+  std::uint32_t label = 0;  ///< index into PictureGrammar::labels
   std::uint32_t count = 1;
   std::array<glm::dvec3, 3> points{};
 };
@@ -30,7 +30,7 @@ enum class SolidKind : std::uint8_t { box, cylinder, cone, sphere, pyramid, pris
 
 struct PictureSolid {
   SolidKind kind = SolidKind::box;
-  std::uint32_t material = 0;  ///< into PictureGrammar::materials
+  std::uint32_t material = 0;  ///< index into PictureGrammar::materials
   glm::dvec3 base{0};          ///< the middle of its base
   glm::dmat3 axes{1};          ///< orthonormal; the determinant of a mirrored solid is negative
   glm::dvec3 size{1};          ///< y is 0 in pictures of two dimensions

@@ -17,7 +17,7 @@ struct LoopVertex {
   glm::vec3 position{0};
   float angle = 0, reach = 0;  ///< LoopPoint::phase and ::reach
   std::uint32_t group = Limbs::none;
-  std::uint32_t joint = Limbs::none;  ///< of the parent; the rim moves with it
+  std::uint32_t joint = Limbs::none;  ///< joint of the parent; the rim moves with it
 };
 
 /// The loop that a limb begins with: elements of BarkBuffers::loop_vertices.
@@ -62,23 +62,24 @@ struct BarkBuffers {
   float v_scale;
   Mesh mesh;  ///< its arrays have more capacity than `vertices`, so that four floats can be read anywhere
   std::size_t vertices = 0;               ///< written so far
-  Array<std::uint32_t> group;             ///< of each vertex, or Limbs::none
-  Array<std::uint8_t> twin;               ///< of each vertex, 1: an earlier vertex has the same position
-  Array<std::uint32_t> joints;            ///< of each vertex, as GraftOptions::joints
-  Array<std::int16_t> colors;             ///< of each triangle, as GraftOptions::colors
+  Array<std::uint32_t> group;             ///< group of each vertex, or Limbs::none
+  Array<std::uint8_t> twin;               ///< for each vertex, 1: an earlier vertex has the same position
+  Array<std::uint32_t> joints;            ///< joint of each vertex, as GraftOptions::joints
+  Array<std::int16_t> colors;             ///< colour of each triangle, as GraftOptions::colors
   Array<std::uint32_t> loop_triangles;    ///< triangles with a vertex on a loop, rising
-  Array<GroupNormal> group_normal;        ///< of each group
-  std::vector<std::uint32_t> group_limb;  ///< of each pair of groups, the child
-  std::vector<Loop> loops;                ///< of each limb
+  Array<GroupNormal> group_normal;        ///< normal of each group
+  std::vector<std::uint32_t> group_limb;  ///< child limb of each pair of groups
+  std::vector<Loop> loops;                ///< loop of each limb
   Array<LoopVertex> loop_vertices;
   std::vector<RibSeam> rib_seams;  ///< rising
-  std::vector<LimbRange> range;    ///< of each limb
-  std::vector<LimbStart> start;    ///< of each limb
+  std::vector<LimbRange> range;    ///< range of each limb
+  std::vector<LimbStart> start;    ///< start of each limb
   std::size_t corners = 0;         ///< vertices on rings
-  std::size_t wide_corners = 0;    ///< those on rings of more corners than a small vertex cache holds
-  Meter triangles;                 ///< spends triangles of the request
-  bool is_part = false;            ///< one of several buffers that are joined later and spent then
-  std::uint64_t uncharged = 0;     ///< triangles of a part
+  /// Number of corners on rings of more corners than a small vertex cache holds.
+  std::size_t wide_corners = 0;
+  Meter triangles;              ///< spends triangles of the request
+  bool is_part = false;         ///< one of several buffers that are joined later and spent then
+  std::uint64_t uncharged = 0;  ///< triangles of a part
 
   const std::uint32_t* corners_of(std::uint32_t triangle) const {
     return mesh.index.wide.data() + std::size_t{3} * triangle;

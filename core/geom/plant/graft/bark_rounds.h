@@ -13,10 +13,10 @@ enum class Recheck : std::uint8_t { nothing, loop, all };
 
 struct BarkRounds {
   std::vector<JoinMode> written;      ///< GraftInput::join at the last round; empty before the first one
-  std::vector<std::uint32_t> parent;  ///< of each limb; empty in the first round
-  std::vector<std::uint8_t> dirty;    ///< of each limb, 1: written in this round
-  std::vector<std::uint8_t> touched;  ///< of each pair of groups, 1: its parent or child limb is dirty
-  std::vector<Recheck> recheck;       ///< of each limb
+  std::vector<std::uint32_t> parent;  ///< parent of each limb; empty in the first round
+  std::vector<std::uint8_t> dirty;    ///< for each limb, 1: written in this round
+  std::vector<std::uint8_t> touched;  ///< for each pair of groups, 1: its parent or child limb is dirty
+  std::vector<Recheck> recheck;       ///< recheck of each limb
   bool is_large = true;               ///< enough to check for more than one thread
 
   bool is_first() const { return parent.empty(); }

@@ -33,13 +33,14 @@ struct GraftOptions {
   bool pointed = false;      ///< a thin end has no last ring: it is the point of a cone
   bool every_bend = false;   ///< a ring at every bend, however slight
   int lobes = 0;             ///< ribs around every limb of order 0
-  float lobe_depth = 0;      ///< of the ribs, as a share of the radius, below 1
+  float lobe_depth = 0;      ///< depth of the ribs, as a share of the radius, below 1
   /// Internodes may coincide with others: they are found and their limbs left to skin().
   bool overlaps = false;
-  bool points = false;                     ///< radii may be 0 before the tip: such limbs are left to skin()
-  std::span<const Contour> contours = {};  ///< of Limbs::contour; limbs with contours are left to skin()
-  float v_scale = 1;                       ///< repetitions of the texture for each metre along the limb
-  bool wrap = false;                       ///< as SkinOptions::wrap
+  bool points = false;  ///< radii may be 0 before the tip: such limbs are left to skin()
+  /// Contours of Limbs::contour; limbs with contours are left to skin().
+  std::span<const Contour> contours = {};
+  float v_scale = 1;  ///< repetitions of the texture for each metre along the limb
+  bool wrap = false;  ///< as SkinOptions::wrap
   /// Add tangents along u, as add_tangents() would; none where limbs are left to skin().
   bool tangents = false;
   /// If not null: gets for each vertex the joint at the far end of the internode that it moves with. The rim

@@ -24,10 +24,10 @@ struct GraftInput {
   const Chains& chains;
   const Scale& scale;
   const GraftOptions& options;
-  const std::vector<JoinMode>& join;  ///< of each limb; changes from round to round
+  const std::vector<JoinMode>& join;  ///< join of each limb; changes from round to round
   RingTables rings;
-  std::vector<std::uint32_t> first_child;   ///< of each joint, the first limb that begins there
-  std::vector<std::uint32_t> next_sibling;  ///< of each limb, the next one that begins at the same joint
+  std::vector<std::uint32_t> first_child;   ///< first limb that begins at each joint
+  std::vector<std::uint32_t> next_sibling;  ///< next limb that begins at the same joint, for each limb
 
   std::uint64_t key_of(std::uint32_t joint) const { return limbs.key.empty() ? joint : limbs.key[joint]; }
 };

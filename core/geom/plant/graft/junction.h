@@ -21,18 +21,19 @@ struct LoopPoint {
   glm::vec3 position{0};
   float phase = 0;
   float angle = 0;   ///< about the parent's axis, from the middle of the junction
-  float height = 0;  ///< along the parent
-  float reach = 0;   ///< along the child
+  float height = 0;  ///< height along the parent
+  float reach = 0;   ///< reach along the child
 };
 
 struct Junction {
-  std::uint32_t limb = 0;            ///< the child
-  float at = 0, low = 0, high = 0;   ///< along the parent: the ring that it lies on, and its extent
+  std::uint32_t limb = 0;  ///< the child
+  /// Position along the parent of the ring that it lies on, and its extent.
+  float at = 0, low = 0, high = 0;
   float middle = 0, half_width = 0;  ///< angles about the parent
   float radius = 0;                  ///< of the child at the loop
   float child_reach = 0;             ///< the child's next ring lies farther from the joint than this
   bool is_fork = false;
-  std::size_t piece = 0;  ///< of the parent; the angles are in its frame
+  std::size_t piece = 0;  ///< piece of the parent; the angles are in its frame
   glm::vec3 child_u{0};   ///< the direction of phase 0 at the child
   LoopPoint first, last;  ///< the two ends, which lie on the ring
   /// The points strictly between the ends, in the caller's list, by rising angle: `lower` points below the
@@ -67,7 +68,7 @@ class LoopAngles {
 /// A side limb before its junction is made.
 struct ChildLimb {
   std::uint32_t limb = 0;
-  glm::vec3 along{0};            ///< of its first piece
+  glm::vec3 along{0};            ///< direction of its first piece
   float radius = 0, length = 0;  ///< of the first ring; of the whole limb, or of as much as was read
   float tip = 0;                 ///< length up to its last ring, or up to what was read
   int sides = 3;

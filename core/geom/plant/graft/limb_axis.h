@@ -14,10 +14,10 @@ namespace seedmesh {
 struct LimbAxis {
   std::vector<glm::vec3> point;
   std::vector<float> at;             ///< length along the limb up to each point, metres
-  std::vector<float> radius;         ///< at each point
+  std::vector<float> radius;         ///< radius at each point
   std::vector<float> v;              ///< texture coordinate along the limb at each point
-  std::vector<std::uint32_t> joint;  ///< of Limbs, for each point
-  std::vector<std::int16_t> color;   ///< of each piece; filled by read_colors()
+  std::vector<std::uint32_t> joint;  ///< joint of Limbs, for each point
+  std::vector<std::int16_t> color;   ///< colour of each piece; filled by read_colors()
   std::vector<glm::vec3> along, u;  ///< of each piece: its direction, and a unit vector at right angles to it
   int order = 0;
 

@@ -15,7 +15,7 @@ constexpr float straight_cosine = 0.9877F, radius_tolerance = 0.05F;
 
 struct PlannedRing {
   float at = 0, low = 0, high = 0;  ///< length along the limb, and the extent of the junctions on the ring
-  std::size_t piece = 0;            ///< of the axis
+  std::size_t piece = 0;            ///< piece of the axis
   bool is_bend = false;             ///< lies at the point where `piece` begins, across both pieces
   std::uint32_t first = Junction::none,
                 last = Junction::none;  ///< list of junctions, linked by Junction::next
@@ -24,8 +24,8 @@ struct PlannedRing {
 
 struct RingPlan {
   std::vector<Junction> junction;
-  std::vector<LoopPoint> loop_point;                        ///< of all junctions
-  std::vector<PlannedRing> ring;                            ///< by rising `at`
+  std::vector<LoopPoint> loop_point;                        ///< loop points of all junctions
+  std::vector<PlannedRing> ring;                            ///< rings, sorted by ascending `at`
   float start = 0, tip = 0, least_distance = 0, bulge = 0;  ///< arguments of begin_plan()
   std::vector<PlannedRing> scratch;
 };

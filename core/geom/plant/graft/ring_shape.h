@@ -36,8 +36,8 @@ struct UnitCircle {
 
 /// Tables that all rings of one graft() share.
 struct RingTables {
-  const UnitCircle* circles = nullptr;  ///< by number of corners
-  std::vector<UnitCircle> own_circles;  ///< where the request needs more corners than the common table has
+  const UnitCircle* circles = nullptr;  ///< circles, indexed by number of corners
+  std::vector<UnitCircle> own_circles;  ///< circles with more corners than the common table has
   std::vector<float> corner_radius;     ///< the least radii of limbs with 4, 5, ... corners
 };
 RingTables ring_tables(const Limbs& limbs, const GraftOptions& options);

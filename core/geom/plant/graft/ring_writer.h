@@ -20,10 +20,10 @@ struct RingPlane {
 /// A corner of an open ring before it becomes a vertex: a corner of the circle, or a point of a loop.
 struct OpenCorner {
   float angle = 0;
-  int corner = 0;                    ///< of the circle
+  int corner = 0;                    ///< corner of the circle
   const LoopPoint* point = nullptr;  ///< null: a corner of the circle
   std::uint32_t group = Limbs::none;
-  std::uint32_t vertex[2] = {Limbs::none, Limbs::none};  ///< before the seam and after it
+  std::uint32_t vertex[2] = {Limbs::none, Limbs::none};  ///< vertices before the seam and after it
 };
 
 /// The limb that is being written. The seam of a limb is the angle where the texture begins: the vertices
@@ -39,8 +39,8 @@ struct LimbWriter {
   RingCorners below;                     ///< the last ring, where the next strip begins
   RingCorners lower, upper;              ///< the new ring, as the strips below and above it see it
   bool below_has_loop = false;           ///< the last ring has vertices on loops
-  std::size_t near_piece = 0;            ///< of the axis, near the new ring
-  std::uint32_t joint = Limbs::none;     ///< that new vertices move with
+  std::size_t near_piece = 0;            ///< piece of the axis near the new ring
+  std::uint32_t joint = Limbs::none;     ///< joint that new vertices move with
   glm::vec3 along{0, 1, 0}, on_axis{0};  ///< the limb's direction and centre at new vertices
   float seam = 0;
   glm::vec2 seam_turn{1, 0};            ///< cosine and sine of the seam
@@ -49,7 +49,7 @@ struct LimbWriter {
   // Scratch memory that is kept from ring to ring.
   std::vector<LoopVertex> loop_order;
   std::vector<OpenCorner> open_corners;
-  RingCorners lower_order, upper_order;  ///< of open_corners
+  RingCorners lower_order, upper_order;  ///< orders of open_corners
   std::vector<glm::vec3> ring_position, ring_normal;
   std::vector<glm::vec4> ring_tangent;
 };
