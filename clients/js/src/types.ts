@@ -1094,7 +1094,7 @@ export interface LsystemParameters {
   levels?: "outline" | "slices";
   /** Whether thinner limbs have fewer sides and shorter segments fewer stacks. Coarser levels of detail always do. */
   adapt?: boolean;
-  /** Joins the limbs of brackets to one surface, as for trees: limbs of similar thickness in a fork, thin limbs in a collar. Limbs without space, and limbs with a contour, stay closed tubes that begin inside their parent. Thin welded limbs have fewer sides, and rings where they bend, whatever stacks and adapt say. */
+  /** Joins the limbs of brackets to one surface, as for trees: limbs of similar thickness in a fork, thin limbs in a collar. Limbs where no joint fits, and limbs with a contour, stay closed tubes that begin inside their parent. Thin welded limbs have fewer sides, and rings where they bend, whatever stacks and adapt say. */
   weld?: boolean;
   /** The materials that the turtle's colour index selects, counted from 0. An empty list gives a built-in palette that starts with bark and leaf. */
   materials?: LsystemParametersMaterialsItem[];

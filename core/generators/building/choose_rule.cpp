@@ -36,7 +36,7 @@ void find_locals(Derivation& d, const Rule& rule) {
 /// later rules that hold take part as well. Null: no rule holds.
 const Choice* choose_in(Derivation& d, std::span<const std::uint32_t> rules, std::uint32_t parameters,
                         std::uint64_t key) {
-  d.random = Rng(key_at(key, place_of_conditions));
+  d.random = Rng(key_at(key, step_of_conditions));
   std::vector<std::pair<const Choice*, double>> open;
   double sum = 0;
   bool is_complete = false;
@@ -61,7 +61,7 @@ const Choice* choose_in(Derivation& d, std::span<const std::uint32_t> rules, std
   }
   if (open.empty()) return nullptr;
   if (open.size() == 1) return open[0].first;
-  double at = Rng(key_at(key, place_of_choice)).unit() * sum;
+  double at = Rng(key_at(key, step_of_choice)).unit() * sum;
   for (const auto& [choice, weight] : open) {
     at -= weight;
     if (at < 0) return choice;

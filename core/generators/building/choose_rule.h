@@ -5,7 +5,7 @@
 namespace seedmesh::building {
 
 // Reserved step numbers that no successor uses. They key the random numbers of conditions and of choices.
-constexpr std::uint64_t place_of_conditions = 0xFFFF'FFFF'0001U, place_of_choice = 0xFFFF'FFFF'0002U;
+constexpr std::uint64_t step_of_conditions = 0xFFFF'FFFF'0001U, step_of_choice = 0xFFFF'FFFF'0002U;
 
 /// Returns the weight of `choice`. Without a given weight it is 1 - `before`, where `before` is the sum of the earlier
 /// weights. The result is at least 0.

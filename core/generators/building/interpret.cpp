@@ -297,7 +297,7 @@ void run_body(Derivation& d, std::uint32_t index, const ShapeState& state, const
   const Branch& first = d.grammar.branches[body.first_branch];
   if (body.branch_count == 1 && !first.condition.is_given && first.choice_count == 1)
     return run_choice(d, d.grammar.choices[first.first_choice], state, frame);
-  d.random = Rng(key_at(frame.key, place_of_conditions));
+  d.random = Rng(key_at(frame.key, step_of_conditions));
   for (std::uint32_t b = 0; b < body.branch_count; ++b) {
     const Branch& branch = d.grammar.branches[body.first_branch + b];
     look_at(d, state, frame.shape);
@@ -305,7 +305,7 @@ void run_body(Derivation& d, std::uint32_t index, const ShapeState& state, const
     double sum = 0;
     for (std::uint32_t c = 0; c < branch.choice_count; ++c)
       sum += weight_of(d, d.grammar.choices[branch.first_choice + c], sum);
-    double at = Rng(key_at(frame.key, place_of_choice)).unit() * sum, before = 0;
+    double at = Rng(key_at(frame.key, step_of_choice)).unit() * sum, before = 0;
     for (std::uint32_t c = 0; c < branch.choice_count; ++c) {
       const Choice& choice = d.grammar.choices[branch.first_choice + c];
       const double weight = weight_of(d, choice, before);

@@ -88,7 +88,7 @@ double child_radius(const WeberPennTree& tree, const WeberPennStem& stem, double
 /// is left. `frames` is memory that calls reuse.
 bool prune(const WeberPennTree& tree, WeberPennStem& stem, std::vector<Frame>& frames);
 
-/// The rounding error of splits behind the segments from `segment` on and the clones that split off there. Arbaro carries it
+/// The rounding error of splits behind the segments from `segment` on and the clones that split off there. Arbaro adds it up
 /// from stem to stem of a level, to each clone before the rest of its stem. Cost: that of the segments, at most 10,000.
 double carried_behind(const WeberPennLevel& level, double carried, int segment);
 

@@ -2,7 +2,7 @@
 /// Prepares limbs drawn by a turtle for graft(): one of the side limbs at the end of a limb continues it.
 ///
 /// A turtle ends a limb where all its successors are in brackets, and draws any number of limbs at one joint.
-/// A fork needs a limb that continues, and has space for one side limb.
+/// A fork needs a limb that continues, and joins one side limb to it.
 #include <span>
 
 #include "core/base/job.h"
@@ -21,7 +21,7 @@ struct ContinuedLimbs {
 /// - Where a limb ends in side limbs, the thickest and straightest of them continues it, unless that one is
 ///   much thinner or turns off sharply.
 /// - Where a thick side limb leaves a joint, the other side limbs there are moved down the internode, to new
-///   joints. Their distances are those that their forks need; limbs without space stay.
+///   joints. Their distances are those that their forks need; limbs for which no joint fits stay.
 /// - The limb tapers along these new joints to the radius of its continuation.
 ///
 /// `stay`: for each joint, 1 where the limb that begins with it must not be moved; or empty. Existing joints
