@@ -44,8 +44,8 @@ void add_bodies(Model& model, const Shapes& shapes, MaterialTable& materials, st
                 Sharing sharing, Job& job);
 
 /// Adds all active shapes merged, for a level of detail, and returns the meshes: one for each layer. Unless
-/// `sharing` is `merged`, a node "building" is added too, with the assets of the request below it. `least` is
-/// the least number of layers, if there are as many bodies.
+/// `sharing` is `merged`, a node "building" is added too, with the assets of the request below it. Returns at
+/// least `least` layers, or one for each body if there are fewer bodies. Levels of detail need equal numbers of layers.
 std::vector<int> add_level(Model& model, const Shapes& shapes, MaterialTable& materials,
                            std::span<Asset> assets, Sharing sharing, std::size_t least, Job& job);
 
