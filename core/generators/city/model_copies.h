@@ -46,7 +46,7 @@ class CopyWriter {
 
   enum class Bodies { none, boxes };
 
-  /// Adds a model below the group of each chunk. Spends the triangles of all copies but one. With Bodies::boxes, each
+  /// Adds a model below the group of each chunk. Charges the triangles of all copies but one. With Bodies::boxes, each
   /// copy gets a collision box if the output wants collision bodies.
   void add(Model made, const std::string& name, const char* group, const std::vector<Copy>& copies,
            Bodies bodies);
