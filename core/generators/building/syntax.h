@@ -320,17 +320,22 @@ struct Rule {
   std::uint32_t offset = 0;
 };
 
-/// The left side of rules of several shapes, A(x) + B ~> ...
+/// The left side of rules of several shapes, A(x) + [B] ~> ...
 struct Joint {
-  using Left = std::pair<std::uint32_t, std::uint32_t>;  ///< a symbol, and its number of parameters
-  std::vector<Left> lefts;
-  std::uint32_t symbol = 0;  ///< "A + B", whose rules replace the joined shape
+  struct Left {
+    std::uint32_t symbol = 0, parameter_count = 0;
+    bool is_kept = false;  ///< in brackets: it has to be there and stays
+    friend bool operator==(const Left&, const Left&) = default;
+  };
+  std::vector<Left> lefts;   ///< the first is not kept
+  std::uint32_t symbol = 0;  ///< "A + [B]", whose rules replace the joined shape
 };
 
 struct Symbol {
   std::string name;
   std::vector<std::uint32_t> rules;
   std::uint32_t first_use = none;  ///< byte of the rules
+  bool is_in_joint = false;        ///< part of a left side of several shapes
 };
 
 struct Attribute {
