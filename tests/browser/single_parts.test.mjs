@@ -107,6 +107,20 @@ test('a click on a plant shows its word, and its request is saved', { timeout: 3
   assert.equal((await server.post('/v1/validate', saved)).status, 200);
 });
 
+test('the page shows how many frames a second it draws while the model turns', { timeout: 300_000 }, async () => {
+  const page = await open(browser, at({ generator: 'fractal', seed: 0, parameters: { iterations: 1 } }));
+  await page.click('#hint-away');
+  await open_menu(page);
+  await page.check('#show-drawn');
+  await page.keyboard.press('Escape');
+  await page.focus('#picture');
+  const shown = /^([\d.]+) ms, frame ([\d.]+) ms, (\d+) a second/;
+  for (let tries = 0; tries < 100 && !shown.test(await page.textContent('#drawn')); tries += 1) await page.keyboard.press('ArrowLeft');
+  const [, , frame, rate] = shown.exec(await page.textContent('#drawn')) ?? [];
+  assert.ok(rate, await page.textContent('#drawn'));
+  assert.ok(Math.abs(Number(rate) * Number(frame) - 1000) <= 0.5 * Number(frame) + 0.5 * Number(rate) + 1, `${frame} ms, ${rate} a second`);
+});
+
 test('fog and coloured light change the view and not the request', { timeout: 300_000 }, async () => {
   const page = await open(browser, at({ generator: 'fractal', seed: 0, parameters: { iterations: 1 } }));
   await page.click('#hint-away');
