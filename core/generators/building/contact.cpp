@@ -47,8 +47,7 @@ bool share_area(const Triangle& a, const Triangle& b, bool have_sides, double ne
     if (std::abs(glm::dot(normal, p - a[0])) > near * length) return false;
   }
   std::vector<glm::dvec3> common(b.begin(), b.end());
-  for (std::size_t i = 0; i < 3 && !common.empty(); ++i)
-    common = cut(common, a[i], a[(i + 1) % 3], normal);
+  for (std::size_t i = 0; i < 3 && !common.empty(); ++i) common = cut(common, a[i], a[(i + 1) % 3], normal);
   glm::dvec3 doubled(0);
   for (std::size_t i = 2; i < common.size(); ++i)
     doubled += glm::cross(common[i - 1] - common[0], common[i] - common[0]);
@@ -127,9 +126,8 @@ bool are_neighbours(const Outline& a, const Outline& b) {
   if (least == 0 || (least == 1 && most > 1)) return false;
   if (most == 3) {
     return std::ranges::any_of(a.triangles, [&](const Triangle& mine) {
-      return std::ranges::any_of(b.triangles, [&](const Triangle& theirs) {
-        return share_area(mine, theirs, least == 3, near);
-      });
+      return std::ranges::any_of(
+          b.triangles, [&](const Triangle& theirs) { return share_area(mine, theirs, least == 3, near); });
     });
   }
   return std::ranges::any_of(a.segments, [&](const Segment& mine) {

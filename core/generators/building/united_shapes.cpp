@@ -41,8 +41,8 @@ void append(Solid& to, const Solid& from) {
 
 }  // namespace
 
-Solid united_solid(Derivation& d, std::uint32_t offset, const ShapeState& state, std::span<const Shape> leaves,
-                   Joining joining) {
+Solid united_solid(Derivation& d, std::uint32_t offset, const ShapeState& state,
+                   std::span<const Shape> leaves, Joining joining) {
   Solid all, open;
   all.is_closed = true;
   for (const Shape& leaf : leaves) {

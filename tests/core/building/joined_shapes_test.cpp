@@ -21,13 +21,14 @@ TEST(LeftSides, OfSeveralShapesJoinNeighbours) {
 }
 
 TEST(LeftSides, OfSeveralShapesMatchShapesOfDifferentPredecessors) {
-  const Json tall = derived(
-      with("Lot --> split(y){ 4: floor | ~1: floor }\nfloor --> split(x){ 3: pane | ~1: wall. }\npane + pane ~> "
-           "tall."));
+  const Json tall = derived(with(
+      "Lot --> split(y){ 4: floor | ~1: floor }\nfloor --> split(x){ 3: pane | ~1: wall. }\npane + pane ~> "
+      "tall."));
   EXPECT_EQ(active(tall), "wall wall tall");
   EXPECT_THAT(sizes(tall, 1), testing::ElementsAre(4, 6, 10));
   // Dominoes on a grid of 5 columns of 3 cells, the first free neighbour in the order of the tree: by hand, 7 and one cell.
-  const Json grid = derived(with("Lot --> split(x){ { ~2: column }* }\ncolumn --> split(y){ { ~10/3: A }* }\nA + A ~> B."));
+  const Json grid =
+      derived(with("Lot --> split(x){ { ~2: column }* }\ncolumn --> split(y){ { ~10/3: A }* }\nA + A ~> B."));
   EXPECT_EQ(std::ranges::count(active(grid), 'B'), 7);
   EXPECT_EQ(std::ranges::count(active(grid), 'A'), 1);
 }
@@ -38,22 +39,23 @@ TEST(LeftSides, OfSeveralShapesUniteWhatFillsNoBox) {
   EXPECT_EQ(active(bent), "a c");
   EXPECT_NEAR(measured(bent), 500 + 200, 1e-6);
   // A condition can ask for a box; then the two shapes on the right match.
-  const Json box = derived(with(
-      lot + "a + a : geometry.volume > 0.999 * scope.sx * scope.sy * scope.sz ~> report(\"m\", geometry.volume) c."));
+  const Json box = derived(with(lot + "a + a : geometry.volume > 0.999 * scope.sx * scope.sy * scope.sz ~> "
+                                      "report(\"m\", geometry.volume) c."));
   EXPECT_EQ(active(box), "a c");
   EXPECT_NEAR(measured(box), 500, 1e-6);
   // Two parts of a lot are one polygon, over which a house has one prism: 6 x 10 and 4 x 4 m, 3 m high.
-  const Json house = derived(with("Lot --> split(x){ 6: part | ~1: split(z){ 4: part | ~1: garden. } }\npart + part ~> "
-                                  "extrude(3) report(\"m\", geometry.volume) comp(f){ top: Top. | side: Wall. }",
-                                  {10, 0, 10}));
+  const Json house =
+      derived(with("Lot --> split(x){ 6: part | ~1: split(z){ 4: part | ~1: garden. } }\npart + part ~> "
+                   "extrude(3) report(\"m\", geometry.volume) comp(f){ top: Top. | side: Wall. }",
+                   {10, 0, 10}));
   EXPECT_NEAR(measured(house), 3 * (60 + 16), 1e-6);
   EXPECT_EQ(active(house), "garden Top Wall Wall Wall Wall Wall Wall");
 }
 
 TEST(LeftSides, OfSeveralShapesMatchFacesAroundACornerAndSolids) {
   // Two facades of 10 x 10 m share an edge; the other two of the box are the second match.
-  const Json corner =
-      derived(with("Lot --> comp(f){ side: facade | all: NIL }\nfacade + facade ~> report(\"m\", geometry.area) bent."));
+  const Json corner = derived(with(
+      "Lot --> comp(f){ side: facade | all: NIL }\nfacade + facade ~> report(\"m\", geometry.area) bent."));
   EXPECT_EQ(active(corner), "bent bent");
   EXPECT_NEAR(measured(corner), 400, 1e-6);
   EXPECT_NEAR(corner["reports"]["m"]["min"], 200, 1e-6);
@@ -64,7 +66,8 @@ TEST(LeftSides, OfSeveralShapesMatchFacesAroundACornerAndSolids) {
   EXPECT_EQ(active(column), "column");
   EXPECT_NEAR(measured(column), apart, 1e-6 * apart);
   // A sign on a wall is its neighbour, one before it is not.
-  const std::string sign = "Lot --> [ s('1, '1, 2) wall ] [ t(1, 1, AT) s(2, 2, 0) sign ]\nsign + [wall] ~> fixed.";
+  const std::string sign =
+      "Lot --> [ s('1, '1, 2) wall ] [ t(1, 1, AT) s(2, 2, 0) sign ]\nsign + [wall] ~> fixed.";
   const auto at = [&](const char* z) { return std::string(sign).replace(sign.find("AT"), 2, z); };
   EXPECT_EQ(leaves(at("2")), "wall fixed");
   EXPECT_EQ(leaves(at("2.1")), "wall sign");
@@ -84,13 +87,15 @@ TEST(LeftSides, OfSeveralShapesMatchAtAnyRotation) {
 
 TEST(LeftSides, KeepShapesInBrackets) {
   const std::string plots = "Lot --> split(x){ 2: street | 4: plot(1) | 4: plot(2) }\n";
-  EXPECT_EQ(leaves(plots + "plot(n) + [street] ~> corner. plot(n) ~> inner. street ~> road."), "corner road inner");
+  EXPECT_EQ(leaves(plots + "plot(n) + [street] ~> corner. plot(n) ~> inner. street ~> road."),
+            "corner road inner");
   // The split rule of the theses: one of two connected shapes is divided, the other stays.
   const Json shop = derived(with(plots + "plot(n) + [street] ~> Subdiv(\"X\", 1, 1r){ step. | shop(n). }"));
   EXPECT_EQ(active(shop), "street plot step shop");
   EXPECT_THAT(sizes(shop, 0), testing::ElementsAre(2, 4, 1, 3));
   // A kept shape can be the neighbour of several others.
-  EXPECT_EQ(leaves("Lot --> split(x){ 4: plot | 2: street | ~1: plot }\nplot + [street] ~> corner."), "street corner corner");
+  EXPECT_EQ(leaves("Lot --> split(x){ 4: plot | 2: street | ~1: plot }\nplot + [street] ~> corner."),
+            "street corner corner");
 }
 
 TEST(LeftSides, HaveTheParametersOfAllShapesAndConditions) {

@@ -54,7 +54,8 @@ std::vector<std::array<double, 2>> middles(const Json& answer, const std::string
     for (std::size_t i = 0; i < 3; ++i) {
       middle[i] = shape["scope"]["origin"][i];
       for (std::size_t k = 0; k < 3; ++k)
-        middle[i] += 0.5 * shape["scope"]["size"][k].get<double>() * shape["scope"]["axes"][k][i].get<double>();
+        middle[i] +=
+            0.5 * shape["scope"]["size"][k].get<double>() * shape["scope"]["axes"][k][i].get<double>();
     }
     out.push_back({middle[0], -middle[2]});
   }
@@ -82,7 +83,8 @@ TEST(OpenPairs, MatchRectanglesOfAnyProportion) {
   const std::vector<std::array<double, 2>> found = middles(answer, "found");
   ASSERT_EQ(found.size(), 3U);
   const double c = std::sqrt(0.75), s = 0.5;
-  const std::array<std::array<double, 2>, 3> expected{{{2, 1}, {3 * c - 0.5 * s, 10 + 3 * s + 0.5 * c}, {11.5, 1.5}}};
+  const std::array<std::array<double, 2>, 3> expected{
+      {{2, 1}, {3 * c - 0.5 * s, 10 + 3 * s + 0.5 * c}, {11.5, 1.5}}};
   for (std::size_t i = 0; i < 3; ++i) {
     const auto near = [&](const std::array<double, 2>& p) {
       return std::hypot(p[0] - expected[i][0], p[1] - expected[i][1]) < 1e-6;
@@ -110,11 +112,13 @@ TEST(OpenPairs, FindRectanglesAmongLongerLines) {
 
 TEST(OpenPairs, MatchAnyTriangle) {
   // The rule adds the triangle of the middles of the sides, whose corners are known.
-  const std::string rule = R"({"open":[{"name":"x","low":-5,"high":5},{"name":"y","low":0.1,"high":5}],"pair":[
+  const std::string rule =
+      R"({"open":[{"name":"x","low":-5,"high":5},{"name":"y","low":0.1,"high":5}],"pair":[
     {"shapes":[{"shape":"triangle","values":{"x":"x","y":"y"}}],"markers":[{"name":"m","points":[["(1 + x) / 3","y / 3"]]}]},
     {"shapes":[{"shape":"triangle","values":{"x":"x","y":"y"}}],
      "lines":[[[0.5,0],["(1 + x) / 2","y / 2"],["x / 2","y / 2"],[0.5,0]]],"markers":[{"name":"done","points":[["(1 + x) / 3","y / 3"]]}]}]})";
-  const std::string initial = R"({"lines":[[[1,2],[8,3],[4,9],[1,2]]],"markers":[{"name":"m","points":[["13 / 3","14 / 3"]]}]})";
+  const std::string initial =
+      R"({"lines":[[[1,2],[8,3],[4,9],[1,2]]],"markers":[{"name":"m","points":[["13 / 3","14 / 3"]]}]})";
   const Json answer = derived(request(rule, initial, R"(,"iterations":5)"));
   EXPECT_EQ(answer["reports"]["rule 1"]["count"], 1);  // then no marker m is left
   ASSERT_EQ(middles(answer, "done").size(), 1U);
@@ -136,15 +140,18 @@ TEST(OpenPairs, MatchSolidsInThePlaneAndInSpace) {
   const std::string flat = R"({"open":[{"name":"b"}],"condition":"b > 1.01","pair":[
     {"solids":[{"solid":"box","size":[1,"b"]}]},
     {"solids":[{"solid":"box","size":[1,"b / 2"],"at":[0,"b / 4"],"material":"half"},{"solid":"box","size":[1,"b / 2"],"at":[0,"-b / 4"],"material":"half"}]}]})";
-  const Json two = derived(request(flat, R"({"solids":[{"solid":"box","size":[2,6],"turn":[20]},{"solid":"box","size":[3,3],"at":[20,0]}]})"));
+  const Json two = derived(request(
+      flat,
+      R"({"solids":[{"solid":"box","size":[2,6],"turn":[20]},{"solid":"box","size":[3,3],"at":[20,0]}]})"));
   EXPECT_EQ(two["reports"]["rule 1"]["count"], 1);
   EXPECT_EQ(middles(two, "half").size(), 2U);
   // A block of any height becomes two of half the height, until they are lower than wide: 2 x 12 x 2 gives 8 of 1.5.
   const std::string block = R"({"open":[{"name":"h","low":0.1,"high":50}],"condition":"h > 1.2","pair":[
     {"solids":[{"solid":"box","size":[1,"h",1]}]},
     {"solids":[{"solid":"box","size":[1,"h / 2",1]},{"solid":"box","size":[1,"h / 2",1],"at":[0,"h / 2",0]}]}]})";
-  const Json tower = derived(request(block, R"({"solids":[{"solid":"box","size":[2,12,2],"turn":[0,33,0]}]})", R"(,"iterations":100)",
-                                     R"(,"dimensions":3)"), 1);
+  const Json tower = derived(request(block, R"({"solids":[{"solid":"box","size":[2,12,2],"turn":[0,33,0]}]})",
+                                     R"(,"iterations":100)", R"(,"dimensions":3)"),
+                             1);
   EXPECT_EQ(tower["reports"]["rule 1"]["count"], 7);
   std::vector<double> heights;
   for (const Json& shape : tower["shapes"]) heights.push_back(shape["scope"]["size"][1]);
@@ -156,12 +163,14 @@ TEST(OpenPairs, RejectLeftShapesThatDoNotDetermineTheirVariables) {
   const std::string initial = R"({"shapes":[{"shape":"rectangle"}]})";
   const auto errors = [&](const std::string& open, const std::string& values, const std::string& more = "") {
     const std::string picture = R"({"shapes":[{"shape":"rectangle","values":{)" + values + "}}]" + more + "}";
-    return errors_of(request(R"({"open":[)" + open + R"(],"pair":[)" + picture + "," + picture + "]}", initial));
+    return errors_of(
+        request(R"({"open":[)" + open + R"(],"pair":[)" + picture + "," + picture + "]}", initial));
   };
   const std::string h = R"({"name":"h"})", w = R"({"name":"w"})";
   EXPECT_THAT(errors(h, R"("h":"h")"), testing::IsEmpty());
-  EXPECT_THAT(errors(h + "," + w, R"("w":"w","h":"h")"),
-              ElementsAre(HasSubstr("/shape_grammar/rules/0/pair/0 the points of this shape do not determine")));
+  EXPECT_THAT(
+      errors(h + "," + w, R"("w":"w","h":"h")"),
+      ElementsAre(HasSubstr("/shape_grammar/rules/0/pair/0 the points of this shape do not determine")));
   EXPECT_THAT(errors(h, R"("h":"h * h")"), ElementsAre(HasSubstr("are not linear in its open variables")));
   EXPECT_THAT(errors(h, R"("h":2)"), ElementsAre(HasSubstr("do not determine")));
   EXPECT_THAT(errors(h + "," + h, R"("h":"h")"),
@@ -169,7 +178,8 @@ TEST(OpenPairs, RejectLeftShapesThatDoNotDetermineTheirVariables) {
   EXPECT_THAT(errors(R"({"name":"h","low":3,"high":2})", R"("h":"h")"),
               ElementsAre(HasSubstr("/shape_grammar/rules/0/open/0 found a range without an extent")));
   EXPECT_THAT(errors(h, R"("h":"h")", R"(,"parameters":{"h":2})"),
-              ElementsAre(HasSubstr("/pair/0/parameters/h found a value"), HasSubstr("/pair/1/parameters/h found a value")));
+              ElementsAre(HasSubstr("/pair/0/parameters/h found a value"),
+                          HasSubstr("/pair/1/parameters/h found a value")));
   EXPECT_THAT(errors_of(request(R"({"condition":"1","pair":[)" + initial + "," + initial + "]}", initial)),
               ElementsAre(HasSubstr("/condition found a condition without open variables")));
   EXPECT_THAT(errors_of(request(rectangles(R"("condition":"b > q",)"), initial)),

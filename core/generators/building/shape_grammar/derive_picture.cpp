@@ -148,16 +148,18 @@ class PictureRun {
     const std::vector<PictureAnchor>& crossings = candidates(anchor_crossing);
     if (!on_lines_) on_lines_ = line_points(out_.picture.lines, crossings, near_, job_);
     counts_[anchor_crossing] = crossings.size();
-    const std::vector<std::uint32_t> order = search_order(anchors, grammar_.is_flat, counts_, on_lines_->per_line);
-    search_points(anchors, order, {candidates_, *on_lines_}, [this] { look(); },
-                  [&](const std::vector<glm::dvec3>& points) {
-                    for (const bool is_mirrored : {false, true}) {
-                      if (is_mirrored && !(grammar_.mirrors && grammar_.is_flat)) break;
-                      const std::optional<OpenPlace> place =
-                          solve_place(anchors, order, points, grammar_.is_flat, is_mirrored);
-                      if (place) try_open(index, *place);
-                    }
-                  });
+    const std::vector<std::uint32_t> order =
+        search_order(anchors, grammar_.is_flat, counts_, on_lines_->per_line);
+    search_points(
+        anchors, order, {candidates_, *on_lines_}, [this] { look(); },
+        [&](const std::vector<glm::dvec3>& points) {
+          for (const bool is_mirrored : {false, true}) {
+            if (is_mirrored && !(grammar_.mirrors && grammar_.is_flat)) break;
+            const std::optional<OpenPlace> place =
+                solve_place(anchors, order, points, grammar_.is_flat, is_mirrored);
+            if (place) try_open(index, *place);
+          }
+        });
   }
 
   void try_open(std::size_t index, const OpenPlace& found) {
@@ -169,12 +171,14 @@ class PictureRun {
     if (!grammar_.mirrors && glm::determinant(found.place.turn) < 0) return;
     for (std::size_t k = 0; k < pair.open.size(); ++k) {
       const double rounding = 1e-9 * std::max(std::abs(pair.open[k].low), std::abs(pair.open[k].high));
-      if (match.values[k] < pair.open[k].low - rounding || match.values[k] > pair.open[k].high + rounding) return;
+      if (match.values[k] < pair.open[k].low - rounding || match.values[k] > pair.open[k].high + rounding)
+        return;
     }
     const ShapePicture left = left_shape(pair, match.values);
     double extent = 0, shortest = 1e300;
     for (const PictureLine& line : left.lines) {
-      extent = std::max({extent, glm::length(line.to - left.lines[0].from), glm::length(line.from - left.lines[0].from)});
+      extent = std::max(
+          {extent, glm::length(line.to - left.lines[0].from), glm::length(line.from - left.lines[0].from)});
       shortest = std::min(shortest, glm::length(line.to - line.from));
     }
     for (const PictureSolid& solid : left.solids) {
@@ -192,7 +196,8 @@ class PictureRun {
     const PicturePair& pair = grammar_.pairs[match.pair];
     if (pair.open.empty()) return pair.right;
     std::vector<Issue> issues;
-    std::optional<ShapePicture> right = right_shape(given_, grammar_, match.pair, named(pair, match.values), issues);
+    std::optional<ShapePicture> right =
+        right_shape(given_, grammar_, match.pair, named(pair, match.values), issues);
     if (issues.empty()) return right;
     std::string values;
     for (std::size_t k = 0; k < pair.open.size(); ++k)
@@ -251,7 +256,8 @@ class PictureRun {
   void keep(PictureMatch match) {
     const auto is_same = [&](const PictureMatch& other) {
       for (std::size_t k = 0; k < match.values.size() && other.pair == match.pair; ++k) {
-        if (std::abs(other.values[k] - match.values[k]) > 1e-6 * (1 + std::abs(match.values[k]))) return false;
+        if (std::abs(other.values[k] - match.values[k]) > 1e-6 * (1 + std::abs(match.values[k])))
+          return false;
       }
       return other.pair == match.pair && other.markers == match.markers && other.solids == match.solids &&
              glm::length(other.place.shift - match.place.shift) <= near_ &&

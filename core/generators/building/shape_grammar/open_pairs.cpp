@@ -13,9 +13,9 @@
 namespace seedmesh::building {
 namespace {
 
-constexpr double same_point = 1e-7;   ///< share of the left shape
-constexpr double same_place = 1e-5;   ///< share of the left shape by which matched points may differ
-constexpr double no_pivot = 1e-9;     ///< a smaller part of a column depends on the others
+constexpr double same_point = 1e-7;  ///< share of the left shape
+constexpr double same_place = 1e-5;  ///< share of the left shape by which matched points may differ
+constexpr double no_pivot = 1e-9;    ///< a smaller part of a column depends on the others
 
 using Rows = std::vector<std::vector<double>>;
 
@@ -49,8 +49,8 @@ void add_rows(Rows& rows, const OpenAnchor& anchor, const glm::dvec3& q, bool is
 /// Solves the equations by orthogonal columns (Gram and Schmidt). Returns the rank; `x` is set if it is full.
 std::size_t solve(const Rows& rows, std::vector<double>& x) {
   const std::size_t count = rows.empty() ? 0 : rows[0].size() - 1;
-  std::vector<std::vector<double>> basis;            // orthonormal columns
-  std::vector<std::vector<double>> upper(count);     // of each column: its parts along the basis
+  std::vector<std::vector<double>> basis;         // orthonormal columns
+  std::vector<std::vector<double>> upper(count);  // of each column: its parts along the basis
   const auto dot = [](const std::vector<double>& a, const std::vector<double>& b) {
     double sum = 0;
     for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
@@ -90,7 +90,8 @@ std::size_t solve(const Rows& rows, std::vector<double>& x) {
 bool are_alike(const ShapePicture& a, const ShapePicture& b) {
   const auto same_solid = [](const PictureSolid& s, const PictureSolid& o) {
     return s.kind == o.kind && s.material == o.material && glm::length(s.axes[0] - o.axes[0]) <= same_point &&
-           glm::length(s.axes[1] - o.axes[1]) <= same_point && glm::length(s.axes[2] - o.axes[2]) <= same_point;
+           glm::length(s.axes[1] - o.axes[1]) <= same_point &&
+           glm::length(s.axes[2] - o.axes[2]) <= same_point;
   };
   return a.lines.size() == b.lines.size() && a.markers.size() == b.markers.size() &&
          std::ranges::equal(a.solids, b.solids, same_solid);
@@ -126,10 +127,12 @@ Choice choose_anchors(const std::vector<OpenAnchor>& anchors, bool is_flat, bool
   std::vector<double> ignored;
   // Values between the samples, at which no points coincide by chance.
   std::vector<double> values;
-  for (std::size_t k = 0; k < anchors[0].changes.size(); ++k) values.push_back(0.73 + 0.11 * static_cast<double>(k));
+  for (std::size_t k = 0; k < anchors[0].changes.size(); ++k)
+    values.push_back(0.73 + 0.11 * static_cast<double>(k));
   const auto cost_of = [&](const OpenAnchor& each) {
-    const bool is_known = std::ranges::any_of(
-        choice.order, [&](std::uint32_t k) { return each.owner != no_owner && anchors[k].owner == each.owner; });
+    const bool is_known = std::ranges::any_of(choice.order, [&](std::uint32_t k) {
+      return each.owner != no_owner && anchors[k].owner == each.owner;
+    });
     if (is_known) return 8.0;
     const bool is_beside = std::ranges::any_of(choice.order, [&](std::uint32_t k) {
       return std::ranges::find(each.beside, k) != each.beside.end();
@@ -206,11 +209,13 @@ void check_open_variables(const BuildingPair& given, const std::string& pointer,
       issues.push_back({IssueKind::conflict, at + "/name", "found two variables of this name, expected one"});
     for (std::size_t side = 0; side < 2; ++side) {
       if (given.pair[side].parameters.contains(each.name))
-        issues.push_back({IssueKind::conflict, pointer + "/pair/" + std::to_string(side) + "/parameters/" + each.name,
+        issues.push_back({IssueKind::conflict,
+                          pointer + "/pair/" + std::to_string(side) + "/parameters/" + each.name,
                           "found a value for an open variable, expected none: a match determines it"});
     }
     if (!(each.low < each.high))
-      issues.push_back({IssueKind::out_of_range, at, "found a range without an extent, expected `low` below `high`"});
+      issues.push_back(
+          {IssueKind::out_of_range, at, "found a range without an extent, expected `low` below `high`"});
   }
 }
 
@@ -244,21 +249,24 @@ void check_open_left(const PicturePair& pair, const ShapePicture& other, const s
   bool is_linear = are_alike(pair.left, other);
   for (const ShapePicture& each : pair.moved) is_linear = is_linear && are_alike(pair.left, each);
   if (is_linear) {
-    const std::vector<PictureAnchor> found = all_points(other), expected = all_points(left_shape(pair, values));
+    const std::vector<PictureAnchor> found = all_points(other),
+                                     expected = all_points(left_shape(pair, values));
     const double near = same_point * std::max(reach_of(other), 1e-9);
     for (std::size_t i = 0; i < found.size(); ++i)
       is_linear = is_linear && glm::length(found[i].at - expected[i].at) <= near;
   }
   if (!is_linear) {
-    issues.push_back({IssueKind::invalid_value, pointer,
-                      "the points of this shape are not linear in its open variables, or its solids turn with them"});
+    issues.push_back(
+        {IssueKind::invalid_value, pointer,
+         "the points of this shape are not linear in its open variables, or its solids turn with them"});
     return;
   }
   const std::vector<OpenAnchor> anchors = open_anchors(pair);
   if (anchors.empty() || search_order(anchors, is_flat, {}, 1).empty())
-    issues.push_back({IssueKind::invalid_value, pointer,
-                      "the points of this shape do not determine its position, direction and size and the open variables: "
-                      "expected more points, or fewer open variables (one length stays a number)"});
+    issues.push_back(
+        {IssueKind::invalid_value, pointer,
+         "the points of this shape do not determine its position, direction and size and the open variables: "
+         "expected more points, or fewer open variables (one length stays a number)"});
 }
 
 std::vector<OpenAnchor> open_anchors(const PicturePair& pair) {
@@ -317,8 +325,9 @@ std::vector<std::uint32_t> search_order(const std::vector<OpenAnchor>& anchors, 
   return lines.cost < all.cost || all.order.empty() ? lines.order : all.order;
 }
 
-std::optional<OpenPlace> solve_place(const std::vector<OpenAnchor>& anchors, std::span<const std::uint32_t> order,
-                                     std::span<const glm::dvec3> points, bool is_flat, bool is_mirrored) {
+std::optional<OpenPlace> solve_place(const std::vector<OpenAnchor>& anchors,
+                                     std::span<const std::uint32_t> order, std::span<const glm::dvec3> points,
+                                     bool is_flat, bool is_mirrored) {
   // The points are centred and scaled, so that the equations are well conditioned.
   const glm::dvec3 centre = points[0];
   double extent = 0;
@@ -335,7 +344,8 @@ std::optional<OpenPlace> solve_place(const std::vector<OpenAnchor>& anchors, std
   found.values.assign(x.end() - static_cast<std::ptrdiff_t>(anchors[0].changes.size()), x.end());
   double reach = 0;
   for (const std::uint32_t each : order) {
-    reach = std::max(reach, glm::length(point_of(anchors[each], found.values) - point_of(anchors[order[0]], found.values)));
+    reach = std::max(reach, glm::length(point_of(anchors[each], found.values) -
+                                        point_of(anchors[order[0]], found.values)));
   }
   for (const std::vector<double>& row : rows) {
     double rest = -row[count];

@@ -35,7 +35,7 @@ struct OpenAnchor {
   glm::dvec3 at{0};
   std::vector<glm::dvec3> changes;
   std::uint32_t kind = 0, owner = no_owner, corner = 0;  ///< as in PictureAnchor
-  std::vector<std::uint32_t> beside;         ///< anchors at the other ends of lines that begin here
+  std::vector<std::uint32_t> beside;  ///< anchors at the other ends of lines that begin here
 };
 
 /// One for each point. Ends of lines that meet others are crossings.
@@ -53,7 +53,8 @@ struct OpenPlace {
 
 /// The similarity and the values that map these anchors to these points, by least squares; nothing if there are none. In
 /// the plane it mirrors if `is_mirrored`; in space the points decide.
-std::optional<OpenPlace> solve_place(const std::vector<OpenAnchor>& anchors, std::span<const std::uint32_t> order,
-                                     std::span<const glm::dvec3> points, bool is_flat, bool is_mirrored);
+std::optional<OpenPlace> solve_place(const std::vector<OpenAnchor>& anchors,
+                                     std::span<const std::uint32_t> order, std::span<const glm::dvec3> points,
+                                     bool is_flat, bool is_mirrored);
 
 }  // namespace seedmesh::building

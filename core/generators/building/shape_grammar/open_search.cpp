@@ -100,8 +100,8 @@ class PointSearch {
 
 }  // namespace
 
-LinePoints line_points(const std::vector<PictureLine>& lines, const std::vector<PictureAnchor>& crossings, double near,
-                       const Job& job) {
+LinePoints line_points(const std::vector<PictureLine>& lines, const std::vector<PictureAnchor>& crossings,
+                       double near, const Job& job) {
   LinePoints out;
   out.lines_of_point.resize(crossings.size());
   out.points_of_line.resize(lines.size());
@@ -119,8 +119,8 @@ LinePoints line_points(const std::vector<PictureLine>& lines, const std::vector<
   return out;
 }
 
-void search_points(const std::vector<OpenAnchor>& anchors, std::span<const std::uint32_t> order, const PicturePoints& points,
-                   const std::function<void()>& look,
+void search_points(const std::vector<OpenAnchor>& anchors, std::span<const std::uint32_t> order,
+                   const PicturePoints& points, const std::function<void()>& look,
                    const std::function<void(const std::vector<glm::dvec3>&)>& found) {
   PointSearch(anchors, order, points, look, found).run();
 }

@@ -13,8 +13,8 @@ struct LinePoints {
 };
 
 /// Cost: the product of lines and points.
-LinePoints line_points(const std::vector<PictureLine>& lines, const std::vector<PictureAnchor>& crossings, double near,
-                       const Job& job);
+LinePoints line_points(const std::vector<PictureLine>& lines, const std::vector<PictureAnchor>& crossings,
+                       double near, const Job& job);
 
 /// The points of a picture by kind, as the search sees them.
 struct PicturePoints {
@@ -24,8 +24,8 @@ struct PicturePoints {
 
 /// Calls `found` with a point of the picture for each anchor in this order. Kinds agree, points of one marker or solid belong to
 /// one, and crossings that a line of the left shape joins lie on one line. Calls `look` for each point that it tries.
-void search_points(const std::vector<OpenAnchor>& anchors, std::span<const std::uint32_t> order, const PicturePoints& points,
-                   const std::function<void()>& look,
+void search_points(const std::vector<OpenAnchor>& anchors, std::span<const std::uint32_t> order,
+                   const PicturePoints& points, const std::function<void()>& look,
                    const std::function<void(const std::vector<glm::dvec3>&)>& found);
 
 }  // namespace seedmesh::building

@@ -290,15 +290,16 @@ void check_restriction(const PicturePair& pair, const std::string& pointer, bool
 namespace {
 
 /// Reads a pair with open variables: its left shape for several values of them, and its right shape once for its errors.
-void read_open_pair(const BuildingShapeGrammar& given, std::size_t rule, PictureGrammar& grammar, PicturePair& pair,
-                    std::vector<Issue>& issues) {
+void read_open_pair(const BuildingShapeGrammar& given, std::size_t rule, PictureGrammar& grammar,
+                    PicturePair& pair, std::vector<Issue>& issues) {
   const BuildingPair& source = given.rules[rule];
   const std::string pointer = "/shape_grammar/rules/" + std::to_string(rule);
   const std::size_t before = issues.size();
   check_open_variables(source, pointer, issues);
   for (const BuildingOpenVariable& each : source.open) pair.open.push_back({each.name, each.low, each.high});
   const auto left_at = [&](const std::vector<double>& values) {
-    return PictureReader(given, grammar, issues).read_raw(source.pair[0], pointer + "/pair/0", named(pair, values));
+    return PictureReader(given, grammar, issues)
+        .read_raw(source.pair[0], pointer + "/pair/0", named(pair, values));
   };
   const std::vector<double> first = samples_of(pair, first_sample);
   pair.left = left_at(first);
@@ -317,16 +318,15 @@ void read_open_pair(const BuildingShapeGrammar& given, std::size_t rule, Picture
 }
 
 /// Checks that a left shape determines a similarity, and what the restriction forbids.
-void check_pair(const PicturePair& pair, const std::string& pointer, bool is_flat, PictureRestriction restriction,
-                std::vector<Issue>& issues) {
+void check_pair(const PicturePair& pair, const std::string& pointer, bool is_flat,
+                PictureRestriction restriction, std::vector<Issue>& issues) {
   bool is_determined = !pair.open.empty();  // has been checked
   if (!is_determined) anchors_of_left(pair.left, is_flat, is_determined);
   if (!is_determined)
-    issues.push_back(
-        {IssueKind::invalid_value, pointer + "/pair/0",
-         std::string("this shape does not determine a position, direction and size: expected ") +
-             (is_flat ? "two points" : "three points that are not on a line") +
-             " of markers, corners of solids, or crossings or ends of lines"});
+    issues.push_back({IssueKind::invalid_value, pointer + "/pair/0",
+                      std::string("this shape does not determine a position, direction and size: expected ") +
+                          (is_flat ? "two points" : "three points that are not on a line") +
+                          " of markers, corners of solids, or crossings or ends of lines"});
   if (restriction != PictureRestriction::any) check_restriction(pair, pointer, is_flat, restriction, issues);
 }
 
@@ -342,7 +342,8 @@ std::optional<ShapePicture> right_shape(const BuildingShapeGrammar& given, const
   names.materials = grammar.materials;
   PictureReader reader(given, names, issues);
   const std::string& condition = given.rules[rule].condition;
-  if (!condition.empty() && reader.number(condition, values, pointer + "/condition") == 0) return std::nullopt;
+  if (!condition.empty() && reader.number(condition, values, pointer + "/condition") == 0)
+    return std::nullopt;
   ShapePicture right;
   reader.read(given.rules[rule].pair[1], pointer + "/pair/1", right, values);
   return right;
@@ -375,7 +376,8 @@ PictureGrammar read_pictures(const BuildingShapeGrammar& given, PictureRestricti
   }
   if (issues.size() > before) return grammar;
   for (std::size_t i = 0; i < grammar.pairs.size(); ++i)
-    check_pair(grammar.pairs[i], "/shape_grammar/rules/" + std::to_string(i), grammar.is_flat, restriction, issues);
+    check_pair(grammar.pairs[i], "/shape_grammar/rules/" + std::to_string(i), grammar.is_flat, restriction,
+               issues);
   if (restriction == PictureRestriction::unimarker && grammar.initial.markers.size() != 1)
     issues.push_back({IssueKind::invalid_value, "/shape_grammar/initial",
                       "found " + std::to_string(grammar.initial.markers.size()) +
