@@ -33,6 +33,7 @@ const rows = {
   cga_roofs: { tile: [640, 464], models: [of('cga_roofs')] },
   ...Object.fromEntries(['alien_field', 'kogovsek_3_13', 'mountain_forest', 'orchard', 'village_edge'].map((name) => [`scene_${name}`, { tile: [640, 341], models: [of(name)] }])),
   scene_hutsko_garden: { tile: [960, 640], models: [of('hutsko_garden')] },
+  ice_ray: { tile: [600, 480], models: [of('ice_ray')] },
   gips_embedded_squares: { tile: [600, 480], models: [of('gips_embedded_squares')] },
   kogovsek_2_13: { tile: [960, 300], columns: 1, models: [1, 2, 3].map((round) => of('kogovsek_2_13', { parameters: { stages: [round] } })) },
   trees: { tile: [200, 200], columns: 5, models: ['oak', 'birch', 'pine', 'willow', 'maple', 'palm', 'cherry', 'poplar', 'bush', 'dead_tree'].map((name) => of(name)) },

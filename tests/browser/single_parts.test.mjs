@@ -44,6 +44,45 @@ test('a selected shape can be removed, get another rule, and be restored', { tim
   await becomes(page, 'edits', undefined);
 });
 
+test('a selected shape gets attributes, which stay when its rule changes', { timeout: 300_000 }, async () => {
+  const rules = 'attr sill = 0.9\nattr tint = "#d0c0a0"\nLot --> split(x) { ~1: Bay | ~1: Bay }\nBay --> split(y) { sill: Wall. | ~1: color(tint) Glass. }';
+  const page = await open(browser, at({ generator: 'building', seed: 1, parameters: { rules, size: [8, 6, 2] } }));
+  await page.click('#hint-away');
+  await page.click('#tab-result');
+  await page.waitForSelector('#show-shapes');
+  await page.selectOption('#shape-kind', '=Bay');
+  await page.check('#show-shapes');
+  const box = await page.locator('#picture').boundingBox();
+  await page.mouse.click(box.x + box.width * 0.56, box.y + box.height * 0.5);
+  const sill = page.locator('.changes [data-pointer="/edit/attributes/sill"] input[type="number"]');
+  await sill.waitFor();
+  assert.equal(await sill.inputValue(), '0.9');
+  const shape = `Lot/Bay[${/PathLot\/Bay\[(\d)\]/.exec(await page.textContent('.picked'))[1]}]`;
+  // Digit by digit: the list is drawn again between them, and the field keeps the focus and its text.
+  await sill.fill('');
+  await until_shown(page, () => sill.press('2'));
+  await becomes(page, 'edits', [{ shape, attributes: { sill: 2 } }]);
+  await page.waitForSelector('#edit-undo');
+  await page.keyboard.type('.5');
+  await becomes(page, 'edits', [{ shape, attributes: { sill: 2.5 } }]);
+  assert.equal(await sill.inputValue(), '2.5');
+  const answer = await (await server.post('/v1/derive', { generator: 'building', seed: 1, parameters: await parameters_of(page) })).json();
+  const wall = answer.shapes.find((each) => each.path === `${shape}/Wall[1]`);
+  assert.equal(wall.scope.size[1], 2.5);
+  assert.equal(answer.shapes.filter((each) => each.symbol === 'Wall' && each.scope.size[1] === 0.9).length, 1);
+  await page.locator('.changes [data-pointer="/edit/attributes/tint"] input[type="text"]').fill('#204060');
+  await becomes(page, 'edits', [{ shape, attributes: { sill: 2.5, tint: '#204060' } }]);
+  await until_shown(page, () => page.selectOption('#edit-rule', 'Lot'));
+  await becomes(page, 'edits', [{ shape, attributes: { sill: 2.5, tint: '#204060' }, rule: 'Lot' }]);
+  await page.waitForSelector('#edit-undo');
+  await until_shown(page, () => page.selectOption('#edit-rule', ''));
+  await page.locator('.changes [data-pointer="/edit/attributes/sill"] .reset').click();
+  await becomes(page, 'edits', [{ shape, attributes: { tint: '#204060' } }]);
+  await page.waitForSelector('#edit-undo');
+  await until_shown(page, () => page.click('#edit-undo'));
+  await becomes(page, 'edits', undefined);
+});
+
 test('a click on a plant shows its word, and its request is saved', { timeout: 300_000 }, async () => {
   const request = {
     generator: 'scene', seed: 1,
@@ -66,6 +105,20 @@ test('a click on a plant shows its word, and its request is saved', { timeout: 3
   assert.equal(saved.generator, 'lsystem');
   assert.deepEqual(saved.parameters.productions, ['F -> F[+F]F']);
   assert.equal((await server.post('/v1/validate', saved)).status, 200);
+});
+
+test('the page shows how many frames a second it draws while the model turns', { timeout: 300_000 }, async () => {
+  const page = await open(browser, at({ generator: 'fractal', seed: 0, parameters: { iterations: 1 } }));
+  await page.click('#hint-away');
+  await open_menu(page);
+  await page.check('#show-drawn');
+  await page.keyboard.press('Escape');
+  await page.focus('#picture');
+  const shown = /^([\d.]+) ms, frame ([\d.]+) ms, (\d+) a second/;
+  for (let tries = 0; tries < 100 && !shown.test(await page.textContent('#drawn')); tries += 1) await page.keyboard.press('ArrowLeft');
+  const [, , frame, rate] = shown.exec(await page.textContent('#drawn')) ?? [];
+  assert.ok(rate, await page.textContent('#drawn'));
+  assert.ok(Math.abs(Number(rate) * Number(frame) - 1000) <= 0.5 * Number(frame) + 0.5 * Number(rate) + 1, `${frame} ms, ${rate} a second`);
 });
 
 test('fog and coloured light change the view and not the request', { timeout: 300_000 }, async () => {

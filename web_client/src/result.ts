@@ -65,6 +65,7 @@ export function wire_result(overlay: Overlay | null, lead: (line: number) => voi
   }
 
   function draw(answer: Members): void {
+    const focused = document.activeElement;
     const rest = { ...answer };
     const parts: (HTMLElement | null)[] = [];
     const before = shapes, plan_before = plan;
@@ -95,6 +96,8 @@ export function wire_result(overlay: Overlay | null, lead: (line: number) => voi
     parts.push(figures.length > 0 ? el('dl', { class: 'figures' }, ...figures.map(([name, value]) => el('div', {}, el('dt', {}, name), el('dd', {}, value)))) : null);
     for (const [name, value] of Object.entries(rest)) parts.push(...long_part(name, value));
     page.replaceChildren(head(), ...parts.filter((each) => each !== null));
+    // A field that the new parts contain keeps the focus.
+    if (focused instanceof HTMLElement && page.contains(focused)) focused.focus({ preventScroll: true });
   }
 
   return {

@@ -97,6 +97,8 @@ export function wire_tools(core: Core): Tools {
         const { [name]: _, ...others } = store.current.request.parameters;
         store.write({ ...store.current.request, parameters: edits.length > 0 ? { ...others, [name]: edits } : others });
       },
+      attributes: () => rules_schema?.properties?.[named('shape-edits') ?? '']?.items?.properties?.['attributes'] ?? null,
+      rules: () => store.current?.request.parameters[rules_name() ?? ''],
     },
     with_all(request) {
       const name = named('derived');

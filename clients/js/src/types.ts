@@ -126,12 +126,26 @@ export interface Picture {
   shapes?: PictureShapesItem[];
 }
 
+/** A variable of a left shape. */
+export interface BuildingParametersShapeGrammarRulesItemOpenItem {
+  /** What the coordinates of both shapes and the condition call it. */
+  name: string;
+  /** Matches with a lower value do not count. */
+  low?: number;
+  /** Matches with a higher value do not count. */
+  high?: number;
+}
+
 /** A left and a right shape. */
 export interface BuildingParametersShapeGrammarRulesItem {
   /** What reports call it: each counts how often it was used. */
   name?: string;
   /** The weight of the rule in the random choice between rules that match. */
   weight?: number;
+  /** Variables of both shapes whose values each match determines, so that a left shape has open proportions. Its coordinates have to be linear in them. The similarity of the match determines size, position and direction, so that one length of the left shape stays a number. */
+  open?: BuildingParametersShapeGrammarRulesItemOpenItem[];
+  /** An expression over the open variables. Matches for which it is 0 do not count. Without one, all count. */
+  condition?: string;
   /** The left shape, which is matched, and the right shape, which replaces it. */
   pair: [Picture, Picture];
 }

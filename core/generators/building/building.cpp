@@ -115,7 +115,8 @@ Shapes shapes_of(Work& work, const BuildingParams& params, const GenerateContext
   Job& job = context.job;
   if (params.shape_grammar) {
     const bool is_parallel = params.derivation.mode == BuildingMode::parallel;
-    const DerivedPicture derived = derive_picture(work.pictures, params.iterations, is_parallel, job);
+    const DerivedPicture derived =
+        derive_picture(*params.shape_grammar, work.pictures, params.iterations, is_parallel, job);
     work.grammar = grammar_of_names(work.pictures);
     return shapes_of_picture(work.pictures, derived, *params.shape_grammar, job);
   }

@@ -166,11 +166,7 @@ void check_grammar(Parser& p, std::string_view start) {
                               std::to_string(p.grammar.rules[symbol.rules[0]].parameter_count) +
                               " parameters, found " + std::to_string(step.argument_count),
                           IssueKind::out_of_range});
-    const bool is_joined = std::ranges::any_of(p.grammar.joints, [&](const Joint& joint) {
-      return std::ranges::any_of(joint.lefts,
-                                 [&](const Joint::Left& left) { return left.first == step.symbol; });
-    });
-    if (!step.is_leaf && !is_joined && symbol.rules.empty() && symbol.first_use != none) {
+    if (!step.is_leaf && !symbol.is_in_joint && symbol.rules.empty() && symbol.first_use != none) {
       add_warning(p, symbol.first_use,
                   "there is no rule for `" + symbol.name + "`, so that it is a leaf; write `" + symbol.name +
                       ".` if you mean that");

@@ -5,6 +5,7 @@
 
 #include "core/generators/building/evaluate.h"
 #include "core/generators/building/interpret.h"
+#include "core/generators/building/joined_shapes.h"
 
 namespace seedmesh::building {
 namespace {
@@ -40,15 +41,22 @@ void finish_all(Derivation& d) {
   finish_from(d, 0);
 }
 
+bool can_go_first(const Derivation& d, const Shape& shape) { return has_rule(d, shape) && !waits(d, shape); }
+
 /// Replaces all shapes of a round at once.
 void run_rounds(Derivation& d, int rounds) {
-  std::vector<std::uint32_t> open{0}, next;
-  for (int round = 0; round < rounds && !open.empty() && d.out.shapes.size() <= d.task.most_shapes; ++round) {
+  std::vector<std::uint32_t> open, next;
+  if (can_go_first(d, d.out.shapes[0])) open.push_back(0);
+  for (int round = 0; round < rounds && d.out.shapes.size() <= d.task.most_shapes; ++round) {
+    if (open.empty()) open = take_waiting(d, 0);
+    if (open.empty()) break;
     next.clear();
     for (const std::uint32_t index : open) {
       const auto first = static_cast<std::uint32_t>(d.out.shapes.size());
-      if (has_rule(d, d.out.shapes[index])) expand(d, index);
-      for (auto i = first; i < d.out.shapes.size(); ++i) next.push_back(i);
+      expand(d, index);
+      for (auto i = first; i < d.out.shapes.size(); ++i) {
+        if (can_go_first(d, d.out.shapes[i])) next.push_back(i);
+      }
     }
     std::swap(open, next);
   }
@@ -58,18 +66,21 @@ void run_rounds(Derivation& d, int rounds) {
 /// first).
 void run_steps(Derivation& d, int steps) {
   std::set<std::tuple<std::int32_t, std::int64_t>> open;
-  const auto enter = [&](std::uint32_t index, std::int64_t order) {
-    const Shape& shape = d.out.shapes[index];
-    if (!has_rule(d, shape)) return;
-    const std::int32_t priority = d.grammar.rules[d.grammar.symbols[shape.symbol].rules.front()].priority;
-    open.emplace(priority, order);
-  };
-  // Depth first: later families come before earlier ones, siblings keep their order.
   std::int64_t family = 0;
   std::map<std::int64_t, std::uint32_t> shapes_by_order;
-  shapes_by_order.emplace(0, 0U);
-  enter(0, 0);
-  for (int step = 0; step < steps && !open.empty() && d.out.shapes.size() <= d.task.most_shapes;) {
+  // Depth first: later families come before earlier ones, siblings keep their order.
+  const auto enter = [&](std::uint32_t index) {
+    const Shape& shape = d.out.shapes[index];
+    const std::int64_t order =
+        d.task.is_depth_first ? family * 4'294'967'296 + index : static_cast<std::int64_t>(index);
+    const std::int32_t priority = d.grammar.rules[d.grammar.symbols[shape.symbol].rules.front()].priority;
+    shapes_by_order.emplace(order, index);
+    open.emplace(priority, order);
+  };
+  if (can_go_first(d, d.out.shapes[0])) enter(0);
+  for (int step = 0; step < steps && d.out.shapes.size() <= d.task.most_shapes;) {
+    if (open.empty()) std::ranges::for_each(take_waiting(d, 0), enter);
+    if (open.empty()) break;
     const auto [priority, order] = *open.begin();
     open.erase(open.begin());
     const std::uint32_t index = shapes_by_order[order];
@@ -77,10 +88,7 @@ void run_steps(Derivation& d, int steps) {
     if (expand(d, index)) ++step;
     --family;
     for (auto i = first; i < d.out.shapes.size(); ++i) {
-      const std::int64_t place =
-          d.task.is_depth_first ? family * 4'294'967'296 + i : static_cast<std::int64_t>(i);
-      shapes_by_order.emplace(place, i);
-      enter(i, place);
+      if (can_go_first(d, d.out.shapes[i])) enter(i);
     }
   }
 }
@@ -101,16 +109,24 @@ Shapes run(Derivation& d) {
 
 void finish_from(Derivation& d, std::uint32_t first_open) {
   std::vector<std::uint32_t> open;
-  for (auto i = static_cast<std::uint32_t>(d.out.shapes.size()); i-- > first_open;) open.push_back(i);
-  while (!open.empty() && d.out.shapes.size() <= d.task.most_shapes) {
+  const auto enter = [&](std::uint32_t first) {
+    for (auto i = static_cast<std::uint32_t>(d.out.shapes.size()); i-- > first;) {
+      if (can_go_first(d, d.out.shapes[i])) open.push_back(i);
+    }
+  };
+  enter(first_open);
+  while (d.out.shapes.size() <= d.task.most_shapes) {
+    if (open.empty()) {
+      if (d.grammar.joints.empty()) return;
+      open = take_waiting(d, first_open);
+      if (open.empty()) return;
+      std::ranges::reverse(open);
+    }
     const std::uint32_t index = open.back();
     open.pop_back();
-    if (!has_rule(d, d.out.shapes[index])) continue;
     const auto first = static_cast<std::uint32_t>(d.out.shapes.size());
     expand(d, index);
-    for (auto i = static_cast<std::uint32_t>(d.out.shapes.size()); i-- > first;) {
-      if (has_rule(d, d.out.shapes[i])) open.push_back(i);
-    }
+    enter(first);
   }
 }
 

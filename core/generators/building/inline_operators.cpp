@@ -12,12 +12,12 @@
 #include "core/generators/building/operators.h"
 #include "core/generators/building/solid_tools.h"
 #include "core/generators/building/tags.h"
+#include "core/generators/building/united_shapes.h"
 
 namespace seedmesh::building::operators {
 namespace {
 
 constexpr int deepest_inline = 20;
-constexpr std::size_t most_faces = 20'000;  ///< of a Boolean operation
 
 /// Runs a body until no rule applies, and takes the shapes that it made out of the tree again.
 std::vector<Shape> leaves_of(Derivation& d, std::uint32_t body, const ShapeState& state, const Site& site,
@@ -39,73 +39,6 @@ std::vector<Shape> leaves_of(Derivation& d, std::uint32_t body, const ShapeState
   d.out.shapes.resize(first);
   if (d.out.choices.size() > first) d.out.choices.resize(first);
   return leaves;
-}
-
-/// The geometry of a leaf in metres of the scope of `state`; empty for edges, points and assets.
-Solid in_scope(Derivation& d, const Step& step, const ShapeState& state, const Shape& leaf) {
-  if (leaf.has_asset()) {
-    warn(d, step.offset, "inserted parts and assets cannot become a part of one shape, and are left out");
-    return {};
-  }
-  if (dimension(leaf.size) < 2) return {};
-  Solid solid = solid_of(d, leaf);
-  if (leaf.geometry == box_geometry && dimension(leaf.size) == 3) solid.is_closed = true;
-  const glm::dmat3 back = glm::transpose(d.out.axes[state.axes]);
-  for (glm::dvec3& p : solid.points)
-    p = back * (leaf.origin + d.out.axes[leaf.axes] * (p * leaf.size) - state.origin);
-  const std::uint32_t tags = d.out.styles[leaf.style].tags;
-  for (Face& face : solid.faces) face.tags = joined_tags(d, face.tags, tags);
-  return solid;
-}
-
-void append(Solid& to, const Solid& from) {
-  const auto base = static_cast<std::uint32_t>(to.points.size());
-  to.points.insert(to.points.end(), from.points.begin(), from.points.end());
-  for (const Face& face : from.faces) {
-    Face copy = face;
-    copy.first_loop = static_cast<std::uint32_t>(to.loops.size());
-    for (const Loop& loop : loops_of(from, face)) {
-      std::vector<std::uint32_t> corners;
-      for (const std::uint32_t point : points_of(from, loop)) corners.push_back(point + base);
-      add_loop(to, corners);
-    }
-    to.faces.push_back(copy);
-  }
-}
-
-enum class Joining : std::uint8_t { append, unify, recompose };
-
-Solid joined(Derivation& d, const Step& step, const ShapeState& state, std::span<const Shape> leaves,
-             Joining joining) {
-  Solid all, open;
-  all.is_closed = true;
-  for (const Shape& leaf : leaves) {
-    Solid own = in_scope(d, step, state, leaf);
-    if (own.faces.empty()) continue;
-    if (joining == Joining::unify && own.is_closed) {
-      if (all.faces.size() + own.faces.size() > most_faces)
-        reject(d, step.offset, "the Boolean operation has more than 20,000 faces");
-      if (all.faces.empty())
-        append(all, own);
-      else
-        all = boolean(all, own, BooleanKind::unite, d.job);
-    } else if (joining == Joining::unify) {
-      append(open, own);
-    } else {
-      all.is_closed &= own.is_closed;
-      append(all, own);
-    }
-  }
-  if (!open.faces.empty()) {
-    all.is_closed = false;
-    append(all, open);
-  }
-  if (joining == Joining::recompose) {
-    all = welded(all, 1e-6);
-    all.is_closed = is_watertight(all);
-  }
-  if (all.faces.empty()) all.is_closed = false;
-  return all;
 }
 
 /// Gives the state the geometry and the style of the leaves.
@@ -146,7 +79,7 @@ void inline_shapes(Derivation& d, const Step& step, ShapeState& state, const Sit
                                                 : Joining::append;
   const ShapeState given = state;
   const std::vector<Shape> leaves = leaves_of(d, d.grammar.parts[step.first_part].body, given, site, 0);
-  take_joined(d, step, state, leaves, joined(d, step, given, leaves, joining));
+  take_joined(d, step, state, leaves, united_solid(d, step.offset, given, leaves, joining));
 }
 
 /// union, subtract and intersect { A | B }
@@ -156,7 +89,7 @@ void combine(Derivation& d, const Step& step, ShapeState& state, const Site& sit
   std::vector<Shape> first;
   for (std::uint32_t i = 0; i < 2; ++i) {
     const std::vector<Shape> leaves = leaves_of(d, d.grammar.parts[step.first_part + i].body, given, site, i);
-    operands[i] = joined(d, step, given, leaves, Joining::unify);
+    operands[i] = united_solid(d, step.offset, given, leaves, Joining::unify);
     if (i == 0) first = leaves;
     if (!operands[i].faces.empty() && !operands[i].is_closed)
       warn(d, step.offset,

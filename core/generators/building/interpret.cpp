@@ -5,7 +5,6 @@
 #include "core/generators/building/choose_rule.h"
 #include "core/generators/building/containment.h"
 #include "core/generators/building/evaluate.h"
-#include "core/generators/building/joined_shapes.h"
 #include "core/generators/building/operators.h"
 #include "core/generators/building/slabs.h"
 
@@ -285,10 +284,8 @@ bool expand(Derivation& d, std::uint32_t index) {
   }
   const Shape shape = d.out.shapes[index];
   d.out.shapes[index].is_active = false;
-  const auto first = static_cast<std::uint32_t>(d.out.shapes.size());
   run_choice(d, *choice, shape, {index, shape.key, shape, shape.is_carried});
   d.locals.erase(index);
-  if (!d.grammar.joints.empty()) join_children(d, index, first);
   return true;
 }
 

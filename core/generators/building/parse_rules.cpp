@@ -81,7 +81,8 @@ void parse_parameter(Parser& p, Rule& rule) {
 /// Reads the name and the parameters of one shape of a left side.
 Joint::Left parse_left(Parser& p, Rule& rule) {
   Joint::Left left;
-  left.first = symbol_index(p, here(p).text, offset_here(p));
+  left.is_kept = take(p, "[");
+  left.symbol = symbol_index(p, here(p).text, offset_here(p));
   const std::uint32_t before = rule.parameter_count;
   ++p.at;
   if (is_here(p, "(")) {
@@ -92,7 +93,8 @@ Joint::Left parse_left(Parser& p, Rule& rule) {
     }
     p.at = std::min(close + 1, p.tokens.end());
   }
-  left.second = rule.parameter_count - before;
+  left.parameter_count = rule.parameter_count - before;
+  if (left.is_kept) take(p, "]");
   return left;
 }
 
@@ -102,8 +104,11 @@ std::uint32_t joint_symbol(Parser& p, const std::vector<Joint::Left>& lefts, std
     if (joint.lefts == lefts) return joint.symbol;
   }
   std::string name;
-  for (const Joint::Left& left : lefts)
-    name += (name.empty() ? "" : " + ") + p.grammar.symbols[left.first].name;
+  for (const Joint::Left& left : lefts) {
+    Symbol& symbol = p.grammar.symbols[left.symbol];
+    symbol.is_in_joint = true;
+    name += (name.empty() ? "" : " + ") + (left.is_kept ? "[" + symbol.name + "]" : symbol.name);
+  }
   const std::uint32_t symbol = symbol_index(p, name, offset);
   p.grammar.joints.push_back({lefts, symbol});
   return symbol;
@@ -126,7 +131,7 @@ void parse_rule(Parser& p, std::int32_t priority) {
   const std::size_t names = p.names.size();
   std::vector<Joint::Left> lefts{parse_left(p, rule)};
   while (take(p, "+")) lefts.push_back(parse_left(p, rule));
-  rule.symbol = lefts.size() == 1 ? lefts[0].first : joint_symbol(p, lefts, rule.offset);
+  rule.symbol = lefts.size() == 1 ? lefts[0].symbol : joint_symbol(p, lefts, rule.offset);
   const auto parse_with = [&] {
     if (!p.tokens.is_name(p.at, "with") || !p.tokens.is(p.at + 1, "(")) return;
     p.at += 2;

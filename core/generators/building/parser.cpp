@@ -111,8 +111,12 @@ bool begins_local(const Parser& p, std::size_t i) {
 bool begins_rule(const Parser& p, std::size_t i) {
   if (p.tokens.at(i).kind != TokenKind::name) return false;
   i = behind_head(p, i);
-  // a left side of several shapes
-  while (p.tokens.is(i, "+") && p.tokens.at(i + 1).kind == TokenKind::name) i = behind_head(p, i + 1);
+  while (p.tokens.is(i, "+")) {  // a left side of several shapes
+    const bool is_kept = p.tokens.is(i + 1, "[");
+    if (p.tokens.at(is_kept ? i + 2 : i + 1).kind != TokenKind::name) break;
+    i = behind_head(p, is_kept ? i + 2 : i + 1);
+    if (is_kept && !p.tokens.is(i++, "]")) return false;
+  }
   if (p.tokens.is_arrow(i)) return true;
   if (!p.tokens.is(i, ":")) return false;
   const std::size_t behind = p.tokens.behind_expression(i + 1);

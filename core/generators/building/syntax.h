@@ -1,6 +1,5 @@
 #pragma once
-/// The rules of a building as data, for the notation of CityEngine and that of Müller et al. (2006): flat
-/// arrays that refer to each other by index.
+/// The rules of a building as data, for both notations: flat arrays that refer to each other by index.
 ///
 ///   grammar = rules
 ///   rule    = symbol, parameters, body
@@ -69,8 +68,7 @@ struct Query {
   std::uint32_t slot = 0;
 };
 
-/// A node of an expression that lang::Program cannot hold: texts that are joined, arrays, functions that call
-/// themselves, properties of the geometry. Its operands are in Grammar::value_operands.
+/// What lang::Program cannot hold: joined texts, arrays, recursion, geometry. Operands: Grammar::value_operands.
 struct ValueNode {
   enum class Kind : std::uint8_t {
     constant,  ///< `constant`
@@ -320,17 +318,22 @@ struct Rule {
   std::uint32_t offset = 0;
 };
 
-/// The left side of rules of several shapes, A(x) + B ~> ...
+/// The left side of rules of several shapes, A(x) + [B] ~> ...
 struct Joint {
-  using Left = std::pair<std::uint32_t, std::uint32_t>;  ///< a symbol, and its number of parameters
-  std::vector<Left> lefts;
-  std::uint32_t symbol = 0;  ///< "A + B", whose rules replace the joined shape
+  struct Left {
+    std::uint32_t symbol = 0, parameter_count = 0;
+    bool is_kept = false;  ///< in brackets: it has to be there and stays
+    bool operator==(const Left&) const = default;
+  };
+  std::vector<Left> lefts;   ///< the first is not kept
+  std::uint32_t symbol = 0;  ///< "A + [B]", whose rules replace the joined shape
 };
 
 struct Symbol {
   std::string name;
   std::vector<std::uint32_t> rules;
   std::uint32_t first_use = none;  ///< byte of the rules
+  bool is_in_joint = false;        ///< part of a left side of several shapes
 };
 
 struct Attribute {
@@ -380,8 +383,7 @@ struct Grammar {
   std::vector<FunctionTree> functions;
   std::vector<ComponentValue> component_values;
   bool uses_selectors = false;  ///< comp.sel is read somewhere
-  bool is_cityengine =
-      false;  ///< has `version`, `import` or `@StartRule`: faults of single steps are warnings
+  bool is_cityengine = false;   ///< has `version`, `import`, `@StartRule`: faults of steps are warnings
   std::vector<Warning> warnings;
 
   std::uint32_t symbol_named(std::string_view name) const;  ///< none if there is no such symbol
@@ -390,10 +392,9 @@ struct Grammar {
 /// The least number of parameters of the rules of a symbol; 0 if it has no rule.
 std::uint32_t least_parameters(const Grammar& grammar, std::uint32_t symbol);
 
-/// Reads rules in the notations of CityEngine and of 2006. Adds every error at its byte of the joined text.
-/// `start` is the name of a symbol, perhaps with a style before it (Modern$Lot). If it is empty, the start
-/// symbol is that of the rule after @StartRule or `start`, or of the first rule. Cost: linear. Brackets may
-/// be nested 100 deep.
+/// Reads rules in both notations. Adds every error at its byte of the joined text. `start` is a symbol, perhaps
+/// with a style before it (Modern$Lot); if it is empty, that of the rule after @StartRule or `start`, or of the
+/// first rule. Cost: linear. Brackets may be nested 100 deep.
 Grammar read_rules(const RuleText& text, std::string_view start, std::vector<lang::TextError>& faults);
 
 }  // namespace seedmesh::building

@@ -1,6 +1,8 @@
 /** Lists the shapes of a derivation, draws their scopes as boxes over the model, and describes the selected one. */
 import { el, grouped, rounded } from '../dom';
-import { is_members } from '../form/schema';
+import { Board } from '../form/field';
+import { draw_field } from '../form/fields';
+import { is_members, same, type Members, type Schema } from '../form/schema';
 import { edit_at, with_edit, type Edit, type ShapeChange } from './edits';
 import type { Overlay } from './overlay';
 import type { ScopeBox } from '../viewer/boxes';
@@ -11,7 +13,16 @@ export const is_shapes = (value: unknown): value is Shape[] =>
   Array.isArray(value) && value.length > 0 && value.every((each) => is_members(each) && 'symbol' in each && is_members(each['scope']));
 
 /** The changes of single shapes in the request; null if its generator has none. */
-export interface Edited { edits(): Edit[] | null; write(edits: Edit[]): void }
+export interface Edited {
+  edits(): Edit[] | null;
+  write(edits: Edit[]): void;
+  /** The schema of the attributes of a change, and the rules that declare them. */
+  attributes(): Schema | null;
+  rules(): unknown;
+}
+
+/** The fields for the attributes of a shape. They stay while a value is typed and the list is drawn again. */
+interface AttributeFields { path: string; element: HTMLElement; written: Members }
 
 /** More boxes would hide the model and each other. */
 const most = 20_000;
@@ -28,6 +39,7 @@ export class ShapeList {
   private readonly kind = el('select', { id: 'shape-kind' });
   private seen: Shape[] = [];
   private picked: Shape | undefined;
+  private fields: AttributeFields | undefined;
 
   constructor(shapes: Shape[], overlay: Overlay | null, lead: ((line: number) => void) | null, edited: Edited) {
     this.shapes = shapes;
@@ -53,6 +65,7 @@ export class ShapeList {
     this.on.checked = before.on.checked;
     if ([...this.kind.options].some((option) => option.value === before.kind.value)) this.kind.value = before.kind.value;
     if (this.on.checked) this.lay_over();
+    this.fields = before.fields;
     const path = before.picked?.path;
     const again = path ? this.shapes.find((each) => each.path === path) : undefined;
     if (again) this.describe(again);
@@ -106,11 +119,29 @@ export class ShapeList {
     const present = edit_at(edits(), path);
     const rules = [...new Set(this.shapes.filter((each) => each.rule !== undefined).map((each) => each.symbol))].filter((symbol) => symbol !== shape.symbol);
     const rule = el('select', { id: 'edit-rule' }, el('option', { value: '' }, 'its own'), ...rules.map((symbol) => el('option', { value: symbol, selected: symbol === present?.rule }, symbol)));
-    rule.addEventListener('change', () => change(rule.value ? { rule: rule.value } : null));
+    rule.addEventListener('change', () => change({ rule: rule.value || undefined }));
     return el('div', { class: 'changes', role: 'group', 'aria-label': 'Change this shape' }, el('h4', {}, 'Change this shape'),
       el('div', { class: 'row' }, el('label', { for: 'edit-rule' }, 'Rule'), rule),
+      ...(present?.remove ? [] : this.attributes(path, present?.attributes ?? {}, change)),
       el('div', { class: 'row' },
         el('button', { type: 'button', id: 'edit-remove', onclick: () => change({ remove: true }) }, 'Remove'),
         ...(present ? [el('button', { type: 'button', id: 'edit-undo', onclick: () => change(null) }, 'Undo the change')] : [])));
+  }
+
+  /** The attributes that the rules declare, as fields. Shapes that are made of this one inherit the values. */
+  private attributes(path: string, given: Members, change: (to: ShapeChange) => void): HTMLElement[] {
+    const schema = this.edited.attributes();
+    if (!schema) return [];
+    if (this.fields?.path === path && same(this.fields.written, given)) return [this.fields.element];
+    const fields: AttributeFields = { path, written: given, element: el('div', { class: 'attributes' }) };
+    fields.element.append(draw_field({
+      schema, pointer: '/edit/attributes', label: schema.title ?? 'Attributes', value: given, base: {}, board: new Board(draw_field), grammar: () => this.edited.rules(),
+      change(value) {
+        fields.written = is_members(value) ? value : {};
+        change({ attributes: fields.written });
+      },
+    }));
+    this.fields = fields;
+    return [fields.element];
   }
 }

@@ -81,6 +81,15 @@ class Picture(TypedDict, total=False):
     shapes: List["PictureShapesItem"]
 
 
+class _BuildingParametersShapeGrammarRulesItemOpenItemRequired(TypedDict):
+    name: str
+
+
+class BuildingParametersShapeGrammarRulesItemOpenItem(_BuildingParametersShapeGrammarRulesItemOpenItemRequired, total=False):
+    low: float
+    high: float
+
+
 class _BuildingParametersShapeGrammarRulesItemRequired(TypedDict):
     pair: List["Picture"]
 
@@ -88,6 +97,8 @@ class _BuildingParametersShapeGrammarRulesItemRequired(TypedDict):
 class BuildingParametersShapeGrammarRulesItem(_BuildingParametersShapeGrammarRulesItemRequired, total=False):
     name: str
     weight: float
+    open: List["BuildingParametersShapeGrammarRulesItemOpenItem"]
+    condition: str
 
 
 class _BuildingParametersShapeGrammarRequired(TypedDict):

@@ -60,10 +60,11 @@ std::vector<PictureAnchor> anchors_of_wholes(const ShapePicture& picture) {
   for (std::uint32_t i = 0; i < picture.solids.size(); ++i) {
     const PictureSolid& solid = picture.solids[i];
     double radius = 0;
+    std::uint32_t corner = 0;
     for (const KeyPoint& point : key_points(solid, radius)) {
       const std::uint32_t kind =
           first_solid + (solid.material * 8 + static_cast<std::uint32_t>(solid.kind)) * 2 + point.role;
-      out.push_back({point.at, kind, solid_owner | i});
+      out.push_back({point.at, kind, solid_owner | i, corner++});
     }
   }
   return out;

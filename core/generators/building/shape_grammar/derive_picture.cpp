@@ -5,6 +5,7 @@
 
 #include "core/base/math.h"
 #include "core/generators/building/shape_grammar/anchors.h"
+#include "core/generators/building/shape_grammar/open_search.h"
 #include "core/generators/building/shape_grammar/shape_grammar.h"
 
 namespace seedmesh::building {
@@ -20,6 +21,7 @@ struct PictureMatch {
   std::size_t pair = 0;
   Similarity place;
   std::vector<std::uint32_t> markers, solids;
+  std::vector<double> values;  ///< of open variables
 };
 
 glm::dmat3 frame_of(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, bool is_flat) {
@@ -30,11 +32,12 @@ glm::dmat3 frame_of(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& 
 
 class PictureRun {
  public:
-  PictureRun(const PictureGrammar& grammar, Job& job)
-      : grammar_(grammar), job_(job), meter_(job, Resource::shapes) {
+  PictureRun(const BuildingShapeGrammar& given, const PictureGrammar& grammar, Job& job)
+      : given_(given), grammar_(grammar), job_(job), meter_(job, Resource::shapes) {
     out_.picture = grammar.initial;
     meter_.spend(out_.picture.lines.size() + out_.picture.markers.size() + out_.picture.solids.size());
     for (const PicturePair& pair : grammar.pairs) {
+      open_anchors_.push_back(pair.open.empty() ? std::vector<OpenAnchor>{} : open_anchors(pair));
       bool is_determined = false;
       anchors_.push_back(anchors_of_left(pair.left, grammar.is_flat, is_determined));
       double extent = 0;
@@ -71,6 +74,7 @@ class PictureRun {
     candidates_.clear();
     counts_.clear();
     has_crossings_ = false;
+    on_lines_.reset();
     for (const PictureAnchor& each : anchors_of_wholes(out_.picture)) enter(each);
     for (const PictureAnchor& each : ends_of(out_.picture.lines)) enter(each);
     // Crossings are computed when a rule needs them. Until then they count as frequent.
@@ -78,7 +82,7 @@ class PictureRun {
     counts_[anchor_end] = out_.picture.lines.size() * 4 + 2;
     matches_.clear();
     for (std::size_t i = 0; i < grammar_.pairs.size(); ++i) {
-      if (grammar_.pairs[i].weight > 0) match(i);
+      if (grammar_.pairs[i].weight > 0) grammar_.pairs[i].open.empty() ? match(i) : match_open(i);
     }
   }
 
@@ -138,6 +142,69 @@ class PictureRun {
     }
   }
 
+  /// Matches a left shape whose variables are open.
+  void match_open(std::size_t index) {
+    const std::vector<OpenAnchor>& anchors = open_anchors_[index];
+    const std::vector<PictureAnchor>& crossings = candidates(anchor_crossing);
+    if (!on_lines_) on_lines_ = line_points(out_.picture.lines, crossings, near_, job_);
+    counts_[anchor_crossing] = crossings.size();
+    const std::vector<std::uint32_t> order =
+        search_order(anchors, grammar_.is_flat, counts_, on_lines_->per_line);
+    search_points(
+        anchors, order, {candidates_, *on_lines_}, [this] { look(); },
+        [&](const std::vector<glm::dvec3>& points) {
+          for (const bool is_mirrored : {false, true}) {
+            if (is_mirrored && !(grammar_.mirrors && grammar_.is_flat)) break;
+            const std::optional<OpenPlace> place =
+                solve_place(anchors, order, points, grammar_.is_flat, is_mirrored);
+            if (place) try_open(index, *place);
+          }
+        });
+  }
+
+  void try_open(std::size_t index, const OpenPlace& found) {
+    const PicturePair& pair = grammar_.pairs[index];
+    PictureMatch match;
+    match.pair = index;
+    match.place = found.place;
+    match.values = found.values;
+    if (!grammar_.mirrors && glm::determinant(found.place.turn) < 0) return;
+    for (std::size_t k = 0; k < pair.open.size(); ++k) {
+      const double rounding = 1e-9 * std::max(std::abs(pair.open[k].low), std::abs(pair.open[k].high));
+      if (match.values[k] < pair.open[k].low - rounding || match.values[k] > pair.open[k].high + rounding)
+        return;
+    }
+    const ShapePicture left = left_shape(pair, match.values);
+    double extent = 0, shortest = 1e300;
+    for (const PictureLine& line : left.lines) {
+      extent = std::max(
+          {extent, glm::length(line.to - left.lines[0].from), glm::length(line.from - left.lines[0].from)});
+      shortest = std::min(shortest, glm::length(line.to - line.from));
+    }
+    for (const PictureSolid& solid : left.solids) {
+      if (std::min({solid.size.x, solid.size.z, grammar_.is_flat ? 1.0 : solid.size.y}) <= 0) return;
+      extent = std::max(extent, glm::length(solid.size));
+    }
+    if (extent == 0) extent = std::max(reach_of(left), 1e-9);
+    if (!(match.place.scale * extent > smallest * reach_) || shortest <= 1e-6 * extent) return;
+    if (!fits(left, 1e-5 * match.place.scale * extent + 1e-11 * reach_, match)) return;
+    if (right_of(match)) keep(std::move(match));
+  }
+
+  /// The right shape for the values of a match; null: its condition does not hold.
+  std::optional<ShapePicture> right_of(const PictureMatch& match) {
+    const PicturePair& pair = grammar_.pairs[match.pair];
+    if (pair.open.empty()) return pair.right;
+    std::vector<Issue> issues;
+    std::optional<ShapePicture> right =
+        right_shape(given_, grammar_, match.pair, named(pair, match.values), issues);
+    if (issues.empty()) return right;
+    std::string values;
+    for (std::size_t k = 0; k < pair.open.size(); ++k)
+      values += (k > 0 ? ", " : "") + pair.open[k].name + " = " + std::to_string(match.values[k]);
+    job_.refuse({issues[0].kind, issues[0].pointer, issues[0].message + ", where a match has " + values});
+  }
+
   void look() {
     if ((++looked_ & 4095U) == 0) job_.check();
   }
@@ -159,13 +226,12 @@ class PictureRun {
       found.place.turn = there * own;
       found.place.scale = scale;
       found.place.shift = to[0] - found.place.turn * (scale * from[0]);
-      if (fits(index, near_of(index, scale), found)) keep(std::move(found));
+      if (fits(grammar_.pairs[index].left, near_of(index, scale), found)) keep(std::move(found));
     }
   }
 
   /// Whether the whole left shape is part of the picture.
-  bool fits(std::size_t index, double near, PictureMatch& match) {
-    const ShapePicture& left = grammar_.pairs[index].left;
+  bool fits(const ShapePicture& left, double near, PictureMatch& match) {
     const ShapePicture& picture = out_.picture;
     for (const PictureMarker& each : left.markers) {
       const PictureMarker marker = match.place.of(each);
@@ -189,6 +255,10 @@ class PictureRun {
   /// Keeps a match. A symmetrical left shape matches in several ways; those with the same result count once.
   void keep(PictureMatch match) {
     const auto is_same = [&](const PictureMatch& other) {
+      for (std::size_t k = 0; k < match.values.size() && other.pair == match.pair; ++k) {
+        if (std::abs(other.values[k] - match.values[k]) > 1e-6 * (1 + std::abs(match.values[k])))
+          return false;
+      }
       return other.pair == match.pair && other.markers == match.markers && other.solids == match.solids &&
              glm::length(other.place.shift - match.place.shift) <= near_ &&
              glm::length(other.place.turn[0] - match.place.turn[0]) <= 1e-6 &&
@@ -261,7 +331,9 @@ class PictureRun {
     for (const PictureMatch& match : matches) {
       for (const std::uint32_t m : match.markers) gone_markers[m] = true;
       for (const std::uint32_t s : match.solids) gone_solids[s] = true;
-      for (const PictureLine& line : grammar_.pairs[match.pair].left.lines) {
+      const PicturePair& pair = grammar_.pairs[match.pair];
+      const ShapePicture left = pair.open.empty() ? pair.left : left_shape(pair, match.values);
+      for (const PictureLine& line : left.lines) {
         remove_line(picture.lines, match.place.of(line), near_);
         look();
       }
@@ -274,9 +346,10 @@ class PictureRun {
       const PicturePair& pair = grammar_.pairs[match.pair];
       ++out_.uses[pair.name];
       ShapePicture made;
-      for (const PictureLine& line : pair.right.lines) made.lines.push_back(match.place.of(line));
-      for (const PictureMarker& marker : pair.right.markers) made.markers.push_back(match.place.of(marker));
-      for (const PictureSolid& solid : pair.right.solids) made.solids.push_back(match.place.of(solid));
+      const ShapePicture right = *right_of(match);
+      for (const PictureLine& line : right.lines) made.lines.push_back(match.place.of(line));
+      for (const PictureMarker& marker : right.markers) made.markers.push_back(match.place.of(marker));
+      for (const PictureSolid& solid : right.solids) made.solids.push_back(match.place.of(solid));
       meter_.spend(made.lines.size() + made.markers.size() + made.solids.size());
       if (!(reach_of(made) <= farthest))
         job_.refuse({IssueKind::evaluation, "/shape_grammar/rules/" + std::to_string(match.pair),
@@ -286,12 +359,15 @@ class PictureRun {
     }
   }
 
+  const BuildingShapeGrammar& given_;
   const PictureGrammar& grammar_;
   Job& job_;
   Meter meter_;
   DerivedPicture out_;
   std::vector<std::vector<PictureAnchor>> anchors_;  ///< of each left shape
   std::vector<double> extents_;
+  std::vector<std::vector<OpenAnchor>> open_anchors_;  ///< of each left shape with open variables
+  std::optional<LinePoints> on_lines_;
   std::map<std::uint32_t, std::vector<PictureAnchor>> candidates_;
   std::map<std::uint32_t, std::size_t> counts_;
   std::vector<PictureMatch> matches_;
@@ -302,9 +378,9 @@ class PictureRun {
 
 }  // namespace
 
-DerivedPicture derive_picture(const PictureGrammar& grammar, std::optional<int> steps, bool is_parallel,
-                              Job& job) {
-  return PictureRun(grammar, job).run(steps, is_parallel);
+DerivedPicture derive_picture(const BuildingShapeGrammar& given, const PictureGrammar& grammar,
+                              std::optional<int> steps, bool is_parallel, Job& job) {
+  return PictureRun(given, grammar, job).run(steps, is_parallel);
 }
 
 }  // namespace seedmesh::building

@@ -5,6 +5,7 @@
 
 #include "core/base/math.h"
 #include "core/generators/building/shape_grammar/anchors.h"
+#include "core/generators/building/shape_grammar/open_pairs.h"
 #include "core/generators/building/shape_grammar/rotation.h"
 #include "core/generators/building/shape_grammar/shape_grammar.h"
 #include "core/lang/expression.h"
@@ -31,19 +32,23 @@ class PictureReader {
   PictureReader(const BuildingShapeGrammar& given, PictureGrammar& grammar, std::vector<Issue>& issues)
       : given_(given), grammar_(grammar), issues_(issues), is_flat_(given.dimensions == 2) {}
 
-  /// Adds the elements of the picture at `pointer`.
-  void read(const BuildingPicture& picture, const std::string& pointer, ShapePicture& out) {
-    ShapePicture raw;
-    read(picture, picture.parameters, pointer, {}, raw);
+  using Values = PictureValues;
+
+  /// Adds the elements of the picture at `pointer`, with maximal lines.
+  void read(const BuildingPicture& picture, const std::string& pointer, ShapePicture& out,
+            const Values& open = {}) {
+    const ShapePicture raw = read_raw(picture, pointer, open);
     const double near = 1e-7 * std::max(reach_of(raw), 1e-9);
     add(out, raw, near);
   }
 
- private:
-  using Values = std::map<std::string, double>;
-
-  void add_error(IssueKind kind, const std::string& pointer, std::string message) {
-    if (issues_.size() < 100) issues_.push_back({kind, pointer, std::move(message)});
+  /// The elements as they are written, with a line for each segment.
+  ShapePicture read_raw(const BuildingPicture& picture, const std::string& pointer, const Values& open) {
+    Values values = open;
+    values.insert(picture.parameters.begin(), picture.parameters.end());
+    ShapePicture raw;
+    read(picture, values, pointer, {}, raw);
+    return raw;
   }
 
   double number(const Number& given, const Values& values, const std::string& pointer) {
@@ -73,6 +78,11 @@ class PictureReader {
     add_error(IssueKind::out_of_range, pointer,
               std::isfinite(result) ? "the value is beyond 1,000 km" : "the value is not a finite number");
     return 0;
+  }
+
+ private:
+  void add_error(IssueKind kind, const std::string& pointer, std::string message) {
+    if (issues_.size() < 100) issues_.push_back({kind, pointer, std::move(message)});
   }
 
   /// A point of two or three coordinates; without coordinates it is the origin.
@@ -277,6 +287,68 @@ void check_restriction(const PicturePair& pair, const std::string& pointer, bool
 
 }  // namespace
 
+namespace {
+
+/// Reads a pair with open variables: its left shape for several values of them, and its right shape once for its errors.
+void read_open_pair(const BuildingShapeGrammar& given, std::size_t rule, PictureGrammar& grammar,
+                    PicturePair& pair, std::vector<Issue>& issues) {
+  const BuildingPair& source = given.rules[rule];
+  const std::string pointer = "/shape_grammar/rules/" + std::to_string(rule);
+  const std::size_t before = issues.size();
+  check_open_variables(source, pointer, issues);
+  for (const BuildingOpenVariable& each : source.open) pair.open.push_back({each.name, each.low, each.high});
+  const auto left_at = [&](const std::vector<double>& values) {
+    return PictureReader(given, grammar, issues)
+        .read_raw(source.pair[0], pointer + "/pair/0", named(pair, values));
+  };
+  const std::vector<double> first = samples_of(pair, first_sample);
+  pair.left = left_at(first);
+  PictureReader reader(given, grammar, issues);
+  if (!source.condition.empty()) reader.number(source.condition, named(pair, first), pointer + "/condition");
+  reader.read(source.pair[1], pointer + "/pair/1", pair.right, named(pair, first));
+  if (issues.size() > before) return;
+  for (std::size_t k = 0; k < pair.open.size(); ++k) {
+    std::vector<double> values = first;
+    values[k] = samples_of(pair, second_sample)[k];
+    pair.moved.push_back(left_at(values));
+  }
+  if (issues.size() > before) return;
+  const std::vector<double> last = samples_of(pair, 0.9);
+  check_open_left(pair, left_at(last), last, grammar.is_flat, pointer + "/pair/0", issues);
+}
+
+/// Checks that a left shape determines a similarity, and what the restriction forbids.
+void check_pair(const PicturePair& pair, const std::string& pointer, bool is_flat,
+                PictureRestriction restriction, std::vector<Issue>& issues) {
+  bool is_determined = !pair.open.empty();  // has been checked
+  if (!is_determined) anchors_of_left(pair.left, is_flat, is_determined);
+  if (!is_determined)
+    issues.push_back({IssueKind::invalid_value, pointer + "/pair/0",
+                      std::string("this shape does not determine a position, direction and size: expected ") +
+                          (is_flat ? "two points" : "three points that are not on a line") +
+                          " of markers, corners of solids, or crossings or ends of lines"});
+  if (restriction != PictureRestriction::any) check_restriction(pair, pointer, is_flat, restriction, issues);
+}
+
+}  // namespace
+
+std::optional<ShapePicture> right_shape(const BuildingShapeGrammar& given, const PictureGrammar& grammar,
+                                        std::size_t rule, const PictureValues& values,
+                                        std::vector<Issue>& issues) {
+  const std::string pointer = "/shape_grammar/rules/" + std::to_string(rule);
+  PictureGrammar names;
+  names.is_flat = grammar.is_flat;
+  names.labels = grammar.labels;
+  names.materials = grammar.materials;
+  PictureReader reader(given, names, issues);
+  const std::string& condition = given.rules[rule].condition;
+  if (!condition.empty() && reader.number(condition, values, pointer + "/condition") == 0)
+    return std::nullopt;
+  ShapePicture right;
+  reader.read(given.rules[rule].pair[1], pointer + "/pair/1", right, values);
+  return right;
+}
+
 PictureGrammar read_pictures(const BuildingShapeGrammar& given, PictureRestriction restriction,
                              std::vector<Issue>& issues) {
   PictureGrammar grammar;
@@ -291,24 +363,21 @@ PictureGrammar read_pictures(const BuildingShapeGrammar& given, PictureRestricti
     PicturePair pair;
     pair.name = given.rules[i].name.empty() ? "rule " + std::to_string(i + 1) : given.rules[i].name;
     pair.weight = given.rules[i].weight;
-    reader.read(given.rules[i].pair[0], pointer + "/pair/0", pair.left);
-    reader.read(given.rules[i].pair[1], pointer + "/pair/1", pair.right);
+    if (!given.rules[i].open.empty()) {
+      read_open_pair(given, i, grammar, pair, issues);
+    } else {
+      if (!given.rules[i].condition.empty())
+        issues.push_back({IssueKind::conflict, pointer + "/condition",
+                          "found a condition without open variables, expected `open` as well"});
+      reader.read(given.rules[i].pair[0], pointer + "/pair/0", pair.left);
+      reader.read(given.rules[i].pair[1], pointer + "/pair/1", pair.right);
+    }
     grammar.pairs.push_back(std::move(pair));
   }
   if (issues.size() > before) return grammar;
-  for (std::size_t i = 0; i < grammar.pairs.size(); ++i) {
-    const std::string pointer = "/shape_grammar/rules/" + std::to_string(i);
-    bool is_determined = false;
-    anchors_of_left(grammar.pairs[i].left, grammar.is_flat, is_determined);
-    if (!is_determined)
-      issues.push_back(
-          {IssueKind::invalid_value, pointer + "/pair/0",
-           std::string("this shape does not determine a position, direction and size: expected ") +
-               (grammar.is_flat ? "two points" : "three points that are not on a line") +
-               " of markers, corners of solids, or crossings or ends of lines"});
-    if (restriction != PictureRestriction::any)
-      check_restriction(grammar.pairs[i], pointer, grammar.is_flat, restriction, issues);
-  }
+  for (std::size_t i = 0; i < grammar.pairs.size(); ++i)
+    check_pair(grammar.pairs[i], "/shape_grammar/rules/" + std::to_string(i), grammar.is_flat, restriction,
+               issues);
   if (restriction == PictureRestriction::unimarker && grammar.initial.markers.size() != 1)
     issues.push_back({IssueKind::invalid_value, "/shape_grammar/initial",
                       "found " + std::to_string(grammar.initial.markers.size()) +

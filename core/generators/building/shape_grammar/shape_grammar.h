@@ -11,6 +11,10 @@
 /// are not on a line. If a left shape has too few, the ends of its lines count too, and then only whole lines
 /// match.
 ///
+/// A left shape with open variables is a family (Stiny, "Ice-ray: a note on the generation of Chinese lattice designs", 1977):
+/// a match also determines their values. Points of the left shape are linear in the values, and so are the
+/// equations of an inverse similarity that maps points of the picture to them.
+///
 /// Shapes smaller than 10^-5 of the picture are not found, so that rules that make ever smaller shapes end.
 /// The rule (by weight) and the match are random, by the number of the step.
 #include <map>
@@ -27,10 +31,19 @@ struct BuildingShapeGrammar;
 
 namespace seedmesh::building {
 
+struct OpenVariable {
+  std::string name;
+  double low = 0, high = 0;
+};
+
 struct PicturePair {
   std::string name;  ///< for the report: its own name, or "rule 1" and so on
   double weight = 1;
   ShapePicture left, right;
+  /// Variables of both shapes. If there are some, `left` has them at first_sample, with a line for each segment, and
+  /// `right` is read for each match.
+  std::vector<OpenVariable> open;
+  std::vector<ShapePicture> moved;  ///< `left` with one variable at second_sample
 };
 
 struct PictureGrammar {
@@ -50,6 +63,15 @@ enum class PictureRestriction { any, non_erasing, unimarker };
 PictureGrammar read_pictures(const BuildingShapeGrammar& given, PictureRestriction restriction,
                              std::vector<Issue>& issues);
 
+/// Values that a match has found, by name.
+using PictureValues = std::map<std::string, double>;
+
+/// The right shape of a rule for these values of its open variables; nothing if its condition is 0. Errors as in
+/// read_pictures, of which it reports only those that depend on values.
+std::optional<ShapePicture> right_shape(const BuildingShapeGrammar& given, const PictureGrammar& grammar,
+                                        std::size_t rule, const PictureValues& values,
+                                        std::vector<Issue>& issues);
+
 struct DerivedPicture {
   ShapePicture picture;
   std::map<std::string, std::uint64_t> uses;  ///< of each rule
@@ -61,7 +83,7 @@ struct DerivedPicture {
 /// Without `steps` it runs until no rule applies, at most 100,000 steps. Spends Resource::shapes for added
 /// elements. Throws Stop if the picture grows beyond 1,000 km. Cost of a step: linear in markers and solids
 /// if markers determine the similarity, else the square of the lines.
-DerivedPicture derive_picture(const PictureGrammar& grammar, std::optional<int> steps, bool is_parallel,
-                              Job& job);
+DerivedPicture derive_picture(const BuildingShapeGrammar& given, const PictureGrammar& grammar,
+                              std::optional<int> steps, bool is_parallel, Job& job);
 
 }  // namespace seedmesh::building

@@ -1,0 +1,60 @@
+#pragma once
+/// Left shapes with open variables: their points as linear functions, and the values that a match determines.
+#include <map>
+#include <optional>
+#include <span>
+
+#include "core/generators/building/shape_grammar/anchors.h"
+#include "core/generators/building/shape_grammar/shape_grammar.h"
+
+namespace seedmesh {
+struct BuildingPair;
+}
+
+namespace seedmesh::building {
+
+/// Shares of the ranges of open variables for which left shapes are read.
+constexpr double first_sample = 0.38, second_sample = 0.62;
+
+std::vector<double> samples_of(const PicturePair& pair, double share);
+PictureValues named(const PicturePair& pair, const std::vector<double>& values);
+
+/// Reports variables that are named twice or like a parameter, and empty ranges.
+void check_open_variables(const BuildingPair& given, const std::string& pointer, std::vector<Issue>& issues);
+
+/// The left shape for these values.
+ShapePicture left_shape(const PicturePair& pair, const std::vector<double>& values);
+
+/// Reports a left shape that is not linear in its variables, or whose points do not determine them and a similarity.
+/// `other` is the left shape read for `values`.
+void check_open_left(const PicturePair& pair, const ShapePicture& other, const std::vector<double>& values,
+                     bool is_flat, const std::string& pointer, std::vector<Issue>& issues);
+
+/// A point of a left shape: `at` plus the sum of the changes times the values.
+struct OpenAnchor {
+  glm::dvec3 at{0};
+  std::vector<glm::dvec3> changes;
+  std::uint32_t kind = 0, owner = no_owner, corner = 0;  ///< as in PictureAnchor
+  std::vector<std::uint32_t> beside;  ///< anchors at the other ends of lines that begin here
+};
+
+/// One for each point. Ends of lines that meet others are crossings.
+std::vector<OpenAnchor> open_anchors(const PicturePair& pair);
+
+/// The order in which anchors are searched: enough of them, those with few candidates first. `per_line` is the mean number
+/// of points on a line of the picture. Empty: they do not determine a similarity and values.
+std::vector<std::uint32_t> search_order(const std::vector<OpenAnchor>& anchors, bool is_flat,
+                                        const std::map<std::uint32_t, std::size_t>& counts, double per_line);
+
+struct OpenPlace {
+  Similarity place;
+  std::vector<double> values;
+};
+
+/// The similarity and the values that map these anchors to these points, by least squares; nothing if there are none. In
+/// the plane it mirrors if `is_mirrored`; in space the points decide.
+std::optional<OpenPlace> solve_place(const std::vector<OpenAnchor>& anchors,
+                                     std::span<const std::uint32_t> order, std::span<const glm::dvec3> points,
+                                     bool is_flat, bool is_mirrored);
+
+}  // namespace seedmesh::building
