@@ -2,14 +2,27 @@
 /// Colours of the ground by climate, height and slope.
 #include <array>
 #include <cstdint>
+#include <vector>
 
 #include "core/generators/world/ground.h"
 
 namespace seedmesh::world {
 
+struct Shade {
+  double red = 0, green = 0, blue = 0;
+};
+
+/// The colours of the ground of a world, linear. Make it once for a tile.
+struct GroundColors {
+  explicit GroundColors(const World& world);
+  Shade dry, grass, forest, rock, sand, snow;
+  std::vector<Shade> fields;
+};
+
 /// Linear colour of the ground. `steepness` is the cosine of the slope.
-std::array<std::uint8_t, 4> ground_color(const World& world, const GroundSample& sample, double east,
-                                         double north, double steepness);
+std::array<std::uint8_t, 4> ground_color(const World& world, const GroundColors& colors,
+                                         const GroundSample& sample, double east, double north,
+                                         double steepness);
 std::array<std::uint8_t, 4> linear_color(const Color& color);
 
 }  // namespace seedmesh::world

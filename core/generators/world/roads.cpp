@@ -241,7 +241,8 @@ std::vector<std::shared_ptr<const Road>> roads_near(const World& world, const Re
   const double longest = world.params.roads.longest;
   if (longest <= 0) return found;
   // a road near the box has both ends, and all that decide about it, within this distance
-  const auto sites = sites_near(world, box, reach + reach_of(longest) + 2 * longest, job);
+  const auto sites =
+      sites_near(world, box, reach + world.reach(Reads::roads, reach_of(longest) + 2 * longest), job);
   for (std::size_t i = 0; i < sites.size(); ++i) {
     for (std::size_t j = i + 1; j < sites.size(); ++j) {
       const Site &a = *sites[i], &b = *sites[j];
