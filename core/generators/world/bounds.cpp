@@ -8,7 +8,6 @@
 #include "core/generators/world/houses.h"
 #include "core/generators/world/plant_mesh.h"
 #include "core/generators/world/terrain_mesh.h"
-#include "core/generators/world/water_mesh.h"
 #include "core/generators/world/world.h"
 
 namespace seedmesh::world {
@@ -28,15 +27,12 @@ struct Block {
 
 std::shared_ptr<const Block> block_at(const World& world, const TileKey& root, Job& job);
 
-/// How far plants, houses and water stand out of a tile in plan.
-double across(const World& world, const TileFrame& frame) {
-  const double water = world.has(Layer::water) ? water_overlap * frame.spacing : 0;
-  return std::max({plant_extent(world).across, house_extent(world).across, water});
-}
+/// How far plants and houses stand out of a tile in plan.
+double across(const World& world) { return std::max(plant_extent(world).across, house_extent(world).across); }
 
 TileBounds in_plan(const World& world, const TileKey& key) {
   const TileFrame frame = frame_of(world, key);
-  const double out = across(world, frame);
+  const double out = across(world);
   TileBounds box;
   box.west = frame.west - static_cast<double>(world.east) - out;
   box.south = frame.south - static_cast<double>(world.north) - out;

@@ -146,6 +146,10 @@ int Glb::add_indices(const std::vector<std::uint32_t>& indices, std::size_t vert
                        {"type", "SCALAR"}});
 }
 
+void Glb::add_mesh(std::string_view name, const TileMesh& mesh, int material, double step, double height) {
+  add_mesh(name, mesh.vertices, add_indices(mesh.indices, mesh.vertices.size()), material, step, height);
+}
+
 int Glb::add_shared_indices(std::string uri, std::size_t count) {
   const int view = add_view(add_shared_buffer(std::move(uri), 2 * count), 0, 2 * count, 0, element_buffer);
   return add_accessor(

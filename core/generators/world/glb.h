@@ -35,7 +35,8 @@ class Glb {
   /// The index of a material.
   int add_material(std::string_view name, double roughness, bool two_sided = false);
   /// A node with one mesh of quantized vertices: metres = height * up + step * position.
-  /// `order`: the accessor of the corners of triangles.
+  void add_mesh(std::string_view name, const TileMesh& mesh, int material, double step, double height);
+  /// The same with an accessor of the corners of triangles.
   void add_mesh(std::string_view name, const std::vector<TileVertex>& vertices, int order, int material,
                 double step, double height);
   /// The accessor of corners of triangles among `vertices` vertices.

@@ -37,12 +37,13 @@ GroundColors::GroundColors(const World& world) {
   rock = shade_of(colors.rock);
   sand = shade_of(colors.sand);
   snow = shade_of(colors.snow);
+  water = shade_of(colors.water);
   for (const Color& color : world.params.fields.colors) fields.push_back(shade_of(color));
 }
 
 std::array<std::uint8_t, 4> ground_color(const World& world, const GroundColors& colors,
                                          const GroundSample& sample, double east, double north,
-                                         double steepness) {
+                                         double steepness, double spacing) {
   const Climate climate = climate_at(world, east, north, sample.height);
   Octaves<4> patches;
   patches.add(world.key ^ 0xC0105U, east, north, 1.0 / 140);
@@ -67,7 +68,12 @@ std::array<std::uint8_t, 4> ground_color(const World& world, const GroundColors&
       smooth_step(-climate.temperature + 1.2 * patch, 3, 6) * (1 - smooth_step(1 - steepness, 0.25, 0.5));
   shade = mixed(shade, colors.snow, snow);
   const double light = 1 + 0.08 * patch;
-  return {byte_of(shade.red * light), byte_of(shade.green * light), byte_of(shade.blue * light), 255};
+  shade = {shade.red * light, shade.green * light, shade.blue * light};
+  if (world.params.relief.sea) {
+    const double deep = 1.5 + 0.02 * spacing, below = world.params.relief.sea_level - sample.height;
+    shade = mixed(shade, colors.water, smooth_step(below, 0, deep));
+  }
+  return {byte_of(shade.red), byte_of(shade.green), byte_of(shade.blue), 255};
 }
 
 }  // namespace seedmesh::world

@@ -15,14 +15,16 @@ struct Shade {
 /// The colours of the ground of a world, linear. Make it once for a tile.
 struct GroundColors {
   explicit GroundColors(const World& world);
-  Shade dry, grass, forest, rock, sand, snow;
+  Shade dry, grass, forest, rock, sand, snow, water;
   std::vector<Shade> fields;
 };
 
-/// Linear colour of the ground. `steepness` is the cosine of the slope.
+/// Linear colour of the ground. `steepness` is the cosine of the slope. The ground of the deep sea has the colour of the
+/// water: walls of skirts that are seen along their planes have depths of little precision and shine through water.
+/// `spacing`: of samples.
 std::array<std::uint8_t, 4> ground_color(const World& world, const GroundColors& colors,
                                          const GroundSample& sample, double east, double north,
-                                         double steepness);
+                                         double steepness, double spacing);
 std::array<std::uint8_t, 4> linear_color(const Color& color);
 
 }  // namespace seedmesh::world

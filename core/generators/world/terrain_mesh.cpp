@@ -33,7 +33,7 @@ TileVertex vertex_of(const World& world, const GroundColors& colors, const TileF
   vertex.normal[0] = byte(-rise_east);
   vertex.normal[1] = byte(run);
   vertex.normal[2] = byte(rise_north);
-  const auto color = ground_color(world, colors, sample, east, north, run / length);
+  const auto color = ground_color(world, colors, sample, east, north, run / length, grid.spacing);
   std::copy(color.begin(), color.end(), vertex.color);
   return vertex;
 }

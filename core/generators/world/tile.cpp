@@ -25,8 +25,7 @@ void add_mesh(Glb& glb, std::string_view name, const TileMesh& mesh, double roug
               double base, Job& job) {
   if (mesh.indices.empty()) return;
   job.spend(Resource::triangles, mesh.indices.size() / 3);
-  glb.add_mesh(name, mesh.vertices, glb.add_indices(mesh.indices, mesh.vertices.size()),
-               glb.add_material(name, roughness), frame.step, base);
+  glb.add_mesh(name, mesh, glb.add_material(name, roughness), frame.step, base);
 }
 
 void add_water(Glb& glb, const World& world, const TileFrame& frame, const TerrainGrid& grid, double base,

@@ -9,18 +9,22 @@
 namespace seedmesh::world {
 namespace {
 
+constexpr double overlap = 1.0 / 8;  ///< of a cell, at the borders of sheets
+
 /// Cells of the grid: from the first column and row to those after the last.
 struct Cells {
   int west, south, east, north;
 };
 
-/// The corners of sheets need not meet those of their neighbours, so without an overlap single pixels of the ground
-/// below would show.
+/// Sheets of a lake overlap inside the tile: their corners need not meet those of their neighbours, and without an
+/// overlap single pixels of the ground below would show.
 void add_sheet(FlatMesh& builder, const TerrainGrid& grid, const Cells& cells, double height) {
-  const double out = water_overlap * grid.spacing;
-  builder.add_rectangle(
-      grid.west + cells.west * grid.spacing - out, grid.south + cells.south * grid.spacing - out,
-      grid.west + cells.east * grid.spacing + out, grid.south + cells.north * grid.spacing + out, height);
+  const double out = overlap * grid.spacing, side = (grid.count - 1) * grid.spacing;
+  const auto at = [&](double from, int cell, double by) {
+    return std::clamp(from + cell * grid.spacing + by, from, from + side);
+  };
+  builder.add_rectangle(at(grid.west, cells.west, -out), at(grid.south, cells.south, -out),
+                        at(grid.west, cells.east, out), at(grid.south, cells.north, out), height);
 }
 
 /// Rows of cells that `is_wet` accepts, as rectangles; equal neighbouring rows become one rectangle.

@@ -75,7 +75,7 @@ TEST(WorldLayers, RiversOnlyFallAndEndInWater) {
   }
 }
 
-/// With its reach and more, the ground is the same; with an eighth of its reach it is not.
+/// With its reach and more, the ground is the same; with half of its reach it is not.
 TEST(WorldLayers, GroundReadsWaterWithinItsReachOnly) {
   const World world = world_of(mountains_with_woods());
   Job job = test_job();
@@ -84,7 +84,7 @@ TEST(WorldLayers, GroundReadsWaterWithinItsReachOnly) {
     const double east = 64.0 * (137 * k % 1000), north = 64.0 * (311 * k % 1000);
     const Rectangle box{east, north, east + 64, north + 64};
     const Ground whole(world, box, job), more(world, box, job, valley_reach + 2048),
-        less(world, box, job, valley_reach / 8);
+        less(world, box, job, valley_reach / 2);
     for (const double at : {3.0, 31.0, 60.0}) {
       ASSERT_EQ(whole.height(east + at, north + at), more.height(east + at, north + at));
       differences += whole.height(east + at, north + at) != less.height(east + at, north + at) ? 1 : 0;
@@ -158,7 +158,7 @@ TEST(WorldLayers, PlantsCompeteWithinFiveSpacingsOnly) {
     const auto feet = feet_of(world, box, thinning_rounds);
     count += feet.size();
     ASSERT_EQ(feet, feet_of(world, box, thinning_rounds + 1));
-    differences += feet != feet_of(world, box, 0.5 * thinning_rounds - 2) ? 1 : 0;
+    differences += feet != feet_of(world, box, 0.5 * thinning_rounds) ? 1 : 0;
   }
   EXPECT_GT(count, 1000U);
   EXPECT_GT(differences, 0);
