@@ -10,7 +10,8 @@
 namespace seedmesh::world {
 namespace {
 
-constexpr int window_margin = 4;          ///< cells that a displaced border can reach beyond a region
+constexpr int window_margin =
+    3;  ///< cells that a displaced border can reach beyond a region: noise is below 1
 constexpr double stray = 2 * drain_cell;  ///< metres that a river can be away from its nodes
 constexpr double displacement = 3;        ///< cells
 constexpr double jitter = 0.6;            ///< of a cell
@@ -407,7 +408,7 @@ std::shared_ptr<const Region> region_at(const World& world, const CellKey& regio
 
 std::vector<CellKey> regions_near(const World& world, double west, double south, double east, double north,
                                   double reach) {
-  const double around = reach + world.reach(Reads::regions, stray);
+  const double around = reach + stray;
   const auto cell = [](double v) { return math::to_int64(std::floor(v / drain_cell)); };
   std::vector<CellKey> found;
   for (std::int64_t y = cell(south - around); y <= cell(north + around); ++y) {

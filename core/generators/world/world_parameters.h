@@ -32,9 +32,9 @@ struct NoiseKeys {
 };
 NoiseKeys noise_keys(std::uint64_t key);
 
-/// What a layer reads around the part that it makes: cells of a region, regions around a rectangle, water, settlements
+/// What a layer reads around the part that it makes: cells of a region, water, settlements
 /// that decide about roads, earthworks of roads, settlements with fields, and settlements with houses.
-enum class Reads : std::uint8_t { cells, regions, water, roads, works, fields, houses };
+enum class Reads : std::uint8_t { cells, water, roads, works, fields, houses };
 
 /// Immutable; copies share the store. Positions of the plane ("absolute") are metres from its own zero; those of
 /// tiles and maps are relative to the middle of the world.
@@ -61,7 +61,7 @@ struct World {
     return reach_factor[n] * declared + reach_more[n];
   }
   static constexpr std::size_t reaches = static_cast<std::size_t>(Reads::houses) + 1;
-  std::array<double, reaches> reach_factor{1, 1, 1, 1, 1, 1, 1}, reach_more{};
+  std::array<double, reaches> reach_factor{1, 1, 1, 1, 1, 1}, reach_more{};
 };
 
 /// Errors that the schema cannot express: /extent where it is no power of two, /layers where one is named twice,
