@@ -1,6 +1,6 @@
 #!/usr/bin/env node
 // Requests per second and latency over loopback, compared with nginx sending the same bytes in the same run:
-// a 304, cached models of 50 KB and 1 MB, and small trees that are not cached. wrk shares the processor with
+// a 304, cached models of 50 KB and 1 MB, a 304 and a cached leaf of a world, and small trees that are not cached. wrk shares the processor with
 // both servers, so the ratios count. Rounds alternate between the servers, and the median round is shown. Models are also asked for
 // with compression offered, as browsers do: from memory beside nginx with gzip level 1, and cold.
 // Usage: http_bench.mjs [seconds per round] [rounds]
@@ -110,6 +110,14 @@ try {
   for (const [each, file] of [[small, 'small.glb'], [large, 'large.glb']]) {
     compare(`${size(each)} compressed, c=32`, () => wrk(server.url + each.answer.headers['content-location'], { connections: 32, headers: offered }), () => wrk(`${near}/${file}`, { connections: 32, headers: offered }));
   }
+  // A leaf of a world, beside the models: the token of the world is parsed for each request.
+  const world = await server.generate({ generator: 'world', seed: 7 });
+  const tile = world.headers['content-location'].replace(/[^/]*$/, 'c/14/8192/8192.glb'), leaf = await server.get(tile);
+  if (leaf.status !== 200) throw new Error(`${tile}: ${leaf.status}`);
+  fs.writeFileSync(path.join(folder, 'leaf.glb'), leaf.bytes);
+  compare('304 of a tile, c=8', () => wrk(server.url + tile, { connections: 8, headers: { 'If-None-Match': leaf.headers.etag } }),
+    () => wrk(`${near}/small.glb`, { connections: 8, headers: { 'If-None-Match': tag } }), 30000);
+  compare(`tile of ${(leaf.bytes.length / 1e3).toFixed(0)} KB from memory, c=8`, () => wrk(server.url + tile, { connections: 8 }), () => wrk(`${near}/leaf.glb`, { connections: 8 }));
   await new Promise((resolve) => { setTimeout(resolve, 100); });  // lets the server notice the connections that wrk has closed
   const cold = await server.generate(tree(3, 6, 1));
   compare(`cold trees of ${(cold.bytes.length / 1e3).toFixed(0)} KB, c=8`, (round) => wrk(`${server.url}/v1/generate`, { connections: 8, script: cold_script(round) }), undefined, 1000);

@@ -131,8 +131,33 @@ int Glb::add_node(Json node) {
   return index;
 }
 
+int Glb::add_indices(const std::vector<std::uint32_t>& indices, std::size_t vertices) {
+  const bool is_small = vertices <= 65535;
+  int view = 0;
+  if (is_small) {
+    const std::vector<std::uint16_t> small(indices.begin(), indices.end());
+    view = add_bytes(small.data(), small.size() * 2, 0, element_buffer);
+  } else {
+    view = add_bytes(indices.data(), indices.size() * 4, 0, element_buffer);
+  }
+  return add_accessor({{"bufferView", view},
+                       {"componentType", is_small ? type_unsigned_short : type_unsigned},
+                       {"count", indices.size()},
+                       {"type", "SCALAR"}});
+}
+
 void Glb::add_mesh(std::string_view name, const TileMesh& mesh, int material, double step, double height) {
-  const std::vector<TileVertex>& vertices = mesh.vertices;
+  add_mesh(name, mesh.vertices, add_indices(mesh.indices, mesh.vertices.size()), material, step, height);
+}
+
+int Glb::add_shared_indices(std::string uri, std::size_t count) {
+  const int view = add_view(add_shared_buffer(std::move(uri), 2 * count), 0, 2 * count, 0, element_buffer);
+  return add_accessor(
+      {{"bufferView", view}, {"componentType", type_unsigned_short}, {"count", count}, {"type", "SCALAR"}});
+}
+
+void Glb::add_mesh(std::string_view name, const std::vector<TileVertex>& vertices, int order, int material,
+                   double step, double height) {
   int low[3] = {32767, 32767, 32767}, high[3] = {-32768, -32768, -32768};
   for (const TileVertex& v : vertices) {
     const int values[3] = {v.x, v.y, v.z};
@@ -163,17 +188,6 @@ void Glb::add_mesh(std::string_view name, const TileMesh& mesh, int material, do
                                         {"normalized", true},
                                         {"count", count},
                                         {"type", "VEC4"}});
-  int indices = 0;
-  if (count <= 65535) {
-    const std::vector<std::uint16_t> small(mesh.indices.begin(), mesh.indices.end());
-    indices = add_bytes(small.data(), small.size() * 2, 0, element_buffer);
-  } else {
-    indices = add_bytes(mesh.indices.data(), mesh.indices.size() * 4, 0, element_buffer);
-  }
-  const int order = add_accessor({{"bufferView", indices},
-                                  {"componentType", count <= 65535 ? type_unsigned_short : type_unsigned},
-                                  {"count", mesh.indices.size()},
-                                  {"type", "SCALAR"}});
   const int made = add_gltf_mesh(
       {{"name", name},
        {"primitives",

@@ -36,6 +36,13 @@ class Glb {
   int add_material(std::string_view name, double roughness, bool two_sided = false);
   /// A node with one mesh of quantized vertices: metres = height * up + step * position.
   void add_mesh(std::string_view name, const TileMesh& mesh, int material, double step, double height);
+  /// The same with an accessor of the corners of triangles.
+  void add_mesh(std::string_view name, const std::vector<TileVertex>& vertices, int order, int material,
+                double step, double height);
+  /// The accessor of corners of triangles among `vertices` vertices.
+  int add_indices(const std::vector<std::uint32_t>& indices, std::size_t vertices);
+  /// The same with corners of 16 bits in a file of their own.
+  int add_shared_indices(std::string uri, std::size_t count);
   /// A buffer in a file of its own, which tiles share.
   int add_shared_buffer(std::string uri, std::size_t bytes);
   /// The meshes of a shared model, whose file is in the directory "a" of `folder`. The same asset twice is added once.

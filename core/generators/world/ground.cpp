@@ -10,30 +10,30 @@ constexpr double channel_reach = 260;  ///< metres; of the exact banks of a rive
 constexpr double blend = 24;           ///< metres of height over which a valley meets the land
 
 /// The side of a valley at a distance from its water, and its slope. Infinite at the reach, so that water beyond it
-/// never counts.
-Slope valley_side(double away, double half_width, double ruggedness) {
+/// never counts; also where it is not below `most`.
+Slope valley_side(double away, double half_width, double ruggedness, double most) {
   const double flat = 40 + 8 * half_width, slope = 0.16 + 0.36 * ruggedness;
   const double beyond = std::max(0.0, away - flat);
   const double rise = 1 + 0.02 * away + slope * beyond;
-  const double t = away / valley_reach, left = 1 - t * t;
-  if (left <= 1e-6) return {1e12, 0, 0};
+  const double t = away * (1 / valley_reach), left = 1 - t * t;
+  if (left <= 1e-6 || rise >= most) return {1e12, 0, 0};
   return {rise / left, 0.02 + (beyond > 0 ? slope : 0), 0};
 }
 
 Reach reach_of(const RiverPoint& a, const RiverPoint& b) {
   const double x = b.east - a.east, y = b.north - a.north;
-  return {a, b, a.east + x / 2, a.north + y / 2, valley_reach + 1 + std::sqrt(x * x + y * y) / 2};
+  const double square = x * x + y * y, far = valley_reach + 1 + std::sqrt(square) / 2;
+  const double by = square > 0 ? 1 / square : 0;
+  return {a, b, a.east + x / 2, a.north + y / 2, far * far, x, y, by};
 }
 
 struct Nearest {
   double away = 0, share = 0, east = 0, north = 0;
 };
 Nearest nearest_on(const Reach& reach, double east, double north) {
-  const double x = reach.to.east - reach.from.east, y = reach.to.north - reach.from.north;
   const double px = east - reach.from.east, py = north - reach.from.north;
-  const double square = x * x + y * y;
-  const double share = square > 0 ? std::clamp((px * x + py * y) / square, 0.0, 1.0) : 0;
-  const double dx = px - share * x, dy = py - share * y;
+  const double share = std::clamp((px * reach.x + py * reach.y) * reach.by, 0.0, 1.0);
+  const double dx = px - share * reach.x, dy = py - share * reach.y;
   return {std::sqrt(dx * dx + dy * dy), share, dx, dy};
 }
 
@@ -59,7 +59,7 @@ struct Waters {
 void add_reach(Waters& waters, const Reach& reach, const Nearest& near, double ruggedness) {
   const double water = reach.from.water + near.share * (reach.to.water - reach.from.water);
   const double half = (reach.from.width + near.share * (reach.to.width - reach.from.width)) / 2;
-  Slope side = valley_side(near.away, half, ruggedness);
+  const Slope side = valley_side(near.away, half, ruggedness, waters.valley.value - water);
   if (const double height = water + side.value; height < waters.valley.value) {
     const double along = near.away > 1e-9 ? side.east / near.away : 0;
     waters.valley = {height, along * near.east, along * near.north};
@@ -95,6 +95,9 @@ double with_river(double height, const Waters& waters) {
 
 }  // namespace
 
+Ground::Ground(const World& world, const Rectangle& box, Job& job)
+    : Ground(world, box, job, world.reach(Reads::water, valley_reach)) {}
+
 Ground::Ground(const World& world, const Rectangle& box, Job& job, double reach) : world_(&world) {
   const auto is_near = [&](double w, double s, double e, double n) {
     return w <= box.east + reach && e >= box.west - reach && s <= box.north + reach && n >= box.south - reach;
@@ -102,6 +105,7 @@ Ground::Ground(const World& world, const Rectangle& box, Job& job, double reach)
   for (const CellKey& key : regions_near(world, box.west, box.south, box.east, box.north, reach)) {
     const auto region = region_at(world, key, job);
     for (const River& river : region->rivers) {
+      if (!is_near(river.west, river.south, river.east, river.north)) continue;
       for (std::size_t k = 1; k < river.points.size(); ++k) {
         const RiverPoint &a = river.points[k - 1], &b = river.points[k];
         if (!is_near(std::min(a.east, b.east), std::min(a.north, b.north), std::max(a.east, b.east),
@@ -126,7 +130,7 @@ GroundSample Ground::at(double east, double north) const {
   Waters waters;
   for (const Reach& reach : reaches_) {
     const double x = east - reach.middle_east, y = north - reach.middle_north;
-    if (x * x + y * y > reach.far * reach.far) continue;
+    if (x * x + y * y > reach.far) continue;
     const Nearest near = nearest_on(reach, east, north);
     if (near.away < valley_reach) add_reach(waters, reach, near, land.ruggedness);
   }
@@ -134,7 +138,8 @@ GroundSample Ground::at(double east, double north) const {
     const double x = east - lake.east, y = north - lake.north, away = std::sqrt(x * x + y * y);
     const double beyond = away - shore_distance(lake, east, north, away);
     if (beyond >= valley_reach) continue;
-    const Slope side = valley_side(std::max(0.0, beyond), 5, land.ruggedness);
+    const Slope side =
+        valley_side(std::max(0.0, beyond), 5, land.ruggedness, waters.valley.value - lake.level);
     if (const double height = lake.level + side.value; height < waters.valley.value) {
       const double along = away > 1e-9 ? side.east / away : 0;
       waters.valley = {height, along * x, along * y};

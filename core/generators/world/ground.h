@@ -52,14 +52,18 @@ struct Farmland {
 /// A piece of a river.
 struct Reach {
   RiverPoint from, to;
-  double middle_east = 0, middle_north = 0, far = 0;  ///< a position farther from the middle is out of reach
+  double middle_east = 0, middle_north = 0,
+         far = 0;               ///< beyond this square of the distance from the middle is no effect
+  double x = 0, y = 0, by = 0;  ///< the piece as a vector, divided by its square
 };
 
 class Ground {
  public:
   /// Without rivers and lakes.
   explicit Ground(const World& world) : world_(&world) {}
-  Ground(const World& world, const Rectangle& rectangle, Job& job, double reach = valley_reach);
+  Ground(const World& world, const Rectangle& rectangle, Job& job);
+  /// With water within `reach` metres.
+  Ground(const World& world, const Rectangle& rectangle, Job& job, double reach);
   /// With fields and the earthworks of roads, which reach 56 m.
   static Ground with_roads(const World& world, const Rectangle& rectangle, Job& job);
   /// With roads and houses.

@@ -156,7 +156,8 @@ std::shared_ptr<const Plan> plan_of(const World& world, const Site& site, Job& j
 
 std::vector<House> houses_near(const World& world, const Rectangle& box, double reach, Job& job) {
   std::vector<House> found;
-  for (const auto& site : sites_near(world, box, reach + world.params.settlements.radius, job)) {
+  const double around = reach + world.reach(Reads::houses, world.params.settlements.radius);
+  for (const auto& site : sites_near(world, box, around, job)) {
     for (const House& house : plan_of(world, *site, job)->houses) {
       if (house.east >= box.west - reach && house.east < box.east + reach &&
           house.north >= box.south - reach && house.north < box.north + reach) {

@@ -10,13 +10,10 @@
 
 namespace seedmesh::world {
 
-constexpr int range_octaves = 5;
 constexpr double range_wavelength = 22000;  ///< metres; of the widest mountain ridges
 constexpr double range_fall = 0.48;         ///< amplitude of a ridge by that of one twice as wide
 constexpr double hill_wavelength = 5200;
-constexpr int hill_octaves = 3;
 constexpr double detail_wavelength = 720;
-constexpr int detail_octaves = 7;
 constexpr double land_rise = 170, sea_fall = 520;  ///< metres at a coast value of 1
 constexpr double terrace_step = 60;                ///< metres
 

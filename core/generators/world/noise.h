@@ -58,12 +58,30 @@ constexpr double direction[16][2] = {
     {-0.58778525229247314, -0.80901699437494745}, {-0.23344536385590553, -0.97236992039767656},
     {0.15643446504023087, -0.98768834059513777},  {0.52249856471594891, -0.85264016435409218},
     {0.80901699437494745, -0.58778525229247314},  {0.97236992039767656, -0.23344536385590553}};
+/// The same in single precision.
+constexpr auto float_direction_of() {
+  struct Table {
+    float of[16][2];
+  } table{};
+  for (int k = 0; k < 16; ++k) {
+    for (int axis = 0; axis < 2; ++axis) table.of[k][axis] = static_cast<float>(direction[k][axis]);
+  }
+  return table;
+}
+inline constexpr auto float_directions = float_direction_of();
+inline constexpr const auto& float_direction = float_directions.of;
 
-inline const double* direction_of(std::uint64_t key, std::uint64_t x, std::uint64_t y) {
-  std::uint64_t hash = key ^ (x * 0x9E3779B97F4A7C15U) ^ (y * 0xC2B2AE3D27D4EB4FU);
+constexpr std::uint64_t column_factor = 0x9E3779B97F4A7C15U, row_factor = 0xC2B2AE3D27D4EB4FU;
+
+/// Mixes the sum of a key, a column and a row to the number of a direction.
+inline std::size_t number_of(std::uint64_t hash) {
   hash ^= hash >> 32U;
   hash *= 0xD6E8FEB86659FD93U;
-  return direction[hash >> 60U];
+  return hash >> 60U;
+}
+
+inline const double* direction_of(std::uint64_t key, std::uint64_t x, std::uint64_t y) {
+  return direction[number_of(key ^ (x * column_factor) ^ (y * row_factor))];
 }
 
 }  // namespace lattice
@@ -91,9 +109,12 @@ inline Slope noise(std::uint64_t key, double x, double y) {
   return {scale * (va + s * (vb - va) + t * (vc - va) + s * t * cross), scale * east, scale * north};
 }
 
+/// Of the lattices of octaves: cosine and sine of their turn.
+constexpr double turn_cosine = 0.8, turn_sine = 0.6;
+
 /// Noise of a wavelength in metres, turned by `turn` times a fixed angle so that the lattices of octaves differ.
 inline Slope octave(std::uint64_t key, double east, double north, double wavelength) {
-  constexpr double c = 0.8, s = 0.6;
+  constexpr double c = turn_cosine, s = turn_sine;
   const double by = 1 / wavelength;
   const Slope n = noise(key, (c * east - s * north) * by, (s * east + c * north) * by);
   return {n.value, (c * n.east + s * n.north) * by, (c * n.north - s * n.east) * by};

@@ -2,14 +2,29 @@
 /// Colours of the ground by climate, height and slope.
 #include <array>
 #include <cstdint>
+#include <vector>
 
 #include "core/generators/world/ground.h"
 
 namespace seedmesh::world {
 
-/// Linear colour of the ground. `steepness` is the cosine of the slope.
-std::array<std::uint8_t, 4> ground_color(const World& world, const GroundSample& sample, double east,
-                                         double north, double steepness);
+struct Shade {
+  double red = 0, green = 0, blue = 0;
+};
+
+/// The colours of the ground of a world, linear. Make it once for a tile.
+struct GroundColors {
+  explicit GroundColors(const World& world);
+  Shade dry, grass, forest, rock, sand, snow, water;
+  std::vector<Shade> fields;
+};
+
+/// Linear colour of the ground. `steepness` is the cosine of the slope. The ground of the deep sea has the colour of the
+/// water: walls of skirts that are seen along their planes have depths of little precision and shine through water.
+/// `spacing`: of samples.
+std::array<std::uint8_t, 4> ground_color(const World& world, const GroundColors& colors,
+                                         const GroundSample& sample, double east, double north,
+                                         double steepness, double spacing);
 std::array<std::uint8_t, 4> linear_color(const Color& color);
 
 }  // namespace seedmesh::world

@@ -10,14 +10,16 @@
 namespace seedmesh::world {
 namespace {
 
-constexpr int window_margin = 4;  ///< cells that a displaced border can reach beyond a region
-constexpr int window = region_cells + 2 * window_margin;
-constexpr double displacement = 3;                           ///< cells
-constexpr double jitter = 0.6;                               ///< of a cell
-constexpr int pieces = 12;                                   ///< of a river between two nodes
+constexpr int window_margin =
+    3;  ///< cells that a displaced border can reach beyond a region: noise is below 1
+constexpr double stray = 2 * drain_cell;  ///< metres that a river can be away from its nodes
+constexpr double displacement = 3;        ///< cells
+constexpr double jitter = 0.6;            ///< of a cell
+constexpr int pieces = 12;                ///< of a river between two nodes
 constexpr double cell_area = drain_cell * drain_cell / 1e6;  ///< km²
 constexpr double lake_reach = 640;   ///< metres; greatest radius, below the distance of nodes
 constexpr double lake_grade = 0.03;  ///< of a river before a lake
+constexpr double dry_radius = 1450;  ///< metres around dry positions, beyond the reach of valleys by a bend
 constexpr double shallow = 1;        ///< metres that water lies below the land at least
 
 struct Node {
@@ -52,6 +54,25 @@ Node node_of(const World& world, const CellKey& cell) {
   return node;
 }
 
+/// Cells around dry positions have no node, so rivers pass them by.
+bool is_dry(const CellKey& cell) {
+  constexpr std::int64_t period = 8;
+  static_assert(period * drain_cell == dry_spacing);
+  const auto touches = [](std::int64_t v) { return ((v % period + period + 1) % period) <= 1; };
+  return touches(cell.x) && touches(cell.y);
+}
+
+/// Moves bends of rivers that come too near to a dry position away from it.
+void keep_away(RiverPoint& p) {
+  const double x = p.east - dry_spacing * std::floor(p.east / dry_spacing + 0.5);
+  const double y = p.north - dry_spacing * std::floor(p.north / dry_spacing + 0.5);
+  const double square = x * x + y * y;
+  if (square >= dry_radius * dry_radius || square < 1) return;
+  const double by = dry_radius / std::sqrt(square) - 1;
+  p.east += by * x;
+  p.north += by * y;
+}
+
 double distance_of(const RiverPoint& p, const Lake& lake) {
   const double east = p.east - lake.east, north = p.north - lake.north;
   return std::sqrt(east * east + north * north);
@@ -64,7 +85,12 @@ std::string name_of(char kind, const CellKey& cell) {
 /// Drainage of one region while it is made.
 class Drainage {
  public:
-  Drainage(const World& world, const CellKey& region, Job& job) : world_(world), job_(job), region_(region) {}
+  Drainage(const World& world, const CellKey& region, Job& job)
+      : world_(world),
+        job_(job),
+        region_(region),
+        margin_(math::to_int32(world.reach(Reads::cells, window_margin))),
+        window_(region_cells + 2 * margin_) {}
 
   Region make() {
     if (world_.params.water.rivers <= 0 && world_.params.relief.sea) return {};
@@ -77,7 +103,10 @@ class Drainage {
     for (auto n = order_.rbegin(); n != order_.rend(); ++n) follow(*n);
     join_rivers();
     made_.size = 256 + 200 * made_.lakes.size();
-    for (const River& river : made_.rivers) made_.size += 160 + river.points.size() * sizeof(RiverPoint);
+    for (River& river : made_.rivers) {
+      for (const RiverPoint& p : river.points) river.add_to_bounds(p);
+      made_.size += sizeof(River) + 64 + river.points.size() * sizeof(RiverPoint);
+    }
     return std::move(made_);
   }
 
@@ -86,13 +115,12 @@ class Drainage {
       std::priority_queue<std::pair<double, int>, std::vector<std::pair<double, int>>, std::greater<>>;
 
   void collect_nodes() {
-    grid_.assign(window * window, -1);
-    for (int y = 0; y < window; ++y) {
-      for (int x = 0; x < window; ++x) {
-        const CellKey cell{region_.x * region_cells - window_margin + x,
-                           region_.y * region_cells - window_margin + y};
-        if (region_of(world_, cell) != region_) continue;
-        grid_[static_cast<std::size_t>(y * window + x)] = static_cast<int>(nodes_.size());
+    grid_.assign(static_cast<std::size_t>(window_ * window_), -1);
+    for (int y = 0; y < window_; ++y) {
+      for (int x = 0; x < window_; ++x) {
+        const CellKey cell{region_.x * region_cells - margin_ + x, region_.y * region_cells - margin_ + y};
+        if (is_dry(cell) || region_of(world_, cell) != region_) continue;
+        grid_[static_cast<std::size_t>(y * window_ + x)] = static_cast<int>(nodes_.size());
         nodes_.push_back(node_of(world_, cell));
       }
     }
@@ -100,10 +128,9 @@ class Drainage {
   }
 
   int node_at(std::int64_t x, std::int64_t y) const {
-    const std::int64_t i = x - region_.x * region_cells + window_margin,
-                       j = y - region_.y * region_cells + window_margin;
-    if (i < 0 || j < 0 || i >= window || j >= window) return -1;
-    return grid_[static_cast<std::size_t>(j * window + i)];
+    const std::int64_t i = x - region_.x * region_cells + margin_, j = y - region_.y * region_cells + margin_;
+    if (i < 0 || j < 0 || i >= window_ || j >= window_) return -1;
+    return grid_[static_cast<std::size_t>(j * window_ + i)];
   }
 
   /// Of the two diagonals of four nodes, one is an edge of the graph, so that edges do not cross.
@@ -228,6 +255,7 @@ class Drainage {
     const double east = point.east, north = point.north;
     point.east += bend * noise(key_of(world_, 5), east / 620, north / 620).value;
     point.north += bend * noise(key_of(world_, 6), east / 620, north / 620).value;
+    keep_away(point);
     return point;
   }
 
@@ -341,6 +369,7 @@ class Drainage {
   const World& world_;
   Job& job_;
   CellKey region_;
+  int margin_, window_;  ///< cells around the region, and along a side with them
   std::vector<Node> nodes_;
   std::vector<int> grid_;
   std::vector<int> order_;  ///< nodes from the outlets upwards
@@ -355,6 +384,13 @@ CellKey region_of(const World& world, const CellKey& cell) {
   const double east = x + displacement * noise(key_of(world, 7), x / 11, y / 11).value;
   const double north = y + displacement * noise(key_of(world, 8), x / 11, y / 11).value;
   return {math::to_int64(std::floor(east / region_cells)), math::to_int64(std::floor(north / region_cells))};
+}
+
+void River::add_to_bounds(const RiverPoint& p) {
+  west = std::min(west, p.east);
+  south = std::min(south, p.north);
+  east = std::max(east, p.east);
+  north = std::max(north, p.north);
 }
 
 double shore_distance(const Lake& lake, double east, double north, double away) {
@@ -372,7 +408,7 @@ std::shared_ptr<const Region> region_at(const World& world, const CellKey& regio
 
 std::vector<CellKey> regions_near(const World& world, double west, double south, double east, double north,
                                   double reach) {
-  const double around = reach + 2 * drain_cell;  // a river stays within two cells of its nodes
+  const double around = reach + stray;
   const auto cell = [](double v) { return math::to_int64(std::floor(v / drain_cell)); };
   std::vector<CellKey> found;
   for (std::int64_t y = cell(south - around); y <= cell(north + around); ++y) {

@@ -5,7 +5,8 @@
 ///   jittered nodes, 2 km apart -> flood from the sea or the lowest node -> flow -> rivers with falling water
 ///
 /// The flood is the priority flood of Barnes, Lehman and Mulla 2014 ("Priority-flood"), on a planar graph of nodes in
-/// place of a grid. Borders of regions are displaced by noise, so that they are no straight lines.
+/// place of a grid. Rivers and lakes stay away from positions whose coordinates are multiples of 16,384 m: the samples of
+/// the widest tiles have such coordinates, so they need no drainage. Borders of regions are displaced by noise, so that they are no straight lines.
 #include <compare>
 #include <memory>
 #include <string>
@@ -17,6 +18,8 @@ namespace seedmesh::world {
 
 constexpr double drain_cell = 2048;  ///< metres; one node a cell
 constexpr int region_cells = 16;     ///< along a side of a region
+constexpr double dry_spacing =
+    8 * drain_cell;  ///< metres; samples this far apart are beyond the reach of water
 
 /// A position of a cell of nodes, absolute.
 struct CellKey {
@@ -35,8 +38,11 @@ struct RiverPoint {
 };
 struct River {
   std::string id;
-  std::string into;                ///< "sea", or the id of a lake or river
-  std::vector<RiverPoint> points;  ///< source to mouth
+  std::string into;                                               ///< "sea", or the id of a lake or river
+  std::vector<RiverPoint> points;                                 ///< source to mouth
+  double west = 1e12, south = 1e12, east = -1e12, north = -1e12;  ///< of the points
+
+  void add_to_bounds(const RiverPoint& p);
 };
 
 /// A lake with the radius `radius` times a factor by direction.

@@ -17,6 +17,11 @@ constexpr double bridge_shore = 8;   ///< metres from a bank over which a road i
 /// How far a road can leave the rectangle of its ends.
 double reach_of(double length) { return std::ceil(((detour - 1) * length / 2 + 2 * grid) / grid + 1) * grid; }
 
+/// How far from a position of a road of this length at most the settlements are that decide about it. By the ellipse, the
+/// nearer end is at most half of the detour away; from there, what is nearer to both ends is at most a length away. Four
+/// nodes more, for the ellipse and for pieces that are tested by their rectangles.
+double reach_of_sites(double length) { return (detour / 2 + 1) * length + 4 * grid; }
+
 struct Node {
   double cost = 1e18, height = 0;
   int from = -1;
@@ -240,8 +245,7 @@ std::vector<std::shared_ptr<const Road>> roads_near(const World& world, const Re
   std::vector<std::shared_ptr<const Road>> found;
   const double longest = world.params.roads.longest;
   if (longest <= 0) return found;
-  // a road near the box has both ends, and all that decide about it, within this distance
-  const auto sites = sites_near(world, box, reach + reach_of(longest) + 2 * longest, job);
+  const auto sites = sites_near(world, box, reach + world.reach(Reads::roads, reach_of_sites(longest)), job);
   for (std::size_t i = 0; i < sites.size(); ++i) {
     for (std::size_t j = i + 1; j < sites.size(); ++j) {
       const Site &a = *sites[i], &b = *sites[j];

@@ -5,6 +5,7 @@
 
 #include "core/base/math.h"
 #include "core/generators/world/palette.h"
+#include "core/generators/world/terrain_indices.h"
 
 namespace seedmesh::world {
 namespace {
@@ -14,8 +15,8 @@ constexpr double far_share = 0.9;     ///< the same for tiles three levels coars
 constexpr double unusual = 1.15;      ///< of the usual skirt: the deepest that was met
 constexpr double rounding_steps = 9;  ///< of heights of tiles three levels coarser
 
-TileVertex vertex_of(const World& world, const TileFrame& frame, const TerrainGrid& grid, int column, int row,
-                     double base) {
+TileVertex vertex_of(const World& world, const GroundColors& colors, const TileFrame& frame,
+                     const TerrainGrid& grid, int column, int row, double base) {
   const GroundSample& sample = grid.at(column, row);
   const double rise_east = grid.at(column + 1, row).height - grid.at(column - 1, row).height;
   const double rise_north = grid.at(column, row + 1).height - grid.at(column, row - 1).height;
@@ -32,7 +33,7 @@ TileVertex vertex_of(const World& world, const TileFrame& frame, const TerrainGr
   vertex.normal[0] = byte(-rise_east);
   vertex.normal[1] = byte(run);
   vertex.normal[2] = byte(rise_north);
-  const auto color = ground_color(world, sample, east, north, run / length);
+  const auto color = ground_color(world, colors, sample, east, north, run / length, grid.spacing);
   std::copy(color.begin(), color.end(), vertex.color);
   return vertex;
 }
@@ -42,27 +43,13 @@ double usual_skirt(const World& world, const TileFrame& frame, const Roughness& 
          border_share * deviation_of(world, frame.spacing, rough) + rounding_steps * frame.step;
 }
 
-/// Walls below the border: its vertices in turn, counter-clockwise from above, starting in the south-west.
-void add_skirt(TileMesh& mesh, int count, double skirt, double step) {
-  std::vector<std::uint32_t> border;
-  const auto at = [&](int column, int row) { return static_cast<std::uint32_t>(row * count + column); };
-  const int last = count - 1;
-  for (int k = 0; k < last; ++k) border.push_back(at(k, 0));
-  for (int k = 0; k < last; ++k) border.push_back(at(last, k));
-  for (int k = last; k > 0; --k) border.push_back(at(k, last));
-  for (int k = last; k > 0; --k) border.push_back(at(0, k));
-  const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+/// Vertices below those of the border.
+void add_skirt(std::vector<TileVertex>& vertices, int count, double skirt, double step) {
   const int depth = math::to_int32(std::ceil(skirt / step));
-  for (const std::uint32_t top : border) {
-    TileVertex low = mesh.vertices[top];
+  for (const std::uint16_t top : border_of_grid(count)) {
+    TileVertex low = vertices[top];
     low.y = static_cast<std::int16_t>(std::max(-32768, low.y - depth));
-    mesh.vertices.push_back(low);
-  }
-  const auto size = static_cast<std::uint32_t>(border.size());
-  for (std::uint32_t k = 0; k < size; ++k) {
-    const std::uint32_t next = (k + 1) % size;
-    for (const std::uint32_t corner : {border[k], first + k, first + next}) mesh.indices.push_back(corner);
-    for (const std::uint32_t corner : {border[k], first + next, border[next]}) mesh.indices.push_back(corner);
+    vertices.push_back(low);
   }
 }
 
@@ -115,21 +102,14 @@ TerrainMesh terrain_mesh(const World& world, const TileFrame& frame, const Terra
   }
   made.height = base_of(low, high, frame.step);
   const auto cells = static_cast<std::size_t>(count - 1);
-  made.mesh.vertices.reserve((cells + 1) * (cells + 1) + 4 * cells);
-  made.mesh.indices.reserve(6 * cells * cells + 24 * cells);
+  made.vertices.reserve((cells + 1) * (cells + 1) + 4 * cells);
+  const GroundColors colors(world);
   for (int row = 0; row < count; ++row) {
     for (int column = 0; column < count; ++column) {
-      made.mesh.vertices.push_back(vertex_of(world, frame, grid, column, row, made.height));
+      made.vertices.push_back(vertex_of(world, colors, frame, grid, column, row, made.height));
     }
   }
-  for (int row = 0; row + 1 < count; ++row) {
-    for (int column = 0; column + 1 < count; ++column) {
-      const auto a = static_cast<std::uint32_t>(row * count + column),
-                 b = a + static_cast<std::uint32_t>(count);
-      for (const std::uint32_t corner : {a, a + 1, b + 1, a, b + 1, b}) made.mesh.indices.push_back(corner);
-    }
-  }
-  add_skirt(made.mesh, count, skirt, frame.step);
+  add_skirt(made.vertices, count, skirt, frame.step);
   return made;
 }
 

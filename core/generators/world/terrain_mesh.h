@@ -7,11 +7,12 @@
 namespace seedmesh::world {
 
 struct TerrainMesh {
-  TileMesh mesh;
+  std::vector<TileVertex> vertices;
   double height = 0;  ///< metres at position 0: a multiple of the step
 };
 
-/// 33 x 33 vertices, and below those of the border a skirt whose walls face outwards. `grid` has a halo. Heights
+/// 33 x 33 vertices, and below those of the border a skirt whose walls face outwards; terrain_indices() has the
+/// triangles. `grid` has a halo. Heights
 /// are rounded to whole steps of the level and normals follow from samples of the level, so two neighbours of one
 /// level have equal borders.
 TerrainMesh terrain_mesh(const World& world, const TileFrame& frame, const TerrainGrid& grid, double skirt);

@@ -7,6 +7,7 @@
 #include "core/generators/world/plant_layer.h"
 #include "core/generators/world/plant_mesh.h"
 #include "core/generators/world/terrain_grid.h"
+#include "core/generators/world/terrain_indices.h"
 #include "core/generators/world/terrain_mesh.h"
 #include "core/generators/world/tile_frame.h"
 #include "core/generators/world/water_mesh.h"
@@ -70,8 +71,12 @@ std::string tile_glb(const World& world, const TileKey& key, Job& job, std::stri
   const TerrainGrid grid = sample_grid(world, frame, tile_cells, 1, job);
   const TerrainMesh terrain = terrain_mesh(world, frame, grid, skirt_depth(world, frame, grid));
   if (world.has(Layer::terrain)) {
-    job.spend(Resource::triangles, terrain.mesh.indices.size() / 3);
-    glb.add_mesh("terrain", terrain.mesh, glb.add_material("ground", 1), frame.step, terrain.height);
+    const auto indices = terrain_indices_of(world, job);
+    job.spend(Resource::triangles, indices->corners.size() / 3);
+    const int order =
+        glb.add_shared_indices(std::string(folder) + "a/" + indices->hash + ".bin", indices->corners.size());
+    glb.add_mesh("terrain", terrain.vertices, order, glb.add_material("ground", 1), frame.step,
+                 terrain.height);
   }
   if (world.has(Layer::water)) add_water(glb, world, frame, grid, terrain.height, job);
   add_works(glb, world, frame, terrain.height, job, folder);
@@ -86,6 +91,8 @@ SharedFile binary(std::string bytes) { return {std::move(bytes), "application/oc
 }  // namespace
 
 std::optional<SharedFile> shared_file(const World& world, std::string_view hash, Job& job) {
+  if (const auto indices = terrain_indices_of(world, job); world.has(Layer::terrain) && indices->hash == hash)
+    return binary(indices->file);
   for (std::size_t k = 0; world.has(Layer::plants) && k < world.params.plants.size(); ++k) {
     const int number = static_cast<int>(k);
     for (const PlantForm form : {PlantForm::whole, PlantForm::simple, PlantForm::clump}) {

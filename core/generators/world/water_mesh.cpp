@@ -9,6 +9,24 @@
 namespace seedmesh::world {
 namespace {
 
+constexpr double overlap = 1.0 / 8;  ///< of a cell, at the borders of sheets
+
+/// Cells of the grid: from the first column and row to those after the last.
+struct Cells {
+  int west, south, east, north;
+};
+
+/// Sheets of a lake overlap inside the tile: their corners need not meet those of their neighbours, and without an
+/// overlap single pixels of the ground below would show.
+void add_sheet(FlatMesh& builder, const TerrainGrid& grid, const Cells& cells, double height) {
+  const double out = overlap * grid.spacing, side = (grid.count - 1) * grid.spacing;
+  const auto at = [&](double from, int cell, double by) {
+    return std::clamp(from + cell * grid.spacing + by, from, from + side);
+  };
+  builder.add_rectangle(at(grid.west, cells.west, -out), at(grid.south, cells.south, -out),
+                        at(grid.west, cells.east, out), at(grid.south, cells.north, out), height);
+}
+
 /// Rows of cells that `is_wet` accepts, as rectangles; equal neighbouring rows become one rectangle.
 template <class IsWet>
 void add_level(FlatMesh& builder, const TerrainGrid& grid, double height, const IsWet& is_wet) {
@@ -18,8 +36,7 @@ void add_level(FlatMesh& builder, const TerrainGrid& grid, double height, const 
   };
   std::vector<Open> open;
   const auto close = [&](const Open& o, int row) {
-    builder.add_rectangle(grid.west + o.first * grid.spacing, grid.south + o.row * grid.spacing,
-                          grid.west + o.last * grid.spacing, grid.south + row * grid.spacing, height);
+    add_sheet(builder, grid, {o.first, o.row, o.last, row}, height);
   };
   for (int row = 0; row <= cells; ++row) {
     std::vector<Open> here;
@@ -48,6 +65,16 @@ bool is_below(const TerrainGrid& grid, int column, int row, double level) {
                   std::min(grid.at(column, row + 1).height, grid.at(column + 1, row + 1).height)) < level;
 }
 
+/// One sheet for the whole tile: the ground hides it where it is dry.
+void add_sea(FlatMesh& builder, const TerrainGrid& grid, double level) {
+  const int cells = grid.count - 1;
+  for (int row = 0; row < cells; ++row) {
+    for (int column = 0; column < cells; ++column) {
+      if (is_below(grid, column, row, level)) return add_sheet(builder, grid, {0, 0, cells, cells}, level);
+    }
+  }
+}
+
 void add_lake(FlatMesh& builder, const TerrainGrid& grid, const Lake& lake) {
   add_level(builder, grid, lake.level, [&](int column, int row) {
     const double east = grid.west + (column + 0.5) * grid.spacing,
@@ -68,10 +95,7 @@ void add_reach(FlatMesh& builder, const Reach& reach, double lift) {
 WaterMesh water_mesh(const World& world, const TileFrame& frame, const TerrainGrid& grid,
                      const Ground& ground, double base) {
   FlatMesh builder(frame, base, linear_color(world.params.colors.water));
-  if (world.params.relief.sea) {
-    const double level = world.params.relief.sea_level;
-    add_level(builder, grid, level, [&](int column, int row) { return is_below(grid, column, row, level); });
-  }
+  if (world.params.relief.sea) add_sea(builder, grid, world.params.relief.sea_level);
   for (const Lake& lake : ground.lakes()) {
     if (lake.radius > grid.spacing) add_lake(builder, grid, lake);
   }

@@ -11,8 +11,8 @@ struct WaterMesh {
   double height = 0;  ///< metres at position 0
 };
 
-/// Empty where the tile has no water. Rectangles lie wherever the ground of a cell is partly below the water. Rivers
-/// narrower than a quarter of the spacing of samples are left out.
+/// Empty where the tile has no water. The sea is one rectangle wherever the tile has ground below it; those of lakes
+/// lie where the ground of a cell is partly below the water. Rivers narrower than a quarter of the spacing of samples are left out.
 WaterMesh water_mesh(const World& world, const TileFrame& frame, const TerrainGrid& grid,
                      const Ground& ground, double base);
 

@@ -67,13 +67,13 @@ Ground Ground::with_roads(const World& world, const Rectangle& box, Job& job) {
   const WorldFields& fields = world.params.fields;
   if (fields.share > 0 && fields.reach > 0) {
     const double reach = fields.reach * world.params.settlements.radius + 2 * fields.size;
-    for (const auto& site : sites_near(world, box, reach, job))
+    for (const auto& site : sites_near(world, box, world.reach(Reads::fields, reach), job))
       ground.farmland_.push_back({site->east, site->north, site->radius});
   }
-  for (const auto& road : roads_near(world, box, works_reach + 16, job)) {
+  const double reach = world.reach(Reads::works, works_reach + 16);
+  for (const auto& road : roads_near(world, box, reach, job)) {
     for (std::size_t k = 1; k < road->points.size(); ++k) {
       const RoadPoint &a = road->points[k - 1], &b = road->points[k];
-      const double reach = works_reach + 16;
       if (std::min(a.east, b.east) > box.east + reach || std::max(a.east, b.east) < box.west - reach ||
           std::min(a.north, b.north) > box.north + reach || std::max(a.north, b.north) < box.south - reach) {
         continue;

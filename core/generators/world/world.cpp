@@ -4,6 +4,7 @@
 
 #include "core/base/math.h"
 #include "core/generators/world/terrain_grid.h"
+#include "core/generators/world/terrain_indices.h"
 #include "core/generators/world/terrain_mesh.h"
 
 namespace seedmesh::world {
@@ -36,13 +37,14 @@ Result<Model> generate(const WorldParams& params, const GenerateContext& context
   mesh.color.reserve(count);
   mesh.index.wide.reserve(3 * model_triangles);
   for (std::size_t k = 0; k < count; ++k) {
-    const TileVertex& v = terrain.mesh.vertices[k];
+    const TileVertex& v = terrain.vertices[k];
     const glm::dvec3 at = glm::dvec3(v.x, v.y, v.z) * frame.step + glm::dvec3(0, terrain.height, 0);
     mesh.position.push_back(glm::vec3(at));
     mesh.normal.push_back(math::unit(glm::vec3(v.normal[0], v.normal[1], v.normal[2]), {0, 1, 0}));
     mesh.color.push_back({v.color[0], v.color[1], v.color[2], v.color[3]});
   }
-  for (std::size_t k = 0; k < 3 * model_triangles; ++k) mesh.index.wide.push_back(terrain.mesh.indices[k]);
+  const auto indices = terrain_indices_of(*world, job);
+  for (std::size_t k = 0; k < 3 * model_triangles; ++k) mesh.index.wide.push_back(indices->corners[k]);
   Model model;
   model.name = "world";
   model.materials.emplace_back().name = "ground";

@@ -71,6 +71,7 @@ Result<World> read_world(const WorldParams& params, std::uint64_t seed, std::sha
   world.north = params.origin[1] * region_side;
   world.layers = 0;
   for (const WorldLayersItem layer : params.layers) world.layers |= 1U << static_cast<unsigned>(layer);
+  world.noise = noise_keys(world.key);
   world.land_bias = 1.5 * (params.relief.land - 0.5);
   return world;
 }

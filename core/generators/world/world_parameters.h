@@ -1,5 +1,6 @@
 #pragma once
 /// A world request as the functions of this directory use it.
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <string_view>
@@ -15,6 +16,25 @@ constexpr std::int64_t region_side = 32768;  ///< metres; the unit of the origin
 constexpr int tile_cells = 32;               ///< along a side of the terrain of a tile
 
 enum class Layer : std::uint8_t { terrain, water, roads, buildings, plants };
+
+constexpr int range_octaves = 5, hill_octaves = 3, detail_octaves = 7, gully_octaves = 3;
+
+/// The keys of all octaves of the land, which follow from World::key.
+struct NoiseKeys {
+  std::array<std::uint64_t, 4> coast{};
+  std::array<std::uint64_t, 2> belts{};
+  std::array<std::uint64_t, range_octaves> ranges{};
+  std::array<std::uint64_t, hill_octaves> hills{};
+  std::array<std::uint64_t, detail_octaves> detail{};
+  std::array<std::uint64_t, gully_octaves> gullies{};
+  std::array<std::uint64_t, 3> moisture{};
+  std::uint64_t temperature = 0;
+};
+NoiseKeys noise_keys(std::uint64_t key);
+
+/// What a layer reads around the part that it makes: cells of a region, water, settlements
+/// that decide about roads, earthworks of roads, settlements with fields, and settlements with houses.
+enum class Reads : std::uint8_t { cells, water, roads, works, fields, houses };
 
 /// Immutable; copies share the store. Positions of the plane ("absolute") are metres from its own zero; those of
 /// tiles and maps are relative to the middle of the world.
@@ -32,6 +52,16 @@ struct World {
   bool has(Layer layer) const { return (layers & (1U << static_cast<unsigned>(layer))) != 0; }
   unsigned layers = 31;
   double land_bias = 0;  ///< of the continents
+  NoiseKeys noise;
+
+  /// What a layer with a declared reach reads. Tests change `reach_factor` and `reach_more` of one layer, to show that
+  /// its reach is enough and that half of it is not.
+  double reach(Reads layer, double declared) const {
+    const auto n = static_cast<std::size_t>(layer);
+    return reach_factor[n] * declared + reach_more[n];
+  }
+  static constexpr std::size_t reaches = static_cast<std::size_t>(Reads::houses) + 1;
+  std::array<double, reaches> reach_factor{1, 1, 1, 1, 1, 1}, reach_more{};
 };
 
 /// Errors that the schema cannot express: /extent where it is no power of two, /layers where one is named twice,

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
 
 #include "core/generators/world/houses.h"
 #include "core/generators/world/roads.h"
@@ -66,6 +67,72 @@ TEST(WorldRoads, AreTheSameFromEveryTile) {
     }
   }
   EXPECT_EQ(met, static_cast<int>(all.size()));
+}
+
+/// The graph of roads without the limit of length is connected: it contains the minimum spanning tree (Toussaint 1980).
+/// So each settlement whose nearest neighbour is within that limit has an edge, and what is not reached is cut off
+/// by the limit, by water or by grades.
+TEST(WorldRoads, ReachEverySettlementThatIsNotCutOff) {
+  WorldParams params = mountains_with_woods();
+  params.relief.mountains = 0;
+  params.relief.hills = 20;
+  params.relief.land = 1;
+  params.relief.gullies = 0;
+  params.relief.sea = false;
+  params.water.rivers = 0.3;
+  params.settlements.density = 1;
+  const World world = world_of(params);
+  Job job = test_job();
+  // roads between settlements of the country may lead through others around it
+  constexpr double around = 20000;
+  const auto sites = sites_near(world, country, around, job);
+  const auto is_inside = [](const Site& site) {
+    return site.east >= country.west && site.east <= country.east && site.north >= country.south &&
+           site.north <= country.north;
+  };
+  std::map<std::string, std::size_t> number;
+  std::vector<std::size_t> group(sites.size());
+  for (std::size_t k = 0; k < sites.size(); ++k) {
+    number[name_of(*sites[k])] = k;
+    group[k] = k;
+  }
+  const auto root = [&](std::size_t k) {
+    while (group[k] != k) k = group[k];
+    return k;
+  };
+  for (const auto& road : roads_near(world, country, around, job)) {
+    const std::string ends = road->id.substr(1);
+    const std::size_t middle = ends.find('s', 1) - 1;
+    const auto a = number.find(ends.substr(0, middle)), b = number.find(ends.substr(middle + 1));
+    if (a != number.end() && b != number.end()) group[root(a->second)] = root(b->second);
+  }
+  // the same by Kruskal's rule: all pairs within the limit
+  std::vector<std::size_t> possible(sites.size());
+  for (std::size_t k = 0; k < sites.size(); ++k) possible[k] = k;
+  const auto possible_root = [&](std::size_t k) {
+    while (possible[k] != k) k = possible[k];
+    return k;
+  };
+  for (std::size_t i = 0; i < sites.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      const double x = sites[i]->east - sites[j]->east, y = sites[i]->north - sites[j]->north;
+      if (std::sqrt(x * x + y * y) <= params.roads.longest) possible[possible_root(i)] = possible_root(j);
+    }
+  }
+  std::size_t reached = 0, wanted = 0;
+  std::map<std::size_t, std::map<std::size_t, std::size_t>> parts;
+  for (std::size_t k = 0; k < sites.size(); ++k) {
+    if (!is_inside(*sites[k])) continue;
+    ++wanted;
+    ++parts[possible_root(k)][root(k)];
+  }
+  EXPECT_GT(wanted, 20U);
+  for (const auto& [land, groups] : parts) {
+    std::size_t most = 0;
+    for (const auto& [each, count] : groups) most = std::max(most, count);
+    reached += most;
+  }
+  EXPECT_EQ(reached, wanted) << "settlements within the limit of each other are joined by roads";
 }
 
 TEST(WorldRoads, LeaveTheSamplesOfCoarseTilesUntouched) {
