@@ -10,7 +10,7 @@ namespace {
 
 constexpr int array_buffer = 34962, element_buffer = 34963;
 constexpr int type_byte = 5120, type_unsigned_byte = 5121, type_short = 5122, type_unsigned_short = 5123,
-              type_unsigned = 5125;
+              type_unsigned = 5125, type_float = 5126;
 
 int append(Json& list, Json value) {
   list.push_back(std::move(value));
@@ -61,6 +61,15 @@ int Glb::add_material(std::string_view name, double roughness, bool two_sided) {
                    {"pbrMetallicRoughness", {{"metallicFactor", 0}, {"roughnessFactor", roughness}}}};
   if (two_sided) material["doubleSided"] = true;
   return append(json_["materials"], std::move(material));
+}
+
+int Glb::add_material(std::string_view name, double roughness, const std::string& image) {
+  const int source = append(json_["images"], {{"uri", image}});
+  const int texture = append(json_["textures"], {{"source", source}});
+  const int material = add_material(name, roughness);
+  json_["materials"][static_cast<std::size_t>(material)]["pbrMetallicRoughness"]["baseColorTexture"] = {
+      {"index", texture}};
+  return material;
 }
 
 int Glb::add_shared_buffer(std::string uri, std::size_t bytes) {
@@ -131,7 +140,8 @@ int Glb::add_node(Json node) {
   return index;
 }
 
-void Glb::add_mesh(std::string_view name, const TileMesh& mesh, int material, double step, double height) {
+void Glb::add_mesh(std::string_view name, const TileMesh& mesh, int material, double step, double height,
+                   const std::vector<float>& coordinates) {
   const std::vector<TileVertex>& vertices = mesh.vertices;
   int low[3] = {32767, 32767, 32767}, high[3] = {-32768, -32768, -32768};
   for (const TileVertex& v : vertices) {
@@ -163,6 +173,11 @@ void Glb::add_mesh(std::string_view name, const TileMesh& mesh, int material, do
                                         {"normalized", true},
                                         {"count", count},
                                         {"type", "VEC4"}});
+  if (!coordinates.empty()) {
+    const int own = add_bytes(coordinates.data(), coordinates.size() * sizeof(float), 0, array_buffer);
+    attributes["TEXCOORD_0"] = add_accessor(
+        {{"bufferView", own}, {"componentType", type_float}, {"count", count}, {"type", "VEC2"}});
+  }
   int indices = 0;
   if (count <= 65535) {
     const std::vector<std::uint16_t> small(mesh.indices.begin(), mesh.indices.end());

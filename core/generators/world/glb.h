@@ -34,8 +34,12 @@ class Glb {
 
   /// The index of a material.
   int add_material(std::string_view name, double roughness, bool two_sided = false);
-  /// A node with one mesh of quantized vertices: metres = height * up + step * position.
-  void add_mesh(std::string_view name, const TileMesh& mesh, int material, double step, double height);
+  /// The same with a texture of colours from a file that tiles share.
+  int add_material(std::string_view name, double roughness, const std::string& image);
+  /// A node with one mesh of quantized vertices: metres = height * up + step * position. `coordinates`: of the
+  /// texture, two for each vertex, or none.
+  void add_mesh(std::string_view name, const TileMesh& mesh, int material, double step, double height,
+                const std::vector<float>& coordinates = {});
   /// A buffer in a file of its own, which tiles share.
   int add_shared_buffer(std::string uri, std::size_t bytes);
   /// The meshes of a shared model, whose file is in the directory "a" of `folder`. The same asset twice is added once.

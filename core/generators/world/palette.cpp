@@ -1,8 +1,11 @@
 #include "core/generators/world/palette.h"
 
 #include <algorithm>
+#include <array>
 
 #include "core/base/math.h"
+#include "core/generators/world/canopy.h"
+#include "core/generators/world/plant_layer.h"
 #include "core/model/model.h"
 
 namespace seedmesh::world {
@@ -25,6 +28,17 @@ std::uint8_t byte_of(double value) {
   return static_cast<std::uint8_t>(math::to_int32(std::clamp(value, 0.0, 1.0) * 255 + 0.5));
 }
 
+constexpr double widest_canopy_spacing = widest_plants / tile_cells;
+
+/// Variations of the ground from 2 km to 20 m, about -1 to 1; without those finer than samples can show.
+double patches_at(const World& world, double east, double north, double spacing) {
+  constexpr std::array<std::array<double, 2>, 4> octaves{{{2100, 0.5}, {520, 0.5}, {140, 0.55}, {37, 0.35}}};
+  double sum = 0;
+  for (std::size_t k = 0; k < octaves.size() && spacing <= octaves[k][0] / 2; ++k)
+    sum += octaves[k][1] * octave(world.key ^ (0xC0105U + k), east, north, octaves[k][0]).value;
+  return sum;
+}
+
 }  // namespace
 
 std::array<std::uint8_t, 4> linear_color(const Color& color) {
@@ -33,15 +47,22 @@ std::array<std::uint8_t, 4> linear_color(const Color& color) {
 }
 
 std::array<std::uint8_t, 4> ground_color(const World& world, const GroundSample& sample, double east,
-                                         double north, double steepness) {
+                                         double north, double steepness, double spacing) {
   const WorldColors& colors = world.params.colors;
   const Climate climate = climate_at(world, east, north, sample.height);
-  const double patch = noise(world.key ^ 0xC0105U, east / 140, north / 140).value +
-                       0.5 * noise(world.key ^ 0xC0106U, east / 37, north / 37).value;
-  const double moisture = climate.moisture + 0.05 * patch;
-  Shade shade = mixed(shade_of(colors.dry), shade_of(colors.grass), smooth_step(moisture, 0.22, 0.48));
-  shade = mixed(shade, shade_of(colors.forest), smooth_step(moisture, 0.5, 0.8));
+  const double patch = patches_at(world, east, north, spacing);
+  const double moisture = climate.moisture + 0.07 * patch;
+  Shade shade = mixed(shade_of(colors.dry), shade_of(colors.grass), smooth_step(moisture, 0.2, 0.46));
+  shade = mixed(shade, shade_of(colors.forest), 0.45 * smooth_step(moisture, 0.5, 0.85));
   shade = mixed(shade, shade_of(colors.dry), 0.6 * smooth_step(-climate.temperature + patch, -4, 2));
+  if (world.has(Layer::plants)) {
+    const Wood wood = wood_at(world, sample, climate, east, north, spacing);
+    // below crowns the floor of the wood, from afar the crowns themselves
+    const double dark = spacing > widest_canopy_spacing ? 0.62 : 0.4;
+    const Shade crowns{dark * wood.color[0], dark * wood.color[1], dark * wood.color[2]};
+    shade = mixed(shade, spacing > widest_canopy_spacing ? crowns : mixed(crowns, shade_of(colors.forest), 0.3),
+                  0.92 * smooth_step(wood.cover, 0.1, 0.75));
+  }
   if (sample.field >= 0) {
     const Shade crop = shade_of(world.params.fields.colors[static_cast<std::size_t>(sample.field)]);
     shade = mixed(shade, sample.is_hedge ? shade_of(colors.forest) : crop, 0.85);
@@ -50,7 +71,7 @@ std::array<std::uint8_t, 4> ground_color(const World& world, const GroundSample&
   shade = mixed(shade, shade_of(colors.rock), bare);
   if (world.params.relief.sea) {
     const double above = sample.height - world.params.relief.sea_level;
-    shade = mixed(shade, shade_of(colors.sand), 1 - smooth_step(above + patch, 1.5, 5));
+    shade = mixed(shade, shade_of(colors.sand), 1 - smooth_step(above + 0.8 * patch, 0.9, 3.2));
   }
   const double snow =
       smooth_step(-climate.temperature + 1.2 * patch, 3, 6) * (1 - smooth_step(1 - steepness, 0.25, 0.5));

@@ -32,7 +32,7 @@ TileVertex vertex_of(const World& world, const TileFrame& frame, const TerrainGr
   vertex.normal[0] = byte(-rise_east);
   vertex.normal[1] = byte(run);
   vertex.normal[2] = byte(rise_north);
-  const auto color = ground_color(world, sample, east, north, run / length);
+  const auto color = ground_color(world, sample, east, north, run / length, grid.spacing);
   std::copy(color.begin(), color.end(), vertex.color);
   return vertex;
 }
