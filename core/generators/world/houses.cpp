@@ -166,7 +166,7 @@ class Planner {
     if (middle.shore < 18 || middle.road < 1) return false;
     if (world_.params.relief.sea && middle.height < world_.params.relief.sea_level + 2) return false;
     double low = middle.height, high = low;
-    for (const double u : {-1.0, 0.0, 1.0}) {
+    for (const double u : {-1.0, -0.5, 0.0, 0.5, 1.0}) {
       for (const double v : {-1.0, 0.0, 1.0}) {
         const double px = house.east + u * house.length * house.x - v * house.depth * house.y;
         const double py = house.north + u * house.length * house.y + v * house.depth * house.x;
