@@ -1,5 +1,5 @@
 /** Sun, sky, haze and shadows of the page of a world. */
-import { CanvasTexture, Color, DirectionalLight, EquirectangularReflectionMapping, FogExp2, HemisphereLight, NeutralToneMapping, PCFShadowMap, type PerspectiveCamera, type Scene, SRGBColorSpace, Vector3, type WebGLRenderer } from 'three';
+import { CanvasTexture, Color, DirectionalLight, EquirectangularReflectionMapping, FogExp2, HemisphereLight, AgXToneMapping, PCFShadowMap, type PerspectiveCamera, type Scene, SRGBColorSpace, Vector3, type WebGLRenderer } from 'three';
 
 const haze = new Color('#bfd3e4'), zenith = new Color('#5f93cc');
 const sight = 38_000, scale_height = 7000; // metres: where haze hides most of the land at the ground, and over which the air thins
@@ -24,12 +24,13 @@ function sky_texture(): CanvasTexture {
 }
 
 export class Daylight {
-  private readonly sun = new DirectionalLight('#fff1d8', 3);
+  private readonly sun = new DirectionalLight('#fff1dc', 4.6);
   private readonly fog = new FogExp2(haze, 0);
   private readonly ahead = new Vector3();
 
   constructor(scene: Scene, renderer: WebGLRenderer) {
-    renderer.toneMapping = NeutralToneMapping;
+    renderer.toneMapping = AgXToneMapping;
+    renderer.toneMappingExposure = 0.9;
     renderer.shadowMap.enabled = true;
     renderer.shadowMap.type = PCFShadowMap;
     scene.background = sky_texture();
@@ -38,7 +39,7 @@ export class Daylight {
     this.sun.shadow.mapSize.set(texels, texels);
     this.sun.shadow.camera.near = 1;
     this.sun.shadow.camera.far = 8000;
-    scene.add(this.sun, this.sun.target, new HemisphereLight('#cfe2f6', '#6f6a58', 1.35));
+    scene.add(this.sun, this.sun.target, new HemisphereLight('#cfe2f6', '#6f6a58', 1.1));
   }
 
   /** Shadows lie around what the camera sees nearest; haze thins with the height. */

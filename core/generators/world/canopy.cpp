@@ -110,11 +110,11 @@ class Canopy {
     glm::dvec3 sum(0), out(0);
     Wood wood;
     int count = 0;
-    for (const Place& by : {Place{1, 0}, Place{0, 1}, Place{1, 1}, Place{-1, 0}, Place{0, -1}, Place{-1, -1}}) {
+    for (const Place& by :
+         {Place{1, 0}, Place{0, 1}, Place{1, 1}, Place{-1, 0}, Place{0, -1}, Place{-1, -1}}) {
       const Corner& other = at(column + by[0], row + by[1]);
       if (!other.is_wood) continue;
-      const double t =
-          std::clamp((wood_edge - c.wood.cover) / (other.wood.cover - c.wood.cover), 0.1, 0.8);
+      const double t = std::clamp((wood_edge - c.wood.cover) / (other.wood.cover - c.wood.cover), 0.1, 0.8);
       const double height = grid_.at(column, row).height;
       sum += glm::dvec3(by[0] * t * grid_.spacing, by[1] * t * grid_.spacing,
                         t * (grid_.at(column + by[0], row + by[1]).height - height));

@@ -14,9 +14,9 @@ bool has_canopy(const WorldClass& plant);
 
 /// What covers a position: the mean of the classes by their cover.
 struct Wood {
-  double cover = 0;                ///< 0 to 1; of classes with a canopy
-  double height = 0;               ///< metres, of the crowns
-  std::array<double, 3> color{};   ///< linear, of the crowns
+  double cover = 0;               ///< 0 to 1; of classes with a canopy
+  double height = 0;              ///< metres, of the crowns
+  std::array<double, 3> color{};  ///< linear, of the crowns
 };
 Wood wood_at(const World& world, const GroundSample& sample, const Climate& climate, double east,
              double north, double spacing);

@@ -23,10 +23,10 @@ using Paint = std::array<std::uint8_t, 4>;
 /// How much of a house is drawn.
 enum class Finish { walls_and_roof, with_openings };
 
-constexpr double overhang = 0.45;                 ///< metres that a roof reaches beyond the walls
-constexpr double proud = 0.05;                    ///< metres that openings stand before a wall
-constexpr double storey = 2.7;                    ///< metres between rows of windows
-constexpr double window_spacing = 2.6;            ///< metres
+constexpr double overhang = 0.45;       ///< metres that a roof reaches beyond the walls
+constexpr double proud = 0.05;          ///< metres that openings stand before a wall
+constexpr double storey = 2.7;          ///< metres between rows of windows
+constexpr double window_spacing = 2.6;  ///< metres
 constexpr Paint glass{9, 12, 16, 255}, door{22, 13, 8, 255}, brick{86, 44, 34, 255};  ///< linear
 
 /// A colour made lighter, or darker, and warmer.
@@ -52,7 +52,9 @@ class HouseMesh {
   const Paint& roof() const { return roof_; }
 
   /// Walls up to a height, closed by a flat roof.
-  void add_box(const House& h, double top, const Paint& roof) { add_block(h, 0, 0, 1, 1, h.low, top, wall_of(h), roof); }
+  void add_box(const House& h, double top, const Paint& roof) {
+    add_block(h, 0, 0, 1, 1, h.low, top, wall_of(h), roof);
+  }
 
   void add(const House& h, Finish finish) {
     const auto at = [&](double u, double v, double z) { return position(h, u, v, z); };
@@ -79,7 +81,8 @@ class HouseMesh {
  private:
   /// `u` along the ridge and `v` across it, from -1 to 1 on the plan.
   static Point position(const House& h, double u, double v, double z) {
-    return {h.east + u * h.length * h.x - v * h.depth * h.y, h.north + u * h.length * h.y + v * h.depth * h.x, z};
+    return {h.east + u * h.length * h.x - v * h.depth * h.y, h.north + u * h.length * h.y + v * h.depth * h.x,
+            z};
   }
 
   /// A block with the middle (u, v) and half sides (du, dv).
@@ -100,7 +103,9 @@ class HouseMesh {
     const double eaves = h.top - 5.5;
     const Paint roof = roof_of(h);
     add_block(h, u, 0, du, dv, h.low, eaves, wall_of(h), roof);
-    const auto at = [&](double a, double b) { return position(h, u + 1.15 * a * du, 1.15 * b * dv, eaves - 0.2); };
+    const auto at = [&](double a, double b) {
+      return position(h, u + 1.15 * a * du, 1.15 * b * dv, eaves - 0.2);
+    };
     const Point top = position(h, u, 0, h.top);
     for (const auto& [a, b] : {std::pair{1.0, 0.0}, {0.0, 1.0}, {-1.0, 0.0}, {0.0, -1.0}}) {
       const Point out(a * h.x - b * h.y, a * h.y + b * h.x, 0.4);
@@ -112,7 +117,8 @@ class HouseMesh {
   void add_openings(const House& h) {
     const Point across(-h.y, h.x, 0);
     const double foot = std::max(h.floor, h.low + 0.6);
-    const auto add_opening = [&](double side, double middle, double half, double low, double top, const Paint& paint) {
+    const auto add_opening = [&](double side, double middle, double half, double low, double top,
+                                 const Paint& paint) {
       const double v = side * (1 + proud / h.depth);
       const auto at = [&](double x, double z) { return position(h, (middle + x) / h.length, v, z); };
       add_face({at(-half, low), at(half, low), at(half, top), at(-half, top)}, across * side, paint);
@@ -127,7 +133,8 @@ class HouseMesh {
         for (int k = 0; k < columns; ++k) {
           const double middle = (k + 0.5 - 0.5 * columns) * window_spacing;
           if (sill < foot + 1 && std::abs(middle) < 1.1) continue;
-          add_opening(side, middle, 0.45, sill, std::min(sill + (h.kind == House::church ? 3.2 : 1.25), h.eaves - 0.3), glass);
+          add_opening(side, middle, 0.45, sill,
+                      std::min(sill + (h.kind == House::church ? 3.2 : 1.25), h.eaves - 0.3), glass);
         }
       }
     }

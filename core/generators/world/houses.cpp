@@ -154,9 +154,11 @@ class Planner {
   }
 
   static void style(House& house, Rng& rng) {
-    house.wall_light = static_cast<float>(house.kind == House::barn ? rng.uniform(0.4, 0.6) : rng.uniform(0.78, 1.12));
+    house.wall_light =
+        static_cast<float>(house.kind == House::barn ? rng.uniform(0.4, 0.6) : rng.uniform(0.78, 1.12));
     house.roof_light = static_cast<float>(rng.uniform(0.62, 1.15));
-    house.warmth = static_cast<float>(house.kind == House::barn ? rng.uniform(0.1, 0.25) : rng.uniform(-0.1, 0.12));
+    house.warmth =
+        static_cast<float>(house.kind == House::barn ? rng.uniform(0.1, 0.25) : rng.uniform(-0.1, 0.12));
   }
 
   /// Sets the heights of a house and adds it where it can stand. `tall`: the height of its model, or 0.
@@ -218,10 +220,8 @@ class Planner {
   bool is_apart(const House& house) const {
     return std::none_of(plan_.houses.begin(), plan_.houses.end(), [&](const House& other) {
       const double x = other.east - house.east, y = other.north - house.north;
-      for (const auto& [u, v] : {std::pair{house.x, house.y},
-                                 {-house.y, house.x},
-                                 {other.x, other.y},
-                                 {-other.y, other.x}}) {
+      for (const auto& [u, v] :
+           {std::pair{house.x, house.y}, {-house.y, house.x}, {other.x, other.y}, {-other.y, other.x}}) {
         const auto reach = [u = u, v = v](const House& h) {
           return h.length * std::abs(h.x * u + h.y * v) + h.depth * std::abs(h.x * v - h.y * u);
         };
@@ -268,7 +268,8 @@ std::shared_ptr<const Plan> plan_of(const World& world, const Site& site, Job& j
 
 std::vector<House> houses_near(const World& world, const Rectangle& box, double reach, Job& job) {
   std::vector<House> found;
-  for (const auto& site : sites_near(world, box, reach + farm_reach * world.params.settlements.radius + 30, job)) {
+  for (const auto& site :
+       sites_near(world, box, reach + farm_reach * world.params.settlements.radius + 30, job)) {
     for (const House& house : plan_of(world, *site, job)->houses) {
       if (house.east >= box.west - reach && house.east < box.east + reach &&
           house.north >= box.south - reach && house.north < box.north + reach) {

@@ -37,11 +37,12 @@ void Instances::add_to(Glb& glb, const std::string& name, const std::vector<int>
                      {"SCALE", glb.add_accessor(values(scales_, "VEC3"))}};
   if (!turns_.empty()) attributes["ROTATION"] = glb.add_accessor(values(turns_, "VEC4"));
   if (!tints_.empty()) {
-    attributes["_COLOR_0"] = glb.add_accessor({{"bufferView", glb.add_bytes(tints_.data(), tints_.size(), 0, 0)},
-                                               {"componentType", type_unsigned_byte},
-                                               {"normalized", true},
-                                               {"count", count()},
-                                               {"type", "VEC4"}});
+    attributes["_COLOR_0"] =
+        glb.add_accessor({{"bufferView", glb.add_bytes(tints_.data(), tints_.size(), 0, 0)},
+                          {"componentType", type_unsigned_byte},
+                          {"normalized", true},
+                          {"count", count()},
+                          {"type", "VEC4"}});
   }
   for (const int mesh : meshes) {
     glb.add_node({{"name", name},

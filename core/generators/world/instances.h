@@ -17,7 +17,9 @@ class Instances {
            const std::array<float, 2>& turn);
   /// The tint of the copy that was added last, linear; all copies have one or none has. It is the attribute _COLOR_0,
   /// which clients that do not know it overlook.
-  void tint(const std::array<std::uint8_t, 4>& color) { tints_.insert(tints_.end(), color.begin(), color.end()); }
+  void tint(const std::array<std::uint8_t, 4>& color) {
+    tints_.insert(tints_.end(), color.begin(), color.end());
+  }
   std::size_t count() const { return scales_.size() / 3; }
 
   /// A node for each mesh; all share the copies.

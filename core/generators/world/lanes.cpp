@@ -8,8 +8,8 @@
 namespace seedmesh::world {
 namespace {
 
-constexpr double step = 12;          ///< metres between points
-constexpr double apart = 34;         ///< metres between a lane and others, so that houses stand between them
+constexpr double step = 12;   ///< metres between points
+constexpr double apart = 34;  ///< metres between a lane and others, so that houses stand between them
 constexpr double most_lane_works = 1.4;
 constexpr double steepest = 0.13;    ///< of the ground along a lane
 constexpr double most_turn = 22;     ///< degrees from a right angle with the road
@@ -123,7 +123,8 @@ class LaneFinder {
       }
       return false;
     };
-    return std::none_of(roads_.begin(), roads_.end(), [&](const auto& road) { return is_near(road->points); }) &&
+    return std::none_of(roads_.begin(), roads_.end(),
+                        [&](const auto& road) { return is_near(road->points); }) &&
            std::none_of(found_.lanes.begin(), found_.lanes.end(),
                         [&](const Lane& lane) { return is_near(lane.points); });
   }

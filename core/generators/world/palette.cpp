@@ -60,8 +60,9 @@ std::array<std::uint8_t, 4> ground_color(const World& world, const GroundSample&
     // below crowns the floor of the wood, from afar the crowns themselves
     const double dark = spacing > widest_canopy_spacing ? 0.62 : 0.4;
     const Shade crowns{dark * wood.color[0], dark * wood.color[1], dark * wood.color[2]};
-    shade = mixed(shade, spacing > widest_canopy_spacing ? crowns : mixed(crowns, shade_of(colors.forest), 0.3),
-                  0.92 * smooth_step(wood.cover, 0.1, 0.75));
+    shade =
+        mixed(shade, spacing > widest_canopy_spacing ? crowns : mixed(crowns, shade_of(colors.forest), 0.3),
+              0.92 * smooth_step(wood.cover, 0.1, 0.75));
   }
   if (sample.field >= 0) {
     const Shade crop = shade_of(world.params.fields.colors[static_cast<std::size_t>(sample.field)]);

@@ -17,7 +17,8 @@ constexpr int array_buffer = 34962, element_buffer = 34963;
 
 /// What tiles of a level show of the plants.
 struct Showing {
-  double share = 1;       ///< of marks, of classes whose crowns close; about 0.7 and 0.4 of the plants at 0.25 and 0.08
+  double share =
+      1;  ///< of marks, of classes whose crowns close; about 0.7 and 0.4 of the plants at 0.25 and 0.08
   double open_share = 1;  ///< of other classes
   double width = 1;       ///< fewer plants are wider, so that they cover as much
   bool is_simple = false, has_canopy = false;
@@ -29,9 +30,9 @@ constexpr Showing showings[] = {{1, 1, 1, false, false},
                                 {0.014, 0.04, 1.5, true, true},
                                 {0.003, 0.01, 1.8, true, true}};
 constexpr int levels_of_plants = 5;
-constexpr double widest_open = 1.3;        ///< the most that classes whose crowns do not close are widened
-constexpr double least_far_height = 3;     ///< metres; lower classes are not seen from afar
-constexpr int first_far_level = 3;         ///< above the leaves
+constexpr double widest_open = 1.3;     ///< the most that classes whose crowns do not close are widened
+constexpr double least_far_height = 3;  ///< metres; lower classes are not seen from afar
+constexpr int first_far_level = 3;      ///< above the leaves
 
 int add_plant_mesh(Glb& glb, const PlantFile& file, const std::string& name, std::string_view folder) {
   const int buffer =
@@ -72,7 +73,9 @@ int add_plant_mesh(Glb& glb, const PlantFile& file, const std::string& name, std
 /// A tint that makes plants of a class differ: darker or lighter, yellower or bluer.
 std::array<std::uint8_t, 4> tint_of(Rng& rng) {
   const double light = rng.uniform(0.68, 0.96), hue = rng.uniform(-0.06, 0.06);
-  const auto byte = [](double v) { return static_cast<std::uint8_t>(math::to_int32(std::min(v, 1.0) * 255)); };
+  const auto byte = [](double v) {
+    return static_cast<std::uint8_t>(math::to_int32(std::min(v, 1.0) * 255));
+  };
   return {byte(light * (1 + hue)), byte(light), byte(light * (1 - hue)), 255};
 }
 
@@ -83,7 +86,8 @@ Instances copies_of(const std::vector<Plant>& plants, const TileFrame& frame, do
   for (const Plant& plant : plants) {
     Rng rng(plant.key);
     const double size = plant.size * scale;
-    const auto high = static_cast<float>(size), wide = static_cast<float>(size * width * rng.uniform(0.88, 1.1));
+    const auto high = static_cast<float>(size),
+               wide = static_cast<float>(size * width * rng.uniform(0.88, 1.1));
     copies.add({plant.east - frame.middle_east, plant.height, frame.middle_north - plant.north},
                {is_tinted ? wide : high, high, is_tinted ? wide : high});
     if (is_tinted) copies.tint(tint_of(rng));

@@ -158,8 +158,8 @@ void add_form(Builder& builder, const WorldClass& plant) {
       builder.revolve({{0.022 * h, -0.02 * h}, {0.016 * h, 0.3 * h}}, 5, stem);
       for (int k = 0; k < 6; ++k) {
         const double low = (0.1 + 0.135 * k) * h, r = (0.2 - 0.029 * k) * h;
-        builder.revolve({{0.25 * r, low + 0.05 * h}, {r, low}, {0.01 * h, low + (k < 5 ? 0.2 : 0.215) * h}}, 7,
-                        leaf, 0.35);
+        builder.revolve({{0.25 * r, low + 0.05 * h}, {r, low}, {0.01 * h, low + (k < 5 ? 0.2 : 0.215) * h}},
+                        7, leaf, 0.35);
       }
       return;
     case WorldForm::broadleaf:
@@ -182,7 +182,8 @@ void add_form(Builder& builder, const WorldClass& plant) {
       builder.lobe({0, 0.45 * h, 0}, {0.42 * h, 0.44 * h, 0.42 * h}, 0.2 * h, 4, 7, leaf);
       for (int k = 0; k < 2; ++k) {
         const double side = k == 0 ? 0.3 : -0.28;
-        builder.lobe({side * h, 0.3 * h, 0.12 * h * (k - 0.5)}, {0.28 * h, 0.3 * h, 0.28 * h}, 0.2 * h, 4, 6, leaf);
+        builder.lobe({side * h, 0.3 * h, 0.12 * h * (k - 0.5)}, {0.28 * h, 0.3 * h, 0.28 * h}, 0.2 * h, 4, 6,
+                     leaf);
       }
       return;
     case WorldForm::cactus:

@@ -34,7 +34,9 @@ constexpr double edge_low = -0.1, edge_high = 0.16;
 /// The share of candidates near a position that may compete. Stops when the finer octaves cannot change it.
 double cover_at(std::uint64_t key, double density, double east, double north, double spacing = 0) {
   if (density <= 0) return 0;
-  double sum = 1.7 * (density - 0.5), left = 0, hidden = 0;
+  // fitted so that woods cover this share of wide areas
+  const double more = density - 0.5;
+  double sum = 0.03 + 0.75 * more + 5 * more * more * more * more * more, left = 0, hidden = 0;
   for (const CoverOctave& o : cover_octaves) left += 1.1 * o.amplitude;
   for (std::size_t k = 0; k < cover_octaves.size(); ++k) {
     const auto [wavelength, amplitude] = cover_octaves[k];

@@ -48,7 +48,8 @@ void add_works(Glb& glb, const World& world, const TileFrame& frame, double base
     const auto add = [&](const std::vector<RoadPoint>& points, double width, double above) {
       for (std::size_t k = 1; k < points.size(); ++k) {
         const RoadPoint &a = points[k - 1], &b = points[k];
-        roads.add_ribbon({a.east, a.north, a.height + above}, width, {b.east, b.north, b.height + above}, width);
+        roads.add_ribbon({a.east, a.north, a.height + above}, width, {b.east, b.north, b.height + above},
+                         width);
       }
     };
     for (const auto& road : roads_near(world, box, world.params.roads.width, job))

@@ -28,7 +28,7 @@ double distance_to(const RoadPiece& piece, double east, double north, double& sh
 
 constexpr double steepest_field = 0.11, least_field_moisture = 0.24;
 constexpr double cleared_reach = 2.6;  ///< of the radius of a village: how far woods are cut
-constexpr double hedge = 2.5;  ///< metres from the border of a field
+constexpr double hedge = 2.5;          ///< metres from the border of a field
 
 /// The field around a position: a cell of the Voronoi diagram of one point in each cell of a jittered grid.
 struct Field {
@@ -132,8 +132,7 @@ void Ground::add_field(GroundSample& sample, double east, double north) const {
     const double x = east - farm.east, y = north - farm.north, square = x * x + y * y;
     const double most = cleared_reach * farm.radius;
     if (square >= most * most) continue;
-    sample.settled =
-        std::max(sample.settled, 1 - smooth_step(std::sqrt(square), 0.4 * most, most));
+    sample.settled = std::max(sample.settled, 1 - smooth_step(std::sqrt(square), 0.4 * most, most));
   }
   const Slope& h = sample.land.height;
   if (h.east * h.east + h.north * h.north > steepest_field * steepest_field || sample.shore < 15 ||

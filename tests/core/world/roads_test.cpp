@@ -100,7 +100,8 @@ TEST(WorldHouses, StandApartAndBesideRoads) {
     EXPECT_LE(std::max(houses[i].length, houses[i].depth), house_extent(world).across);
     for (std::size_t j = 0; j < i; ++j) {
       const double x = houses[i].east - houses[j].east, y = houses[i].north - houses[j].north;
-      ASSERT_GE(std::sqrt(x * x + y * y), std::min(houses[i].depth, houses[i].length) + std::min(houses[j].depth, houses[j].length));
+      ASSERT_GE(std::sqrt(x * x + y * y),
+                std::min(houses[i].depth, houses[i].length) + std::min(houses[j].depth, houses[j].length));
     }
   }
 }
