@@ -14,6 +14,8 @@ constexpr double plain_reach = 14, plain_height = 23;  ///< of houses without a 
 constexpr double model_reach = 20, model_height = 30;
 constexpr double most_uneven = 3;    ///< metres that the ground below a house may rise
 constexpr double least_gap = 1.8;    ///< metres between houses
+constexpr double least_town = 150;   ///< metres; the radius of settlements with higher houses in their middle
+constexpr double storey = 2.7;       ///< metres
 constexpr double least_church = 90;  ///< metres; the radius of settlements with a church
 
 /// Places houses one after the other, each apart from those before.
@@ -80,7 +82,8 @@ class Planner {
     const bool shows_gable = models_.empty() && rng.unit() < 0.35;
     const double setback = rng.uniform(1.5, 5), share = rng.unit();
     style(house, rng);
-    const double walls = rng.uniform(3, 5.6), roof = house.depth * rng.uniform(0.85, 1.25);
+    double walls = rng.uniform(3, 5.6);
+    const double roof = house.depth * rng.uniform(0.85, 1.25);
     const auto [east, north, x, y, side, width] = lot_of_house;
     const double off = width / 2 + (shows_gable ? house.length : house.depth) + setback;
     house.x = shows_gable ? -y : x;
@@ -89,6 +92,7 @@ class Planner {
     house.north = north + side * x * off;
     const double out = away(house);
     if (out > site_.radius || share < 0.75 * out / site_.radius - 0.25) return;
+    if (site_.radius > least_town && rng.unit() > 1.6 * out / site_.radius) walls += storey;
     if (!place(house, walls, roof, tall)) return;
     turn_to(plan_.houses.back(), side * y, -side * x);
     if (!models_.empty() || rng.unit() > 0.4) return;

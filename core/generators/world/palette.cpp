@@ -28,6 +28,7 @@ std::uint8_t byte_of(double value) {
   return static_cast<std::uint8_t>(math::to_int32(std::clamp(value, 0.0, 1.0) * 255 + 0.5));
 }
 
+constexpr double widest_verge_spacing = 8;  ///< metres between samples that show the bare ground beside roads
 constexpr double widest_canopy_spacing = widest_plants / tile_cells;
 
 /// Variations of the ground from 2 km to 20 m, about -1 to 1; without those finer than samples can show.
@@ -67,6 +68,10 @@ std::array<std::uint8_t, 4> ground_color(const World& world, const GroundSample&
   if (sample.field >= 0) {
     const Shade crop = shade_of(world.params.fields.colors[static_cast<std::size_t>(sample.field)]);
     shade = mixed(shade, sample.is_hedge ? shade_of(colors.forest) : crop, 0.85);
+  }
+  if (spacing <= widest_verge_spacing) {
+    const double verge = 1 - smooth_step(sample.road + 0.4 * patch, 0.2, 3.5);
+    shade = mixed(shade, shade_of(colors.dry), 0.6 * verge);
   }
   const double bare = smooth_step(1 - steepness + 0.02 * patch, 0.1, 0.24);
   shade = mixed(shade, shade_of(colors.rock), bare);
