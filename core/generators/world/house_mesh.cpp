@@ -53,7 +53,7 @@ class HouseMesh {
 
   /// Walls up to a height, closed by a flat roof.
   void add_box(const House& h, double top, const Paint& roof) {
-    add_block(h, 0, 0, 1, 1, h.low, top, wall_of(h), roof);
+    add_block(h, {}, h.low, top, wall_of(h), roof);
   }
 
   void add(const House& h, Finish finish) {
@@ -72,7 +72,7 @@ class HouseMesh {
     if (h.kind == House::church) add_tower(h);
     if (finish != Finish::with_openings) return;
     if (h.kind == House::dwelling)
-      add_block(h, 0.45, 0.18, 0.55 / h.length, 0.4 / h.depth, h.eaves, h.ridge + 0.7, brick, brick);
+      add_block(h, {0.45, 0.18, 0.55 / h.length, 0.4 / h.depth}, h.eaves, h.ridge + 0.7, brick, brick);
     add_openings(h);
   }
 
@@ -85,10 +85,16 @@ class HouseMesh {
             z};
   }
 
-  /// A block with the middle (u, v) and half sides (du, dv).
-  void add_block(const House& h, double u, double v, double du, double dv, double low, double top,
-                 const Paint& wall, const Paint& cover) {
-    const auto at = [&](double a, double b, double z) { return position(h, u + a * du, v + b * dv, z); };
+  /// A part of a plan, in shares of the half sides of a house: its middle and its half sides.
+  struct Part {
+    double u = 0, v = 0, du = 1, dv = 1;
+  };
+
+  void add_block(const House& h, const Part& part, double low, double top, const Paint& wall,
+                 const Paint& cover) {
+    const auto at = [&](double a, double b, double z) {
+      return position(h, part.u + a * part.du, part.v + b * part.dv, z);
+    };
     const Point along(h.x, h.y, 0), across(-h.y, h.x, 0);
     for (const double s : {-1.0, 1.0}) {
       add_face({at(-s, s, low), at(s, s, low), at(s, s, top), at(-s, s, top)}, across * s, wall);
@@ -102,7 +108,7 @@ class HouseMesh {
     const double half = 2.4, u = 1 - half / h.length, du = half / h.length, dv = half / h.depth;
     const double eaves = h.top - 5.5;
     const Paint roof = roof_of(h);
-    add_block(h, u, 0, du, dv, h.low, eaves, wall_of(h), roof);
+    add_block(h, {u, 0, du, dv}, h.low, eaves, wall_of(h), roof);
     const auto at = [&](double a, double b) {
       return position(h, u + 1.15 * a * du, 1.15 * b * dv, eaves - 0.2);
     };
