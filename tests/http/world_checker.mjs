@@ -36,7 +36,7 @@ export async function read_tile(get, level, x, y) {
       const points = values_of(json, buffers, attributes.POSITION), copies = node.extensions?.EXT_mesh_gpu_instancing?.attributes;
       const moves = copies ? values_of(json, buffers, copies.TRANSLATION) : [0, 0, 0], grows = copies ? values_of(json, buffers, copies.SCALE) : [1, 1, 1];
       for (let c = 0; c < moves.length; c += 3) {
-        if (layer === 'plants') tile.feet.push([root.translation[0] + moves[c], -(root.translation[2] + moves[c + 2]), moves[c + 1]]);
+        if (layer === 'plants' && copies) tile.feet.push([root.translation[0] + moves[c], -(root.translation[2] + moves[c + 2]), moves[c + 1]]);
         if (copies?.ROTATION !== undefined) continue; // turned copies are checked by their middle alone
         for (let n = 0; n < points.length; n += 3) {
           const p = [0, 1, 2].map((k) => points[n + k] * scale[k] * grows[c + k] + moves[c + k] + at[k] + root.translation[k]);

@@ -7,20 +7,25 @@ import { launch, until_state } from '../browser/chromium.mjs';
 import { serve } from '../http/support.mjs';
 
 const folder = path.join(import.meta.dirname, '../../docs/pictures/worlds');
-/** name: world, east, north, metres above the ground, heading, pitch */
+/** The camera that sees a point of the ground in its middle column, from `back` metres before it. */
+const before = (world, [east, north], heading, back, above, pitch) => {
+  const turn = heading * Math.PI / 180;
+  return [world, Math.round(east - back * Math.sin(turn)), Math.round(north - back * Math.cos(turn)), above, heading, pitch];
+};
+/** name: world, east, north, metres above the ground, heading, pitch. Villages are those of the map. */
 export const views = {
-  temperate_ground: ['temperate_land.7', 120, 60, 2, 40, 0],
-  temperate_hill: ['temperate_land.7', -800, 400, 160, 300, -12],
-  temperate_plane: ['temperate_land.7', 0, 0, 2500, 0, -25],
+  temperate_ground: before('temperate_land.7', [10816, -4672], 60, 150, 3, 2),
+  temperate_hill: before('temperate_land.7', [9152, 5184], 300, 620, 120, -9),
+  temperate_plane: before('temperate_land.7', [9152, 5184], 330, 2600, 900, -17),
   temperate_orbit: ['temperate_land.7', 0, -20_000, 60_000, 0, -60],
-  alpine_hill: ['alpine.3', 2000, 1000, 220, 120, -8],
-  alpine_plane: ['alpine.3', 0, -4000, 3500, 20, -22],
-  archipelago_plane: ['archipelago.5', 0, 0, 3000, 45, -25],
+  alpine_hill: before('alpine.3', [-3776, 4800], 120, 750, 160, -6),
+  alpine_plane: ['alpine.3', 0, -4000, 1800, 20, -12],
+  archipelago_plane: before('archipelago.5', [2752, -3520], 160, 2400, 700, -14),
   archipelago_orbit: ['archipelago.5', 0, -20_000, 70_000, 0, -65],
-  desert_plane: ['desert_oases.4', 0, 0, 900, 200, -15],
-  boreal_hill: ['boreal_plain.2', 500, 500, 90, 70, -10],
-  boreal_plane: ['boreal_plain.2', 0, 0, 2200, 160, -22],
-  alien_plane: ['alien_plateaus.6', 0, 0, 1200, 330, -14],
+  desert_plane: before('desert_oases.4', [-8384, 4928], 200, 1300, 420, -15),
+  boreal_hill: before('boreal_plain.2', [-7872, -4928], 70, 520, 95, -8),
+  boreal_plane: before('boreal_plain.2', [-7872, -4928], 160, 3000, 1000, -17),
+  alien_plane: before('alien_plateaus.6', [10304, 2496], 330, 1800, 500, -13),
 };
 
 const wanted = process.argv.slice(2);
@@ -32,15 +37,16 @@ try {
     const [preset, seed] = world.split('.');
     const { heights, sea_level = 0 } = (await server.post(`/v1/derive?box=${east - 16},${north - 16},${east + 16},${north + 16}`, { preset, seed: Number(seed) })).json;
     const up = Math.max(heights.values[Math.floor(heights.values.length / 2)], sea_level) + above;
-    const page = await browser.newPage({ viewport: { width: 800, height: 450 } });
+    const page = await browser.newPage({ viewport: { width: 1600, height: 900 } });
     await page.goto(`${server.url}/world.html#${world}@${[east, north, up, heading, pitch]}`);
     await until_state(page, 'ready', 'failed');
     await page.evaluate(() => { for (const each of document.querySelectorAll('form, p, details, .sliders')) each.remove(); });
-    const png = await page.screenshot({ timeout: 120_000 });
+    const whole = await page.screenshot({ timeout: 120_000 });
+    const png = await sharp(whole).resize(800, 450).png().toBuffer();
     let quality = 80, bytes;
     do bytes = await sharp(png).webp({ quality }).toBuffer(); while (bytes.length > 60_000 && (quality -= 8) > 20);
     fs.writeFileSync(path.join(folder, `${name}.webp`), bytes);
-    if (process.env.SEEDMESH_PNG) fs.writeFileSync(path.join(process.env.SEEDMESH_PNG, `${name}.png`), png);
+    if (process.env.SEEDMESH_PNG) fs.writeFileSync(path.join(process.env.SEEDMESH_PNG, `${name}.png`), whole);
     console.log(`${name}: ${bytes.length} bytes, world.html#${world}@${[east, north, Math.round(up), heading, pitch]}`);
     await page.close();
   }

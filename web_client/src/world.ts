@@ -4,10 +4,11 @@
  * #temperate_land.7@east,north,height,heading,pitch in metres and degrees, and ",walk" on foot.
  */
 import './style/world.css';
-import { Color, DirectionalLight, HemisphereLight, MathUtils, NeutralToneMapping, type Object3D, PerspectiveCamera, Raycaster, Scene, Vector3, WebGLRenderer } from 'three';
+import { MathUtils, Mesh, type Object3D, PerspectiveCamera, Raycaster, Scene, Vector3, WebGLRenderer } from 'three';
 import { TilesRenderer } from '3d-tiles-renderer';
 import { get_preset, get_presets, get_schema, type Request } from './api';
 import { fragment_of, unpack } from './link';
+import { Daylight } from './world_light';
 import { sliders } from './world_sliders';
 
 interface Pose { east: number; north: number; height: number; heading: number; pitch: number; walks?: boolean }
@@ -15,7 +16,7 @@ interface Pose { east: number; north: number; height: number; heading: number; p
 const canvas = document.querySelector('canvas')!, form = document.querySelector('form')!, status = document.querySelector('p')!;
 const presets = form.elements.namedItem('preset') as HTMLSelectElement, seed = form.elements.namedItem('seed') as HTMLInputElement;
 const renderer = new WebGLRenderer({ canvas, antialias: true });
-const scene = new Scene(), camera = new PerspectiveCamera(60, 1, 2, 400_000), sky = new Color('#a9c8e2');
+const scene = new Scene(), camera = new PerspectiveCamera(60, 1, 2, 400_000), light = new Daylight(scene, renderer);
 const held = new Set<string>();
 /** The first view of a world: above its middle, towards the north. */
 const start: Pose = { east: 0, north: 0, height: 2500, heading: 0, pitch: -25 };
@@ -24,12 +25,6 @@ const above_all = 100_000; // metres; no ground is as high
 const walk_button = form.elements.namedItem('walk') as HTMLButtonElement, panel = document.querySelector<HTMLElement>('.sliders')!;
 const ray = new Raycaster(), down = new Vector3(0, -1, 0);
 let pose: Pose = { ...start }, tiles: TilesRenderer | null = null, name = '';
-
-scene.background = sky;
-const sun = new DirectionalLight('#fff3dd', 2.6);
-sun.position.set(0.6, 1, 0.35);
-scene.add(sun, new HemisphereLight('#dcebfa', '#7a7060', 1.6));
-renderer.toneMapping = NeutralToneMapping;
 
 const state = (text: string, word: string): void => { status.textContent = text; document.body.dataset['state'] = word; };
 
@@ -47,11 +42,13 @@ function read_address(): { name: string; pose: Pose } | null {
   return { name: world, pose: has_pose ? { east: east!, north: north!, height: height!, heading: heading!, pitch: pitch!, walks } : { ...start } };
 }
 
-/** Feet stand on the ground, on roads and on water, and not on plants and roofs. */
-function keep_ground(model: Object3D): void {
+/** Feet stand on the ground, on roads and on water, and not on plants and roofs, which cast shadows. */
+function prepare(model: Object3D): void {
   model.traverse((part) => {
+    if (!(part instanceof Mesh)) return;
+    part.receiveShadow = true;
     for (let above: Object3D | null = part; above; above = above.parent)
-      if (/^(plants|buildings)/.test(above.name)) { part.raycast = () => undefined; return; }
+      if (/^(plants|buildings)/.test(above.name)) { part.raycast = () => undefined; part.castShadow = true; return; }
   });
 }
 
@@ -93,7 +90,7 @@ function show(world: string): void {
   tiles.setCamera(camera);
   tiles.group.rotation.x = -Math.PI / 2; // z up becomes y up
   tiles.addEventListener('load-error', ({ error }: { error: Error }) => state(`A file of the world cannot be loaded: ${error.message}`, 'failed'));
-  tiles.addEventListener('load-model', ({ scene: model }) => keep_ground(model));
+  tiles.addEventListener('load-model', ({ scene: model }) => { prepare(model); ground_age = Infinity; });
   scene.add(tiles.group);
   const [preset = '', number = ''] = world.split('.');
   presets.value = number ? preset : '';
@@ -139,7 +136,14 @@ function set_view(): void {
   camera.updateProjectionMatrix();
 }
 
-let last = performance.now(), calm = 0;
+let last = performance.now(), calm = 0, ground_below = 0, ground_age = Infinity; // frames since the ground was looked for
+
+/** The ground below the camera, looked for again when tiles have come and from time to time. */
+function ground_near(): number {
+  if (++ground_age > 60) { ground_below = ground() ?? ground_below; ground_age = 0; }
+  return ground_below;
+}
+
 function draw(now: number): void {
   move(Math.min(0.1, (now - last) / 1000));
   last = now;
@@ -148,6 +152,7 @@ function draw(now: number): void {
   camera.rotation.set(MathUtils.degToRad(pose.pitch), MathUtils.degToRad(-pose.heading), 0, 'YXZ');
   camera.updateMatrixWorld();
   tiles?.update();
+  light.follow(camera, ground_near());
   renderer.render(scene, camera);
   const share = tiles?.root ? tiles.loadProgress : 0;
   calm = share === 1 ? calm + 1 : 0;

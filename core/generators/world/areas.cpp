@@ -4,6 +4,7 @@
 
 #include "core/base/math.h"
 #include "core/generators/world/houses.h"
+#include "core/generators/world/lanes.h"
 #include "core/generators/world/plants.h"
 #include "core/generators/world/tile_frame.h"
 
@@ -201,7 +202,7 @@ class AreaFinder {
     for (const House& house : houses_near(world_, box(), 0, job_)) {
       for_areas({house.east, house.north, house.east, house.north}, 0, [&](Area& area) {
         area.lowest = std::min(area.lowest, house.low);
-        area.highest = std::max(area.highest, house.ridge);
+        area.highest = std::max(area.highest, house.top);
       });
     }
   }
@@ -211,8 +212,10 @@ class AreaFinder {
     const bool knows_sites = side_ <= widest_known_rivers;
     const HouseExtent houses = house_extent(world_);
     if (knows_sites) {
-      for (const auto& site : sites_near(world_, box(), world_.params.settlements.radius, job_)) {
-        for_areas({site->east, site->north, site->east, site->north}, site->radius, [&](Area& area) {
+      for (const auto& site :
+           sites_near(world_, box(), farm_reach * world_.params.settlements.radius, job_)) {
+        const double reach = farm_reach * site->radius;
+        for_areas({site->east, site->north, site->east, site->north}, reach, [&](Area& area) {
           area.lowest = std::min(area.lowest, area.low - most_cellar);
           area.highest = std::max(area.highest, area.high + houses.up);
         });
@@ -254,6 +257,7 @@ Area joined(const Area& sw, const Area& se, const Area& nw, const Area& ne) {
     all.high = std::max(all.high, area->high);
     all.lowest = std::min(all.lowest, area->lowest);
     all.rough.add(area->rough);
+    all.plant_height = std::max(all.plant_height, area->plant_height);
   }
   all.borders = {std::min(sw.borders[0], nw.borders[0]), std::min(sw.borders[1], se.borders[1]),
                  std::min(se.borders[2], ne.borders[2]), std::min(nw.borders[3], ne.borders[3])};

@@ -41,9 +41,16 @@ TileBounds in_plan(const World& world, const TileKey& key) {
   return box;
 }
 
-/// Heights are rounded to steps, here and in tiles below.
-double error_of(const World& world, const TileFrame& frame, const Roughness& rough) {
-  return deviation_of(world, frame.spacing, rough) + frame.step;
+constexpr double plant_error = 1.0 / 128;  ///< of the side of a tile
+constexpr double widest_plant_error =
+    2048;  ///< metres; woods in wider tiles are seen from so far that they are flat
+
+/// Heights are rounded to steps, here and in tiles below. Tiles that replace plants by simpler ones and by the surface
+/// of woods lack more of them the wider they are, up to the height of the plants.
+double error_of(const World& world, const TileFrame& frame, const Roughness& rough, double plant_height) {
+  const double plants =
+      frame.side <= widest_plant_error ? std::min(plant_error * frame.side, plant_height) : 0;
+  return std::max(deviation_of(world, frame.spacing, rough), plants) + frame.step;
 }
 
 /// The lowest that the own skirt of a tile hangs. `between`: how far ground can be below samples.
@@ -87,7 +94,7 @@ TileBounds link_bounds(const World& world, const TileKey& key, const Area& area,
   TileBounds box = in_plan(world, key);
   box.low = std::floor((low - 2 * frame.step) * 4) / 4;
   box.high = std::ceil((high + 2 * frame.step) * 4) / 4;
-  box.geometric_error = is_leaf ? 0 : error_of(world, frame, area.rough);
+  box.geometric_error = is_leaf ? 0 : error_of(world, frame, area.rough, area.plant_height);
   return box;
 }
 
@@ -104,7 +111,7 @@ TileBounds bounds_above(const World& world, const TileKey& key, const Area& area
     box.high = std::max(box.high, child->high);
   }
   box.low = std::floor(box.low * 4) / 4;
-  box.geometric_error = error_of(world, frame, area.rough);
+  box.geometric_error = error_of(world, frame, area.rough, area.plant_height);
   return box;
 }
 
@@ -166,9 +173,11 @@ std::shared_ptr<const Block> block_at(const World& world, const TileKey& root, J
 double greatest_error(const World& world) {
   const Roughness rough = roughest(world);
   double error = 0;
+  double tallest = 0;
+  for (const WorldClass& plant : world.params.plants) tallest = std::max(tallest, plant.height);
   for (int level = 0; level < world.levels; ++level) {
     const double scale = static_cast<double>(std::int64_t{1} << level);
-    error = std::max(error, scale * error_of(world, frame_of(world, {level, 0, 0}), rough));
+    error = std::max(error, scale * error_of(world, frame_of(world, {level, 0, 0}), rough, tallest));
   }
   return error;
 }

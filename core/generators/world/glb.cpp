@@ -10,7 +10,7 @@ namespace {
 
 constexpr int array_buffer = 34962, element_buffer = 34963;
 constexpr int type_byte = 5120, type_unsigned_byte = 5121, type_short = 5122, type_unsigned_short = 5123,
-              type_unsigned = 5125;
+              type_unsigned = 5125, type_float = 5126;
 
 int append(Json& list, Json value) {
   list.push_back(std::move(value));
@@ -61,6 +61,15 @@ int Glb::add_material(std::string_view name, double roughness, bool two_sided) {
                    {"pbrMetallicRoughness", {{"metallicFactor", 0}, {"roughnessFactor", roughness}}}};
   if (two_sided) material["doubleSided"] = true;
   return append(json_["materials"], std::move(material));
+}
+
+int Glb::add_material(std::string_view name, double roughness, const std::string& image) {
+  const int source = append(json_["images"], {{"uri", image}});
+  const int texture = append(json_["textures"], {{"source", source}});
+  const int material = add_material(name, roughness);
+  json_["materials"][static_cast<std::size_t>(material)]["pbrMetallicRoughness"]["baseColorTexture"] = {
+      {"index", texture}};
+  return material;
 }
 
 int Glb::add_shared_buffer(std::string uri, std::size_t bytes) {
@@ -146,8 +155,10 @@ int Glb::add_indices(const std::vector<std::uint32_t>& indices, std::size_t vert
                        {"type", "SCALAR"}});
 }
 
-void Glb::add_mesh(std::string_view name, const TileMesh& mesh, int material, double step, double height) {
-  add_mesh(name, mesh.vertices, add_indices(mesh.indices, mesh.vertices.size()), material, step, height);
+void Glb::add_mesh(std::string_view name, const TileMesh& mesh, int material, double step, double height,
+                   const std::vector<float>& coordinates) {
+  add_mesh(name, mesh.vertices, add_indices(mesh.indices, mesh.vertices.size()), material, step, height,
+           coordinates);
 }
 
 int Glb::add_shared_indices(std::string uri, std::size_t count) {
@@ -157,7 +168,7 @@ int Glb::add_shared_indices(std::string uri, std::size_t count) {
 }
 
 void Glb::add_mesh(std::string_view name, const std::vector<TileVertex>& vertices, int order, int material,
-                   double step, double height) {
+                   double step, double height, const std::vector<float>& coordinates) {
   int low[3] = {32767, 32767, 32767}, high[3] = {-32768, -32768, -32768};
   for (const TileVertex& v : vertices) {
     const int values[3] = {v.x, v.y, v.z};
@@ -188,6 +199,11 @@ void Glb::add_mesh(std::string_view name, const std::vector<TileVertex>& vertice
                                         {"normalized", true},
                                         {"count", count},
                                         {"type", "VEC4"}});
+  if (!coordinates.empty()) {
+    const int own = add_bytes(coordinates.data(), coordinates.size() * sizeof(float), 0, array_buffer);
+    attributes["TEXCOORD_0"] = add_accessor(
+        {{"bufferView", own}, {"componentType", type_float}, {"count", count}, {"type", "VEC2"}});
+  }
   const int made = add_gltf_mesh(
       {{"name", name},
        {"primitives",

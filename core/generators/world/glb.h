@@ -34,11 +34,15 @@ class Glb {
 
   /// The index of a material.
   int add_material(std::string_view name, double roughness, bool two_sided = false);
-  /// A node with one mesh of quantized vertices: metres = height * up + step * position.
-  void add_mesh(std::string_view name, const TileMesh& mesh, int material, double step, double height);
+  /// The same with a texture of colours from a file that tiles share.
+  int add_material(std::string_view name, double roughness, const std::string& image);
+  /// A node with one mesh of quantized vertices: metres = height * up + step * position. `coordinates`: of the
+  /// texture, two for each vertex, or none.
+  void add_mesh(std::string_view name, const TileMesh& mesh, int material, double step, double height,
+                const std::vector<float>& coordinates = {});
   /// The same with an accessor of the corners of triangles.
   void add_mesh(std::string_view name, const std::vector<TileVertex>& vertices, int order, int material,
-                double step, double height);
+                double step, double height, const std::vector<float>& coordinates = {});
   /// The accessor of corners of triangles among `vertices` vertices.
   int add_indices(const std::vector<std::uint32_t>& indices, std::size_t vertices);
   /// The same with corners of 16 bits in a file of their own.

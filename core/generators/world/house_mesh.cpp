@@ -12,11 +12,31 @@
 namespace seedmesh::world {
 namespace {
 
-constexpr double widest_models = 128, widest_roofs = 512, widest_boxes = 2048,
+constexpr double widest_openings = 64, widest_models = 128, widest_roofs = 512, widest_boxes = 2048,
                  widest_prisms = 8192;  ///< metres
 constexpr double prism_cell = 128;      ///< metres
 
 using Point = glm::dvec3;
+
+using Paint = std::array<std::uint8_t, 4>;
+
+/// How much of a house is drawn.
+enum class Finish { walls_and_roof, with_openings };
+
+constexpr double overhang = 0.45;       ///< metres that a roof reaches beyond the walls
+constexpr double proud = 0.05;          ///< metres that openings stand before a wall
+constexpr double storey = 2.7;          ///< metres between rows of windows
+constexpr double window_spacing = 2.6;  ///< metres
+constexpr Paint glass{9, 12, 16, 255}, door{22, 13, 8, 255}, brick{86, 44, 34, 255};  ///< linear
+
+/// A colour made lighter, or darker, and warmer.
+Paint tinted(const Paint& color, double light, double warmth) {
+  const double by[3] = {light * (1 + 0.5 * warmth), light, light * (1 - warmth)};
+  Paint out = color;
+  for (std::size_t k = 0; k < 3; ++k)
+    out[k] = static_cast<std::uint8_t>(math::to_int32(std::min(255.0, color[k] * by[k])));
+  return out;
+}
 
 /// Houses as one mesh of flat faces.
 class HouseMesh {
@@ -27,43 +47,107 @@ class HouseMesh {
         wall_(linear_color(world.params.settlements.wall)),
         roof_(linear_color(world.params.settlements.roof)) {}
 
-  /// Walls up to a height, closed by a flat roof.
-  void add_box(const House& h, double top, const std::array<std::uint8_t, 4>& roof) {
-    const auto at = [&](double u, double v, double z) {
-      return Point(h.east + u * h.length * h.x - v * h.depth * h.y,
-                   h.north + u * h.length * h.y + v * h.depth * h.x, z);
-    };
-    const Point along(h.x, h.y, 0), across(-h.y, h.x, 0);
-    for (const double s : {-1.0, 1.0}) {
-      add_face({at(-s, s, h.low), at(s, s, h.low), at(s, s, top), at(-s, s, top)}, across * s, wall_);
-      add_face({at(s, -s, h.low), at(s, s, h.low), at(s, s, top), at(s, -s, top)}, along * s, wall_);
-    }
-    add_face({at(-1, -1, top), at(1, -1, top), at(1, 1, top), at(-1, 1, top)}, {0, 0, 1}, roof);
-  }
-  const std::array<std::uint8_t, 4>& wall() const { return wall_; }
-  const std::array<std::uint8_t, 4>& roof() const { return roof_; }
+  Paint wall_of(const House& h) const { return tinted(wall_, h.wall_light, h.warmth); }
+  Paint roof_of(const House& h) const { return tinted(roof_, h.roof_light, 0.4 * h.warmth); }
+  const Paint& roof() const { return roof_; }
 
-  void add(const House& h) {
-    const auto at = [&](double u, double v, double z) {
-      return Point(h.east + u * h.length * h.x - v * h.depth * h.y,
-                   h.north + u * h.length * h.y + v * h.depth * h.x, z);
-    };
+  /// Walls up to a height, closed by a flat roof.
+  void add_box(const House& h, double top, const Paint& roof) {
+    add_block(h, {}, h.low, top, wall_of(h), roof);
+  }
+
+  void add(const House& h, Finish finish) {
+    const auto at = [&](double u, double v, double z) { return position(h, u, v, z); };
     const Point along(h.x, h.y, 0), across(-h.y, h.x, 0);
+    const Paint wall = wall_of(h), roof = roof_of(h);
+    const double rise = (h.ridge - h.eaves) / h.depth, length = std::sqrt(1 + rise * rise);
+    const double u = 1 + overhang / h.length, v = 1 + overhang / h.depth, low = h.eaves - rise * overhang;
     for (const double s : {-1.0, 1.0}) {
-      add_face({at(-s, s, h.low), at(s, s, h.low), at(s, s, h.eaves), at(-s, s, h.eaves)}, across * s, wall_);
+      add_face({at(-s, s, h.low), at(s, s, h.low), at(s, s, h.eaves), at(-s, s, h.eaves)}, across * s, wall);
       add_face({at(s, -s, h.low), at(s, s, h.low), at(s, s, h.eaves), at(s, 0, h.ridge), at(s, -s, h.eaves)},
-               along * s, wall_);
-      const double rise = (h.ridge - h.eaves) / h.depth, length = std::sqrt(1 + rise * rise);
-      add_face({at(-s, s, h.eaves), at(s, s, h.eaves), at(s, 0, h.ridge), at(-s, 0, h.ridge)},
-               (across * s * rise + Point(0, 0, 1)) / length, roof_);
+               along * s, wall);
+      add_face({at(-s * u, s * v, low), at(s * u, s * v, low), at(s * u, 0, h.ridge), at(-s * u, 0, h.ridge)},
+               (across * s * rise + Point(0, 0, 1)) / length, roof);
     }
+    if (h.kind == House::church) add_tower(h);
+    if (finish != Finish::with_openings) return;
+    if (h.kind == House::dwelling)
+      add_block(h, {0.45, 0.18, 0.55 / h.length, 0.4 / h.depth}, h.eaves, h.ridge + 0.7, brick, brick);
+    add_openings(h);
   }
 
   TileMesh take() { return std::move(mesh_); }
 
  private:
+  /// `u` along the ridge and `v` across it, from -1 to 1 on the plan.
+  static Point position(const House& h, double u, double v, double z) {
+    return {h.east + u * h.length * h.x - v * h.depth * h.y, h.north + u * h.length * h.y + v * h.depth * h.x,
+            z};
+  }
+
+  /// A part of a plan, in shares of the half sides of a house: its middle and its half sides.
+  struct Part {
+    double u = 0, v = 0, du = 1, dv = 1;
+  };
+
+  void add_block(const House& h, const Part& part, double low, double top, const Paint& wall,
+                 const Paint& cover) {
+    const auto at = [&](double a, double b, double z) {
+      return position(h, part.u + a * part.du, part.v + b * part.dv, z);
+    };
+    const Point along(h.x, h.y, 0), across(-h.y, h.x, 0);
+    for (const double s : {-1.0, 1.0}) {
+      add_face({at(-s, s, low), at(s, s, low), at(s, s, top), at(-s, s, top)}, across * s, wall);
+      add_face({at(s, -s, low), at(s, s, low), at(s, s, top), at(s, -s, top)}, along * s, wall);
+    }
+    add_face({at(-1, -1, top), at(1, -1, top), at(1, 1, top), at(-1, 1, top)}, {0, 0, 1}, cover);
+  }
+
+  /// A square tower with a spire at one end of a church.
+  void add_tower(const House& h) {
+    const double half = 2.4, u = 1 - half / h.length, du = half / h.length, dv = half / h.depth;
+    const double eaves = h.top - 5.5;
+    const Paint roof = roof_of(h);
+    add_block(h, {u, 0, du, dv}, h.low, eaves, wall_of(h), roof);
+    const auto at = [&](double a, double b) {
+      return position(h, u + 1.15 * a * du, 1.15 * b * dv, eaves - 0.2);
+    };
+    const Point top = position(h, u, 0, h.top);
+    for (const auto& [a, b] : {std::pair{1.0, 0.0}, {0.0, 1.0}, {-1.0, 0.0}, {0.0, -1.0}}) {
+      const Point out(a * h.x - b * h.y, a * h.y + b * h.x, 0.4);
+      add_face({at(a - b, b + a), at(a + b, b - a), top}, math::unit(out, {0, 0, 1}), roof);
+    }
+  }
+
+  /// Windows in rows on both long walls, and a door to the road.
+  void add_openings(const House& h) {
+    const Point across(-h.y, h.x, 0);
+    const double foot = std::max(h.floor, h.low + 0.6);
+    const auto add_opening = [&](double side, double middle, double half, double low, double top,
+                                 const Paint& paint) {
+      const double v = side * (1 + proud / h.depth);
+      const auto at = [&](double x, double z) { return position(h, (middle + x) / h.length, v, z); };
+      add_face({at(-half, low), at(half, low), at(half, top), at(-half, top)}, across * side, paint);
+    };
+    const int columns = std::max(1, static_cast<int>(2 * (h.length - 0.9) / window_spacing));
+    const bool is_barn = h.kind == House::barn;
+    for (const double side : {-1.0, 1.0}) {
+      const double way = is_barn ? 1.5 : 0.5;
+      add_opening(side, 0, way, foot, std::min(h.eaves - 0.3, foot + (is_barn ? 2.9 : 2.1)), door);
+      if (is_barn) continue;
+      for (double sill = foot + 0.9; sill + 1.3 < h.eaves; sill += storey) {
+        for (int k = 0; k < columns; ++k) {
+          const double middle = (k + 0.5 - 0.5 * columns) * window_spacing;
+          if (sill < foot + 1 && std::abs(middle) < 1.1) continue;
+          add_opening(side, middle, 0.45, sill,
+                      std::min(sill + (h.kind == House::church ? 3.2 : 1.25), h.eaves - 0.3), glass);
+        }
+      }
+    }
+  }
+
   /// A polygon that faces along `normal`; its corners are turned if they run the other way.
-  void add_face(std::vector<Point> corners, const Point& normal, const std::array<std::uint8_t, 4>& color) {
+  void add_face(std::vector<Point> corners, const Point& normal, const Paint& color) {
     const Point area = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
     if (glm::dot(area, normal) < 0) std::reverse(corners.begin(), corners.end());
     const auto first = static_cast<std::uint32_t>(mesh_.vertices.size());
@@ -91,7 +175,7 @@ class HouseMesh {
 
   const TileFrame& frame_;
   double base_;
-  std::array<std::uint8_t, 4> wall_, roof_;
+  Paint wall_, roof_;
   TileMesh mesh_;
 };
 
@@ -139,7 +223,7 @@ void add_models(Glb& glb, const World& world, const TileFrame& frame, const std:
     for (const House& house : houses) {
       if (house.model != static_cast<int>(k)) continue;
       if (!asset) asset = house_asset(world, house.model, job);
-      plinths.add_box(house, house.floor, plinths.wall());
+      plinths.add_box(house, house.floor, plinths.wall_of(house));
       const double s = house.scale;
       const double x = s * (asset->low[0] + asset->high[0]) / 2, z = s * (asset->low[2] + asset->high[2]) / 2;
       const double y = house.turn[0], w = house.turn[1], sine = 2 * y * w, cosine = w * w - y * y;
@@ -167,9 +251,9 @@ void add_houses(Glb& glb, const World& world, const TileFrame& frame, double bas
   } else {
     for (const House& house : houses) {
       if (frame.side > widest_roofs) {
-        mesh.add_box(house, (house.eaves + house.ridge) / 2, mesh.roof());
+        mesh.add_box(house, (house.eaves + house.ridge) / 2, mesh.roof_of(house));
       } else if (frame.side > widest_models || house.model < 0) {
-        mesh.add(house);
+        mesh.add(house, frame.side <= widest_openings ? Finish::with_openings : Finish::walls_and_roof);
       }
     }
     if (frame.side <= widest_models) add_models(glb, world, frame, houses, mesh, job, folder);

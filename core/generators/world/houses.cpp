@@ -4,14 +4,19 @@
 #include <cmath>
 
 #include "core/base/math.h"
+#include "core/generators/world/lanes.h"
 
 namespace seedmesh::world {
 namespace {
 
-constexpr double lot = 23;                             ///< metres along a road for a house
-constexpr double plain_reach = 13, plain_height = 14;  ///< of houses without a model
+constexpr double lot = 17;                             ///< metres along a road for a house
+constexpr double plain_reach = 14, plain_height = 23;  ///< of houses without a model
 constexpr double model_reach = 20, model_height = 30;
-constexpr double most_uneven = 3;  ///< metres that the ground below a house may rise
+constexpr double most_uneven = 3;    ///< metres that the ground below a house may rise
+constexpr double least_gap = 1.8;    ///< metres between houses
+constexpr double least_town = 150;   ///< metres; the radius of settlements with higher houses in their middle
+constexpr double storey = 2.7;       ///< metres
+constexpr double least_church = 90;  ///< metres; the radius of settlements with a church
 
 /// Places houses one after the other, each apart from those before.
 class Planner {
@@ -19,70 +24,172 @@ class Planner {
   Planner(const World& world, const Site& site, Job& job)
       : world_(world),
         site_(site),
-        box_{site.east - site.radius - 40, site.north - site.radius - 40, site.east + site.radius + 40,
-             site.north + site.radius + 40},
+        reach_(farm_reach * site.radius + 30),
+        box_{site.east - reach_, site.north - reach_, site.east + reach_, site.north + reach_},
         ground_(Ground::with_roads(world, box_, job)),
-        roads_(roads_near(world, box_, 0, job)) {
+        roads_(roads_near(world, box_, 0, job)),
+        lanes_(lanes_of(world, site, job)) {
     for (std::size_t k = 0; world.make_asset && k < world.params.settlements.houses.size(); ++k)
       models_.push_back(house_asset(world, static_cast<int>(k), job));
   }
 
   Plan make() {
-    for (const auto& road : roads_) {
-      Rng rng = Rng(cell_key(world_.key ^ 0x484F555345U, site_.cell.x, site_.cell.y)).at(road->id);
-      double along = 0.6 * lot, walked = 0;
-      for (std::size_t k = 1; k < road->points.size(); ++k) {
-        const RoadPoint &a = road->points[k - 1], &b = road->points[k];
-        const double x = b.east - a.east, y = b.north - a.north, length = std::sqrt(x * x + y * y);
-        for (; along < walked + length; along += lot * rng.uniform(0.85, 1.3)) {
-          const double t = (along - walked) / length;
-          for (const double side : {-1.0, 1.0})
-            try_house(a.east + t * x, a.north + t * y, x / length, y / length, side, rng);
-        }
-        walked += length;
+    const Rng rng(cell_key(world_.key ^ 0x484F555345U, site_.cell.x, site_.cell.y));
+    if (models_.empty() && site_.radius >= least_church) add_church(rng.at("church"));
+    for (const auto& road : roads_) add_rows(road->points, road->width, rng.at(road->id));
+    for (std::size_t k = 0; k < lanes_->lanes.size(); ++k) {
+      const Lane& lane = lanes_->lanes[k];
+      if (lane.leads_to_farm) {
+        add_farm(lane, rng.at("farm").at(k));
+      } else {
+        add_rows(lane.points, lane.width, rng.at("lane").at(k));
       }
     }
     return std::move(plan_);
   }
 
  private:
-  void try_house(double east, double north, double x, double y, double side, Rng& rng) {
+  /// Where a house stands beside a road: a position on its middle, the direction of the road, and the side.
+  struct Lot {
+    double east = 0, north = 0, x = 1, y = 0, side = 1, width = 0;
+  };
+
+  /// Houses on both sides of a road.
+  void add_rows(const std::vector<RoadPoint>& points, double width, Rng rng) {
+    double along = 0.5 * lot, walked = 0;
+    for (std::size_t k = 1; k < points.size(); ++k) {
+      const RoadPoint &a = points[k - 1], &b = points[k];
+      const double x = b.east - a.east, y = b.north - a.north, length = std::sqrt(x * x + y * y);
+      for (; along < walked + length; along += lot * rng.uniform(0.8, 1.25)) {
+        const double t = (along - walked) / length;
+        for (const double side : {-1.0, 1.0})
+          try_lot({a.east + t * x, a.north + t * y, x / length, y / length, side, width}, rng);
+      }
+      walked += length;
+    }
+  }
+
+  double away(const House& house) const {
+    const double x = house.east - site_.east, y = house.north - site_.north;
+    return std::sqrt(x * x + y * y);
+  }
+
+  void try_lot(const Lot& lot_of_house, Rng& rng) {
     House house;
-    house.length = rng.uniform(4.5, 8);
-    house.depth = rng.uniform(3.5, 5);
-    double tall = 0;
-    if (!models_.empty()) tall = choose_model(house, rng);
-    const double away = world_.params.roads.width / 2 + house.depth + rng.uniform(2.5, 7);
-    const double walls = rng.uniform(2.8, 5.5), roof = house.depth * rng.uniform(0.7, 1.1);
-    const double share = rng.unit();
-    house.x = x;
-    house.y = y;
-    house.east = east - side * y * away;
-    house.north = north + side * x * away;
-    const double dx = house.east - site_.east, dy = house.north - site_.north,
-                 out = std::sqrt(dx * dx + dy * dy);
-    if (out > site_.radius || share < 0.5 * out / site_.radius || !is_apart(house)) return;
+    house.length = rng.uniform(5, 8);
+    house.depth = rng.uniform(3.6, 5);
+    const double tall = models_.empty() ? 0 : choose_model(house, rng);
+    const bool shows_gable = models_.empty() && rng.unit() < 0.35;
+    const double setback = rng.uniform(1.5, 5), share = rng.unit();
+    style(house, rng);
+    double walls = rng.uniform(3, 5.6);
+    const double roof = house.depth * rng.uniform(0.85, 1.25);
+    const auto [east, north, x, y, side, width] = lot_of_house;
+    const double off = width / 2 + (shows_gable ? house.length : house.depth) + setback;
+    house.x = shows_gable ? -y : x;
+    house.y = shows_gable ? x : y;
+    house.east = east - side * y * off;
+    house.north = north + side * x * off;
+    const double out = away(house);
+    if (out > site_.radius || share < 0.75 * out / site_.radius - 0.25) return;
+    if (site_.radius > least_town && rng.unit() > 1.6 * out / site_.radius) walls += storey;
+    if (!place(house, walls, roof, tall)) return;
+    turn_to(plan_.houses.back(), side * y, -side * x);
+    if (!models_.empty() || rng.unit() > 0.4) return;
+    // a shed or a small barn behind the house
+    const double behind = off + (shows_gable ? house.length : house.depth) + rng.uniform(5, 9);
+    House shed;
+    shed.kind = House::barn;
+    shed.length = rng.uniform(3, 5.5);
+    shed.depth = rng.uniform(2.2, 3.4);
+    style(shed, rng);
+    shed.x = shows_gable ? x : -y;
+    shed.y = shows_gable ? y : x;
+    shed.east = east - side * y * behind;
+    shed.north = north + side * x * behind;
+    place(shed, rng.uniform(2.2, 3), shed.depth * 0.8, 0);
+  }
+
+  /// A house, a barn and a shed around a yard at the end of a lane.
+  void add_farm(const Lane& lane, Rng rng) {
+    const RoadPoint &a = lane.points[lane.points.size() - 2], &b = lane.points.back();
+    const double x0 = b.east - a.east, y0 = b.north - a.north, length = std::sqrt(x0 * x0 + y0 * y0);
+    const double x = x0 / length, y = y0 / length, side = rng.unit() < 0.5 ? -1 : 1;
+    const auto put = [&](double along, double across, House house, bool is_turned, double walls) {
+      house.east = b.east + along * x - side * across * y;
+      house.north = b.north + along * y + side * across * x;
+      house.x = is_turned ? -y : x;
+      house.y = is_turned ? x : y;
+      const double tall = house.kind == House::dwelling && !models_.empty() ? choose_model(house, rng) : 0;
+      if (place(house, walls, house.depth * rng.uniform(0.9, 1.1), tall))
+        turn_to(plan_.houses.back(), side * y, -side * x);
+    };
+    House house, barn, shed;
+    house.length = rng.uniform(6, 8);
+    house.depth = rng.uniform(4, 5);
+    barn.length = rng.uniform(8.5, 11.5);
+    barn.depth = rng.uniform(4.8, 6);
+    shed.length = rng.uniform(4, 7);
+    shed.depth = rng.uniform(2.6, 3.6);
+    barn.kind = shed.kind = House::barn;
+    for (House* each : {&house, &barn, &shed}) style(*each, rng);
+    put(4, 15, house, false, rng.uniform(3.2, 5.2));
+    put(6, -15, barn, false, rng.uniform(3.8, 5));
+    put(24, rng.uniform(-3, 3), shed, true, rng.uniform(2.4, 3.2));
+  }
+
+  /// Beside the middle of the settlement.
+  void add_church(Rng rng) {
+    const math::SinCos turn = math::sincos_degrees(360 * rng.unit());
+    for (int k = 0; k < 8; ++k) {
+      House house;
+      house.kind = House::church;
+      house.length = 9.5;
+      house.depth = 4.6;
+      house.x = turn.cos;
+      house.y = turn.sin;
+      house.wall_light = 1.1F;
+      house.roof_light = 0.6F;
+      const math::SinCos way = math::sincos_degrees(45.0 * k);
+      house.east = site_.east + 26 * way.cos;
+      house.north = site_.north + 26 * way.sin;
+      if (place(house, 6.2, 5.2, 0)) return;
+    }
+  }
+
+  static void style(House& house, Rng& rng) {
+    house.wall_light =
+        static_cast<float>(house.kind == House::barn ? rng.uniform(0.4, 0.6) : rng.uniform(0.78, 1.12));
+    house.roof_light = static_cast<float>(rng.uniform(0.62, 1.15));
+    house.warmth =
+        static_cast<float>(house.kind == House::barn ? rng.uniform(0.1, 0.25) : rng.uniform(-0.1, 0.12));
+  }
+
+  /// Sets the heights of a house and adds it where it can stand. `tall`: the height of its model, or 0.
+  bool place(House house, double walls, double roof, double tall) {
+    if (!is_apart(house)) return false;
     const GroundSample middle = ground_.at(house.east, house.north);
-    if (middle.shore < 18 || middle.road < house.depth + 1) return;
-    if (world_.params.relief.sea && middle.height < world_.params.relief.sea_level + 2) return;
+    if (middle.shore < 18 || middle.road < 1) return false;
+    if (world_.params.relief.sea && middle.height < world_.params.relief.sea_level + 2) return false;
     double low = middle.height, high = low;
-    for (const double u : {-1.0, 1.0}) {
-      for (const double v : {-1.0, 1.0}) {
-        const double px = house.east + u * house.length * x - v * house.depth * y;
-        const double py = house.north + u * house.length * y + v * house.depth * x;
+    for (const double u : {-1.0, -0.5, 0.0, 0.5, 1.0}) {
+      for (const double v : {-1.0, 0.0, 1.0}) {
+        const double px = house.east + u * house.length * house.x - v * house.depth * house.y;
+        const double py = house.north + u * house.length * house.y + v * house.depth * house.x;
         const GroundSample corner = ground_.at(px, py);
-        if (corner.road < 1) return;
+        if (corner.road < 0.7) return false;
         low = std::min(low, corner.height);
         high = std::max(high, corner.height);
       }
     }
-    if (high - low > most_uneven) return;
+    if (high - low > most_uneven) return false;
     house.low = low - 0.6;
     house.eaves = high + (tall > 0 ? 0.7 * tall : walls);
     house.ridge = tall > 0 ? high + tall : house.eaves + roof;
     house.floor = high + 0.05;
-    turn_to(house, side * y, -side * x);
+    house.top = house.kind == House::church ? house.eaves + 13 : house.ridge + (tall > 0 ? 0 : 1);
     plan_.houses.push_back(house);
+    return true;
   }
 
   /// Takes a model and its size; returns its height.
@@ -113,19 +220,28 @@ class Planner {
     house.turn = {static_cast<float>(y), static_cast<float>(w)};
   }
 
+  /// Whether the plan of a house, with the gap around it, meets no other: by the axes of both.
   bool is_apart(const House& house) const {
     return std::none_of(plan_.houses.begin(), plan_.houses.end(), [&](const House& other) {
-      const double x = house.east - other.east, y = house.north - other.north;
-      const double least = std::max(house.length, house.depth) + std::max(other.length, other.depth) + 1.5;
-      return x * x + y * y < least * least;
+      const double x = other.east - house.east, y = other.north - house.north;
+      for (const auto& [u, v] :
+           {std::pair{house.x, house.y}, {-house.y, house.x}, {other.x, other.y}, {-other.y, other.x}}) {
+        const auto reach = [u = u, v = v](const House& h) {
+          return h.length * std::abs(h.x * u + h.y * v) + h.depth * std::abs(h.x * v - h.y * u);
+        };
+        if (std::abs(x * u + y * v) >= reach(house) + reach(other) + least_gap) return false;
+      }
+      return true;
     });
   }
 
   const World& world_;
   const Site& site_;
+  double reach_;
   Rectangle box_;
   Ground ground_;
   std::vector<std::shared_ptr<const Road>> roads_;
+  std::shared_ptr<const Lanes> lanes_;
   std::vector<std::shared_ptr<const Asset>> models_;
   Plan plan_;
 };
@@ -156,7 +272,7 @@ std::shared_ptr<const Plan> plan_of(const World& world, const Site& site, Job& j
 
 std::vector<House> houses_near(const World& world, const Rectangle& box, double reach, Job& job) {
   std::vector<House> found;
-  const double around = reach + world.reach(Reads::houses, world.params.settlements.radius);
+  const double around = reach + world.reach(Reads::houses, farm_reach * world.params.settlements.radius + 30);
   for (const auto& site : sites_near(world, box, around, job)) {
     for (const House& house : plan_of(world, *site, job)->houses) {
       if (house.east >= box.west - reach && house.east < box.east + reach &&

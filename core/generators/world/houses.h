@@ -1,5 +1,6 @@
 #pragma once
-/// Houses of a settlement, in rows along its roads. A house belongs to the tile that holds its middle.
+/// Houses of a settlement, in rows along its roads and lanes, a church in its middle, and farms around it. A house
+/// belongs to the tile that holds its middle.
 #include <array>
 #include <memory>
 #include <string_view>
@@ -17,9 +18,13 @@ struct House {
   double x = 1, y = 0;                   ///< direction of the ridge, east and north
   double length = 0, depth = 0;          ///< half of the plan along and across the ridge
   double low = 0, eaves = 0, ridge = 0;  ///< heights; `low` is below the ground
-  int model = -1;                        ///< of WorldSettlements::houses; -1: walls and a gable roof
-  double scale = 1, floor = 0;           ///< of the model, and the height of its foot
-  std::array<float, 2> turn{0, 1};       ///< of the model, as Instances::add() takes it
+  double top = 0;                        ///< height of the highest chimney or tower
+  enum Kind : std::uint8_t { dwelling, barn, church } kind = dwelling;
+  float wall_light = 1, roof_light = 1,
+        warmth = 0;                 ///< of the colours; warmth shifts the walls to yellow or white
+  int model = -1;                   ///< of WorldSettlements::houses; -1: walls and a gable roof
+  double scale = 1, floor = 0;      ///< of the model, and the height of its foot
+  std::array<float, 2> turn{0, 1};  ///< of the model, as Instances::add() takes it
 };
 
 constexpr double most_cellar = 4;  ///< metres from the ground at its middle to its lowest corner at most

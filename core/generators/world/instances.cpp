@@ -4,7 +4,7 @@
 
 namespace seedmesh::world {
 namespace {
-constexpr int type_float = 5126;
+constexpr int type_float = 5126, type_unsigned_byte = 5121;
 }
 
 void Instances::add(const std::array<double, 3>& at, const std::array<float, 3>& scale) {
@@ -36,6 +36,14 @@ void Instances::add_to(Glb& glb, const std::string& name, const std::vector<int>
   Json attributes = {{"TRANSLATION", glb.add_accessor(std::move(translation))},
                      {"SCALE", glb.add_accessor(values(scales_, "VEC3"))}};
   if (!turns_.empty()) attributes["ROTATION"] = glb.add_accessor(values(turns_, "VEC4"));
+  if (!tints_.empty()) {
+    attributes["_COLOR_0"] =
+        glb.add_accessor({{"bufferView", glb.add_bytes(tints_.data(), tints_.size(), 0, 0)},
+                          {"componentType", type_unsigned_byte},
+                          {"normalized", true},
+                          {"count", count()},
+                          {"type", "VEC4"}});
+  }
   for (const int mesh : meshes) {
     glb.add_node({{"name", name},
                   {"mesh", mesh},

@@ -1,6 +1,7 @@
 #pragma once
 /// Copies of meshes in a tile, written as EXT_mesh_gpu_instancing.
 #include <array>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,11 @@ class Instances {
   void add(const std::array<double, 3>& at, const std::array<float, 3>& scale);
   void add(const std::array<double, 3>& at, const std::array<float, 3>& scale,
            const std::array<float, 2>& turn);
+  /// The tint of the copy that was added last, linear; all copies have one or none has. It is the attribute _COLOR_0,
+  /// which clients that do not know it overlook.
+  void tint(const std::array<std::uint8_t, 4>& color) {
+    tints_.insert(tints_.end(), color.begin(), color.end());
+  }
   std::size_t count() const { return scales_.size() / 3; }
 
   /// A node for each mesh; all share the copies.
@@ -21,6 +27,7 @@ class Instances {
 
  private:
   std::vector<float> translations_, scales_, turns_;
+  std::vector<std::uint8_t> tints_;
   std::array<float, 3> low_{}, high_{};
 };
 

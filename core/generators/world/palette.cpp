@@ -1,9 +1,12 @@
 #include "core/generators/world/palette.h"
 
 #include <algorithm>
+#include <array>
 
 #include "core/base/math.h"
+#include "core/generators/world/canopy.h"
 #include "core/generators/world/octaves.h"
+#include "core/generators/world/plant_layer.h"
 #include "core/model/model.h"
 
 namespace seedmesh::world {
@@ -20,6 +23,23 @@ Shade mixed(const Shade& a, const Shade& b, double t) {
 
 std::uint8_t byte_of(double value) {
   return static_cast<std::uint8_t>(math::to_int32(std::clamp(value, 0.0, 1.0) * 255 + 0.5));
+}
+
+constexpr double widest_verge_spacing = 8;  ///< metres between samples that show the bare ground beside roads
+constexpr double widest_canopy_spacing = widest_plants / tile_cells;
+
+/// Variations of the ground from 2 km to 20 m, about -1 to 1; without those finer than samples can show.
+double patches_at(const World& world, double east, double north, double spacing) {
+  constexpr std::array<std::array<double, 2>, 4> octaves{{{2100, 0.5}, {520, 0.5}, {140, 0.55}, {37, 0.35}}};
+  std::size_t count = 0;
+  Octaves<4> patches;
+  for (; count < octaves.size() && spacing <= octaves[count][0] / 2; ++count)
+    patches.add(world.key ^ (0xC0105U + count), east, north, 1 / octaves[count][0]);
+  if (count == 0) return 0;
+  patches.compute_values();
+  double sum = 0;
+  for (std::size_t k = 0; k < count; ++k) sum += octaves[k][1] * patches.value(k);
+  return sum;
 }
 
 }  // namespace
@@ -45,24 +65,32 @@ std::array<std::uint8_t, 4> ground_color(const World& world, const GroundColors&
                                          const GroundSample& sample, double east, double north,
                                          double steepness, double spacing) {
   const Climate climate = climate_at(world, east, north, sample.height);
-  Octaves<4> patches;
-  patches.add(world.key ^ 0xC0105U, east, north, 1.0 / 140);
-  patches.add(world.key ^ 0xC0106U, east, north, 1.0 / 37);
-  patches.compute_values();
-  const double patch = patches.value(0) + 0.5 * patches.value(1);
-  const double moisture = climate.moisture + 0.05 * patch;
-  Shade shade = mixed(colors.dry, colors.grass, smooth_step(moisture, 0.22, 0.48));
-  shade = mixed(shade, colors.forest, smooth_step(moisture, 0.5, 0.8));
+  const double patch = patches_at(world, east, north, spacing);
+  const double moisture = climate.moisture + 0.07 * patch;
+  Shade shade = mixed(colors.dry, colors.grass, smooth_step(moisture, 0.2, 0.46));
+  shade = mixed(shade, colors.forest, 0.45 * smooth_step(moisture, 0.5, 0.85));
   shade = mixed(shade, colors.dry, 0.6 * smooth_step(-climate.temperature + patch, -4, 2));
+  if (world.has(Layer::plants)) {
+    const Wood wood = wood_at(world, sample, climate, east, north, spacing);
+    // below crowns the floor of the wood, from afar the crowns themselves
+    const double dark = spacing > widest_canopy_spacing ? 0.62 : 0.4;
+    const Shade crowns{dark * wood.color[0], dark * wood.color[1], dark * wood.color[2]};
+    shade = mixed(shade, spacing > widest_canopy_spacing ? crowns : mixed(crowns, colors.forest, 0.3),
+                  0.92 * smooth_step(wood.cover, 0.1, 0.75));
+  }
   if (sample.field >= 0) {
     const Shade& crop = colors.fields[static_cast<std::size_t>(sample.field)];
     shade = mixed(shade, sample.is_hedge ? colors.forest : crop, 0.85);
+  }
+  if (spacing <= widest_verge_spacing) {
+    const double verge = 1 - smooth_step(sample.road + 0.4 * patch, 0.2, 3.5);
+    shade = mixed(shade, colors.dry, 0.6 * verge);
   }
   const double bare = smooth_step(1 - steepness + 0.02 * patch, 0.1, 0.24);
   shade = mixed(shade, colors.rock, bare);
   if (world.params.relief.sea) {
     const double above = sample.height - world.params.relief.sea_level;
-    shade = mixed(shade, colors.sand, 1 - smooth_step(above + patch, 1.5, 5));
+    shade = mixed(shade, colors.sand, 1 - smooth_step(above + 0.8 * patch, 0.9, 3.2));
   }
   const double snow =
       smooth_step(-climate.temperature + 1.2 * patch, 3, 6) * (1 - smooth_step(1 - steepness, 0.25, 0.5));

@@ -19,9 +19,9 @@ struct GroundColors {
   std::vector<Shade> fields;
 };
 
-/// Linear colour of the ground. `steepness` is the cosine of the slope. The ground of the deep sea has the colour of the
-/// water: walls of skirts that are seen along their planes have depths of little precision and shine through water.
-/// `spacing`: of samples.
+/// Linear colour of the ground. `steepness` is the cosine of the slope. Where samples are `spacing` metres apart,
+/// variations that lie between them are left out. The ground of the deep sea has the colour of the water: walls of
+/// skirts that are seen along their planes have depths of little precision and shine through water.
 std::array<std::uint8_t, 4> ground_color(const World& world, const GroundColors& colors,
                                          const GroundSample& sample, double east, double north,
                                          double steepness, double spacing);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/math.h"
+#include "core/generators/world/canopy.h"
 #include "core/generators/world/instances.h"
 #include "core/generators/world/plant_mesh.h"
 #include "core/generators/world/plants.h"
@@ -13,14 +15,24 @@ namespace {
 constexpr int type_byte = 5120, type_unsigned_byte = 5121, type_unsigned_short = 5123, type_float = 5126;
 constexpr int array_buffer = 34962, element_buffer = 34963;
 
-constexpr int levels_of_plants = 3;       ///< above them are clumps
-constexpr double widest_clumps = 8192;    ///< metres
-constexpr double least_clump_height = 3;  ///< metres; lower classes are not seen from afar
-constexpr double clump_width = 1.2;       ///< of a cell
-constexpr double clump_reach = 0.58;      ///< of the width, from the middle of a clump
-
-/// The share of plants that a tile shows, by the levels above the leaves.
-double shown_share(int above_leaves) { return above_leaves == 0 ? 1 : above_leaves == 1 ? 0.7 : 0.4; }
+/// What tiles of a level show of the plants.
+struct Showing {
+  double share =
+      1;  ///< of marks, of classes whose crowns close; about 0.7 and 0.4 of the plants at 0.25 and 0.08
+  double open_share = 1;  ///< of other classes
+  double width = 1;       ///< fewer plants are wider, so that they cover as much
+  bool is_simple = false, has_canopy = false;
+};
+/// By the levels above the leaves. Higher levels have the canopy alone.
+constexpr Showing showings[] = {{1, 1, 1, false, false},
+                                {0.25, 0.3, 1.1, false, false},
+                                {0.08, 0.12, 1.35, true, false},
+                                {0.014, 0.04, 1.5, true, true},
+                                {0.003, 0.01, 1.8, true, true}};
+constexpr int levels_of_plants = 5;
+constexpr double widest_open = 1.3;     ///< the most that classes whose crowns do not close are widened
+constexpr double least_far_height = 3;  ///< metres; lower classes are not seen from afar
+constexpr int first_far_level = 3;      ///< above the leaves
 
 int add_plant_mesh(Glb& glb, const PlantFile& file, const std::string& name, std::string_view folder) {
   const int buffer =
@@ -58,14 +70,27 @@ int add_plant_mesh(Glb& glb, const PlantFile& file, const std::string& name, std
         Json::array({{{"attributes", attributes}, {"indices", indices}, {"material", material}}})}});
 }
 
+/// A tint that makes plants of a class differ: darker or lighter, yellower or bluer.
+std::array<std::uint8_t, 4> tint_of(Rng& rng) {
+  const double light = rng.uniform(0.68, 0.96), hue = rng.uniform(-0.06, 0.06);
+  const auto byte = [](double v) {
+    return static_cast<std::uint8_t>(math::to_int32(std::min(v, 1.0) * 255));
+  };
+  return {byte(light * (1 + hue)), byte(light), byte(light * (1 - hue)), 255};
+}
+
 /// Copies of the plants of a class at their places, each as high as its size by `scale`.
-Instances copies_of(const std::vector<Plant>& plants, const TileFrame& frame, double share, double scale) {
+Instances copies_of(const std::vector<Plant>& plants, const TileFrame& frame, double scale, double width,
+                    bool is_tinted) {
   Instances copies;
   for (const Plant& plant : plants) {
-    if (plant.rank >= share) continue;
-    const auto size = static_cast<float>(plant.size * scale);
+    Rng rng(plant.key);
+    const double size = plant.size * scale;
+    const auto high = static_cast<float>(size),
+               wide = static_cast<float>(size * width * rng.uniform(0.88, 1.1));
     copies.add({plant.east - frame.middle_east, plant.height, frame.middle_north - plant.north},
-               {size, size, size});
+               {is_tinted ? wide : high, high, is_tinted ? wide : high});
+    if (is_tinted) copies.tint(tint_of(rng));
   }
   return copies;
 }
@@ -82,17 +107,20 @@ void add_places(Glb& glb, const World& world, int above_leaves, const TileFrame&
                 std::string_view folder) {
   const Rectangle box{frame.west, frame.south, frame.west + frame.side, frame.south + frame.side};
   const Ground ground = Ground::with_works(world, box, job);
-  const bool is_far = above_leaves >= 2;
+  const Showing& showing = showings[above_leaves];
+  const bool is_far = showing.is_simple;
   for (std::size_t k = 0; k < world.params.plants.size(); ++k) {
     const int number = static_cast<int>(k);
     const WorldClass& plant = world.params.plants[k];
-    const std::vector<Plant> plants = plants_in(world, number, box, ground, job);
+    if (above_leaves >= first_far_level && plant.height < least_far_height) continue;
+    const bool closes = has_canopy(plant);
+    const std::vector<Plant> plants =
+        plants_in(world, number, box, ground, job, closes ? showing.share : showing.open_share);
     if (plants.empty()) continue;
     const std::string name = "plants_" + plant.class_name;
     const auto asset = plant_asset(world, number, is_far ? AssetForm::far : AssetForm::near, job);
-    const Instances copies =
-        copies_of(plants, frame, shown_share(above_leaves), asset ? scale_of(plant, *asset) : 1);
-    if (copies.count() == 0) continue;
+    const double width = closes ? showing.width : std::min(showing.width, widest_open);
+    const Instances copies = copies_of(plants, frame, asset ? scale_of(plant, *asset) : 1, width, !asset);
     if (asset) {
       job.spend(Resource::triangles, copies.count() * asset->triangles);
       copies.add_to(glb, name, glb.add_asset(*asset, folder));
@@ -104,68 +132,15 @@ void add_places(Glb& glb, const World& world, int above_leaves, const TileFrame&
   }
 }
 
-/// The class whose woods cover a position; -1 for none.
-int wood_at(const World& world, const GroundSample& sample, double east, double north) {
-  int found = -1;
-  double most = 0.4;
-  for (std::size_t k = 0; k < world.params.plants.size(); ++k) {
-    if (world.params.plants[k].height < least_clump_height) continue;
-    const double cover = wood_cover(world, static_cast<int>(k), sample, east, north);
-    if (cover <= most) continue;
-    most = cover;
-    found = static_cast<int>(k);
-  }
-  return found;
-}
-
-/// A clump in each cell of the terrain that lies in a wood. It stands on the lowest corner of its cell.
-void add_clumps(Glb& glb, const World& world, const TileFrame& frame, const TerrainGrid& grid, Job& job,
-                std::string_view folder) {
-  std::vector<Instances> copies(world.params.plants.size());
-  const double cell = grid.spacing, out = plant_extent(world).across;
-  const double inset = std::max(0.0, clump_reach * clump_width * cell - out);
-  for (int row = 0; row + 1 < grid.count; ++row) {
-    job.check();
-    for (int column = 0; column + 1 < grid.count; ++column) {
-      const double west = grid.west + column * cell, south = grid.south + row * cell;
-      Rng rng(cell_key(world.key ^ 0x434C554D50U, static_cast<std::int64_t>(west / cell),
-                       static_cast<std::int64_t>(south / cell)));
-      const double east = west + cell * rng.uniform(0.3, 0.7), north = south + cell * rng.uniform(0.3, 0.7);
-      const double size = rng.uniform(0.75, 1.1), wide = clump_width * cell * rng.uniform(0.8, 1);
-      const int number = wood_at(world, grid.at(column, row), east, north);
-      if (number < 0) continue;
-      const double corners[4] = {grid.at(column, row).height, grid.at(column + 1, row).height,
-                                 grid.at(column, row + 1).height, grid.at(column + 1, row + 1).height};
-      const double low = *std::min_element(corners, corners + 4);
-      const double mean = (corners[0] + corners[1] + corners[2] + corners[3]) / 4;
-      const double high = size * world.params.plants[static_cast<std::size_t>(number)].height + mean - low;
-      const double x =
-          std::clamp(east, frame.west + inset, frame.west + frame.side - inset) - frame.middle_east;
-      const double z =
-          frame.middle_north - std::clamp(north, frame.south + inset, frame.south + frame.side - inset);
-      copies[static_cast<std::size_t>(number)].add(
-          {x, low, z}, {static_cast<float>(wide), static_cast<float>(high), static_cast<float>(wide)});
-    }
-  }
-  for (std::size_t k = 0; k < copies.size(); ++k) {
-    if (copies[k].count() == 0) continue;
-    const std::string name = "plants_" + world.params.plants[k].class_name;
-    const PlantFile file = plant_file(world, static_cast<int>(k), PlantForm::clump);
-    job.spend(Resource::triangles, copies[k].count() * file.indices / 3);
-    copies[k].add_to(glb, name, {add_plant_mesh(glb, file, name, folder)});
-  }
-}
-
 }  // namespace
 
 void add_plants(Glb& glb, const World& world, const TileKey& key, const TileFrame& frame,
-                const TerrainGrid& grid, Job& job, std::string_view folder) {
+                const TerrainGrid& grid, double base, Job& job, std::string_view folder) {
   const int above_leaves = world.levels - 1 - key.level;
-  if (above_leaves < levels_of_plants) {
-    add_places(glb, world, above_leaves, frame, job, folder);
-  } else if (frame.side <= widest_clumps) {
-    add_clumps(glb, world, frame, grid, job, folder);
-  }
+  const bool has_places = above_leaves < levels_of_plants;
+  if (has_places) add_places(glb, world, above_leaves, frame, job, folder);
+  if (has_places ? showings[above_leaves].has_canopy : frame.side <= widest_plants)
+    add_canopy(glb, world, frame, grid, base, job, folder);
 }
 
 std::shared_ptr<const Asset> plant_asset(const World& world, int plant_class, AssetForm form, Job& job) {

@@ -1,6 +1,6 @@
 #pragma once
-/// The plants of a tile. Leaves and tiles of 128 m show whole plants, tiles of 256 m show simple ones, each a part of
-/// what the tiles below show. Tiles from 512 m to 8 km show clumps of crowns where woods are.
+/// The plants of a tile. Leaves and tiles of 128 m show whole plants, tiles of 256 m to 1 km show simple ones, each a
+/// part of what the tiles below show. Tiles from 512 m to 8 km show the surface of woods.
 #include <string_view>
 
 #include "core/generators/world/asset.h"
@@ -9,9 +9,11 @@
 
 namespace seedmesh::world {
 
-/// `grid`: the terrain of the tile. `folder`: see tile_glb().
+constexpr double widest_plants = 8192;  ///< metres; wider tiles have the colour of woods alone
+
+/// `grid`: the terrain of the tile. `base` and `folder`: see add_canopy().
 void add_plants(Glb& glb, const World& world, const TileKey& key, const TileFrame& frame,
-                const TerrainGrid& grid, Job& job, std::string_view folder);
+                const TerrainGrid& grid, double base, Job& job, std::string_view folder);
 
 /// The model of a class, from the store or made now; null where the class has none.
 std::shared_ptr<const Asset> plant_asset(const World& world, int plant_class, AssetForm form, Job& job);

@@ -29,7 +29,6 @@ class Builder {
   void revolve(const std::vector<Ring>& rings, int sides, const Rgba& color, double uneven = 0,
                const glm::dvec2& at = {0, 0}) {
     const auto first = static_cast<std::uint32_t>(positions_.size());
-    last_sides_ = sides;
     for (std::size_t k = 0; k < rings.size(); ++k) {
       const Ring& low = rings[k == 0 ? 0 : k - 1];
       const Ring& high = rings[k + 1 == rings.size() ? k : k + 1];
@@ -44,15 +43,27 @@ class Builder {
             {out.x * turn.cos, out.y, out.x * turn.sin}, shaded(color, shade));
       }
     }
-    const auto count = static_cast<std::uint32_t>(sides);
-    for (std::uint32_t k = 0; k + 1 < rings.size(); ++k) {
-      for (std::uint32_t side = 0; side < count; ++side) {
-        const std::uint32_t next = (side + 1) % count, a = first + k * count + side,
-                            b = first + k * count + next;
-        for (const std::uint32_t corner : {a, a + count, b, b, a + count, b + count})
-          indices_.push_back(corner);
+    add_bands(first, static_cast<int>(rings.size()), sides);
+  }
+
+  /// A part of a crown: an uneven ellipsoid, darker below. Normals turn out of the crown, whose middle is at the height
+  /// `heart`, so that its parts look like one.
+  void lobe(const glm::dvec3& middle, const glm::dvec3& radius, double heart, int rings, int sides,
+            const Rgba& color) {
+    const auto first = static_cast<std::uint32_t>(positions_.size());
+    for (int k = 0; k < rings; ++k) {
+      const double t = (k + 0.06) / (rings - 0.88);
+      const math::SinCos rise = math::sincos_degrees(180 * t - 90);
+      for (int side = 0; side < sides; ++side) {
+        const math::SinCos turn = math::sincos_degrees(360.0 * (side + 0.5 * (k % 2)) / sides);
+        const glm::dvec3 way(rise.cos * turn.cos, rise.sin, rise.cos * turn.sin);
+        const glm::dvec3 p = middle + way * radius * rng_.uniform(0.82, 1.1);
+        const glm::dvec3 out = math::unit(p - glm::dvec3(0, heart, 0), {0, 1, 0});
+        const double shade = (0.5 + 0.42 * t) * rng_.uniform(0.86, 1.08);
+        add(p, math::unit(way + out * 0.8, {0, 1, 0}), shaded(color, shade));
       }
     }
+    add_bands(first, rings, sides);
   }
 
   /// A bent leaf from `base`, outwards by `reach` and down by `drop`, seen from both sides.
@@ -70,15 +81,6 @@ class Builder {
       const std::uint32_t a = first + 2 * k;
       for (const std::uint32_t corner : {a, a + 1, a + 2, a + 1, a + 3, a + 2}) indices_.push_back(corner);
       for (const std::uint32_t corner : {a, a + 2, a + 1, a + 1, a + 2, a + 3}) indices_.push_back(corner);
-    }
-  }
-
-  /// Closes the last ring of revolve() from above.
-  void close() {
-    const auto count = static_cast<std::uint32_t>(last_sides_),
-               first = static_cast<std::uint32_t>(positions_.size()) - count;
-    for (std::uint32_t side = 2; side < count; ++side) {
-      for (const std::uint32_t corner : {first, first + side, first + side - 1}) indices_.push_back(corner);
     }
   }
 
@@ -112,6 +114,18 @@ class Builder {
   }
 
  private:
+  /// Triangles between rings of vertices from low to high.
+  void add_bands(std::uint32_t first, int rings, int sides) {
+    const auto count = static_cast<std::uint32_t>(sides);
+    for (std::uint32_t k = 0; k + 1 < static_cast<std::uint32_t>(rings); ++k) {
+      for (std::uint32_t side = 0; side < count; ++side) {
+        const std::uint32_t next = (side + 1) % count, a = first + k * count + side,
+                            b = first + k * count + next;
+        for (const std::uint32_t corner : {a, a + count, b, b, a + count, b + count})
+          indices_.push_back(corner);
+      }
+    }
+  }
   static glm::dvec2 normal_of(const Ring& low, const Ring& high) {
     const double rise = high.height - low.height, narrowing = low.radius - high.radius;
     const double length = std::sqrt(rise * rise + narrowing * narrowing);
@@ -130,7 +144,6 @@ class Builder {
   }
 
   Rng rng_;
-  int last_sides_ = 0;
   std::vector<glm::vec3> positions_;
   std::vector<glm::dvec3> normals_;
   std::vector<Rgba> colors_;
@@ -143,20 +156,20 @@ void add_form(Builder& builder, const WorldClass& plant) {
   switch (plant.form) {
     case WorldForm::conifer:
       builder.revolve({{0.022 * h, -0.02 * h}, {0.016 * h, 0.3 * h}}, 5, stem);
-      for (int k = 0; k < 4; ++k) {
-        const double low = (0.12 + 0.2 * k) * h, r = (0.2 - 0.045 * k) * h;
-        builder.revolve({{0.3 * r, low + 0.03 * h}, {r, low}, {0.01 * h, low + 0.3 * h}}, 8, leaf, 0.25);
+      for (int k = 0; k < 6; ++k) {
+        const double low = (0.1 + 0.135 * k) * h, r = (0.2 - 0.029 * k) * h;
+        builder.revolve({{0.25 * r, low + 0.05 * h}, {r, low}, {0.01 * h, low + (k < 5 ? 0.2 : 0.215) * h}},
+                        7, leaf, 0.35);
       }
       return;
     case WorldForm::broadleaf:
       builder.revolve({{0.03 * h, -0.02 * h}, {0.02 * h, 0.25 * h}, {0.018 * h, 0.45 * h}}, 6, stem);
-      builder.revolve({{0.02 * h, 0.28 * h},
-                       {0.24 * h, 0.36 * h},
-                       {0.33 * h, 0.52 * h},
-                       {0.3 * h, 0.72 * h},
-                       {0.18 * h, 0.9 * h},
-                       {0.01 * h, h}},
-                      9, leaf, 0.35);
+      builder.lobe({0, 0.7 * h, 0}, {0.24 * h, 0.28 * h, 0.24 * h}, 0.5 * h, 5, 7, leaf);
+      for (int k = 0; k < 3; ++k) {
+        const math::SinCos turn = math::sincos_degrees(120.0 * k + 20);
+        builder.lobe({0.16 * h * turn.cos, (0.5 + 0.05 * k) * h, 0.16 * h * turn.sin},
+                     {0.18 * h, 0.17 * h, 0.18 * h}, 0.5 * h, 4, 6, leaf);
+      }
       return;
     case WorldForm::palm:
       builder.revolve({{0.03 * h, -0.02 * h}, {0.018 * h, 0.5 * h}, {0.016 * h, 0.88 * h}}, 6, stem);
@@ -166,8 +179,12 @@ void add_form(Builder& builder, const WorldClass& plant) {
       }
       return;
     case WorldForm::shrub:
-      builder.revolve({{0.3 * h, -0.05 * h}, {0.5 * h, 0.3 * h}, {0.42 * h, 0.7 * h}, {0.02 * h, h}}, 8, leaf,
-                      0.4);
+      builder.lobe({0, 0.45 * h, 0}, {0.42 * h, 0.44 * h, 0.42 * h}, 0.2 * h, 4, 7, leaf);
+      for (int k = 0; k < 2; ++k) {
+        const double side = k == 0 ? 0.3 : -0.28;
+        builder.lobe({side * h, 0.3 * h, 0.12 * h * (k - 0.5)}, {0.28 * h, 0.3 * h, 0.28 * h}, 0.2 * h, 4, 6,
+                     leaf);
+      }
       return;
     case WorldForm::cactus:
       builder.revolve({{0.07 * h, -0.02 * h}, {0.085 * h, 0.5 * h}, {0.06 * h, 0.93 * h}, {0.005 * h, h}}, 8,
@@ -204,15 +221,14 @@ void add_simple_form(Builder& builder, const WorldClass& plant) {
       return;
     case WorldForm::broadleaf:
       builder.revolve({{0.03 * h, -0.02 * h}, {0.02 * h, 0.4 * h}}, 3, stem);
-      builder.revolve({{0.1 * h, 0.3 * h}, {0.33 * h, 0.52 * h}, {0.22 * h, 0.86 * h}, {0.01 * h, h}}, 5,
-                      leaf, 0.3);
+      builder.lobe({0, 0.62 * h, 0}, {0.3 * h, 0.36 * h, 0.3 * h}, 0.5 * h, 4, 6, leaf);
       return;
     case WorldForm::palm:
       builder.revolve({{0.03 * h, -0.02 * h}, {0.016 * h, 0.88 * h}}, 3, stem);
       builder.revolve({{0.3 * h, 0.8 * h}, {0.2 * h, 0.93 * h}, {0.01 * h, h}}, 5, leaf, 0.4);
       return;
     case WorldForm::shrub:
-      builder.revolve({{0.4 * h, -0.05 * h}, {0.45 * h, 0.5 * h}, {0.02 * h, h}}, 5, leaf, 0.4);
+      builder.lobe({0, 0.45 * h, 0}, {0.48 * h, 0.44 * h, 0.48 * h}, 0.2 * h, 3, 6, leaf);
       return;
     case WorldForm::cactus:
       builder.revolve({{0.07 * h, -0.02 * h}, {0.08 * h, 0.6 * h}, {0.005 * h, h}}, 4, leaf);
@@ -237,7 +253,8 @@ std::string hash_of(const std::string& bytes) {
 
 PlantFile plant_file(const World& world, int plant_class, PlantForm form) {
   const WorldClass& plant = world.params.plants[static_cast<std::size_t>(plant_class)];
-  Builder builder(key_at(0x464F524DU, static_cast<std::uint64_t>(plant.form)));
+  Builder builder(key_at(key_at(0x464F524DU, static_cast<std::uint64_t>(plant.form)),
+                         static_cast<std::uint64_t>(plant_class)));
   switch (form) {
     case PlantForm::whole:
       add_form(builder, plant);
@@ -245,14 +262,28 @@ PlantFile plant_file(const World& world, int plant_class, PlantForm form) {
     case PlantForm::simple:
       add_simple_form(builder, plant);
       break;
-    case PlantForm::clump:
-      builder.revolve({{0.5, 0}, {0.47, 0.55}, {0.24, 1}}, 6, linear_color(plant.color), 0.3);
-      builder.close();
-      break;
   }
   PlantFile file = builder.file();
   file.hash = hash_of(file.bytes);
   return file;
+}
+
+double crown_width(const WorldClass& plant) {
+  switch (plant.form) {
+    case WorldForm::conifer:
+      return 0.4 * plant.height;
+    case WorldForm::broadleaf:
+      return 0.66 * plant.height;
+    case WorldForm::palm:
+      return 0.7 * plant.height;
+    case WorldForm::shrub:
+      return 0.9 * plant.height;
+    case WorldForm::cactus:
+      return 0.16 * plant.height;
+    case WorldForm::fungus:
+      return 0.7 * plant.height;
+  }
+  return 0;
 }
 
 PlantExtent plant_extent(double height) {

@@ -17,12 +17,14 @@ struct PlantFile {
 
 constexpr std::size_t plant_vertex_bytes = 20;
 
-/// whole: for leaves and the level above. simple: for tiles of 256 m. clump: the crowns of many plants from afar, in
-/// a cube of 1 m.
-enum class PlantForm { whole, simple, clump };
+/// whole: for leaves and the level above. simple: for tiles of 256 m and more.
+enum class PlantForm { whole, simple };
 
 /// The plant at its mean height, its foot at the origin, +Y up. Below 200 triangles.
 PlantFile plant_file(const World& world, int plant_class, PlantForm form = PlantForm::whole);
+
+/// The width of the crown of a plant of mean height, in metres.
+double crown_width(const WorldClass& plant);
 
 constexpr double plant_depth = 0.1;    ///< metres that the foot of a plant is below the ground
 constexpr double deepest_root = 0.06;  ///< of the height: how far a plant may reach below its foot

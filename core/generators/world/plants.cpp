@@ -1,6 +1,7 @@
 #include "core/generators/world/plants.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/base/math.h"
@@ -22,11 +23,32 @@ std::uint64_t key_of(const World& world, int plant_class) {
   return key_at(world.key ^ 0x504C414E54U, static_cast<std::uint64_t>(plant_class));
 }
 
-/// The share of candidates near a position that may compete: woods with edges and clearings.
-double cover_at(std::uint64_t key, double density, double east, double north) {
-  const double n =
-      noise(key + 1, east / 870, north / 870).value + 0.35 * noise(key + 2, east / 190, north / 190).value;
-  return density <= 0 ? 0 : 0.02 + 0.98 * smooth_step(n + 1.5 * (density - 0.5), -0.12, 0.2);
+struct CoverOctave {
+  double wavelength = 0, amplitude = 0;
+};
+/// Wooded country, woods, clearings and ragged edges.
+constexpr std::array<CoverOctave, 4> cover_octaves{{{4300, 0.5}, {870, 0.75}, {190, 0.35}, {52, 0.12}}};
+constexpr double lone_share = 0.012;  ///< of candidates outside of woods
+constexpr double edge_low = -0.1, edge_high = 0.16;
+
+/// The share of candidates near a position that may compete. Stops when the finer octaves cannot change it.
+double cover_at(std::uint64_t key, double density, double east, double north, double spacing = 0) {
+  if (density <= 0) return 0;
+  // fitted so that woods cover this share of wide areas
+  const double more = density - 0.5;
+  double sum = 0.03 + 0.75 * more + 5 * more * more * more * more * more, left = 0, hidden = 0;
+  for (const CoverOctave& o : cover_octaves) left += 1.1 * o.amplitude;
+  for (std::size_t k = 0; k < cover_octaves.size(); ++k) {
+    const auto [wavelength, amplitude] = cover_octaves[k];
+    if (spacing > wavelength / 2) {
+      hidden += amplitude / 2;
+      continue;
+    }
+    if (sum + left < edge_low || sum - left > edge_high) break;
+    sum += amplitude * octave(key + 1 + k, east, north, wavelength).value;
+    left -= 1.1 * amplitude;
+  }
+  return lone_share + (1 - lone_share) * smooth_step(sum, edge_low - hidden, edge_high + hidden);
 }
 
 /// Candidates by cell; the cells of a row follow each other.
@@ -47,9 +69,11 @@ struct Field {
   }
 };
 
-Field field_of(std::uint64_t key, const WorldClass& plant, const Rectangle& box, double reach) {
+Field field_of(std::uint64_t key, const WorldClass& plant, const Rectangle& box, double share, double reach) {
   const double cell = plant.spacing / 1.4142135623730951, around = reach * plant.spacing;
   const auto index = [&](double v) { return math::to_int64(std::floor(v / cell)); };
+  // 2^63 is exact in a double
+  const std::uint64_t below = share >= 1 ? ~std::uint64_t{0} : static_cast<std::uint64_t>(share * 0x1p63) * 2;
   Field field;
   field.first_x = index(box.west - around);
   field.first_y = index(box.south - around);
@@ -69,6 +93,7 @@ Field field_of(std::uint64_t key, const WorldClass& plant, const Rectangle& box,
         c.north = along(y);
         c.mark = rng.next();
         c.key = rng.key();
+        if (c.mark >= below) continue;
         if (rng.unit() < cover_at(key, plant.density, c.east, c.north)) field.candidates.push_back(c);
       }
       field.starts.push_back(static_cast<std::uint32_t>(field.candidates.size()));
@@ -137,6 +162,11 @@ bool suits(const World& world, const WorldClass& plant, const GroundSample& samp
          slope_of(sample.land.height) <= steepest;
 }
 
+/// The share of plants that villagers have cut.
+double cleared_share(const WorldClass& plant, const GroundSample& sample) {
+  return (plant.height < 3 ? 0.6 : 0.93) * sample.settled;
+}
+
 double steepest_of(const WorldClass& plant) {
   const math::SinCos angle = math::sincos_degrees(plant.slope);
   return angle.sin / angle.cos;
@@ -150,9 +180,9 @@ double moisture_near(const Climate& climate, const GroundSample& sample) {
 }  // namespace
 
 std::vector<Plant> plants_in(const World& world, int plant_class, const Rectangle& box, const Ground& ground,
-                             Job& job, double reach) {
+                             Job& job, double share, double reach) {
   const WorldClass& plant = world.params.plants[static_cast<std::size_t>(plant_class)];
-  Field field = field_of(key_of(world, plant_class), plant, box, reach);
+  Field field = field_of(key_of(world, plant_class), plant, box, share, reach);
   thin(field, plant.spacing, job);
   const double steepest = steepest_of(plant);
   std::vector<Plant> plants;
@@ -168,19 +198,22 @@ std::vector<Plant> plants_in(const World& world, int plant_class, const Rectangl
     climate.moisture += 0.08 * (rng.unit() - 0.5);  // edges of biomes are no lines
     climate.temperature += 1.2 * (rng.unit() - 0.5);
     if (!suits(world, plant, sample, climate, steepest)) continue;
-    plants.push_back({c.east, c.north, sample.height - plant_depth, rng.uniform(0.7, 1.3), rng.unit()});
+    const double size = rng.uniform(0.7, 1.3);
+    if (!sample.is_hedge && rng.unit() < cleared_share(plant, sample)) continue;
+    plants.push_back({c.east, c.north, sample.height - plant_depth, size, rng.next()});
   }
   return plants;
 }
 
-double wood_cover(const World& world, int plant_class, const GroundSample& sample, double east,
-                  double north) {
+double wood_cover(const World& world, int plant_class, const GroundSample& sample, const Climate& climate,
+                  double east, double north, double spacing) {
   const WorldClass& plant = world.params.plants[static_cast<std::size_t>(plant_class)];
-  const double cover = cover_at(key_of(world, plant_class), plant.density, east, north);
-  if (cover < 0.1) return 0;
-  Climate climate = climate_at(world, east, north, sample.height);
-  climate.moisture = moisture_near(climate, sample);
-  return suits(world, plant, sample, climate, steepest_of(plant)) ? cover : 0;
+  if (sample.field >= 0) return 0;
+  Climate moist = climate;
+  moist.moisture = moisture_near(climate, sample);
+  if (!suits(world, plant, sample, moist, steepest_of(plant))) return 0;
+  return cover_at(key_of(world, plant_class), plant.density, east, north, spacing) *
+         (1 - cleared_share(plant, sample));
 }
 
 bool may_grow(const World& world, const WorldClass& plant, const GroundSample& sample, double east,

@@ -17,16 +17,20 @@ struct Plant {
   double east = 0, north = 0;  ///< absolute; multiples of 1/64 m
   double height = 0;           ///< height of the foot, slightly below the ground
   double size = 1;             ///< random scale factor of the class height, 0.7 to 1.3
-  double rank = 0;             ///< random number, 0 to 1; coarse tiles show only plants with a low rank
+  std::uint64_t key = 0;       ///< key of further random choices
 };
 
-/// The plants of a class in [west, east) x [south, north), which is inside the rectangle of `ground`. `reach`: how
-/// many spacings of candidates around the rectangle compete; tests try other values than the default.
+/// The plants of a class in [west, east) x [south, north), which is inside the rectangle of `ground`, whose marks are
+/// below `share`. A plant depends on candidates with lower marks alone, so those of a lower share are a part of those
+/// of a higher one, and take less time. `reach`: how many spacings of candidates around the rectangle compete; tests
+/// try other values than the default.
 std::vector<Plant> plants_in(const World& world, int plant_class, const Rectangle& box, const Ground& ground,
-                             Job& job, double reach = thinning_rounds);
+                             Job& job, double share = 1, double reach = thinning_rounds);
 
-/// How much of the ground around a position the class covers, 0 to 1.
-double wood_cover(const World& world, int plant_class, const GroundSample& sample, double east, double north);
+/// How much of the ground at a position the class covers, 0 to 1. Where samples are `spacing` metres apart, variations
+/// that lie between them are left out.
+double wood_cover(const World& world, int plant_class, const GroundSample& sample, const Climate& climate,
+                  double east, double north, double spacing);
 
 /// Returns false only if moisture, temperature or the sea exclude the class within `spacing` metres of a sample.
 bool may_grow(const World& world, const WorldClass& plant, const GroundSample& sample, double east,

@@ -1,8 +1,10 @@
 #include <algorithm>
 
+#include "core/generators/world/canopy.h"
 #include "core/generators/world/flat_mesh.h"
 #include "core/generators/world/glb.h"
 #include "core/generators/world/houses.h"
+#include "core/generators/world/lanes.h"
 #include "core/generators/world/palette.h"
 #include "core/generators/world/plant_layer.h"
 #include "core/generators/world/plant_mesh.h"
@@ -44,12 +46,17 @@ void add_works(Glb& glb, const World& world, const TileFrame& frame, double base
   if (frame.spacing <= widest_road_spacing && world.has(Layer::roads)) {
     FlatMesh roads(frame, base, linear_color(world.params.roads.color));
     const double lift = 0.1 + 0.03 * frame.spacing;
-    for (const auto& road : roads_near(world, box, world.params.roads.width, job)) {
-      for (std::size_t k = 1; k < road->points.size(); ++k) {
-        const RoadPoint &a = road->points[k - 1], &b = road->points[k];
-        roads.add_ribbon({a.east, a.north, a.height + lift}, road->width, {b.east, b.north, b.height + lift},
-                         road->width);
+    const auto add = [&](const std::vector<RoadPoint>& points, double width, double above) {
+      for (std::size_t k = 1; k < points.size(); ++k) {
+        const RoadPoint &a = points[k - 1], &b = points[k];
+        roads.add_ribbon({a.east, a.north, a.height + above}, width, {b.east, b.north, b.height + above},
+                         width);
       }
+    };
+    for (const auto& road : roads_near(world, box, world.params.roads.width, job))
+      add(road->points, road->width, lift);
+    for (const auto& lanes : lanes_near(world, box, world.params.roads.width, job)) {
+      for (const Lane& lane : lanes->lanes) add(lane.points, lane.width, 0.9 * lift);
     }
     add_mesh(glb, "roads", roads.take(), 0.95, frame, base, job);
   }
@@ -80,7 +87,7 @@ std::string tile_glb(const World& world, const TileKey& key, Job& job, std::stri
   }
   if (world.has(Layer::water)) add_water(glb, world, frame, grid, terrain.height, job);
   add_works(glb, world, frame, terrain.height, job, folder);
-  if (world.has(Layer::plants)) add_plants(glb, world, key, frame, grid, job, folder);
+  if (world.has(Layer::plants)) add_plants(glb, world, key, frame, grid, terrain.height, job, folder);
   return std::move(glb).text();
 }
 
@@ -95,10 +102,14 @@ std::optional<SharedFile> shared_file(const World& world, std::string_view hash,
     return binary(indices->file);
   for (std::size_t k = 0; world.has(Layer::plants) && k < world.params.plants.size(); ++k) {
     const int number = static_cast<int>(k);
-    for (const PlantForm form : {PlantForm::whole, PlantForm::simple, PlantForm::clump}) {
+    for (const PlantForm form : {PlantForm::whole, PlantForm::simple}) {
       PlantFile file = plant_file(world, number, form);
       if (file.hash == hash) return binary(std::move(file.bytes));
     }
+  }
+  if (world.has(Layer::plants) && !world.params.plants.empty()) {
+    const auto canopy = canopy_texture(world, job);
+    if (canopy->hash == hash) return SharedFile{canopy->file, "image/png", "png"};
   }
   for (std::size_t k = 0; world.has(Layer::plants) && k < world.params.plants.size(); ++k) {
     for (const AssetForm form : {AssetForm::near, AssetForm::far}) {

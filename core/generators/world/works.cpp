@@ -4,7 +4,7 @@
 
 #include "core/base/math.h"
 #include "core/generators/world/houses.h"
-#include "core/generators/world/roads.h"
+#include "core/generators/world/lanes.h"
 
 namespace seedmesh::world {
 namespace {
@@ -27,7 +27,8 @@ double distance_to(const RoadPiece& piece, double east, double north, double& sh
 }
 
 constexpr double steepest_field = 0.11, least_field_moisture = 0.24;
-constexpr double hedge = 2.5;  ///< metres from the border of a field
+constexpr double cleared_reach = 2.6;  ///< of the radius of a village: how far woods are cut
+constexpr double hedge = 2.5;          ///< metres from the border of a field
 
 /// The field around a position: a cell of the Voronoi diagram of one point in each cell of a jittered grid.
 struct Field {
@@ -65,22 +66,25 @@ Field field_of(const World& world, double east, double north) {
 Ground Ground::with_roads(const World& world, const Rectangle& box, Job& job) {
   Ground ground(world, box, job);
   const WorldFields& fields = world.params.fields;
-  if (fields.share > 0 && fields.reach > 0) {
-    const double reach = fields.reach * world.params.settlements.radius + 2 * fields.size;
-    for (const auto& site : sites_near(world, box, world.reach(Reads::fields, reach), job))
-      ground.farmland_.push_back({site->east, site->north, site->radius});
-  }
+  const double around =
+      std::max(cleared_reach, fields.reach) * world.params.settlements.radius + 2 * fields.size;
+  for (const auto& site : sites_near(world, box, world.reach(Reads::fields, around), job))
+    ground.farmland_.push_back({site->east, site->north, site->radius});
   const double reach = world.reach(Reads::works, works_reach + 16);
-  for (const auto& road : roads_near(world, box, reach, job)) {
-    for (std::size_t k = 1; k < road->points.size(); ++k) {
-      const RoadPoint &a = road->points[k - 1], &b = road->points[k];
+  const auto add = [&](const std::vector<RoadPoint>& points, double width) {
+    for (std::size_t k = 1; k < points.size(); ++k) {
+      const RoadPoint &a = points[k - 1], &b = points[k];
       if (std::min(a.east, b.east) > box.east + reach || std::max(a.east, b.east) < box.west - reach ||
           std::min(a.north, b.north) > box.north + reach || std::max(a.north, b.north) < box.south - reach) {
         continue;
       }
-      ground.pieces_.push_back({a.east, a.north, a.height, b.east, b.north, b.height, road->width,
+      ground.pieces_.push_back({a.east, a.north, a.height, b.east, b.north, b.height, width,
                                 a.is_bridge || b.is_bridge, a.works, b.works});
     }
+  };
+  for (const auto& road : roads_near(world, box, reach, job)) add(road->points, road->width);
+  for (const auto& lanes : lanes_near(world, box, reach, job)) {
+    for (const Lane& lane : lanes->lanes) add(lane.points, lane.width);
   }
   return ground;
 }
@@ -122,12 +126,19 @@ void Ground::add_works(GroundSample& sample, double east, double north) const {
 
 void Ground::add_field(GroundSample& sample, double east, double north) const {
   const WorldFields& fields = world_->params.fields;
+  for (const Farmland& farm : farmland_) {
+    const double x = east - farm.east, y = north - farm.north, square = x * x + y * y;
+    const double most = cleared_reach * farm.radius;
+    if (square >= most * most) continue;
+    sample.settled = std::max(sample.settled, 1 - smooth_step(std::sqrt(square), 0.4 * most, most));
+  }
   const Slope& h = sample.land.height;
   if (h.east * h.east + h.north * h.north > steepest_field * steepest_field || sample.shore < 15 ||
       sample.road < 3 || sample.house < 6) {
     return;
   }
   if (world_->params.relief.sea && sample.height < world_->params.relief.sea_level + 2.5) return;
+  if (fields.share <= 0 || fields.reach <= 0) return;
   for (const Farmland& farm : farmland_) {
     const double most = fields.reach * farm.radius;
     const double x = east - farm.east, y = north - farm.north, far = most + 2 * fields.size;

@@ -163,11 +163,12 @@ TEST(WorldHouses, StandApartAndBesideRoads) {
   EXPECT_GT(houses.size(), 20U);
   const Ground ground = Ground::with_roads(world, country, job);
   for (std::size_t i = 0; i < houses.size(); ++i) {
-    EXPECT_GT(ground.at(houses[i].east, houses[i].north).road, houses[i].depth);
+    EXPECT_GT(ground.at(houses[i].east, houses[i].north).road, std::min(houses[i].depth, houses[i].length));
     EXPECT_LE(std::max(houses[i].length, houses[i].depth), house_extent(world).across);
     for (std::size_t j = 0; j < i; ++j) {
       const double x = houses[i].east - houses[j].east, y = houses[i].north - houses[j].north;
-      ASSERT_GE(std::sqrt(x * x + y * y), houses[i].length + houses[j].length);
+      ASSERT_GE(std::sqrt(x * x + y * y),
+                std::min(houses[i].depth, houses[i].length) + std::min(houses[j].depth, houses[j].length));
     }
   }
 }

@@ -1,0 +1,37 @@
+#pragma once
+/// Woods seen from afar: a surface over the crowns, from edge to edge, with a texture of crowns. Its positions are
+/// those of the terrain's samples, and its edges follow the cover of woods between them, so no grid shows.
+#include <array>
+#include <string_view>
+
+#include "core/generators/world/glb.h"
+#include "core/generators/world/terrain_grid.h"
+
+namespace seedmesh::world {
+
+/// The crowns of a class close over its woods, so that their surface shows and not single plants.
+bool has_canopy(const WorldClass& plant);
+
+/// What covers a position: the mean of the classes by their cover.
+struct Wood {
+  double cover = 0;               ///< 0 to 1; of classes with a canopy
+  double height = 0;              ///< metres, of the crowns
+  std::array<double, 3> color{};  ///< linear, of the crowns
+};
+Wood wood_at(const World& world, const GroundSample& sample, const Climate& climate, double east,
+             double north, double spacing);
+
+constexpr double wood_edge = 0.45;  ///< of the cover; woods begin here
+
+/// `base`: the height of position 0 of the tile's meshes. `folder`: see tile_glb().
+void add_canopy(Glb& glb, const World& world, const TileFrame& frame, const TerrainGrid& grid, double base,
+                Job& job, std::string_view folder);
+
+/// A square of crowns from above in grey, which repeats, as a PNG file.
+struct CanopyTexture {
+  std::string hash, file;
+  std::uint64_t bytes() const { return sizeof(CanopyTexture) + file.size(); }
+};
+std::shared_ptr<const CanopyTexture> canopy_texture(const World& world, Job& job);
+
+}  // namespace seedmesh::world

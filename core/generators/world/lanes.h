@@ -1,0 +1,29 @@
+#pragma once
+/// Lanes of a settlement: streets that leave its roads, and ways to farms outside. They follow the ground.
+#include <memory>
+#include <vector>
+
+#include "core/generators/world/roads.h"
+
+namespace seedmesh::world {
+
+struct Lane {
+  double width = 0;
+  bool leads_to_farm = false;
+  std::vector<RoadPoint> points;  ///< from the road outwards; none is a bridge
+};
+struct Lanes {
+  std::vector<Lane> lanes;
+  std::uint64_t bytes() const;
+};
+
+/// How far from its middle a settlement has lanes and houses, by its radius.
+constexpr double farm_reach = 2.8;
+
+/// From the store, or made in some milliseconds after the roads of the settlement.
+std::shared_ptr<const Lanes> lanes_of(const World& world, const Site& site, Job& job);
+/// The lanes of settlements whose lanes can be within `reach` of a rectangle.
+std::vector<std::shared_ptr<const Lanes>> lanes_near(const World& world, const Rectangle& box, double reach,
+                                                     Job& job);
+
+}  // namespace seedmesh::world
