@@ -31,12 +31,13 @@ struct AssetBox {
 
 struct Task {
   const Grammar* grammar = nullptr;
+  const Texts* texts = nullptr;                         ///< those of the grammar, and those of given values
   const RuleText* text = nullptr;                       ///< the rules, for line and column
   bool is_blueprint = false;                            ///< they are part of the program
   glm::dvec3 size{0};                                   ///< of the first shape
   const Solid* footprint = nullptr;                     ///< null: a box
   glm::dvec3 origin{0};                                 ///< of the first scope
-  std::map<std::string, lang::TaggedValue> attributes;  ///< given values; texts are those of the grammar
+  std::map<std::string, lang::TaggedValue> attributes;  ///< given values
   const EditTree* edits = nullptr;
   std::optional<int> iterations;
   bool is_sequential = false, is_depth_first = false;

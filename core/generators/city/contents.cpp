@@ -109,6 +109,17 @@ std::vector<Copy> copies_of(const SharedHouse& house, const Surface& surface, co
   return copies;
 }
 
+/// What the houses of each rule have in common, such as the grammar of a blueprint.
+std::map<std::uint32_t, Generator::Prepared> prepared_rules(const std::vector<SharedHouse>& houses,
+                                                            const GenerateContext& context) {
+  std::map<std::uint32_t, Generator::Prepared> prepared;
+  for (const SharedHouse& house : houses) {
+    const auto [at, is_new] = prepared.try_emplace(house.rule);
+    if (is_new) at->second = prepare_child(house.request, context);
+  }
+  return prepared;
+}
+
 bool has_parts(const Contents& each, const GenerateContext& context) {
   const Generator* generator =
       each.request ? find_generator(context.generators, each.request->generator) : nullptr;
@@ -269,9 +280,13 @@ std::optional<Error> add_contents(Model& model, ChunkNodes& nodes, const Chunks&
   Demand demand;
   demand.lods = level_count(view, context.demand);
   const std::vector<SharedHouse> houses = shared_houses(plan, params);
+  const std::map<std::uint32_t, Generator::Prepared> prepared = prepared_rules(houses, context);
   auto error = make_and_add(
       job, houses.size(),
-      [&](std::size_t i) { return generate_child(houses[i].request, "/buildings", Rng(0), context, demand); },
+      [&](std::size_t i) {
+        return generate_prepared(houses[i].request, "/buildings", Rng(0), context, demand,
+                                 prepared.at(houses[i].rule));
+      },
       [&](std::size_t i, Model made) {
         scene::separate_bodies(made);
         writer.add(std::move(made), "building_" + std::to_string(model.meshes.size()), "buildings",
