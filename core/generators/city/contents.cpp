@@ -11,6 +11,7 @@
 #include "core/generators/city/city_model.h"
 #include "core/generators/city/furniture_models.h"
 #include "core/generators/city/house_requests.h"
+#include "core/generators/city/landmarks.h"
 #include "core/generators/city/model_copies.h"
 #include "core/generators/city/objects.h"
 #include "core/generators/city/solid_builder.h"
@@ -64,7 +65,8 @@ std::vector<Contents> other_contents(const Surface& surface, const CityParams& p
     each.request = &landmark.request;
     each.pointer = landmark.pointer + "/model";
     const std::uint32_t block = landmark.part == no_index ? no_index : plan.parts[landmark.part].block;
-    const double height = landmark.part == no_index ? 0 : surface.height(landmark.part, landmark.position);
+    double height = landmark.part == no_index ? 0 : surface.height(landmark.part, landmark.position), lowest = 0;
+    if (const auto footing = footing_of(landmark)) height = surface.floor_height(*footing, lowest);
     each.copies.push_back(
         {transform_at(landmark.position, height, landmark.turn), chunks.at(landmark.position, block)});
     all.push_back(std::move(each));
@@ -103,7 +105,7 @@ std::vector<Copy> copies_of(const SharedHouse& house, const Surface& surface, co
   for (const std::uint32_t number : house.lots) {
     const Lot& lot = plan.lots[number];
     double lowest = 0;
-    copies.push_back({transform_at(lot.house->position, surface.floor_height(lot, lowest), lot.house->turn),
+    copies.push_back({transform_at(lot.house->position, surface.floor_height(lot.footing(), lowest), lot.house->turn),
                       chunks.at(lot.house->position, plan.parts[lot.part].block)});
   }
   return copies;
