@@ -211,11 +211,12 @@ Result<CityPlan> plan_of(const CityParams& params, Job& job) {
   const Route given = given_route_of(plan.region, lines);
   job.progress("streets", 0);
   const FieldMap* obstacles = maps.obstacles ? &*maps.obstacles : nullptr;
+  const Landform* landform = plan.landform->is_level() ? nullptr : plan.landform.get();
   WardPlan wards;
   const bool has_wards = params.streets.method == CityMethod::wards;
   if (has_wards)
-    wards = lay_out_wards(params, plan.region, *maps.density, obstacles, plan.classes, job, issues);
-  const Landform* landform = plan.landform->is_level() ? nullptr : plan.landform.get();
+    wards = lay_out_wards(params, {plan.region, *maps.density, obstacles, landform}, plan.classes, job,
+                          issues);
   const std::optional<TensorField> tensor =
       field_of(params, plan.region, maps.pattern ? &*maps.pattern : nullptr, landform, job, issues);
   if (!issues.empty()) return Error{Code::invalid, std::move(issues)};
@@ -273,7 +274,7 @@ Result<Appraisal> appraise(const CityParams& params, const GenerateContext& cont
   appraisal.warnings = remarks_on(params, *plan);
   Estimate estimate;
   const Surface surface(*plan, params.streets.wards.wall_height, job);
-  estimate.triangles = ground_triangles(*plan, surface, job);
+  estimate.triangles = ground_triangles(*plan, surface, context.demand.textures > 0, job);
   estimate.bytes = estimate.triangles * 48;
   if (auto error = estimate_contents(estimate, surface, params, context)) return std::move(*error);
   appraisal.estimate = estimate;

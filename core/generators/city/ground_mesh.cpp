@@ -40,6 +40,12 @@ Dashes dashes_of(const StreetStrips& strips) {
   return {begin, std::max(1.0, std::floor((end - begin) / dash_spacing + 0.5)) / (end - begin)};
 }
 
+GroundMesh::StreetLayer layer_of(StripKind kind, const StripPiece& piece) {
+  if (!piece.is_marking) return GroundMesh::StreetLayer::asphalt;
+  if (kind == StripKind::lanes) return GroundMesh::StreetLayer::lane_lines;
+  return kind == StripKind::zebra ? GroundMesh::StreetLayer::crossings : GroundMesh::StreetLayer::stop_lines;
+}
+
 bool is_inside_part(const Part& part, const dvec2& metres) {
   bool is_in = false;
   for (const CmRing& ring : part.rings) is_in ^= is_inside(ring, metres * 100.0);
@@ -59,8 +65,8 @@ bool is_near_border(const Part& part, const dvec2& metres) {
 
 }  // namespace
 
-GroundMesh::GroundMesh(const CityPlan& plan, const Surface& surface, const Job& job)
-    : plan_(plan), surface_(surface), job_(job), triangulator_(&job) {
+GroundMesh::GroundMesh(const CityPlan& plan, const Surface& surface, bool has_textures, const Job& job)
+    : plan_(plan), surface_(surface), has_textures_(has_textures), job_(job), triangulator_(&job) {
   mesh_.position = Array<glm::vec3>(job);
   mesh_.normal = Array<glm::vec3>(job);
   mesh_.uv[0] = Array<glm::vec2>(job);
@@ -112,17 +118,18 @@ void GroundMesh::add_carriageway(std::uint32_t number, StreetLayer layer) {
       if (piece.from > 0) shares.push_back(piece.from);
     }
   };
-  std::vector<StripPiece> before, here = pieces_of(strips.kinds[0], section), after;
+  std::vector<StripPiece> before, here = pieces_of(strips.kinds[0], section, has_textures_), after;
   const Dashes dashes = dashes_of(strips);
   double station = 0;
   for (std::size_t i = 0; i < strips.kinds.size(); ++i) {
-    after = i + 1 < strips.kinds.size() ? pieces_of(strips.kinds[i + 1], section) : std::vector<StripPiece>{};
+    after = i + 1 < strips.kinds.size() ? pieces_of(strips.kinds[i + 1], section, has_textures_) : std::vector<StripPiece>{};
     StripSides sides;
     sides.start = strips.lines[i];
     sides.end = strips.lines[i + 1];
     sides.station = station;
     sides.length = length_of(sides.start, sides.end);
-    if (layer == StreetLayer::lane_lines) {
+    if (has_textures_ && layer == StreetLayer::crossings) sides.periods_across = bars_of(section) + 0.5;
+    if (has_textures_ && layer == StreetLayer::lane_lines) {
       sides.first_dash = dashes.begin;
       sides.dashes_a_metre = dashes.a_metre;
     }
@@ -143,10 +150,7 @@ void GroundMesh::add_carriageway(std::uint32_t number, StreetLayer layer) {
       shares->erase(std::unique(shares->begin(), shares->end()), shares->end());
     }
     for (const StripPiece& piece : here) {
-      const StreetLayer own = !piece.is_marking                       ? StreetLayer::asphalt
-                              : strips.kinds[i] == StripKind::lanes ? StreetLayer::lane_lines
-                                                                    : StreetLayer::markings;
-      if (own == layer) add_strip(number, sides, piece);
+      if (layer_of(strips.kinds[i], piece) == layer) add_strip(number, sides, piece);
     }
     station += sides.length;
     before = std::move(here);
@@ -163,6 +167,8 @@ void GroundMesh::add_strip(std::uint32_t number, const StripSides& sides, const 
     points_.push_back(point_across(line, share));
     uv.emplace_back(static_cast<float>((station - sides.first_dash) * sides.dashes_a_metre),
                     static_cast<float>(share * width));
+    if (sides.periods_across > 0)
+      uv.back() = {static_cast<float>(share * sides.periods_across), static_cast<float>(station)};
   };
   // Counter-clockwise: along the right side, across the end, back along the left side, across the start.
   const double end = sides.station + sides.length;
