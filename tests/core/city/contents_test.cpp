@@ -513,7 +513,9 @@ TEST(LaneLines, HaveWholeDashesOfAboutNineMetres) {
       if (std::abs(u - v) < 0.5) continue;
       ++quads;
       const double metres = static_cast<double>(glm::length(each.mesh.position[corner] - each.mesh.position[next]));
-      if (std::abs(u - v) > 1.5) EXPECT_NEAR(metres / std::abs(u - v), 9, 2.3);
+      if (std::abs(u - v) > 1.5) {
+        EXPECT_NEAR(metres / std::abs(u - v), 9, 2.3);
+      }
     }
   }
   EXPECT_GT(quads, 50U);

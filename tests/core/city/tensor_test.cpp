@@ -101,7 +101,7 @@ TEST(PatternMap, BlendsTensorsByItsValue) {
   ASSERT_TRUE(map);
   CityStreets streets;
   streets.pattern = CityPattern::raster;
-  streets.second_pattern = CityStreets::SecondPattern::radial;
+  streets.second_pattern = CitySecondPattern::radial;
   streets.angle = 10;
   const TensorField field(streets, *map, nullptr, job.rng());
   const auto at = [](double degrees) {
@@ -163,7 +163,7 @@ TEST(PatternMap, RefusesOtherMethodsAndEqualPatterns) {
   params.maps.pattern = "x + ";
   params.streets.method = CityMethod::wards;
   params.streets.pattern = CityPattern::slope;
-  params.streets.second_pattern = CityStreets::SecondPattern::slope;
+  params.streets.second_pattern = CitySecondPattern::slope;
   Job job(1, Job::Options{});
   std::vector<std::string> pointers;
   for (const Issue& each : check(params, {job})) pointers.push_back(each.pointer);
