@@ -222,7 +222,8 @@ Result<CityPlan> plan_of(const CityParams& params, Job& job) {
   if (!issues.empty()) return Error{Code::invalid, std::move(issues)};
   plan.graph = grow_streets(
       {params.streets, *maps.density, grammar, plan.region, obstacles, lines.empty() ? nullptr : &given,
-       has_wards ? &wards : nullptr, tensor ? &*tensor : nullptr, landform},
+       has_wards ? &wards : nullptr, tensor ? &*tensor : nullptr, landform, plan.classes,
+       least_height(*plan.landform)},
       job);
   plan.wards = std::move(wards.wards);
   plan.gates = std::move(wards.gates);
