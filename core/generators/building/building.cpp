@@ -46,6 +46,7 @@ Work work_of(const BuildingParams& params, const GenerateContext& context) {
   return work;
 }
 
+/// `name` has to outlive the work.
 void add_asset(Work& work, const std::string& name, Model own, Job& job) {
   Asset asset;
   asset.primitives = flatten(own, job);
@@ -93,7 +94,7 @@ std::optional<Error> add_assets(Work& work, const BuildingParams& params, const 
     add_asset(work, name, std::move(*own), job);
   }
   for (const PartRow& row : part_rows()) {
-    work.boxes.push_back({std::string(row.name), glm::dvec3(0), row.size});
+    work.boxes.push_back({row.name, glm::dvec3(0), row.size});
     Asset asset;
     asset.size = row.size;
     asset.row = &row;
@@ -164,12 +165,6 @@ Shapes shapes_of(Work& work, const BuildingParams& params, const GenerateContext
   plan.assets = work.boxes;
   plan.own_assets = params.assets.size();
   return derive_shapes(plan, job);
-}
-
-std::vector<std::string> symbol_names(const Grammar& grammar) {
-  std::vector<std::string> names;
-  for (const Symbol& symbol : grammar.symbols) names.push_back(symbol.name);
-  return names;
 }
 
 /// The values of the attribute `lod` of the grammar for the levels after the finest. Empty if the grammar has
@@ -271,7 +266,7 @@ std::uint64_t texture_bytes(const BuildingParams& params, const Grammar& grammar
   constexpr std::uint64_t vertex_bytes = 24;
   Model model;
   MaterialTable materials(model, params, shapes, context);
-  materials.set_symbols(symbol_names(grammar));
+  materials.set_symbols(grammar.symbols);
   std::uint64_t vertices = 0;
   for (const Shape& shape : shapes.shapes) {
     if (!shape.is_active || dimension(shape.size) < 2 || (shape.geometry & asset_bit) != 0) continue;
@@ -338,7 +333,7 @@ Result<Model> generate(const BuildingParams& params, const GenerateContext& cont
   if (auto warning = nothing_drawn(shapes); warning && !params.shape_grammar)
     model.warnings.push_back(*std::move(warning));
   MaterialTable materials(model, params, shapes, context);
-  materials.set_symbols(symbol_names(work.rules->grammar));
+  materials.set_symbols(work.rules->grammar.symbols);
   const std::vector<double> lods = lods_of(work.rules->grammar, params, context.demand.lods);
   if (lods.empty())
     add_bodies(model, shapes, materials, work.assets, sharing_of(context.demand), job);

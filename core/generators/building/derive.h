@@ -25,7 +25,7 @@ namespace seedmesh::building {
 
 /// An asset that rules can insert, with the box that it has without a scope.
 struct AssetBox {
-  std::string name;  ///< of an asset of the request or of a built-in part
+  std::string_view name;  ///< of an asset of the request or of a built-in part
   glm::dvec3 low{0}, size{1};
 };
 
