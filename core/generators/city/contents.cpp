@@ -283,6 +283,11 @@ std::optional<Error> add_contents(Model& model, ChunkNodes& nodes, const Chunks&
   demand.lods = level_count(view, context.demand);
   const std::vector<SharedHouse> houses = shared_houses(plan, params);
   const std::map<std::uint32_t, Generator::Prepared> prepared = prepared_rules(houses, context);
+  // Levels and collision bodies need a node for each building.
+  constexpr std::size_t most_single = 2000;
+  if (houses.size() > most_single && context.demand.lods == 1 &&
+      context.demand.collision == CollisionNames::none)
+    writer.merge_single();
   auto error = make_and_add(
       job, houses.size(),
       [&](std::size_t i) {
@@ -295,6 +300,7 @@ std::optional<Error> add_contents(Model& model, ChunkNodes& nodes, const Chunks&
                    copies_of(houses[i], surface, chunks), CopyWriter::Bodies::boxes);
       });
   if (error) return error;
+  writer.write_merged("buildings", "houses");
   const std::vector<Contents> others = other_contents(surface, params, chunks, job);
   error = make_and_add(
       job, others.size(), [&](std::size_t i) { return model_of(others[i], demand, context); },
