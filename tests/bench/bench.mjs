@@ -104,7 +104,7 @@ function print_rate(row, peer, copying) {
   if (aim?.seconds) cells.push(`${(row.seconds * 1e3).toFixed(1)} ms (aim ${(aim.seconds * 1e3).toFixed(0)}): ${verdict(row.seconds <= aim.seconds)}`);
   if (aim?.seconds_each) {
     const each = row.seconds / row.amount;
-    cells.push_back(`${(each * 1e6).toFixed(2)} us each (aim ${aim.seconds_each * 1e6}): ${verdict(each <= aim.seconds_each)}`);
+    cells.push(`${(each * 1e6).toFixed(2)} us each (aim ${aim.seconds_each * 1e6}): ${verdict(each <= aim.seconds_each)}`);
   }
   if (row.cores) cells.push(`${(row.cores * 1e3).toFixed(1)} ms of all cores`);
   if (aim?.megabytes) cells.push(`${(row.bytes / 1e6).toFixed(1)} MB (aim ${aim.megabytes}): ${verdict(row.bytes <= aim.megabytes * 1e6)}`);

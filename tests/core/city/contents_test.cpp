@@ -160,6 +160,34 @@ TEST(CityHouses, AreTheSameWithRulesThatWereReadBefore) {
   EXPECT_FALSE(prepare_child({"building", 1, R"({"rules": "Lot --> extrude("})"}, context));
 }
 
+TEST(CityHouses, AreMergedWhereThousandsDiffer) {
+  const CityParams params = params_of(R"({"area": {"size": [1400, 1400]}, "lots": {"area": [120, 320], "width": 7},
+    "buildings": {"variants": 100000, "detail": 2,
+      "rules": [{"blueprint": "house", "floors": [1, 3], "side": 1, "rear": 1, "depth": [6, 12]}]}})");
+  const std::vector<SharedHouse> houses = shared_houses(plan_with(params, 2), params);
+  ASSERT_GT(houses.size(), 2000U);
+  std::uint64_t alone = 0;
+  for (const SharedHouse& each : houses) {
+    Job job(*each.request.seed, Job::Options{});
+    const Result<Model> made = generate_child(each.request, "", Rng(0), context_of(job));
+    ASSERT_TRUE(made);
+    if (each.lots.size() == 1) alone += count(*made).triangles;
+  }
+  const Model city = model_with(params, 2);
+  std::uint64_t merged = 0;
+  std::size_t nodes = 0;
+  for (const Node& node : city.nodes) {
+    if (node.name != "houses") continue;
+    ++nodes;
+    for (const Primitive& each : city.meshes[static_cast<std::size_t>(node.mesh)].primitives) {
+      merged += each.mesh.elements();
+      EXPECT_LE(each.mesh.position.size(), 65'535U);
+    }
+  }
+  EXPECT_EQ(merged, alone);
+  EXPECT_LT(nodes, 60U);
+}
+
 TEST(CityHouses, FollowRulesByStreetFrontageAndZone) {
   const CityParams params = params_of(R"({"area": {"size": [600, 500]},
     "maps": {"zones": [{"zone": "east", "area": {"type": "Polygon",
