@@ -60,6 +60,10 @@ struct Generator {
   /// Parameters of the generator's own struct. Immutable; copies of a request share them.
   using Params = std::shared_ptr<const void>;
 
+  /// What requests with some equal parameters have in common, such as rules that were read. Immutable; threads may
+  /// share it.
+  using Prepared = std::shared_ptr<const void>;
+
   /// Is called with each request inside the parameters while they are read.
   using VisitChild = std::function<void(const ChildLocation&)>;
 
@@ -85,6 +89,8 @@ struct Generator {
   std::vector<Issue> (*check)(const Params& params, const CheckContext& context) = nullptr;
 
   Result<Model> (*generate)(const Params& params, const GenerateContext& context) = nullptr;
+  /// Work that generate() can use for many requests. The result may be null, as may the function.
+  Prepared (*prepare)(const Params& params, const CheckContext& context) = nullptr;
   /// The result before geometry, for example the word of an L-system.
   Result<Json> (*derive)(const Params& params, const GenerateContext& context) = nullptr;
   Result<Appraisal> (*appraise)(const Params& params, const GenerateContext& context) = nullptr;
@@ -112,6 +118,7 @@ struct GenerateContext {
   Job& job;
   Demand demand = {};
   GeneratorList generators = {};
+  Generator::Prepared prepared = {};  ///< of this generator, perhaps of other parameters; may be null
 };
 
 /// Null: the list has no generator of this name.

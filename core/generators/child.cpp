@@ -105,14 +105,29 @@ Generator::Params read_parameters(const Generator& generator, const Json& json, 
 
 Result<Model> generate_child(const Child& child, const std::string& pointer, Rng stream,
                              const GenerateContext& around, const Demand& demand) {
+  return generate_prepared(child, pointer, stream, around, demand, nullptr);
+}
+
+Result<Model> generate_prepared(const Child& child, const std::string& pointer, Rng stream,
+                                const GenerateContext& around, const Demand& demand,
+                                Generator::Prepared prepared) {
   Call call(child, pointer, stream, around);
   Demand own = demand;
   own.tangents = false;
-  Result<Model> model = call.run<Model>(call.generator->generate, {call.job, own, around.generators});
+  Result<Model> model =
+      call.run<Model>(call.generator->generate, {call.job, own, around.generators, std::move(prepared)});
   if (!model) return model;
   widen(*model, around.job);
   call.prefix_pointers(model->warnings);
   return model;
+}
+
+Generator::Prepared prepare_child(const Child& child, const GenerateContext& around) {
+  const Generator* generator = find_generator(around.generators, child.generator);
+  if (!generator || !generator->prepare) return nullptr;
+  IssueList errors;
+  const Generator::Params params = generator->read(Json::parse(child.parameters), "", errors, {});
+  return generator->prepare(params, {around.job, around.generators});
 }
 
 Result<Json> derive_child(const Child& child, const std::string& pointer, Rng stream,

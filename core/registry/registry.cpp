@@ -82,6 +82,16 @@ struct Row {
     return generator;
   }
 
+  /// For generators whose requests can share work.
+  template <auto prepare_own>
+  static constexpr Generator prepared(Generator generator) {
+    generator = row(generator);
+    generator.prepare = [](const Params& params, const CheckContext& context) {
+      return prepare_own(own(params), context);
+    };
+    return generator;
+  }
+
   /// For generators with output formats beside models.
   template <auto encode_own>
   static constexpr Generator row(Generator generator) {
@@ -138,10 +148,11 @@ constexpr Generator rows[] = {
                                                       .has_collision = true,
                                                       .has_impostor = true}),
     Row<BuildingParams, read_building, write_building, building::check, building::generate, building::derive,
-        building::appraise, building::vocabulary>::row({.name = "building",
-                                                        .has_collision = true,
-                                                        .parts = true,
-                                                        .own_levels = levels_of_rules}),
+        building::appraise,
+        building::vocabulary>::prepared<building::prepare>({.name = "building",
+                                                            .has_collision = true,
+                                                            .parts = true,
+                                                            .own_levels = levels_of_rules}),
     Row<TerrainParams, read_terrain, write_terrain, terrain::check, terrain::generate, terrain::derive,
         terrain::appraise, terrain::vocabulary>::row<terrain::encode,
                                                      terrain::check_format>(

@@ -43,6 +43,11 @@ const aims = {
   'city plan of 1 km2': { seconds: 0.01 },
   'city plan of 16 km2': { seconds: 0.15 },
   'city plan of 144 km2': { seconds: 2 },
+  'plan of 16 km2, recursive: growth and graph': { seconds_each: 7e-6 },
+  'plan of 16 km2, recursive: blocks': { seconds_each: 20e-6 },
+  'plan of 16 km2, recursive: lots and houses': { seconds_each: 2e-6 },
+  'plan of 16 km2, skeleton: lots and houses': { seconds_each: 10e-6 },
+  'grades of 9 km2': { seconds_each: 0.3e-6 },
   'city of 16 km2 to GLB': { seconds: 3, megabytes: 60 },
   'city of 26,000 houses to GLB': { seconds: 2, triangles: 3e6 },
   // Worlds: seconds of one thread, tiles per second.
@@ -97,6 +102,10 @@ function print_rate(row, peer, copying) {
   if (aim?.rate) cells.push(`aim ${aim.rate < 1e5 ? aim.rate : `${aim.rate / 1e6} M`}: ${verdict(rate >= aim.rate)}`);
   if (!aim?.seconds && rate < 1e5) cells.push(`${(row.seconds * 1e3).toFixed(1)} ms`);
   if (aim?.seconds) cells.push(`${(row.seconds * 1e3).toFixed(1)} ms (aim ${(aim.seconds * 1e3).toFixed(0)}): ${verdict(row.seconds <= aim.seconds)}`);
+  if (aim?.seconds_each) {
+    const each = row.seconds / row.amount;
+    cells.push(`${(each * 1e6).toFixed(2)} us each (aim ${aim.seconds_each * 1e6}): ${verdict(each <= aim.seconds_each)}`);
+  }
   if (row.cores) cells.push(`${(row.cores * 1e3).toFixed(1)} ms of all cores`);
   if (aim?.megabytes) cells.push(`${(row.bytes / 1e6).toFixed(1)} MB (aim ${aim.megabytes}): ${verdict(row.bytes <= aim.megabytes * 1e6)}`);
   if (aim?.triangles) cells.push(`${(row.triangles / 1e6).toFixed(2)} M triangles (aim ${aim.triangles / 1e6}): ${verdict(row.triangles <= aim.triangles)}`);

@@ -171,7 +171,7 @@ class Assembly {
       const int mesh = source_.is_asset(shape) ? add_asset_mesh(shape) : add_shared_mesh(shape);
       if (mesh < 0) continue;
       Node node;
-      node.name = source_.is_asset(shape) ? shapes_.asset_names[shape.geometry & ~asset_bit]
+      node.name = source_.is_asset(shape) ? std::string(shapes_.asset_names[shape.geometry & ~asset_bit])
                                           : materials_.symbol(shape);
       node.parent = root_;
       node.mesh = mesh;

@@ -31,13 +31,22 @@ constexpr std::string_view lod_attribute = "lod";
 
 /// The intermediate results between parameters and shapes.
 struct Work {
-  Grammar grammar;
+  std::shared_ptr<const RuleSet> rules;  ///< of a shape grammar, once it is derived, the names
   PictureGrammar pictures;  ///< where there is a shape grammar
   std::vector<AssetBox> boxes;
   std::vector<Asset> assets;
   Model model;  ///< materials and textures of assets, and warnings
 };
 
+/// With the prepared rules, if the context has those of the parameters.
+Work work_of(const BuildingParams& params, const GenerateContext& context) {
+  Work work;
+  auto prepared = std::static_pointer_cast<const RuleSet>(context.prepared);
+  if (prepared && has_rules_of(*prepared, params)) work.rules = std::move(prepared);
+  return work;
+}
+
+/// `name` has to outlive the work.
 void add_asset(Work& work, const std::string& name, Model own, Job& job) {
   Asset asset;
   asset.primitives = flatten(own, job);
@@ -85,7 +94,7 @@ std::optional<Error> add_assets(Work& work, const BuildingParams& params, const 
     add_asset(work, name, std::move(*own), job);
   }
   for (const PartRow& row : part_rows()) {
-    work.boxes.push_back({std::string(row.name), glm::dvec3(0), row.size});
+    work.boxes.push_back({row.name, glm::dvec3(0), row.size});
     Asset asset;
     asset.size = row.size;
     asset.row = &row;
@@ -117,14 +126,18 @@ Shapes shapes_of(Work& work, const BuildingParams& params, const GenerateContext
     const bool is_parallel = params.derivation.mode == BuildingMode::parallel;
     const DerivedPicture derived =
         derive_picture(*params.shape_grammar, work.pictures, params.iterations, is_parallel, job);
-    work.grammar = grammar_of_names(work.pictures);
+    auto names = std::make_shared<RuleSet>();
+    names->text = rule_text("");
+    names->grammar = grammar_of_names(work.pictures);
+    work.rules = std::move(names);
     return shapes_of_picture(work.pictures, derived, *params.shape_grammar, job);
   }
   Task plan;
-  std::vector<Issue> ignored;  // the check has reported them
-  const RuleText rules = rule_text_of(params, ignored);
-  plan.grammar = &work.grammar;
-  plan.text = &rules;
+  const Grammar& grammar = work.rules->grammar;
+  Texts texts = grammar.texts;
+  plan.grammar = &grammar;
+  plan.texts = &texts;
+  plan.text = &work.rules->text;
   plan.tables = &params.tables;
   plan.files = file_names(params);
   plan.is_blueprint = !params.rules;
@@ -137,8 +150,8 @@ Shapes shapes_of(Work& work, const BuildingParams& params, const GenerateContext
     plan.origin = {-0.5 * plan.size.x, 0, -0.5 * plan.size.z};
   }
   for (const auto& [name, given] : params.attributes)
-    plan.attributes.emplace(name, value_of(work.grammar.texts, given));
-  const EditTree edits = edits_of(params, work.grammar);
+    plan.attributes.emplace(name, value_of(texts, given));
+  const EditTree edits = edits_of(params, grammar, texts);
   plan.edits = &edits;
   if (options.lod) plan.attributes[std::string(lod_attribute)] = {*options.lod, 0};
   plan.most_shapes = options.most_shapes;
@@ -153,12 +166,6 @@ Shapes shapes_of(Work& work, const BuildingParams& params, const GenerateContext
   plan.assets = work.boxes;
   plan.own_assets = params.assets.size();
   return derive_shapes(plan, job);
-}
-
-std::vector<std::string> symbol_names(const Grammar& grammar) {
-  std::vector<std::string> names;
-  for (const Symbol& symbol : grammar.symbols) names.push_back(symbol.name);
-  return names;
 }
 
 /// The values of the attribute `lod` of the grammar for the levels after the finest. Empty if the grammar has
@@ -260,7 +267,7 @@ std::uint64_t texture_bytes(const BuildingParams& params, const Grammar& grammar
   constexpr std::uint64_t vertex_bytes = 24;
   Model model;
   MaterialTable materials(model, params, shapes, context);
-  materials.set_symbols(symbol_names(grammar));
+  materials.set_symbols(grammar.symbols);
   std::uint64_t vertices = 0;
   for (const Shape& shape : shapes.shapes) {
     if (!shape.is_active || dimension(shape.size) < 2 || (shape.geometry & asset_bit) != 0) continue;
@@ -298,15 +305,22 @@ void point_at_blueprint(const BuildingParams& params, std::vector<Warning>& warn
 }  // namespace
 
 std::vector<Issue> check(const BuildingParams& params, const Limits& limits, const Job* job) {
-  Grammar grammar;
+  std::shared_ptr<const RuleSet> rules;
   PictureGrammar pictures;
-  return check_all(params, {limits, job}, grammar, pictures);
+  return check_all(params, {limits, job}, rules, pictures);
+}
+
+Generator::Prepared prepare(const BuildingParams& params, const CheckContext& context) {
+  std::shared_ptr<const RuleSet> rules;
+  PictureGrammar pictures;
+  if (params.shape_grammar) return nullptr;
+  return check_all(params, {context.job.limits(), &context.job}, rules, pictures).empty() ? rules : nullptr;
 }
 
 Result<Model> generate(const BuildingParams& params, const GenerateContext& context) {
   Job& job = context.job;
-  Work work;
-  std::vector<Issue> issues = check_all(params, {job.limits(), &job}, work.grammar, work.pictures);
+  Work work = work_of(params, context);
+  std::vector<Issue> issues = check_all(params, {job.limits(), &job}, work.rules, work.pictures);
   if (!issues.empty()) return Error{Code::invalid, std::move(issues)};
   job.progress("derive", 0);
   if (auto refused = add_assets(work, params, context)) return std::move(*refused);
@@ -314,14 +328,14 @@ Result<Model> generate(const BuildingParams& params, const GenerateContext& cont
   job.progress("mesh", 0);
   Model model = std::move(work.model);
   model.name = "building";
-  append(model.warnings, work.grammar.warnings);
+  append(model.warnings, work.rules->grammar.warnings);
   append(model.warnings, shapes.warnings);
   append(model.warnings, missing_edits(params, shapes));
   if (auto warning = nothing_drawn(shapes); warning && !params.shape_grammar)
     model.warnings.push_back(*std::move(warning));
   MaterialTable materials(model, params, shapes, context);
-  materials.set_symbols(symbol_names(work.grammar));
-  const std::vector<double> lods = lods_of(work.grammar, params, context.demand.lods);
+  materials.set_symbols(work.rules->grammar.symbols);
+  const std::vector<double> lods = lods_of(work.rules->grammar, params, context.demand.lods);
   if (lods.empty())
     add_bodies(model, shapes, materials, work.assets, sharing_of(context.demand), job);
   else
@@ -335,14 +349,14 @@ Result<Model> generate(const BuildingParams& params, const GenerateContext& cont
 
 Result<Json> derive(const BuildingParams& params, const GenerateContext& context) {
   Job& job = context.job;
-  Work work;
-  std::vector<Issue> issues = check_all(params, {job.limits(), &job}, work.grammar, work.pictures);
+  Work work = work_of(params, context);
+  std::vector<Issue> issues = check_all(params, {job.limits(), &job}, work.rules, work.pictures);
   if (!issues.empty()) return Error{Code::invalid, std::move(issues)};
   if (auto refused = add_assets(work, params, context)) return std::move(*refused);
   const Shapes shapes = shapes_of(work, params, context, {.lod = std::nullopt, .is_listed = true});
-  Json list = json_of(shapes, work.grammar, rule_text_of(params, issues), most_listed, job);
+  Json list = json_of(shapes, work.rules->grammar, work.rules->text, most_listed, job);
   std::vector<Warning> warnings = work.model.warnings;
-  append(warnings, work.grammar.warnings);
+  append(warnings, work.rules->grammar.warnings);
   append(warnings, shapes.warnings);
   append(warnings, missing_edits(params, shapes));
   return Json{{"shapes", std::move(list)},
@@ -355,10 +369,10 @@ Result<Json> derive(const BuildingParams& params, const GenerateContext& context
 Result<Appraisal> appraise(const BuildingParams& params, const GenerateContext& context) {
   Job& job = context.job;
   Appraisal appraisal;
-  Work work;
-  std::vector<Issue> issues = check_all(params, {job.limits(), &job}, work.grammar, work.pictures);
+  Work work = work_of(params, context);
+  std::vector<Issue> issues = check_all(params, {job.limits(), &job}, work.rules, work.pictures);
   if (!issues.empty()) return Error{Code::invalid, std::move(issues)};
-  appraisal.warnings = work.grammar.warnings;
+  if (work.rules) appraisal.warnings = work.rules->grammar.warnings;
   // Requests with assets or with very many shapes have no estimate.
   if (!params.assets.empty()) return appraisal;
   Job own = job.for_estimate();
@@ -372,11 +386,11 @@ Result<Appraisal> appraise(const BuildingParams& params, const GenerateContext& 
   point_at_blueprint(params, appraisal.warnings);
   if (shapes.shapes.size() > most_appraised) return appraisal;
   const Demand& demand = context.demand;
-  const std::vector<double> lods = lods_of(work.grammar, params, demand.lods);
+  const std::vector<double> lods = lods_of(work.rules->grammar, params, demand.lods);
   // The file contains the merged meshes of all levels.
   const CopyForm copies = lods.empty() ? demand.copies : CopyForm::merge;
   appraisal.estimate = estimate_of(shapes, copies, demand.share_organs, own);
-  if (appraisal.estimate) appraisal.estimate->bytes += texture_bytes(params, work.grammar, shapes, context);
+  if (appraisal.estimate) appraisal.estimate->bytes += texture_bytes(params, work.rules->grammar, shapes, context);
   for (const double lod : lods) {
     const Shapes level = shapes_of(work, params, sketch, {.lod = lod, .most_shapes = most_appraised});
     const std::optional<Estimate> more = estimate_of(level, CopyForm::merge, false, own);

@@ -23,6 +23,12 @@ struct BuildingParams;
 namespace seedmesh::building {
 
 std::vector<Issue> check(const BuildingParams& params, const Limits& limits, const Job* job = nullptr);
+
+/// The rules of a request, for requests with other seeds, sizes and attributes. Null if the request has errors or a
+/// shape grammar.
+Generator::Prepared prepare(const BuildingParams& params, const CheckContext& context);
+
+/// Reads no rules if the context has prepared ones of equal parameters. The model is the same.
 Result<Model> generate(const BuildingParams& params, const GenerateContext& context);
 
 /// {shapes: [{id, parent, symbol, parameters, active, scope: {origin, axes, size}}], count, truncated,

@@ -129,16 +129,65 @@ void add_refused(const BuildingParams& params, const RuleText& rules, const char
   }
 }
 
-/// Reads the rules and adds the issues of rules, start and attributes.
-Grammar read(const BuildingParams& params, std::vector<Issue>& issues) {
+/// Adds errors and warnings about the start symbol of rules without syntax errors.
+void check_start(const BuildingParams& params, const RuleText& rules, Grammar& grammar,
+                 std::vector<Issue>& issues) {
+  if (grammar.start == none) {
+    issues.push_back({IssueKind::unknown_name, "/start",
+                      "there is no symbol \"" + params.start.value_or("") + "\" in the rules"});
+    return;
+  }
+  const Symbol& start = grammar.symbols[grammar.start];
+  if (start.rules.empty()) {
+    issues.push_back(
+        {IssueKind::unknown_name, "/start", "there is no rule for the symbol \"" + start.name + "\""});
+    return;
+  }
+  const std::uint32_t least = least_parameters(grammar, grammar.start);
+  const auto warn = [&](const char* message) {
+    const Issue place = issue_at(IssueKind::syntax, rules, grammar.rules[start.rules.front()].offset, "");
+    grammar.warnings.push_back(
+        {place.pointer, lang::in_quotes(start.name) + message, place.line, place.column});
+  };
+  if (least == 1) {
+    warn(" has a parameter, for which the first shape has no value; its height is used");
+  } else if (least > 1 && grammar.is_cityengine) {
+    warn(" has parameters, for which the first shape has no values; they are 0");
+  } else if (least > 1) {
+    issues.push_back({IssueKind::invalid_value, params.start ? "/start" : "/rules",
+                      "the rules of \"" + start.name +
+                          "\" have parameters, for which the first shape has no "
+                          "values; begin with a rule that gives them"});
+  }
+}
+
+std::vector<std::string> material_names(const BuildingParams& params) {
+  std::vector<std::string> names;
+  for (const auto& entry : params.materials) names.push_back(entry.first);
+  return names;
+}
+
+std::string blueprint_of(const BuildingParams& params) {
+  return params.blueprint ? std::string(text_of(*params.blueprint)) : std::string();
+}
+
+std::pair<int, int> restrictions_of(const BuildingParams& params) {
+  return {static_cast<int>(params.restrict), static_cast<int>(params.weights)};
+}
+
+/// Reads the rules and adds the issues of rules and start. Null if the rules have syntax errors.
+std::shared_ptr<const RuleSet> read(const BuildingParams& params, std::vector<Issue>& issues) {
   std::vector<lang::TextError> faults;
   if (params.rules && params.blueprint)
     issues.push_back(
         {IssueKind::conflict, "/blueprint", "found rules and a blueprint, expected one of them"});
   const std::size_t before = issues.size();
-  const RuleText rules = rule_text_of(params, issues);
-  if (issues.size() > before) return {};
-  Grammar grammar = read_rules(rules, params.start.value_or(""), faults);
+  auto set = std::make_shared<RuleSet>();
+  set->text = rule_text_of(params, issues);
+  if (issues.size() > before) return nullptr;
+  const RuleText& rules = set->text;
+  Grammar& grammar = set->grammar;
+  grammar = read_rules(rules, params.start.value_or(""), faults);
   if (faults.size() == 1 || rules.parts.size() > 1) {
     for (const lang::TextError& fault : faults)
       issues.push_back(issue_at(fault.kind, rules, fault.offset, fault.message));
@@ -153,41 +202,24 @@ Grammar read(const BuildingParams& params, std::vector<Issue>& issues) {
                 errors_of_restriction(grammar, params.restrict == BuildingRestrict::unimarker), issues);
   if (faults.empty() && params.weights == BuildingWeights::strict)
     add_refused(params, rules, "/weights", errors_of_weights(grammar), issues);
-  if (faults.empty() && params.rules) warn_of_materials(grammar, params, rules);
-  if (faults.empty() && grammar.start == none) {
-    issues.push_back({IssueKind::unknown_name, "/start",
-                      "there is no symbol \"" + params.start.value_or("") + "\" in the rules"});
-  } else if (faults.empty()) {
-    const Symbol& start = grammar.symbols[grammar.start];
-    if (start.rules.empty()) {
-      issues.push_back(
-          {IssueKind::unknown_name, "/start", "there is no rule for the symbol \"" + start.name + "\""});
-    } else if (const std::uint32_t least = least_parameters(grammar, grammar.start); least == 1) {
-      const Issue place = issue_at(IssueKind::syntax, rules, grammar.rules[start.rules.front()].offset, "");
-      grammar.warnings.push_back(
-          {place.pointer,
-           lang::in_quotes(start.name) +
-               " has a parameter, for which the first shape has no value; its height is used",
-           place.line, place.column});
-    } else if (least > 1 && grammar.is_cityengine) {
-      const Issue place = issue_at(IssueKind::syntax, rules, grammar.rules[start.rules.front()].offset, "");
-      grammar.warnings.push_back({place.pointer,
-                                  lang::in_quotes(start.name) +
-                                      " has parameters, for which the first shape has no values; they are 0",
-                                  place.line, place.column});
-    } else if (least > 1) {
-      issues.push_back({IssueKind::invalid_value, params.start ? "/start" : "/rules",
-                        "the rules of \"" + start.name +
-                            "\" have parameters, for which the first shape has no "
-                            "values; begin with a rule that gives them"});
-    }
-  }
-  for (const auto& [name, given] : params.attributes) {
-    if (!faults.empty()) break;
-    check_attribute_value(grammar, name, value_of(grammar.texts, given), "/attributes/", issues);
-  }
-  if (faults.empty() && grammar.start != none) check_edits(params, grammar, issues);
-  return grammar;
+  if (!faults.empty()) return nullptr;
+  if (params.rules) warn_of_materials(grammar, params, rules);
+  check_start(params, rules, grammar, issues);
+  grammar.texts.share();
+  set->rules = params.rules;
+  set->blueprint = blueprint_of(params);
+  set->start = params.start;
+  set->restrictions = restrictions_of(params);
+  set->materials = material_names(params);
+  return set;
+}
+
+/// Adds the issues of values for rules.
+void check_values(const BuildingParams& params, const Grammar& grammar, std::vector<Issue>& issues) {
+  Texts texts = grammar.texts;
+  for (const auto& given : params.attributes)
+    check_attribute_value(grammar, texts, given, "/attributes/", issues);
+  if (grammar.start != none) check_edits(params, grammar, issues);
 }
 
 /// Rejects parameters of rules and lots in requests with a shape grammar, which has its own initial shape.
@@ -238,21 +270,29 @@ RuleText rule_text_of(const BuildingParams& params, std::vector<Issue>& issues) 
   return rule_text(files, start, issues);
 }
 
-lang::TaggedValue value_of(Texts& texts, const std::variant<double, std::string, bool>& given) {
+bool has_rules_of(const RuleSet& rules, const BuildingParams& params) {
+  return rules.blueprint == blueprint_of(params) && rules.start == params.start &&
+         rules.restrictions == restrictions_of(params) && rules.rules == params.rules &&
+         rules.materials == material_names(params);
+}
+
+lang::TaggedValue value_of(Texts& texts, const AttributeValue& given) {
   if (const auto* text = std::get_if<std::string>(&given)) return {0, texts.id_of(*text)};
   if (const auto* flag = std::get_if<bool>(&given)) return {*flag ? 1.0 : 0.0, 0};
   return {std::get<double>(given), 0};
 }
 
-void check_attribute_value(const Grammar& grammar, const std::string& name, const lang::TaggedValue& value,
-                           const std::string& base, std::vector<Issue>& issues) {
+void check_attribute_value(const Grammar& grammar, Texts& texts,
+                           const std::pair<const std::string, AttributeValue>& given, const std::string& base,
+                           std::vector<Issue>& issues) {
+  const std::string& name = given.first;
   const auto found = std::ranges::find(grammar.attributes, name, &Attribute::name);
   if (found == grammar.attributes.end()) {
     issues.push_back({IssueKind::unknown_name, base + escaped(name),
                       "the rules declare no attribute of this name" + help_with(name, grammar)});
     return;
   }
-  check_attribute(*found, base + escaped(name), value, grammar.texts, issues);
+  check_attribute(*found, base + escaped(name), value_of(texts, given.second), texts, issues);
 }
 
 std::optional<Warning> nothing_drawn(const Shapes& shapes) {
@@ -271,8 +311,8 @@ std::optional<Warning> nothing_drawn(const Shapes& shapes) {
                  0, 0};
 }
 
-std::vector<Issue> check_all(const BuildingParams& params, const Bounds& bounds, Grammar& grammar,
-                             PictureGrammar& pictures) {
+std::vector<Issue> check_all(const BuildingParams& params, const Bounds& bounds,
+                             std::shared_ptr<const RuleSet>& rules, PictureGrammar& pictures) {
   std::vector<Issue> issues;
   if (params.shape_grammar) {
     check_alone(params, issues);
@@ -281,7 +321,8 @@ std::vector<Issue> check_all(const BuildingParams& params, const Bounds& bounds,
     issues.push_back({IssueKind::missing, "",
                       "found none of \"rules\", \"blueprint\" and \"shape_grammar\", expected one of them"});
   } else {
-    grammar = read(params, issues);
+    if (!rules) rules = read(params, issues);
+    if (rules) check_values(params, rules->grammar, issues);
   }
   if (!params.footprint.empty()) {
     const std::vector<Issue> more = check_footprint(params.footprint, bounds.job);

@@ -1,7 +1,11 @@
 #pragma once
 /// The checks of a request that the schema cannot express. They read the rules as well.
+#include <map>
+#include <memory>
 #include <optional>
+#include <string>
 #include <string_view>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -16,16 +20,34 @@ struct BuildingParams;
 
 namespace seedmesh::building {
 
+/// A value that a request gives to an attribute.
+using AttributeValue = std::variant<double, std::string, bool>;
+
+/// Rules that were read without an error, and the parameters that they depend on. Immutable; requests with other sizes,
+/// attributes and seeds share it.
+struct RuleSet {
+  RuleText text;
+  Grammar grammar;  ///< its texts are shared
+  /// The parameters: rules and blueprint, start, restrict and weights, and the names of materials.
+  std::optional<std::variant<std::string, std::map<std::string, std::string>>> rules;
+  std::string blueprint;
+  std::optional<std::string> start;
+  std::pair<int, int> restrictions;
+  std::vector<std::string> materials;
+};
+
 /// The rules of the request or of its blueprint; empty if it has a shape grammar. Adds an issue if the main file is not
 /// clear.
 RuleText rule_text_of(const BuildingParams& params, std::vector<Issue>& issues);
 
 /// The value of an attribute as expressions see it; true is 1, false is 0.
-lang::TaggedValue value_of(Texts& texts, const std::variant<double, std::string, bool>& given);
+lang::TaggedValue value_of(Texts& texts, const AttributeValue& given);
 
 /// Checks a value for an attribute of the rules. `base` is the pointer of the object of values, with a slash at its end.
-void check_attribute_value(const Grammar& grammar, const std::string& name, const lang::TaggedValue& value,
-                           const std::string& base, std::vector<Issue>& issues);
+/// Texts of values are added to `texts`, which begin with those of the grammar.
+void check_attribute_value(const Grammar& grammar, Texts& texts,
+                           const std::pair<const std::string, AttributeValue>& given, const std::string& base,
+                           std::vector<Issue>& issues);
 
 /// A warning if nothing is drawn and no NIL removed shapes.
 std::optional<Warning> nothing_drawn(const Shapes& shapes);
@@ -36,8 +58,12 @@ struct Bounds {
   const Job* job = nullptr;  ///< checked for stop and deadline; may be null
 };
 
-/// All errors. Fills the grammar, or the pictures if the request has a shape grammar.
-std::vector<Issue> check_all(const BuildingParams& params, const Bounds& bounds, Grammar& grammar,
-                             PictureGrammar& pictures);
+/// All errors. Fills the rules, or the pictures if the request has a shape grammar. Rules that are set already are not
+/// read again; they have to be those of the parameters (has_rules_of). Rules with errors become null.
+std::vector<Issue> check_all(const BuildingParams& params, const Bounds& bounds,
+                             std::shared_ptr<const RuleSet>& rules, PictureGrammar& pictures);
+
+/// Whether rules that were read from other parameters are those of these parameters.
+bool has_rules_of(const RuleSet& rules, const BuildingParams& params);
 
 }  // namespace seedmesh::building

@@ -24,7 +24,7 @@ Derivation::Derivation(const Task& given, const Context* first, Job& own_job)
   for (const AssetBox& asset : task.assets) out.asset_names.push_back(asset.name);
   style_ids.emplace(Style{}, 0);
   part_option_ids.emplace(PartOptions{}, 0);
-  out.texts = grammar.texts;
+  out.texts = *task.texts;
 }
 
 std::string text_of_number(double number) {

@@ -25,18 +25,19 @@ namespace seedmesh::building {
 
 /// An asset that rules can insert, with the box that it has without a scope.
 struct AssetBox {
-  std::string name;  ///< of an asset of the request or of a built-in part
+  std::string_view name;  ///< of an asset of the request or of a built-in part
   glm::dvec3 low{0}, size{1};
 };
 
 struct Task {
   const Grammar* grammar = nullptr;
+  const Texts* texts = nullptr;                         ///< those of the grammar, and those of given values
   const RuleText* text = nullptr;                       ///< the rules, for line and column
   bool is_blueprint = false;                            ///< they are part of the program
   glm::dvec3 size{0};                                   ///< of the first shape
   const Solid* footprint = nullptr;                     ///< null: a box
   glm::dvec3 origin{0};                                 ///< of the first scope
-  std::map<std::string, lang::TaggedValue> attributes;  ///< given values; texts are those of the grammar
+  std::map<std::string, lang::TaggedValue> attributes;  ///< given values
   const EditTree* edits = nullptr;
   std::optional<int> iterations;
   bool is_sequential = false, is_depth_first = false;

@@ -87,7 +87,8 @@ std::uint32_t attribute_named(const Grammar& grammar, const std::string& name) {
 
 }  // namespace
 
-void check_edits(const BuildingParams& params, Grammar& grammar, std::vector<Issue>& issues) {
+void check_edits(const BuildingParams& params, const Grammar& grammar, std::vector<Issue>& issues) {
+  Texts texts = grammar.texts;
   std::map<std::vector<std::pair<std::string_view, std::uint32_t>>, std::size_t> known;
   for (std::size_t i = 0; i < params.edits.size(); ++i) {
     const BuildingEdit& edit = params.edits[i];
@@ -110,12 +111,12 @@ void check_edits(const BuildingParams& params, Grammar& grammar, std::vector<Iss
     if (edit.rule && grammar.symbol_named(*edit.rule) == none)
       issues.push_back({IssueKind::unknown_name, pointer + "/rule",
                         "the rules have no symbol \"" + *edit.rule + "\"" + suggestion(*edit.rule, grammar)});
-    for (const auto& [name, value] : edit.attributes)
-      check_attribute_value(grammar, name, value_of(grammar.texts, value), pointer + "/attributes/", issues);
+    for (const auto& given : edit.attributes)
+      check_attribute_value(grammar, texts, given, pointer + "/attributes/", issues);
   }
 }
 
-EditTree edits_of(const BuildingParams& params, Grammar& grammar) {
+EditTree edits_of(const BuildingParams& params, const Grammar& grammar, Texts& texts) {
   EditTree tree;
   for (const BuildingEdit& given : params.edits) {
     std::uint32_t node = 0;
@@ -125,7 +126,7 @@ EditTree edits_of(const BuildingParams& params, Grammar& grammar) {
     edit.is_removed = given.remove;
     if (given.rule) edit.rule = grammar.symbol_named(*given.rule);
     for (const auto& [name, value] : given.attributes)
-      edit.attributes.emplace(attribute_named(grammar, name), value_of(grammar.texts, value));
+      edit.attributes.emplace(attribute_named(grammar, name), value_of(texts, value));
     tree.nodes[node].edit = static_cast<std::uint32_t>(tree.edits.size());
     tree.edits.push_back(std::move(edit));
   }

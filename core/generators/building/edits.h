@@ -38,11 +38,12 @@ struct EditTree {
   std::vector<ShapeEdit> edits;
 };
 
-/// Errors of the edits of a request, with their pointers. Texts of attributes are added to the grammar.
-void check_edits(const BuildingParams& params, Grammar& grammar, std::vector<Issue>& issues);
+/// Errors of the edits of a request, with their pointers.
+void check_edits(const BuildingParams& params, const Grammar& grammar, std::vector<Issue>& issues);
 
-/// The edits of a request that has no errors.
-EditTree edits_of(const BuildingParams& params, Grammar& grammar);
+/// The edits of a request that has no errors. Texts of attributes are added to `texts`, which begin with those of the
+/// grammar.
+EditTree edits_of(const BuildingParams& params, const Grammar& grammar, Texts& texts);
 
 /// Counts shapes of one symbol below one predecessor while they are made, and finds those of a tree.
 class EditSearch {

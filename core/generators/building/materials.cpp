@@ -156,7 +156,7 @@ int MaterialTable::material_of(const Shape& shape) {
   } else if (color != nullptr) {
     name = name_of_color(*color);
   } else {
-    const std::string& symbol = symbols_[shape.symbol];
+    const std::string& symbol = this->symbol(shape);
     if (params_.materials.contains(symbol))
       name = symbol;
     else

@@ -65,12 +65,12 @@ class MaterialTable {
   int facade_image_ = -1, facade_material_ = -1;
   std::map<std::string, int> by_name_;
   std::map<int, glm::dvec2> tiles_;
-  std::vector<std::string> symbols_;
+  const std::vector<Symbol>* symbols_ = nullptr;
 
  public:
-  /// Sets the names of the symbols, which shapes have as numbers.
-  void set_symbols(std::vector<std::string> names) { symbols_ = std::move(names); }
-  const std::string& symbol(const Shape& shape) const { return symbols_[shape.symbol]; }
+  /// Sets the symbols, which shapes have as numbers. They have to outlive the table.
+  void set_symbols(const std::vector<Symbol>& symbols) { symbols_ = &symbols; }
+  const std::string& symbol(const Shape& shape) const { return (*symbols_)[shape.symbol].name; }
 };
 
 /// Adds an issue for each image of a material that is not a valid data URI.

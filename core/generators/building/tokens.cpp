@@ -34,12 +34,21 @@ bool is_infix(const lang::Token& token) {
 }  // namespace
 
 std::uint32_t Texts::id_of(std::string_view text) {
-  const auto found = ids_.find(text);
-  if (found != ids_.end()) return found->second;
-  texts_.emplace_back(text);
-  const auto id = static_cast<std::uint32_t>(texts_.size());
-  ids_.emplace(std::string(text), id);
+  if (shared_) {
+    const auto known = shared_->ids.find(text);
+    if (known != shared_->ids.end()) return known->second;
+  }
+  const auto found = own_.ids.find(text);
+  if (found != own_.ids.end()) return found->second;
+  own_.texts.emplace_back(text);
+  const auto id = static_cast<std::uint32_t>(size());
+  own_.ids.emplace(std::string(text), id);
   return id;
+}
+
+void Texts::share() {
+  shared_ = std::make_shared<const Table>(std::move(own_));
+  own_ = {};
 }
 
 std::uint32_t Grammar::symbol_named(std::string_view name) const {

@@ -122,12 +122,14 @@ class Cell final : public RoadRules {
     const double length = streets_.length * 100 * (1.3 - 0.5 * density) *
                           (1 + draw.uniform(-streets_.length_spread, streets_.length_spread));
     const bool is_straight = is_raster_ || is_radial_ || is_along_tensor_;
-    const double bend = is_straight ? 0 : draw.uniform(-streets_.bend, streets_.bend);
+    const double freedom = is_along_tensor_ ? freedom_at(road.start) : is_straight ? 0 : 1;
+    const double bend = freedom > 0 ? freedom * draw.uniform(-streets_.bend, streets_.bend) : 0;
     const std::int32_t pieces = std::max(1, math::to_int32(length / piece_length + 0.5));
     dvec2 direction = aligned(road.direction, road.start);
     std::uint32_t node = road.start;
     for (std::int32_t n = 0; n < pieces; ++n) {
-      if (n > 0) direction = is_along_tensor_ ? aligned(direction, node) : rotated(direction, bend / pieces);
+      if (n > 0 && bend != 0) direction = rotated(direction, bend / pieces);
+      if (n > 0 && is_along_tensor_) direction = aligned(direction, node);
       const dvec2 end = in_cm(network_.nodes()[node]) + direction * (length / pieces);
       if (input_.density.at(end / 100.0) < least_density ||
           input_.is_blocked(in_cm(network_.nodes()[node]), end, streets_.classes.minor.grade))
@@ -225,7 +227,12 @@ class Cell final : public RoadRules {
   }
   static std::uint64_t side_of(const dvec2& in) { return (in.x >= 0 ? 1U : 0U) + (in.y >= 0 ? 2U : 0U); }
 
-  /// The direction, or that of the pattern which is nearest to it.
+  /// How little a street along the field keeps to it: the share of an organic pattern.
+  double freedom_at(std::uint32_t node) const {
+    return input_.tensor->organic_share_at(in_cm(network_.nodes()[node]));
+  }
+
+  /// The direction, or that of the pattern which is nearest to it, or one between them.
   dvec2 aligned(const dvec2& direction, std::uint32_t node) const {
     if (!is_raster_ && !is_radial_ && !is_along_tensor_) return direction;
     const dvec2 p = in_cm(network_.nodes()[node]);
@@ -236,7 +243,10 @@ class Cell final : public RoadRules {
       const dvec2 turned = rotated(frame, 90.0 * quarter);
       if (glm::dot(turned, direction) > glm::dot(best, direction)) best = turned;
     }
-    return best;
+    const double freedom = is_along_tensor_ ? freedom_at(node) : 0;
+    if (freedom == 0) return best;
+    const dvec2 mean = best * (1 - freedom) + direction * freedom;  // at most 45 degrees apart
+    return mean / length_of(mean);
   }
 
   bool join(std::uint32_t node) {

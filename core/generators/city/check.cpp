@@ -8,6 +8,7 @@
 #include "core/generators/city/house_requests.h"
 #include "core/generators/city/landform.h"
 #include "core/generators/city/productions.h"
+#include "core/generators/city/tensor.h"
 #include "core/generators/city/zoning.h"
 #include "core/geom/polygon/plan.h"
 #include "core/schema/json.h"
@@ -93,6 +94,20 @@ void check_rules(const CityParams& params, std::vector<Issue>& issues) {
   }
 }
 
+void check_patterns(const CityParams& params, const Job& job, std::vector<Issue>& issues) {
+  if (!params.maps.pattern) return;
+  FieldMap::read(*params.maps.pattern, "/maps/pattern", {-1, -1}, {1, 1}, job, issues);
+  const CityStreets& streets = params.streets;
+  if (streets.method != CityMethod::growth)
+    issues.push_back({IssueKind::conflict, "/maps/pattern",
+                      "found the method " + std::string(text_of(streets.method)) +
+                          ", which has no patterns; expected the method growth"});
+  if (second_pattern_of(streets) == streets.pattern)
+    issues.push_back({IssueKind::conflict, "/streets/second_pattern",
+                      "found " + std::string(text_of(streets.pattern)) +
+                          ", which is the pattern; expected another one"});
+}
+
 }  // namespace
 
 std::vector<Issue> check(const CityParams& params, const CheckContext& context) {
@@ -111,6 +126,7 @@ std::vector<Issue> check(const CityParams& params, const CheckContext& context) 
   check_map(params.maps.density, "/maps/density");
   if (params.maps.water) check_map(*params.maps.water, "/maps/water");
   if (params.maps.obstacles) check_map(*params.maps.obstacles, "/maps/obstacles");
+  check_patterns(params, context.job, issues);
   check_landform(params, context.job, issues);
   given_water(params, issues);
   std::vector<CrossSection> sections = classes_of(params);

@@ -66,7 +66,7 @@ Box box_of(const std::vector<CmRing>& area) {
 
 /// The maps of a request; those that it does not have are empty.
 struct Maps {
-  std::optional<FieldMap> density, water, obstacles;
+  std::optional<FieldMap> density, water, obstacles, pattern;
 };
 Maps read_maps(const CityParams& params, const Box& box, const Job& job, std::vector<Issue>& issues) {
   const auto read = [&](const MapValue& value, const char* pointer) {
@@ -76,6 +76,7 @@ Maps read_maps(const CityParams& params, const Box& box, const Job& job, std::ve
   maps.density = read(params.maps.density, "/maps/density");
   if (params.maps.water) maps.water = read(*params.maps.water, "/maps/water");
   if (params.maps.obstacles) maps.obstacles = read(*params.maps.obstacles, "/maps/obstacles");
+  if (params.maps.pattern) maps.pattern = read(*params.maps.pattern, "/maps/pattern");
   return maps;
 }
 
@@ -122,6 +123,22 @@ Route given_route_of(const Region& region, const std::vector<GivenLine>& lines) 
     all.bridges.insert(all.bridges.end(), route.bridges.begin(), route.bridges.end());
   }
   return all;
+}
+
+/// The field that streets follow, if they follow one.
+std::optional<TensorField> field_of(const CityParams& params, const Region& region, const FieldMap* blend,
+                                    const Landform* landform, const Job& job, std::vector<Issue>& issues) {
+  const CityStreets& streets = params.streets;
+  std::optional<TensorField> field;
+  if (blend) {
+    field.emplace(streets, *blend, landform, job.rng().at("pattern"));
+    return field;
+  }
+  const bool follows_slope =
+      streets.method == CityMethod::growth &&
+      (streets.pattern == CityPattern::slope || streets.minor_pattern == CityMinorPattern::slope);
+  if (streets.method == CityMethod::tensor || follows_slope) field.emplace(streets, region, landform, issues);
+  return field;
 }
 
 /// Streets stay above the water of a terrain.
@@ -194,21 +211,19 @@ Result<CityPlan> plan_of(const CityParams& params, Job& job) {
   const Route given = given_route_of(plan.region, lines);
   job.progress("streets", 0);
   const FieldMap* obstacles = maps.obstacles ? &*maps.obstacles : nullptr;
+  const Landform* landform = plan.landform->is_level() ? nullptr : plan.landform.get();
   WardPlan wards;
   const bool has_wards = params.streets.method == CityMethod::wards;
   if (has_wards)
-    wards = lay_out_wards(params, plan.region, *maps.density, obstacles, plan.classes, job, issues);
-  const Landform* landform = plan.landform->is_level() ? nullptr : plan.landform.get();
-  std::optional<TensorField> tensor;
-  const bool follows_slope = params.streets.method == CityMethod::growth &&
-                             (params.streets.pattern == CityPattern::slope ||
-                              params.streets.minor_pattern == CityMinorPattern::slope);
-  if (params.streets.method == CityMethod::tensor || follows_slope)
-    tensor.emplace(params.streets, plan.region, landform, issues);
+    wards = lay_out_wards(params, {plan.region, *maps.density, obstacles, landform}, plan.classes, job,
+                          issues);
+  const std::optional<TensorField> tensor =
+      field_of(params, plan.region, maps.pattern ? &*maps.pattern : nullptr, landform, job, issues);
   if (!issues.empty()) return Error{Code::invalid, std::move(issues)};
   plan.graph = grow_streets(
       {params.streets, *maps.density, grammar, plan.region, obstacles, lines.empty() ? nullptr : &given,
-       has_wards ? &wards : nullptr, tensor ? &*tensor : nullptr, landform},
+       has_wards ? &wards : nullptr, tensor ? &*tensor : nullptr, landform, plan.classes,
+       least_height(*plan.landform)},
       job);
   plan.wards = std::move(wards.wards);
   plan.gates = std::move(wards.gates);
@@ -260,7 +275,7 @@ Result<Appraisal> appraise(const CityParams& params, const GenerateContext& cont
   appraisal.warnings = remarks_on(params, *plan);
   Estimate estimate;
   const Surface surface(*plan, params.streets.wards.wall_height, job);
-  estimate.triangles = ground_triangles(*plan, surface, job);
+  estimate.triangles = ground_triangles(*plan, surface, context.demand.textures > 0, job);
   estimate.bytes = estimate.triangles * 48;
   if (auto error = estimate_contents(estimate, surface, params, context)) return std::move(*error);
   appraisal.estimate = estimate;

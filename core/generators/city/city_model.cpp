@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <memory>
 #include <string>
 #include <string_view>
 
@@ -10,8 +11,10 @@
 #include "core/generators/city/chunks.h"
 #include "core/generators/city/contents.h"
 #include "core/generators/city/ground_mesh.h"
+#include "core/generators/city/landmarks.h"
 #include "core/generators/city/surface.h"
 #include "core/generators/material_members.h"
+#include "core/texture/png.h"
 #include "generated/params/city.h"
 
 namespace seedmesh::city {
@@ -28,6 +31,8 @@ constexpr Look looks[] = {
     {"park", {0x5f, 0x7d, 0x45}, 1.0F},     {"square", {0xa8, 0x9d, 0x88}, 0.9F},
     {"lot", {0x86, 0x8f, 0x6a}, 1.0F},      {"water", {0x35, 0x55, 0x66}, 0.2F},
 };
+constexpr Look marking_look = {"marking", {0xd8, 0xd8, 0xd2}, 0.8F};
+
 Material material_of(const Look& look, const CityParams& params) {
   Material material;
   material.name = look.name;
@@ -44,6 +49,43 @@ Material material_of(const Look& look, const CityParams& params) {
     set_specular(material, own.specular);
     set_emission(material, own.emission);
   }
+  return material;
+}
+
+/// The colour of a surface in the request, or its own.
+std::array<std::uint8_t, 3> color_of(const Look& look, const CityParams& params) {
+  for (const auto& own : params.surfaces) {
+    if (own.color && text_of(own.material) == std::string_view(look.name))
+      return {own.color->red, own.color->green, own.color->blue};
+  }
+  return look.color;
+}
+
+/// Asphalt with stripes across the image: as many pixels without, with and without paint.
+Material striped_material(const char* name, const std::array<int, 3>& stripes, const CityParams& params,
+                          Model& model, const Job& job) {
+  constexpr std::uint32_t height = 4;
+  const Look& asphalt = looks[static_cast<std::size_t>(PartKind::carriageway)];
+  const std::array<std::uint8_t, 3> plain = color_of(asphalt, params), paint = color_of(marking_look, params);
+  std::vector<std::byte> pixels;
+  for (std::uint32_t row = 0; row < height; ++row) {
+    for (std::size_t stripe = 0; stripe < 3; ++stripe) {
+      for (int i = 0; i < stripes[stripe]; ++i) {
+        for (const std::uint8_t channel : stripe == 1 ? paint : plain) pixels.push_back(std::byte{channel});
+      }
+    }
+  }
+  const auto width = static_cast<std::uint32_t>(stripes[0] + stripes[1] + stripes[2]);
+  const Array<std::uint8_t> file =
+      texture::encode_png({width, height, 3, 8, pixels}, texture::PngEffort::small, job);
+  auto image = std::make_shared<Image>();
+  image->name = name;
+  image->bytes.assign(file.span().begin(), file.span().end());
+  Material material = material_of(asphalt, params);
+  material.name = name;
+  material.base_color = glm::vec4(1);
+  material.base_color_texture = {static_cast<int>(model.textures.size()), 0, true};
+  model.textures.push_back(std::move(image));
   return material;
 }
 
@@ -85,41 +127,69 @@ std::vector<GroundPiece> ground_pieces(const CityPlan& plan, const Chunks& chunk
   return pieces;
 }
 
+/// The meshes of the ground of one chunk and kind: without textures, all markings are one mesh.
+struct GroundMeshes {
+  GroundMesh plain, markings, crossings, lane_lines;
+  bool has_textures;
+
+  GroundMeshes(const CityPlan& plan, const Surface& surface, bool textures, const Job& job)
+      : plain(plan, surface, textures, job),
+        markings(plan, surface, textures, job),
+        crossings(plan, surface, textures, job),
+        lane_lines(plan, surface, textures, job),
+        has_textures(textures) {}
+
+  void add(const Part& part, std::uint32_t number) {
+    using Layer = GroundMesh::StreetLayer;
+    if (part.kind == PartKind::carriageway) {
+      plain.add_carriageway(number, Layer::asphalt);
+      markings.add_carriageway(number, Layer::stop_lines);
+      (has_textures ? crossings : markings).add_carriageway(number, Layer::crossings);
+      (has_textures ? lane_lines : markings).add_carriageway(number, Layer::lane_lines);
+    } else {
+      plain.add_part(number);
+    }
+    plain.add_walls(number);
+  }
+};
+
 /// One mesh for each kind of part in each chunk.
 void add_ground(Model& model, const Surface& surface, const CityParams& params, const Chunks& chunks,
-                ChunkNodes& nodes, Job& job) {
+                ChunkNodes& nodes, const GenerateContext& context) {
+  Job& job = context.job;
   const CityPlan& plan = surface.plan();
   std::map<std::string, int> materials;
-  const auto add = [&](const char* name, const Look& look, GroundMesh& mesh, std::uint32_t chunk) {
+  const auto add = [&](const char* name, const auto& make_material, GroundMesh& mesh, std::uint32_t chunk) {
     if (mesh.is_empty()) return;
     job.spend(Resource::triangles, mesh.triangles());
     const auto [material, is_new] = materials.try_emplace(name, static_cast<int>(model.materials.size()));
-    if (is_new) model.materials.push_back(material_of(look, params));
+    if (is_new) model.materials.push_back(make_material());
     add_mesh(model, name, material->second, mesh.take(job), nodes.group(chunk, "ground"));
   };
   for (const GroundPiece& piece : ground_pieces(plan, chunks)) {
-    GroundMesh mesh(plan, surface, job), markings(plan, surface, job);
+    GroundMeshes meshes(plan, surface, context.demand.textures > 0, job);
     std::size_t done = 0;
     for (const std::uint32_t n : piece.parts) {
       if (done++ % 256 == 0) job.check();
-      if (piece.kind == PartKind::carriageway) {
-        mesh.add_carriageway(n, GroundMesh::StreetLayer::asphalt);
-        markings.add_carriageway(n, GroundMesh::StreetLayer::markings);
-      } else {
-        mesh.add_part(n);
-      }
-      mesh.add_walls(n);
+      meshes.add(plan.parts[n], n);
     }
     const Look& look = looks[static_cast<std::size_t>(piece.kind)];
-    add("markings", {"marking", {0xd8, 0xd8, 0xd2}, 0.8F}, markings, piece.chunk);
-    add(look.name, look, mesh, piece.chunk);
+    const auto striped = [&](const char* name, const std::array<int, 3>& stripes) {
+      return [&model, &params, &job, name, stripes] {
+        return striped_material(name, stripes, params, model, job);
+      };
+    };
+    add("markings", [&] { return material_of(marking_look, params); }, meshes.markings, piece.chunk);
+    add("crossings", striped("crossing", {16, 16, 0}), meshes.crossings, piece.chunk);
+    add("lane_lines", striped("lane_line", {16, 16, 16}), meshes.lane_lines, piece.chunk);
+    add(look.name, [&] { return material_of(look, params); }, meshes.plain, piece.chunk);
   }
 }
 
 /// The parts of a town wall.
 void add_town_wall(Model& model, const CityPlan& plan, const Surface& surface, const CityParams& params,
                    Job& job) {
-  GroundMesh mesh(plan, surface, job);
+  GroundMesh mesh(plan, surface, false, job);
   for (std::uint32_t n = 0; n < plan.parts.size(); ++n) {
     if (!plan.parts[n].is_wall) continue;
     mesh.add_part(n);
@@ -130,13 +200,16 @@ void add_town_wall(Model& model, const CityPlan& plan, const Surface& surface, c
   add_mesh(model, "wall", material_of({"wall", {0x8d, 0x84, 0x74}, 0.95F}, params), mesh.take(job), 0);
 }
 
-/// The foundations of the houses on ground that is not level.
+/// The foundations of the buildings on ground that is not level.
 void add_foundations(Model& model, const CityPlan& plan, const Surface& surface, const CityParams& params,
                      Job& job) {
   if (surface.is_level()) return;
-  GroundMesh mesh(plan, surface, job);
+  GroundMesh mesh(plan, surface, false, job);
   for (const Lot& lot : plan.lots) {
-    if (lot.house) mesh.add_foundation(lot);
+    if (lot.house) mesh.add_foundation(lot.footing());
+  }
+  for (const Landmark& landmark : plan.landmarks) {
+    if (const auto footing = footing_of(landmark)) mesh.add_foundation(*footing);
   }
   if (mesh.is_empty()) return;
   job.spend(Resource::triangles, mesh.triangles());
@@ -153,27 +226,20 @@ void add_bridges(Model& model, const CityPlan& plan, const CityParams& params, J
 
 }  // namespace
 
-std::uint64_t ground_triangles(const CityPlan& plan, const Surface& surface, Job& job) {
+std::uint64_t ground_triangles(const CityPlan& plan, const Surface& surface, bool has_textures, Job& job) {
   std::uint64_t count = 0;
   constexpr std::size_t parts_a_mesh = 256;
   for (std::size_t begin = 0; begin < plan.parts.size(); begin += parts_a_mesh) {
     job.check();
-    GroundMesh mesh(plan, surface, job);
+    GroundMeshes meshes(plan, surface, has_textures, job);
     const std::size_t end = std::min(begin + parts_a_mesh, plan.parts.size());
-    for (std::size_t n = begin; n < end; ++n) {
-      const auto number = static_cast<std::uint32_t>(n);
-      if (plan.parts[n].kind == PartKind::carriageway) {
-        mesh.add_carriageway(number, GroundMesh::StreetLayer::asphalt);
-        mesh.add_carriageway(number, GroundMesh::StreetLayer::markings);
-      } else {
-        mesh.add_part(number);
-      }
-      mesh.add_walls(number);
-    }
-    count += mesh.triangles();
+    for (std::size_t n = begin; n < end; ++n) meshes.add(plan.parts[n], static_cast<std::uint32_t>(n));
+    for (const GroundMesh* each : {&meshes.plain, &meshes.markings, &meshes.crossings, &meshes.lane_lines})
+      count += each->triangles();
   }
   if (surface.is_level()) return count;
   for (const Lot& lot : plan.lots) count += lot.house ? 10 : 0;
+  for (const Landmark& landmark : plan.landmarks) count += footing_of(landmark) ? 10 : 0;
   return count;
 }
 
@@ -185,7 +251,7 @@ Result<Model> city_model(const CityPlan& plan, const CityParams& params, const G
   const Surface surface(plan, params.streets.wards.wall_height, job);
   const Chunks chunks(plan, params);
   ChunkNodes nodes(model, chunks);
-  add_ground(model, surface, params, chunks, nodes, job);
+  add_ground(model, surface, params, chunks, nodes, context);
   add_town_wall(model, plan, surface, params, job);
   add_foundations(model, plan, surface, params, job);
   add_bridges(model, plan, params, job);

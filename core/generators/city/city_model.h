@@ -13,7 +13,7 @@ namespace seedmesh::city {
 class Surface;
 
 /// Triangles of the ground of a plan and of its foundations, which are made for it.
-std::uint64_t ground_triangles(const CityPlan& plan, const Surface& surface, Job& job);
+std::uint64_t ground_triangles(const CityPlan& plan, const Surface& surface, bool has_textures, Job& job);
 
 /// Nodes: "city" > "ground" > one node and mesh for each kind of part ("asphalt", "junction", ..., "lot");
 /// "city" > "buildings" > one node for each shared building; "city" > "landmarks", "furniture", "trees", "borders". With

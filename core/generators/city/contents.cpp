@@ -11,6 +11,7 @@
 #include "core/generators/city/city_model.h"
 #include "core/generators/city/furniture_models.h"
 #include "core/generators/city/house_requests.h"
+#include "core/generators/city/landmarks.h"
 #include "core/generators/city/model_copies.h"
 #include "core/generators/city/objects.h"
 #include "core/generators/city/solid_builder.h"
@@ -64,7 +65,8 @@ std::vector<Contents> other_contents(const Surface& surface, const CityParams& p
     each.request = &landmark.request;
     each.pointer = landmark.pointer + "/model";
     const std::uint32_t block = landmark.part == no_index ? no_index : plan.parts[landmark.part].block;
-    const double height = landmark.part == no_index ? 0 : surface.height(landmark.part, landmark.position);
+    double height = landmark.part == no_index ? 0 : surface.height(landmark.part, landmark.position), lowest = 0;
+    if (const auto footing = footing_of(landmark)) height = surface.floor_height(*footing, lowest);
     each.copies.push_back(
         {transform_at(landmark.position, height, landmark.turn), chunks.at(landmark.position, block)});
     all.push_back(std::move(each));
@@ -103,10 +105,21 @@ std::vector<Copy> copies_of(const SharedHouse& house, const Surface& surface, co
   for (const std::uint32_t number : house.lots) {
     const Lot& lot = plan.lots[number];
     double lowest = 0;
-    copies.push_back({transform_at(lot.house->position, surface.floor_height(lot, lowest), lot.house->turn),
+    copies.push_back({transform_at(lot.house->position, surface.floor_height(lot.footing(), lowest), lot.house->turn),
                       chunks.at(lot.house->position, plan.parts[lot.part].block)});
   }
   return copies;
+}
+
+/// What the houses of each rule have in common, such as the grammar of a blueprint.
+std::map<std::uint32_t, Generator::Prepared> prepared_rules(const std::vector<SharedHouse>& houses,
+                                                            const GenerateContext& context) {
+  std::map<std::uint32_t, Generator::Prepared> prepared;
+  for (const SharedHouse& house : houses) {
+    const auto [at, is_new] = prepared.try_emplace(house.rule);
+    if (is_new) at->second = prepare_child(house.request, context);
+  }
+  return prepared;
 }
 
 bool has_parts(const Contents& each, const GenerateContext& context) {
@@ -269,15 +282,25 @@ std::optional<Error> add_contents(Model& model, ChunkNodes& nodes, const Chunks&
   Demand demand;
   demand.lods = level_count(view, context.demand);
   const std::vector<SharedHouse> houses = shared_houses(plan, params);
+  const std::map<std::uint32_t, Generator::Prepared> prepared = prepared_rules(houses, context);
+  // Levels and collision bodies need a node for each building.
+  constexpr std::size_t most_single = 2000;
+  if (houses.size() > most_single && context.demand.lods == 1 &&
+      context.demand.collision == CollisionNames::none)
+    writer.merge_single();
   auto error = make_and_add(
       job, houses.size(),
-      [&](std::size_t i) { return generate_child(houses[i].request, "/buildings", Rng(0), context, demand); },
+      [&](std::size_t i) {
+        return generate_prepared(houses[i].request, "/buildings", Rng(0), context, demand,
+                                 prepared.at(houses[i].rule));
+      },
       [&](std::size_t i, Model made) {
         scene::separate_bodies(made);
         writer.add(std::move(made), "building_" + std::to_string(model.meshes.size()), "buildings",
                    copies_of(houses[i], surface, chunks), CopyWriter::Bodies::boxes);
       });
   if (error) return error;
+  writer.write_merged("buildings", "houses");
   const std::vector<Contents> others = other_contents(surface, params, chunks, job);
   error = make_and_add(
       job, others.size(), [&](std::size_t i) { return model_of(others[i], demand, context); },

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
-#include <map>
 
 #include "core/base/math.h"
 #include "core/generators/city/shape.h"
@@ -27,6 +26,7 @@ constexpr double least_space = 100;  // between two sides of a block, cm
 }  // namespace
 
 std::vector<CmPoint> SharedEdge::between(const CmPoint& from, const CmPoint& to) const {
+  if (added.empty()) return {};
   const dvec2 origin = in_cm(from), along = in_cm(to) - origin;
   const double length2 = glm::dot(along, along);
   std::vector<std::pair<double, CmPoint>> found;
@@ -107,12 +107,20 @@ std::size_t Division::long_pieces() const {
 
 /// Simple outlines whose edges cancel, except those of the block, cover each point of it once.
 bool Division::is_partition() const {
-  std::map<std::pair<CmPoint, CmPoint>, int> open;
-  const auto add = [&open](const CmRing& ring, int count) {
+  struct Side {
+    CmPoint low, high;
+    int count = 0;
+  };
+  std::vector<Side> sides;
+  sides.reserve(8 * pieces_.size() + 2 * whole_.ring.size());
+  const auto add = [&sides](const CmRing& ring, int count) {
     for (std::size_t i = 0; i < ring.size(); ++i) {
-      const CmPoint &a = ring[i], &b = ring[(i + 1) % ring.size()];
-      const bool is_forward = a < b;
-      open[is_forward ? std::pair{a, b} : std::pair{b, a}] += is_forward ? count : 0 - count;
+      const CmPoint &a = ring[i], &b = ring[i + 1 < ring.size() ? i + 1 : 0];
+      if (a < b) {
+        sides.push_back({a, b, count});
+      } else {
+        sides.push_back({b, a, 0 - count});
+      }
     }
   };
   add(outline(whole_), -1);
@@ -121,7 +129,17 @@ bool Division::is_partition() const {
     if (!is_simple(ring) || doubled_area(ring) <= 0) return false;
     add(ring, 1);
   }
-  return std::all_of(open.begin(), open.end(), [](const auto& edge) { return edge.second == 0; });
+  std::sort(sides.begin(), sides.end(), [](const Side& s, const Side& t) {
+    return s.low != t.low ? s.low < t.low : s.high < t.high;
+  });
+  int open = 0;
+  for (std::size_t i = 0; i < sides.size(); ++i) {
+    open += sides[i].count;
+    const bool is_last =
+        i + 1 == sides.size() || sides[i + 1].low != sides[i].low || sides[i + 1].high != sides[i].high;
+    if (is_last && open != 0) return false;
+  }
+  return true;
 }
 
 /// Undoes all cuts.

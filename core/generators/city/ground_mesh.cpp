@@ -18,7 +18,33 @@ using glm::dvec2;
 constexpr double same_height = 1e-3;                              // m
 constexpr double inner_spacing = 10;                              // of vertices inside of parts, m
 constexpr double border_distance = 4;                             // of these vertices from edges, m
+constexpr double dash_spacing = 9;                                // of lane lines: 3 m of line, 6 m of gap
 constexpr double foundation_ledge = 0.1, foundation_depth = 0.5;  // m
+
+double length_of(const CrossLine& start, const CrossLine& end) {
+  return glm::length(end.left + end.right - start.left - start.right) / 2;
+}
+
+/// Where the lane lines of a street begin, and their dashes for each metre: whole dashes with their gaps.
+struct Dashes {
+  double begin = 0, a_metre = 1;
+};
+Dashes dashes_of(const StreetStrips& strips) {
+  double station = 0, begin = -1, end = 0;
+  for (std::size_t i = 0; i < strips.kinds.size(); ++i) {
+    if (strips.kinds[i] == StripKind::lanes && begin < 0) begin = station;
+    station += length_of(strips.lines[i], strips.lines[i + 1]);
+    if (strips.kinds[i] == StripKind::lanes) end = station;
+  }
+  if (begin < 0 || end <= begin) return {};
+  return {begin, std::max(1.0, std::floor((end - begin) / dash_spacing + 0.5)) / (end - begin)};
+}
+
+GroundMesh::StreetLayer layer_of(StripKind kind, const StripPiece& piece) {
+  if (!piece.is_marking) return GroundMesh::StreetLayer::asphalt;
+  if (kind == StripKind::lanes) return GroundMesh::StreetLayer::lane_lines;
+  return kind == StripKind::zebra ? GroundMesh::StreetLayer::crossings : GroundMesh::StreetLayer::stop_lines;
+}
 
 bool is_inside_part(const Part& part, const dvec2& metres) {
   bool is_in = false;
@@ -39,8 +65,8 @@ bool is_near_border(const Part& part, const dvec2& metres) {
 
 }  // namespace
 
-GroundMesh::GroundMesh(const CityPlan& plan, const Surface& surface, const Job& job)
-    : plan_(plan), surface_(surface), job_(job), triangulator_(&job) {
+GroundMesh::GroundMesh(const CityPlan& plan, const Surface& surface, bool has_textures, const Job& job)
+    : plan_(plan), surface_(surface), has_textures_(has_textures), job_(job), triangulator_(&job) {
   mesh_.position = Array<glm::vec3>(job);
   mesh_.normal = Array<glm::vec3>(job);
   mesh_.uv[0] = Array<glm::vec2>(job);
@@ -92,15 +118,21 @@ void GroundMesh::add_carriageway(std::uint32_t number, StreetLayer layer) {
       if (piece.from > 0) shares.push_back(piece.from);
     }
   };
-  std::vector<StripPiece> before, here = pieces_of(strips.kinds[0], section), after;
+  std::vector<StripPiece> before, here = pieces_of(strips.kinds[0], section, has_textures_), after;
+  const Dashes dashes = dashes_of(strips);
   double station = 0;
   for (std::size_t i = 0; i < strips.kinds.size(); ++i) {
-    after = i + 1 < strips.kinds.size() ? pieces_of(strips.kinds[i + 1], section) : std::vector<StripPiece>{};
+    after = i + 1 < strips.kinds.size() ? pieces_of(strips.kinds[i + 1], section, has_textures_) : std::vector<StripPiece>{};
     StripSides sides;
     sides.start = strips.lines[i];
     sides.end = strips.lines[i + 1];
     sides.station = station;
-    sides.length = glm::length(sides.end.left + sides.end.right - sides.start.left - sides.start.right) / 2;
+    sides.length = length_of(sides.start, sides.end);
+    if (has_textures_ && layer == StreetLayer::crossings) sides.periods_across = bars_of(section) + 0.5;
+    if (has_textures_ && layer == StreetLayer::lane_lines) {
+      sides.first_dash = dashes.begin;
+      sides.dashes_a_metre = dashes.a_metre;
+    }
     shares_of(before, sides.start_shares);
     shares_of(here, sides.start_shares);
     shares_of(here, sides.end_shares);
@@ -118,7 +150,7 @@ void GroundMesh::add_carriageway(std::uint32_t number, StreetLayer layer) {
       shares->erase(std::unique(shares->begin(), shares->end()), shares->end());
     }
     for (const StripPiece& piece : here) {
-      if (piece.is_marking == (layer == StreetLayer::markings)) add_strip(number, sides, piece);
+      if (layer_of(strips.kinds[i], piece) == layer) add_strip(number, sides, piece);
     }
     station += sides.length;
     before = std::move(here);
@@ -133,7 +165,10 @@ void GroundMesh::add_strip(std::uint32_t number, const StripSides& sides, const 
   const double width = glm::length(sides.start.right - sides.start.left);
   const auto add = [&](const CrossLine& line, double share, double station) {
     points_.push_back(point_across(line, share));
-    uv.emplace_back(static_cast<float>(station), static_cast<float>(share * width));
+    uv.emplace_back(static_cast<float>((station - sides.first_dash) * sides.dashes_a_metre),
+                    static_cast<float>(share * width));
+    if (sides.periods_across > 0)
+      uv.back() = {static_cast<float>(share * sides.periods_across), static_cast<float>(station)};
   };
   // Counter-clockwise: along the right side, across the end, back along the left side, across the start.
   const double end = sides.station + sides.length;
@@ -259,15 +294,15 @@ void GroundMesh::add_wall(const glm::dvec3& a_low, const glm::dvec3& b_low, doub
   for (const std::uint32_t corner : {first, second, third}) mesh_.index.wide.push_back(corner);
 }
 
-void GroundMesh::add_foundation(const Lot& lot) {
+void GroundMesh::add_foundation(const Footing& footing) {
   double lowest = 0;
   constexpr double plinth = 0.02;  // m: keeps its top apart from the house's underside
-  const double top_height = surface_.floor_height(lot, lowest) + plinth;
-  const math::SinCos turn = math::sincos_degrees(lot.house->turn);
-  const double x = lot.house->width / 2 + foundation_ledge, y = lot.house->depth / 2 + foundation_ledge;
+  const double top_height = surface_.floor_height(footing, lowest) + plinth;
+  const math::SinCos turn = math::sincos_degrees(footing.turn);
+  const double x = footing.width / 2 + foundation_ledge, y = footing.depth / 2 + foundation_ledge;
   std::array<dvec2, 4> ring = {dvec2(-x, -y), {x, -y}, {x, y}, {-x, y}};
   for (dvec2& p : ring)
-    p = lot.house->position + dvec2(p.x * turn.cos - p.y * turn.sin, p.x * turn.sin + p.y * turn.cos);
+    p = footing.position + dvec2(p.x * turn.cos - p.y * turn.sin, p.x * turn.sin + p.y * turn.cos);
   const double low = lowest - foundation_depth;
   std::array<std::uint32_t, 4> top{};
   for (std::size_t k = 0; k < 4; ++k) {

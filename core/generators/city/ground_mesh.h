@@ -12,22 +12,24 @@ namespace seedmesh::city {
 
 class GroundMesh {
  public:
-  GroundMesh(const CityPlan& plan, const Surface& surface, const Job& job);
+  /// With textures, pedestrian crossings and lane lines have the coordinates of the textures of their stripes.
+  GroundMesh(const CityPlan& plan, const Surface& surface, bool has_textures, const Job& job);
 
   /// Adds the surface of a part, with texture coordinates in metres east and north.
   void add_part(std::uint32_t part);
 
-  /// Adds the carriageway of a street, without or with only its markings. Texture coordinates are metres along and across.
-  /// Where it has no strips, add_part() adds it whole.
-  enum class StreetLayer { asphalt, markings };
+  /// Adds a layer of the carriageway of a street: what has no marking, stop lines, pedestrian crossings, or the lines
+  /// between lanes. Texture coordinates are metres along and across; along lane lines, one for each dash and its gap, and
+  /// across crossings, one for each bar and its gap. Where it has no strips, add_part() adds it whole.
+  enum class StreetLayer { asphalt, stop_lines, crossings, lane_lines };
   void add_carriageway(std::uint32_t part, StreetLayer layer);
 
   /// Adds the upright faces along edges where the part on the other side is lower, for example kerbs. Texture
   /// coordinates are metres along the edge and upwards.
   void add_walls(std::uint32_t part);
 
-  /// The foundation below a house: upright faces from the lowest ground to its floor, 10 cm outside of its walls.
-  void add_foundation(const Lot& lot);
+  /// The foundation below a building: upright faces from the lowest ground to its floor, 10 cm outside of its walls.
+  void add_foundation(const Footing& footing);
 
   std::uint64_t triangles() const { return mesh_.index.wide.size() / 3; }
   bool is_empty() const { return mesh_.index.wide.size() == 0; }
@@ -41,6 +43,8 @@ class GroundMesh {
     std::vector<double> start_shares, end_shares;
     std::vector<glm::dvec2> start_corner, end_corner;  ///< nodes on the border of the area
     double station = 0, length = 0;                    ///< along the street, metres
+    double first_dash = 0, dashes_a_metre = 1;         ///< of texture coordinates along the street
+    double periods_across = 0;                         ///< of a crossing; 0: metres
   };
   void add_strip(std::uint32_t part, const StripSides& sides, const StripPiece& piece);
   void add_inner_points(const Part& part);
@@ -50,6 +54,7 @@ class GroundMesh {
 
   const CityPlan& plan_;
   const Surface& surface_;
+  bool has_textures_;
   const Job& job_;
   /// Twice the area seen from above, in square metres, up to which a triangle is left out. Corners on a straight border
   /// make triangles without area, which cover nothing.

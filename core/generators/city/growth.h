@@ -31,6 +31,8 @@ struct GrowthInput {
   const WardPlan* wards = nullptr;      ///< null: major streets grow
   const TensorField* tensor = nullptr;  ///< null: streets follow patterns
   const Landform* landform = nullptr;   ///< null: level ground
+  std::vector<CrossSection> sections = {};  ///< by tag
+  double least_height = -1e9;               ///< of streets, m
 
   /// Whether an obstacle is at a position in metres.
   bool is_blocked(const glm::dvec2& metres) const { return obstacles && obstacles->at(metres) >= 0.5; }

@@ -18,19 +18,7 @@ double GrowthInput::limit_of(std::uint32_t kind) const {
 }
 
 bool GrowthInput::is_too_steep(const dvec2& a, const dvec2& b, double grade_limit) const {
-  constexpr double excess = 1.5, deepest = 5;  // m
-  if (!landform) return false;
-  const dvec2 along = b - a;
-  const double length = std::sqrt(along.x * along.x + along.y * along.y) / 100;
-  const double from = landform->at(a / 100.0), to = landform->at(b / 100.0);
-  if (std::abs(to - from) > excess * grade_limit * length) return true;
-  const std::int32_t count = math::to_int32(length / 10) + 1;
-  for (std::int32_t n = 1; n < count; ++n) {
-    const double share = static_cast<double>(n) / count;
-    if (std::abs(landform->at((a + along * share) / 100.0) - from - (to - from) * share) > deepest)
-      return true;
-  }
-  return false;
+  return landform && city::is_too_steep(*landform, a, b, grade_limit);
 }
 
 bool GrowthInput::is_blocked(const dvec2& a, const dvec2& b, double grade_limit) const {

@@ -70,7 +70,7 @@ std::vector<SharedHouse> shared_houses(const CityPlan& plan, const CityParams& p
       Child request = requests.of(house);
       const auto [same, is_other] =
           by_request.try_emplace({*request.seed, request.parameters}, houses.size());
-      if (is_other) houses.push_back({std::move(request), {}});
+      if (is_other) houses.push_back({std::move(request), house.rule, {}});
       at->second = same->second;
     }
     houses[at->second].lots.push_back(i);

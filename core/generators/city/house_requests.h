@@ -29,6 +29,7 @@ class HouseRequests {
 /// A building that stands in the city, once or often.
 struct SharedHouse {
   Child request;
+  std::uint32_t rule = 0;
   std::vector<std::uint32_t> lots;
 };
 

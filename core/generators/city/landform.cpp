@@ -72,6 +72,21 @@ bool Landform::covers(const glm::dvec2& low, const glm::dvec2& high) const {
   return low.x >= 0 - half.x && low.y >= 0 - half.y && high.x <= half.x && high.y <= half.y;
 }
 
+bool is_too_steep(const Landform& landform, const glm::dvec2& a, const glm::dvec2& b, double grade_limit) {
+  constexpr double excess = 1.5, deepest = 5;  // m
+  const glm::dvec2 along = b - a;
+  const double length = std::sqrt(along.x * along.x + along.y * along.y) / 100;
+  const double from = landform.at(a / 100.0), to = landform.at(b / 100.0);
+  if (std::abs(to - from) > excess * grade_limit * length) return true;
+  const std::int32_t count = math::to_int32(length / 10) + 1;
+  for (std::int32_t n = 1; n < count; ++n) {
+    const double share = static_cast<double>(n) / count;
+    if (std::abs(landform.at((a + along * share) / 100.0) - from - (to - from) * share) > deepest)
+      return true;
+  }
+  return false;
+}
+
 void check_landform(const CityParams& params, const Job& job, std::vector<Issue>& issues) {
   if (params.maps.height) {
     FieldMap::read(*params.maps.height, "/maps/height", {-1, -1}, {1, 1}, job, issues);

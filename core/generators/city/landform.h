@@ -44,6 +44,10 @@ class Landform {
   std::optional<double> water_level_;
 };
 
+/// Whether the ground along a segment, in centimetres, rises half more than a grade limit allows, or is more than 5 m above
+/// or below the segment.
+bool is_too_steep(const Landform& landform, const glm::dvec2& a, const glm::dvec2& b, double grade_limit);
+
 /// What the schema cannot say about the ground of a request.
 void check_landform(const CityParams& params, const Job& job, std::vector<Issue>& issues);
 

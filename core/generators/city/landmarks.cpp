@@ -1,6 +1,7 @@
 #include "core/generators/city/landmarks.h"
 
 #include <algorithm>
+#include <glm/common.hpp>
 #include <nlohmann/json.hpp>
 
 #include "core/base/math.h"
@@ -33,14 +34,30 @@ std::vector<glm::dvec2> plan_of_building(const Child& request) {
   return corners;
 }
 
-/// Whether all corners of a landmark's ground plan lie on a lot.
-bool fits(const Landmark& landmark, const std::vector<CmRing>& lot) {
+/// A position of the landmark's own frame, x and z, in the city.
+glm::dvec2 placed(const Landmark& landmark, const glm::dvec2& p) {
   const math::SinCos turn = math::sincos_degrees(landmark.turn);
-  const std::vector<glm::dvec2> corners = plan_of_building(landmark.request);
-  return std::all_of(corners.begin(), corners.end(), [&](const glm::dvec2& p) {
-    return is_in(lot, landmark.position +
-                          glm::dvec2(p.x * turn.cos + p.y * turn.sin, p.x * turn.sin - p.y * turn.cos));
-  });
+  return landmark.position +
+         glm::dvec2(p.x * turn.cos + p.y * turn.sin, p.x * turn.sin - p.y * turn.cos);
+}
+
+/// Whether a landmark's ground plan lies on a lot: its corners, and no edge that crosses the outline of the lot.
+bool fits(const Landmark& landmark, const std::vector<CmRing>& lot) {
+  CmRing plan;
+  for (const glm::dvec2& p : plan_of_building(landmark.request)) {
+    const glm::dvec2 at = placed(landmark, p);
+    if (!is_in(lot, at)) return false;
+    plan.push_back(rounded_cm(at * 100.0));
+  }
+  for (const CmRing& ring : lot) {
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      for (std::size_t k = 0; k < plan.size(); ++k) {
+        if (cross_properly(ring[i], ring[(i + 1) % ring.size()], plan[k], plan[(k + 1) % plan.size()]))
+          return false;
+      }
+    }
+  }
+  return true;
 }
 
 }  // namespace
@@ -80,6 +97,18 @@ void place_landmarks(CityPlan& plan) {
     landmark.is_too_large = !fits(landmark, plan.parts[landmark.part].rings);
     if (!landmark.is_too_large && lot->landmark == no_index) lot->landmark = i;
   }
+}
+
+std::optional<Footing> footing_of(const Landmark& landmark) {
+  const std::vector<glm::dvec2> corners = plan_of_building(landmark.request);
+  if (corners.empty() || landmark.part == no_index) return std::nullopt;
+  glm::dvec2 low = corners[0], high = low;
+  for (const glm::dvec2& p : corners) {
+    low = glm::min(low, p);
+    high = glm::max(high, p);
+  }
+  return Footing{placed(landmark, (low + high) / 2.0), landmark.turn, high.x - low.x, high.y - low.y,
+                 landmark.part};
 }
 
 std::vector<Warning> landmark_warnings(const CityPlan& plan) {

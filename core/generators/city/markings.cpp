@@ -112,13 +112,18 @@ StreetStrips strips_of_street(const CityPlan& plan, std::uint32_t edge) {
   return strips;
 }
 
-std::vector<StripPiece> pieces_of(StripKind kind, const CrossSection& section) {
+int bars_of(const CrossSection& section) {
+  return std::max(1, math::to_int32(section.width / bar_width / 2));
+}
+
+std::vector<StripPiece> pieces_of(StripKind kind, const CrossSection& section, bool has_textures) {
   if (kind == StripKind::plain) return {{0, 1, false}};
   if (kind == StripKind::stop_at_start) return {{0, 0.5, true}, {0.5, 1, false}};
   if (kind == StripKind::stop_at_end) return {{0, 0.5, false}, {0.5, 1, true}};
   std::vector<StripPiece> pieces;
+  if (kind == StripKind::zebra && has_textures) return {{0, 1, true}};
   if (kind == StripKind::zebra) {
-    const int bars = std::max(1, math::to_int32(section.width / bar_width / 2)), count = 2 * bars + 1;
+    const int count = 2 * bars_of(section) + 1;
     for (int k = 0; k < count; ++k)
       pieces.push_back({static_cast<double>(k) / count, static_cast<double>(k + 1) / count, k % 2 == 1});
     return pieces;

@@ -40,7 +40,10 @@ struct StripPiece {
   bool is_marking = false;
 };
 
-/// The pieces of a strip from left to right.
-std::vector<StripPiece> pieces_of(StripKind kind, const CrossSection& section);
+/// The number of bars of a pedestrian crossing. Gaps are as wide as bars, and lie at both kerbs.
+int bars_of(const CrossSection& section);
+
+/// The pieces of a strip from left to right. With textures, a pedestrian crossing is one piece.
+std::vector<StripPiece> pieces_of(StripKind kind, const CrossSection& section, bool has_textures);
 
 }  // namespace seedmesh::city

@@ -130,6 +130,7 @@ void CopyWriter::add(Model made, const std::string& name, const char* group, con
   std::vector<int> materials;
   for (Material& material : made.materials) materials.push_back(add_material(std::move(material), made));
   std::vector<std::vector<Primitive>> levels = scene::extract_levels(made, job);
+  if (merged_ && copies.size() == 1) return merge(levels, materials, copies[0]);
   LevelInfo info;
   std::vector<int> meshes;
   for (std::size_t level = 0; level < levels.size(); ++level) {
@@ -172,6 +173,33 @@ void CopyWriter::add(Model made, const std::string& name, const char* group, con
     begin = end;
   }
   if (bodies == Bodies::boxes) add_bodies(meshes[0], group, copies);
+}
+
+void CopyWriter::merge(const std::vector<std::vector<Primitive>>& levels, const std::vector<int>& materials,
+                       const Copy& copy) {
+  LevelInfo info;
+  std::vector<std::size_t> shown;  // levels with triangles
+  for (std::size_t level = 0; level < levels.size(); ++level) {
+    const std::uint64_t triangles = triangles_of(levels[level]);
+    if (triangles == 0) continue;
+    if (shown.empty()) measure(info, box_of(levels[level]));
+    shown.push_back(level);
+    info.triangles.push_back(triangles);
+  }
+  if (shown.empty()) return;
+  const std::size_t chosen = view_.level(info, copy.at);
+  const std::uint64_t triangles = info.triangles[chosen];
+  context_.job.spend(Resource::triangles, triangles - std::min(triangles, info.triangles[0]));
+  for (const Primitive& each : levels[shown[chosen]]) {
+    const int material = each.material < 0 ? -1 : materials[static_cast<std::size_t>(each.material)];
+    merged_->add(each.mesh, material, copy.at, copy.chunk);
+  }
+}
+
+void CopyWriter::write_merged(const char* group, const char* name) {
+  if (!merged_) return;
+  merged_->write(city_, nodes_, group, name);
+  merged_.reset();
 }
 
 LevelInfo level_info_of(Model made, Job& job) {

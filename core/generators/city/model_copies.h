@@ -6,6 +6,7 @@
 
 #include "core/generators/api.h"
 #include "core/generators/city/chunks.h"
+#include "core/generators/city/merged_copies.h"
 
 namespace seedmesh::city {
 
@@ -46,6 +47,11 @@ class CopyWriter {
 
   enum class Bodies { none, boxes };
 
+  /// From now on, models that stand once are merged by chunk and material, without levels, until write_merged().
+  void merge_single() { merged_.emplace(context_.job); }
+  /// Writes what was merged as meshes of this name.
+  void write_merged(const char* group, const char* name);
+
   /// Adds a model below the group of each chunk. Charges the triangles of all copies but one. With Bodies::boxes, each
   /// copy gets a collision box if the output wants collision bodies.
   void add(Model made, const std::string& name, const char* group, const std::vector<Copy>& copies,
@@ -55,11 +61,14 @@ class CopyWriter {
   int add_material(Material material, const Model& made);
   int add_level(std::string name, std::vector<Primitive> primitives, const std::vector<int>& materials);
   void add_bodies(int mesh, const char* group, const std::vector<Copy>& copies);
+  void merge(const std::vector<std::vector<Primitive>>& levels, const std::vector<int>& materials,
+             const Copy& copy);
 
   Model& city_;
   ChunkNodes& nodes_;
   const ViewPoint& view_;
   const GenerateContext& context_;
+  std::optional<MergedCopies> merged_;
 };
 
 /// Measures the levels of a model and empties it.

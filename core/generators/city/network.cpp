@@ -16,6 +16,20 @@ double dot(const glm::dvec2& a, const glm::dvec2& b) { return a.x * b.x + a.y * 
 double turn(const glm::dvec2& a, const glm::dvec2& b) { return a.x * b.y - a.y * b.x; }
 double length_of(const glm::dvec2& v) { return std::sqrt(dot(v, v)); }
 
+/// The box around a segment, grown by a distance: what lies outside is farther than that from the segment.
+class Reach {
+ public:
+  Reach(const glm::dvec2& a, const glm::dvec2& b, double distance)
+      : low_(glm::min(a, b) - glm::dvec2(distance)), high_(glm::max(a, b) + glm::dvec2(distance)) {}
+  bool may_hold(const CmPoint& a, const CmPoint& b) const {
+    return std::max(a.x, b.x) >= low_.x && std::min(a.x, b.x) <= high_.x && std::max(a.y, b.y) >= low_.y &&
+           std::min(a.y, b.y) <= high_.y;
+  }
+
+ private:
+  glm::dvec2 low_, high_;
+};
+
 /// The cosine of the angle at `o` between two points.
 double cosine(const CmPoint& o, const CmPoint& a, const CmPoint& b) {
   const glm::dvec2 u = in_cm(a) - in_cm(o), v = in_cm(b) - in_cm(o);
@@ -109,10 +123,12 @@ bool Network::may_link(std::uint32_t from, const CmPoint& to, std::uint32_t targ
     if (cosine(to, a, start) > most || cosine(to, b, start) > most) return false;
   }
   const glm::dvec2 p = in_cm(start), q = in_cm(to);
+  const Reach reach(p, q, limits_.beside + 1);
   for (std::uint32_t e = 0; e < edges_.size(); ++e) {
     const NetworkEdge& edge = edges_[e];
     if (edge.is_removed || e == split) continue;
     const CmPoint &a = nodes_[edge.from], &b = nodes_[edge.to];
+    if (!reach.may_hold(a, b)) continue;
     const bool at_start = edge.from == from || edge.to == from;
     const bool at_end = target != none && (edge.from == target || edge.to == target);
     if (!at_start && !at_end && segments_meet(start, to, a, b)) return false;
@@ -156,8 +172,10 @@ PieceResult Network::join_edge(std::uint32_t from, const Hit& hit, EdgeClass kin
 }
 
 bool Network::is_free(std::uint32_t from, const glm::dvec2& end) const {
+  const Reach reach(end, end, limits_.clearance + 1);
   for (const NetworkEdge& edge : edges_) {
     if (edge.is_removed || edge.from == from || edge.to == from) continue;
+    if (!reach.may_hold(nodes_[edge.from], nodes_[edge.to])) continue;
     if (distance_to_segment(end, in_cm(nodes_[edge.from]), in_cm(nodes_[edge.to])) < limits_.clearance)
       return false;
   }

@@ -116,6 +116,14 @@ struct NamedZone {
   std::vector<std::vector<CmRing>> polygons;
 };
 
+/// The rectangle below a building.
+struct Footing {
+  glm::dvec2 position{0};       ///< of its centre, metres east and north
+  double turn = 0;              ///< degrees, counter-clockwise from above
+  double width = 0, depth = 0;  ///< along and across the front, metres
+  std::uint32_t part = 0;       ///< into CityPlan::parts
+};
+
 /// A model at a given position.
 struct Landmark {
   Child request;  ///< with its seed
@@ -152,6 +160,8 @@ struct Lot {
   std::uint32_t landmark = no_index;  ///< into CityPlan::landmarks; such lots have no house
 
   bool is_built() const { return house.has_value() || landmark != no_index; }
+  /// Of its house, which it must have.
+  Footing footing() const { return {house->position, house->turn, house->width, house->depth, part}; }
 };
 
 struct Block {

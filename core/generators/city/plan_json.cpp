@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/generators/city/house_requests.h"
+#include "core/generators/city/landmarks.h"
 #include "core/generators/city/surface.h"
 
 namespace seedmesh::city {
@@ -180,12 +181,16 @@ class Writer {
     properties["building"] = nullptr;
     if (lot.landmark != no_index) {
       const Landmark& landmark = plan_.landmarks[lot.landmark];
-      const double floor =
-          surface_ ? millimetres(surface_->height(lot.part, landmark.position)) : kerb_height;
+      double floor = kerb_height, lowest = 0;
+      if (surface_) {
+        const auto footing = footing_of(landmark);
+        floor = millimetres(footing ? surface_->floor_height(*footing, lowest)
+                                    : surface_->height(lot.part, landmark.position));
+      }
       add_building(landmark.request, {landmark.position, floor}, landmark.turn, properties);
     } else if (lot.house) {
       double lowest = 0;
-      const double floor = surface_ ? millimetres(surface_->floor_height(lot, lowest)) : kerb_height;
+      const double floor = surface_ ? millimetres(surface_->floor_height(lot.footing(), lowest)) : kerb_height;
       add_building(requests_.of(*lot.house), {lot.house->position, floor}, lot.house->turn, properties);
     }
   }

@@ -1,6 +1,7 @@
 #include "core/generators/city/shape.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
@@ -45,28 +46,41 @@ CmRing hull_of(std::span<const CmPoint> ring) {
 }
 
 LeastBox least_box(std::span<const CmPoint> ring) {
-  CmRing hull;
-  if (is_convex(ring)) {  // as most lots are
-    hull.assign(ring.begin(), ring.end());
-    std::rotate(hull.begin(), std::min_element(hull.begin(), hull.end()), hull.end());
+  constexpr std::size_t few = 32;
+  std::array<dvec2, few> own;
+  std::vector<dvec2> more;
+  std::span<dvec2> hull;
+  // Most lots are convex and have few corners, which need no memory.
+  if (is_convex(ring) && ring.size() <= few) {
+    for (std::size_t i = 0; i < ring.size(); ++i) own[i] = in_cm(ring[i]);
+    const auto first = std::min_element(ring.begin(), ring.end()) - ring.begin();
+    hull = std::span(own).first(ring.size());
+    std::rotate(hull.begin(), hull.begin() + first, hull.end());
   } else {
-    hull = hull_of(ring);
+    for (const CmPoint& p : hull_of(ring)) more.push_back(in_cm(p));
+    hull = more;
   }
+  struct EdgeBox {
+    double area = 0, side = 0;
+  };
+  std::array<EdgeBox, few> own_boxes;
+  std::vector<EdgeBox> more_boxes(hull.size() > few ? hull.size() : 0);
+  const std::span<EdgeBox> boxes =
+      hull.size() > few ? std::span(more_boxes) : std::span(own_boxes).first(hull.size());
   LeastBox best;
   double least = std::numeric_limits<double>::infinity();
-  std::vector<std::pair<double, double>> boxes;  // area and short side
-  boxes.reserve(hull.size());
   for (std::size_t i = 0; i < hull.size(); ++i) {
-    const dvec2 a = in_cm(hull[i]), edge = in_cm(hull[(i + 1) % hull.size()]) - a;
+    const dvec2 a = hull[i], edge = hull[i + 1 < hull.size() ? i + 1 : 0] - a;
     const dvec2 d = edge / std::sqrt(edge.x * edge.x + edge.y * edge.y), n(-d.y, d.x);
     double low = 0, high = 0, height = 0;
-    for (const CmPoint& p : hull) {
-      const dvec2 off = in_cm(p) - a;
-      low = std::min(low, glm::dot(off, d));
-      high = std::max(high, glm::dot(off, d));
-      height = std::max(height, glm::dot(off, n));
+    for (const dvec2& p : hull) {
+      const dvec2 off = p - a;
+      const double along = glm::dot(off, d), across = glm::dot(off, n);
+      low = along < low ? along : low;
+      high = along > high ? along : high;
+      height = across > height ? across : height;
     }
-    boxes.emplace_back((high - low) * height, std::min(high - low, height));
+    boxes[i] = {(high - low) * height, std::min(high - low, height)};
     if ((high - low) * height >= least) continue;
     least = (high - low) * height;
     const bool is_long = high - low >= height;
@@ -74,8 +88,8 @@ LeastBox least_box(std::span<const CmPoint> ring) {
             a + d * ((low + high) / 2) + n * (height / 2), is_long ? d : n};
   }
   best.narrowest = best.short_side;
-  for (const auto& [area, side] : boxes) {
-    if (area < least * 1.02) best.narrowest = std::min(best.narrowest, side);
+  for (const EdgeBox& box : boxes) {
+    if (box.area < least * 1.02) best.narrowest = std::min(best.narrowest, box.side);
   }
   return best;
 }

@@ -295,18 +295,18 @@ double Surface::level_of_water(const Part& part) const {
   return plan_.landform->water_level() ? std::max(*plan_.landform->water_level(), below) : below;
 }
 
-double Surface::floor_height(const Lot& lot, double& lowest) const {
-  lowest = height(lot.part, lot.house->position);
+double Surface::floor_height(const Footing& footing, double& lowest) const {
+  lowest = height(footing.part, footing.position);
   if (is_level()) return lowest;
   double highest = lowest;
-  const math::SinCos turn = math::sincos_degrees(lot.house->turn);
+  const math::SinCos turn = math::sincos_degrees(footing.turn);
   constexpr int steps = 4;
   for (int i = 0; i <= steps; ++i) {
     for (int k = 0; k <= steps; ++k) {
-      const double x = lot.house->width * (i - steps / 2) / steps,
-                   y = lot.house->depth * (k - steps / 2) / steps;
-      const dvec2 at = lot.house->position + dvec2(x * turn.cos - y * turn.sin, x * turn.sin + y * turn.cos);
-      const double here = height(lot.part, at);
+      const double x = footing.width * (i - steps / 2) / steps,
+                   y = footing.depth * (k - steps / 2) / steps;
+      const dvec2 at = footing.position + dvec2(x * turn.cos - y * turn.sin, x * turn.sin + y * turn.cos);
+      const double here = height(footing.part, at);
       highest = std::max(highest, here);
       lowest = std::min(lowest, here);
     }

@@ -36,8 +36,8 @@ class Surface {
   /// The part on the other side of the edge from `a` to `b` of some part; no_index outside of the area.
   std::uint32_t part_beyond(const CmPoint& a, const CmPoint& b) const;
 
-  /// The height of the floor of a lot's house: the highest ground below it. `lowest` becomes the lowest.
-  double floor_height(const Lot& lot, double& lowest) const;
+  /// The height of the floor of a building: the highest ground below it. `lowest` becomes the lowest.
+  double floor_height(const Footing& footing, double& lowest) const;
 
  private:
   struct DirectedEdge {

@@ -1,6 +1,7 @@
 #include "core/generators/city/tensor.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 
@@ -14,6 +15,7 @@ namespace {
 using glm::dvec2;
 
 constexpr double weak = 0.05;  // weight of the grid below all fields, where they cancel or end
+constexpr double noise_spacings = 2, greatest_turn = 40;  // of an organic pattern: spacings of major streets, degrees
 
 /// Of a direction: the square of the complex number, so that opposite directions are alike.
 dvec2 doubled(const dvec2& d) {
@@ -22,15 +24,43 @@ dvec2 doubled(const dvec2& d) {
   return {(d.x * d.x - d.y * d.y) / squared, 2 * d.x * d.y / squared};
 }
 
+dvec2 grid_of(double degrees) {
+  const math::SinCos turn = math::sincos_degrees(2 * degrees);
+  return {turn.cos, turn.sin};
+}
+
 }  // namespace
+
+CityPattern second_pattern_of(const CityStreets& streets) {
+  if (streets.second_pattern) {
+    // Both have the same values in the same order.
+    return static_cast<CityPattern>(*streets.second_pattern);
+  }
+  return streets.pattern == CityPattern::raster ? CityPattern::organic : CityPattern::raster;
+}
+
+TensorField::Base TensorField::base_of(CityPattern pattern, const CityStreets& streets) {
+  Base base;
+  base.grid = grid_of(streets.angle);
+  base.position = {streets.centre[0] * 100, streets.centre[1] * 100};
+  if (pattern == CityPattern::radial) base.shape = Shape::radial;
+  if (pattern == CityPattern::slope) base.shape = Shape::height;
+  if (pattern == CityPattern::organic) base.shape = Shape::noise;
+  return base;
+}
+
+TensorField::TensorField(const CityStreets& streets, const FieldMap& blend, const Landform* landform, Rng rng)
+    : landform_(landform), blend_(&blend), rng_(rng) {
+  bases_.push_back({Shape::grid, {0, 0}, grid_of(streets.angle), weak, 0, {}});
+  bases_.push_back(base_of(streets.pattern, streets));
+  bases_.push_back(base_of(second_pattern_of(streets), streets));
+  bases_.back().is_second = true;
+  noise_size_ = streets.major_spacing * noise_spacings * 100;
+}
 
 TensorField::TensorField(const CityStreets& streets, const Region& region, const Landform* landform,
                          std::vector<Issue>& issues)
     : landform_(landform) {
-  const auto grid_of = [](double degrees) {
-    const math::SinCos turn = math::sincos_degrees(2 * degrees);
-    return dvec2(turn.cos, turn.sin);
-  };
   bases_.push_back({Shape::grid, {0, 0}, grid_of(streets.angle), weak, 0, {}});
   if (streets.pattern == CityPattern::slope) bases_.push_back({Shape::height, {0, 0}, {1, 0}, 1, 0, {}});
   for (std::size_t i = 0; i < streets.tensor.fields.size(); ++i) {
@@ -68,6 +98,10 @@ dvec2 TensorField::tensor_of(const Base& base, const dvec2& cm, double& squared_
   squared_distance = glm::dot(off, off);
   if (base.shape == Shape::grid) return base.grid;
   if (base.shape == Shape::radial) return doubled(off);
+  if (base.shape == Shape::noise) {
+    const dvec2 turn = grid_of(greatest_turn * noise_at(cm));
+    return {base.grid.x * turn.x - base.grid.y * turn.y, base.grid.x * turn.y + base.grid.y * turn.x};
+  }
   if (base.shape == Shape::height) {
     if (!landform_) return {0, 0};
     // Along the contour; full weight from a slope of 1:10.
@@ -88,8 +122,41 @@ dvec2 TensorField::tensor_of(const Base& base, const dvec2& cm, double& squared_
   return doubled(along);
 }
 
+double TensorField::noise_at(const dvec2& cm) const {
+  const dvec2 at = cm / noise_size_;
+  const std::int32_t column = math::to_int32(std::floor(at.x)), row = math::to_int32(std::floor(at.y));
+  const auto value = [&](std::int32_t dx, std::int32_t dy) {
+    return rng_.at(static_cast<std::uint32_t>(column + dx))
+        .at(static_cast<std::uint32_t>(row + dy))
+        .uniform(-1, 1);
+  };
+  const auto eased = [](double t) { return t * t * (3 - 2 * t); };
+  const double s = eased(at.x - column), t = eased(at.y - row);
+  const double low = value(0, 0) * (1 - s) + value(1, 0) * s, high = value(0, 1) * (1 - s) + value(1, 1) * s;
+  return low * (1 - t) + high * t;
+}
+
+double TensorField::organic_share_at(const dvec2& cm) const {
+  if (!blend_) return 0;
+  double share = 0;
+  const double second = blend_->at(cm / 100.0);
+  for (const Base& base : bases_) {
+    if (base.shape == Shape::noise) share += base.is_second ? second : 1 - second;
+  }
+  return share;
+}
+
 dvec2 TensorField::tensor_at(const dvec2& cm) const {
   dvec2 sum{0};
+  if (blend_) {
+    const double second = blend_->at(cm / 100.0);
+    const std::array<double, 3> weights = {weak, 1 - second, second};
+    double unused = 0;
+    for (std::size_t i = 0; i < bases_.size(); ++i) {
+      if (weights[i] > 0) sum += tensor_of(bases_[i], cm, unused) * weights[i];
+    }
+    return sum;
+  }
   for (const Base& base : bases_) {
     double squared_distance = 0;
     const dvec2 tensor = tensor_of(base, cm, squared_distance);

@@ -6,12 +6,14 @@
 
 #include "core/base/job.h"
 #include "core/base/result.h"
+#include "core/generators/city/density.h"
 #include "core/generators/city/geometry.h"
 #include "core/generators/city/region.h"
 
 namespace seedmesh {
 struct CityStreets;
 struct CityTensorField;
+enum class CityPattern;
 }  // namespace seedmesh
 
 namespace seedmesh::city {
@@ -29,6 +31,13 @@ class TensorField {
   TensorField(const CityStreets& streets, const Region& region, const Landform* landform,
               std::vector<Issue>& issues);
 
+  /// The pattern and the second pattern of the streets, blended by a map that has to outlive the field. An organic pattern
+  /// is a grid that smooth noise turns by up to 40 degrees.
+  TensorField(const CityStreets& streets, const FieldMap& blend, const Landform* landform, Rng rng);
+
+  /// The share of an organic pattern at a position in centimetres; 0 without a blend.
+  double organic_share_at(const glm::dvec2& cm) const;
+
   /// R cos 2a and R sin 2a at a position in centimetres.
   glm::dvec2 tensor_at(const glm::dvec2& cm) const;
 
@@ -37,18 +46,28 @@ class TensorField {
   glm::dvec2 direction_at(const glm::dvec2& cm) const;
 
  private:
-  enum class Shape { grid, radial, line, height };
+  enum class Shape { grid, radial, line, height, noise };
   struct Base {
     Shape shape = Shape::grid;
     glm::dvec2 position{0}, grid{1, 0};
     double weight = 1, size = 0;  ///< size in centimetres; 0: everywhere alike
     std::vector<CmRing> lines;
+    bool is_second = false;  ///< of a blend: its weight is that of the map
   };
+  static Base base_of(CityPattern pattern, const CityStreets& streets);
   glm::dvec2 tensor_of(const Base& base, const glm::dvec2& cm, double& squared_distance) const;
+  /// Smooth noise from -1 to 1.
+  double noise_at(const glm::dvec2& cm) const;
 
   std::vector<Base> bases_;
   const Landform* landform_;
+  const FieldMap* blend_ = nullptr;
+  double noise_size_ = 1;  ///< of a cell of the noise, centimetres
+  Rng rng_{0};
 };
+
+/// The pattern where the map of patterns is 1.
+CityPattern second_pattern_of(const CityStreets& streets);
 
 /// The major streets: streamlines of both directions about `major_spacing` apart (Jobard and Lefer, "Creating evenly
 /// spaced streamlines of arbitrary density", 1997), cut where they cross, with the share `t_junctions` of the crossings

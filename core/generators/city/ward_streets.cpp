@@ -9,6 +9,7 @@
 #include <set>
 
 #include "core/base/math.h"
+#include "core/generators/city/landform.h"
 #include "generated/params/city.h"
 
 namespace seedmesh::city {
@@ -142,12 +143,27 @@ class Streets {
       const math::SinCos by = math::sincos_degrees(turn);
       const dvec2 direction(out.x * by.cos - out.y * by.sin, out.x * by.sin + out.y * by.cos);
       const CmPoint start = cells_.corner[gate], end = rounded_cm(in_cm(start) + direction * far);
-      const Route road = route_of(input_.region, {start, end}, major, input_.streets.bridge_length * 100);
-      if (road.pieces.empty() || !is_apart(road, start)) continue;
+      const Route road = route_of(input_.ground.region, {start, end}, major, input_.streets.bridge_length * 100);
+      if (road.pieces.empty() || !is_apart(road, start) || is_steep(road)) continue;
       for (const StreetPiece& piece : road.pieces) add_pieces(piece.a, piece.b, major);
       plan_.route.bridges.insert(plan_.route.bridges.end(), road.bridges.begin(), road.bridges.end());
       return;
     }
+  }
+
+  bool is_steep(const Route& road) const {
+    const Landform* landform = input_.ground.landform;
+    return landform && std::any_of(road.pieces.begin(), road.pieces.end(), [&](const StreetPiece& piece) {
+             // A road is sampled in short pieces, as it can follow the ground.
+             const dvec2 a = in_cm(piece.a), along = in_cm(piece.b) - a;
+             const int count = std::max(1, math::to_int32(glm::length(along) / piece_length + 0.5));
+             for (int n = 0; n < count; ++n) {
+               const double from = static_cast<double>(n) / count, to = (n + 1.0) / count;
+               if (is_too_steep(*landform, a + along * from, a + along * to, input_.streets.classes.major.grade))
+                 return true;
+             }
+             return false;
+           });
   }
 
   /// Whether a road meets neither the wall nor another road, except at its gate.

@@ -8,6 +8,7 @@
 #include <map>
 
 #include "core/base/math.h"
+#include "core/generators/city/landform.h"
 #include "core/generators/city/ward_streets.h"
 #include "core/geom/polygon/plan.h"
 #include "core/geom/polygon/voronoi.h"
@@ -66,18 +67,19 @@ WardCells cells_of(const CityStreets& streets, Rng rng, const Job& job) {
   return cells;
 }
 
-/// Whether a cell is a sound polygon on dry land with people.
-bool is_fit(const WardCells& cells, std::uint32_t cell, const Region& region, const FieldMap& density,
-            const FieldMap* obstacles) {
+/// Whether a cell is a sound polygon on dry land with people, and no edge of it is too steep.
+bool is_fit(const WardCells& cells, std::uint32_t cell, const WardGround& ground, double grade_limit) {
   const CmRing ring = cells.ring_of(cell);
   if (ring.size() < 4 || !is_simple(ring) || doubled_area(ring) <= 0) return false;
   const dvec2 middle = cells.middle[cell];
-  if (!is_on_land(region, middle) || density.at(middle / 100.0) < least_density) return false;
+  if (!is_on_land(ground.region, middle) || ground.density.at(middle / 100.0) < least_density) return false;
   for (std::size_t i = 0; i < ring.size(); ++i) {
     const CmPoint &a = ring[i], &b = ring[(i + 1) % ring.size()];
+    const FieldMap* obstacles = ground.obstacles;
     if (obstacles && (obstacles->at(in_metres(a)) >= 0.5 || obstacles->at(middle / 100.0) >= 0.5))
       return false;
-    for (const OutlineEdge& edge : region.outline) {
+    if (ground.landform && is_too_steep(*ground.landform, in_cm(a), in_cm(b), grade_limit)) return false;
+    for (const OutlineEdge& edge : ground.region.outline) {
       if (segments_meet(a, b, edge.a, edge.b) ||
           distance_to_segment(in_cm(a), in_cm(edge.a), in_cm(edge.b)) < least_space ||
           distance_to_segment(in_cm(edge.a), in_cm(a), in_cm(b)) < least_space)
@@ -89,12 +91,11 @@ bool is_fit(const WardCells& cells, std::uint32_t cell, const Region& region, co
 
 /// The cells of the town, the nearest to the centre first.
 std::vector<std::uint32_t> chosen_cells(const WardCells& cells, const CityParams& params,
-                                        const Region& region, const FieldMap& density,
-                                        const FieldMap* obstacles, const Job& job) {
+                                        const WardGround& ground, const Job& job) {
   const dvec2 centre(params.streets.centre[0] * 100, params.streets.centre[1] * 100);
   std::vector<std::pair<double, std::uint32_t>> order;
   for (std::uint32_t i = 0; i < cells.rings.size(); ++i) {
-    if (is_fit(cells, i, region, density, obstacles))
+    if (is_fit(cells, i, ground, params.streets.classes.minor.grade))
       order.emplace_back(glm::length(cells.middle[i] - centre), i);
   }
   std::sort(order.begin(), order.end());
@@ -190,12 +191,11 @@ std::vector<Ward> wards_of(const WardCells& cells, const std::vector<std::uint32
 
 }  // namespace
 
-WardPlan lay_out_wards(const CityParams& params, const Region& region, const FieldMap& density,
-                       const FieldMap* obstacles, std::vector<CrossSection>& sections, Job& job,
-                       std::vector<Issue>& issues) {
+WardPlan lay_out_wards(const CityParams& params, const WardGround& ground,
+                       std::vector<CrossSection>& sections, Job& job, std::vector<Issue>& issues) {
   const Rng rng = job.rng().at("wards");
   WardCells cells = cells_of(params.streets, rng.at("points"), job);
-  const std::vector<std::uint32_t> chosen = chosen_cells(cells, params, region, density, obstacles, job);
+  const std::vector<std::uint32_t> chosen = chosen_cells(cells, params, ground, job);
   if (chosen.size() < least_wards) {
     issues.push_back({IssueKind::conflict, "/streets/wards",
                       "found space for " + std::to_string(chosen.size()) + " wards, expected at least " +
@@ -214,7 +214,7 @@ WardPlan lay_out_wards(const CityParams& params, const Region& region, const Fie
     wall = static_cast<std::uint32_t>(sections.size());
     sections.push_back(section);
   }
-  add_ward_streets(plan, cells, chosen, outline, {params.streets, region, wall, rng.at("gates")});
+  add_ward_streets(plan, cells, chosen, outline, {params.streets, ground, wall, rng.at("gates")});
   return plan;
 }
 

@@ -14,6 +14,7 @@
 #include "core/generators/city/house_requests.h"
 #include "core/generators/city/model_copies.h"
 #include "core/generators/city/objects.h"
+#include "core/generators/city/surface.h"
 #include "core/geom/mesh/finish.h"
 #include "generated/params/city.h"
 #include "tests/support/context.h"
@@ -124,6 +125,67 @@ TEST(CityHouses, AreTheSameBuildingsAsTheirRequestsAlone) {
     ++compared;
   }
   EXPECT_EQ(compared, houses.size());
+}
+
+TEST(CityHouses, AreTheSameWithRulesThatWereReadBefore) {
+  Job job(4, Job::Options{});
+  const GenerateContext context = context_of(job);
+  const auto request = [](const char* blueprint, double width, std::uint64_t seed) {
+    const Json body = {{"blueprint", blueprint},
+                       {"size", {width, 0, 10}},
+                       {"attributes", {{"lod", 1}, {"style", "brick"}, {"floors", 2}}}};
+    return Child{"building", seed, body.dump()};
+  };
+  const Generator::Prepared prepared = prepare_child(request("house", 9, 1), context);
+  ASSERT_TRUE(prepared);
+  // Rules of another blueprint do not fit and are not used.
+  for (const char* blueprint : {"house", "terraced_house"}) {
+    for (std::uint64_t seed = 0; seed < 5; ++seed) {
+      const Child child = request(blueprint, 8 + static_cast<double>(seed), seed);
+      const Result<Model> alone = generate_child(child, "", Rng(0), context);
+      const Result<Model> fast = generate_prepared(child, "", Rng(0), context, {}, prepared);
+      ASSERT_TRUE(alone && fast);
+      ASSERT_EQ(alone->meshes.size(), fast->meshes.size());
+      EXPECT_EQ(count(*alone).triangles, count(*fast).triangles);
+      for (std::size_t i = 0; i < alone->meshes.size(); ++i) {
+        ASSERT_EQ(alone->meshes[i].primitives.size(), fast->meshes[i].primitives.size());
+        for (std::size_t k = 0; k < alone->meshes[i].primitives.size(); ++k) {
+          const auto a = alone->meshes[i].primitives[k].mesh.position.span(),
+                     b = fast->meshes[i].primitives[k].mesh.position.span();
+          EXPECT_TRUE(std::equal(a.begin(), a.end(), b.begin(), b.end())) << blueprint << " " << seed;
+        }
+      }
+    }
+  }
+  EXPECT_FALSE(prepare_child({"building", 1, R"({"rules": "Lot --> extrude("})"}, context));
+}
+
+TEST(CityHouses, AreMergedWhereThousandsDiffer) {
+  const CityParams params = params_of(R"({"area": {"size": [1400, 1400]}, "lots": {"area": [120, 320], "width": 7},
+    "buildings": {"variants": 100000, "detail": 2,
+      "rules": [{"blueprint": "house", "floors": [1, 3], "side": 1, "rear": 1, "depth": [6, 12]}]}})");
+  const std::vector<SharedHouse> houses = shared_houses(plan_with(params, 2), params);
+  ASSERT_GT(houses.size(), 2000U);
+  std::uint64_t alone = 0;
+  for (const SharedHouse& each : houses) {
+    Job job(*each.request.seed, Job::Options{});
+    const Result<Model> made = generate_child(each.request, "", Rng(0), context_of(job));
+    ASSERT_TRUE(made);
+    if (each.lots.size() == 1) alone += count(*made).triangles;
+  }
+  const Model city = model_with(params, 2);
+  std::uint64_t merged = 0;
+  std::size_t nodes = 0;
+  for (const Node& node : city.nodes) {
+    if (node.name != "houses") continue;
+    ++nodes;
+    for (const Primitive& each : city.meshes[static_cast<std::size_t>(node.mesh)].primitives) {
+      merged += each.mesh.elements();
+      EXPECT_LE(each.mesh.position.size(), 65'535U);
+    }
+  }
+  EXPECT_EQ(merged, alone);
+  EXPECT_LT(nodes, 60U);
 }
 
 TEST(CityHouses, FollowRulesByStreetFrontageAndZone) {
@@ -258,6 +320,62 @@ TEST(Landmarks, AreNotInThePlanWhereTheyAreLargerThanTheirLot) {
     EXPECT_EQ(plan.landmarks[0].is_too_large, size > 100);
     EXPECT_FALSE(lot.house);
   }
+}
+
+TEST(Landmarks, AreNotInThePlanWhereAnEdgeOfTheirLotCutsThem) {
+  // A dead end runs into the block, so that its lot is not convex. The corners of the landmark lie on both sides of it.
+  const char* json = R"({"area": {"size": [300, 300]}, "streets": {"method": "given"},
+    "given": {"streets": {"type": "FeatureCollection", "features": [
+      {"type": "Feature", "properties": {}, "geometry": {"type": "LineString", "coordinates":
+        [[-100, -100], [0, -100], [100, -100], [100, 100], [-100, 100], [-100, -100]]}},
+      {"type": "Feature", "properties": {}, "geometry": {"type": "LineString", "coordinates": [[0, -100], [0, 0]]}}]}},
+    "buildings": {"rules": [], "landmarks": [{"plot": "block", "position": [POSITION, 0],
+      "model": {"generator": "building", "parameters": {"blueprint": "warehouse", "size": [60, 0, 60]}}}]}})";
+  for (const bool is_cut : {true, false}) {
+    std::string text = json;
+    text.replace(text.find("POSITION"), 8, is_cut ? "-20" : "-55");
+    const CityPlan plan = plan_with(params_of(text.c_str()), 1);
+    ASSERT_NE(plan.landmarks[0].lot, no_index) << is_cut;
+    EXPECT_EQ(plan.landmarks[0].is_too_large, is_cut);
+  }
+}
+
+TEST(Landmarks, StandOnFoundationsOnASlope) {
+  Json json = {{"area", {{"size", {400, 300}}}}, {"maps", {{"height", "x / 8"}}}};
+  json["buildings"] = {
+      {"rules", Json::array()},
+      {"landmarks",
+       {{{"model", {{"generator", "building"}, {"parameters", {{"blueprint", "warehouse"}, {"size", {12, 0, 8}}}}}},
+         {"position", {20, 20}},
+         {"turn", 30},
+         {"plot", "free"}}}}};
+  const CityParams params = params_of(json.dump().c_str());
+  const CityPlan plan = plan_with(params, 5);
+  ASSERT_NE(plan.landmarks[0].part, no_index);
+  Job job(5, Job::Options{});
+  const Surface surface(plan, 0, job);
+  const Model model = model_with(params, 5);
+  const auto named = [&](const char* name) {
+    return std::find_if(model.nodes.begin(), model.nodes.end(),
+                        [&](const Node& node) { return node.name == name && node.mesh >= 0; });
+  };
+  const auto landmark = named("landmark_0"), foundation = named("foundations");
+  ASSERT_NE(landmark, model.nodes.end());
+  ASSERT_NE(foundation, model.nodes.end());
+  const auto floor = static_cast<double>(landmark->transform.translation.y);
+  double lowest = 1e9;
+  for (int i = -6; i <= 6; i += 3) {
+    for (int k = -4; k <= 4; k += 2) {
+      const double c = std::cos(math::pi / 6), s = std::sin(math::pi / 6);
+      const double here = surface.height(plan.landmarks[0].part, dvec2(20 + i * c - k * s, 20 + i * s + k * c));
+      EXPECT_LE(here, floor + 1e-3);
+      lowest = std::min(lowest, here);
+    }
+  }
+  const MeshGroup& group = model.meshes[static_cast<std::size_t>(foundation->mesh)];
+  const Box box = bounds_of(group.primitives[0].mesh);
+  EXPECT_NEAR(static_cast<double>(box.max.y), floor, 0.03);
+  EXPECT_LT(static_cast<double>(box.min.y), lowest);
 }
 
 TEST(Landmarks, WarnWhereTheyStandOnAStreetOrOutside) {
@@ -402,6 +520,36 @@ TEST(LotBorders, AreEachThereOnceAndPassNoHouse) {
       ASSERT_GT(glm::length(gap), 0.01) << "a border is there twice";
     }
   }
+}
+
+TEST(LaneLines, HaveWholeDashesOfAboutNineMetres) {
+  const CityParams params = params_of(R"({"area": {"size": [500, 420]}, "buildings": {"rules": []}})");
+  Demand demand;
+  demand.textures = 256;
+  const Model model = model_with(params, 3, demand);
+  std::size_t quads = 0;
+  for (const Node& node : model.nodes) {
+    if (node.name != "lane_lines" || node.mesh < 0) continue;
+    const Primitive& each = model.meshes[static_cast<std::size_t>(node.mesh)].primitives[0];
+    const Material& material = model.materials[static_cast<std::size_t>(each.material)];
+    EXPECT_GE(material.base_color_texture.texture, 0);
+    const auto& index = each.mesh.index;
+    for (std::size_t i = 0; i < each.mesh.elements() * 3; ++i) {
+      const auto corner = index.at(i), next = index.at(i % 3 == 2 ? i - 2 : i + 1);
+      const double u = static_cast<double>(each.mesh.uv[0][corner].x), v = static_cast<double>(each.mesh.uv[0][next].x);
+      EXPECT_NEAR(u, std::round(u), 2e-3) << "a line begins and ends in the middle of a gap";
+      if (std::abs(u - v) < 0.5) continue;
+      ++quads;
+      const double metres = static_cast<double>(glm::length(each.mesh.position[corner] - each.mesh.position[next]));
+      if (std::abs(u - v) > 1.5) {
+        EXPECT_NEAR(metres / std::abs(u - v), 9, 2.3);
+      }
+    }
+  }
+  EXPECT_GT(quads, 50U);
+  const Model plain = model_with(params, 3);
+  EXPECT_TRUE(std::none_of(plain.nodes.begin(), plain.nodes.end(),
+                           [](const Node& node) { return node.name == "lane_lines"; }));
 }
 
 TEST(Chunks, DivideAModelWithoutChangingItsTriangles) {

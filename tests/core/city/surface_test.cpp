@@ -168,6 +168,25 @@ void expect_closed_ground(const CityParams& params, std::uint64_t seed) {
   EXPECT_TRUE(gaps.empty()) << gaps.size() << " gaps, seed " << seed << ", first " << gaps[0];
 }
 
+TEST(CityGrades, CutAndFillAtMostEightMetresAndAHalf) {
+  int plans = 0;
+  for (std::uint64_t seed = 0; seed < 60; ++seed) {
+    CityParams params = random_hills(seed);
+    params.lots.division = CityDivision::none;
+    const Result<CityPlan> plan = plan_by(params, seed);
+    if (!plan) continue;  // too steep for any street
+    ++plans;
+    for (std::uint32_t edge = 0; edge < plan->graph.edges.size(); ++edge) {
+      if (!plan->graph.is_street(edge)) continue;
+      for (std::uint32_t k = plan->heights.first[edge]; k < plan->heights.first[edge + 1]; ++k) {
+        const ProfilePoint& point = plan->heights.points[k];
+        EXPECT_LE(std::abs(point.height - plan->landform->at(in_metres(point.at))), 8.5) << "seed " << seed;
+      }
+    }
+  }
+  EXPECT_GT(plans, 30);
+}
+
 TEST(CityGround, HasNoGapsAndNoOverlapsOnLevelGround) {
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     CityParams params = random_hills(seed);

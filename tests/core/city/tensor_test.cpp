@@ -92,6 +92,84 @@ TEST(TensorField, NeedsTwoPointsOfAPolyline) {
   EXPECT_EQ(issues[0].pointer, "/streets/tensor/fields/1/points");
 }
 
+TEST(PatternMap, BlendsTensorsByItsValue) {
+  // Halfway between the directions 10 degrees (the raster) and 90 degrees (the ray) the mean of the doubled angles 20 and
+  // 180 degrees is 100 degrees, so that the direction is 50 degrees.
+  Job job(1, Job::Options{});
+  std::vector<Issue> issues;
+  const auto map = FieldMap::read("0.5 + x / 400", "/maps/pattern", {0, 0}, {1, 1}, job, issues);
+  ASSERT_TRUE(map);
+  CityStreets streets;
+  streets.pattern = CityPattern::raster;
+  streets.second_pattern = CitySecondPattern::radial;
+  streets.angle = 10;
+  const TensorField field(streets, *map, nullptr, job.rng());
+  const auto at = [](double degrees) {
+    return dvec2(std::cos(degrees * math::pi / 180), std::sin(degrees * math::pi / 180));
+  };
+  EXPECT_LT(between(field.direction_at({0, 20'000}), at(50)), 2);
+  EXPECT_LT(between(field.direction_at({-20'000, 20'000}), at(10)), 1e-6);
+  EXPECT_LT(between(field.direction_at({20'000, 20'000}), at(45)), 2);
+  EXPECT_EQ(field.organic_share_at({0, 0}), 0);
+}
+
+TEST(PatternMap, TurnsAnOrganicPatternByAtMostFortyDegrees) {
+  Job job(5, Job::Options{});
+  std::vector<Issue> issues;
+  const auto map = FieldMap::read("(x > 0) / 2", "/maps/pattern", {0, 0}, {1, 1}, job, issues);
+  ASSERT_TRUE(map);
+  const TensorField field({}, *map, nullptr, job.rng());
+  double most = 0;
+  for (int x = -200; x < 0; ++x) {
+    for (int y = -50; y < 50; ++y)
+      most = std::max(most, between(field.direction_at({x * 1000.0, y * 1000.0}), {1, 0}));
+  }
+  EXPECT_LE(most, 40);
+  EXPECT_GT(most, 20);
+  EXPECT_EQ(field.organic_share_at({-100, 0}), 1);
+  EXPECT_EQ(field.organic_share_at({100, 0}), 0.5);
+}
+
+/// The share of the length of streets in a half of the area that runs within 6 degrees of the axes.
+double aligned_share(const StreetGraph& graph, bool is_east) {
+  double all = 0, aligned = 0;
+  for (std::uint32_t e = 0; e < graph.edges.size(); ++e) {
+    if (!graph.is_street(e)) continue;
+    const dvec2 a = in_cm(graph.nodes[graph.edges[e].from]), b = in_cm(graph.nodes[graph.edges[e].to]);
+    if ((a.x > 10'000) != is_east || (a.x < -10'000) == is_east) continue;
+    const double off = between(b - a, {1, 0}), length = std::hypot(b.x - a.x, b.y - a.y);
+    all += length;
+    if (std::min(off, 90 - off) < 6) aligned += length;
+  }
+  return aligned / all;
+}
+
+TEST(PatternMap, GivesEachHalfItsPattern) {
+  for (std::uint64_t seed = 0; seed < 3; ++seed) {
+    CityParams params;
+    params.area.size = {1200, 800};
+    params.maps.pattern = "x > 0";
+    params.streets.major_spacing = 150;
+    Job job(seed, Job::Options{});
+    const Result<CityPlan> plan = plan_of(params, job);
+    ASSERT_TRUE(plan);
+    EXPECT_GT(aligned_share(plan->graph, true), 0.85) << "the raster, seed " << seed;
+    EXPECT_LT(aligned_share(plan->graph, false), 0.5) << "the organic half, seed " << seed;
+  }
+}
+
+TEST(PatternMap, RefusesOtherMethodsAndEqualPatterns) {
+  CityParams params;
+  params.maps.pattern = "x + ";
+  params.streets.method = CityMethod::wards;
+  params.streets.pattern = CityPattern::slope;
+  params.streets.second_pattern = CitySecondPattern::slope;
+  Job job(1, Job::Options{});
+  std::vector<std::string> pointers;
+  for (const Issue& each : check(params, {job})) pointers.push_back(each.pointer);
+  EXPECT_EQ(pointers, (std::vector<std::string>{"/maps/pattern", "/maps/pattern", "/streets/second_pattern"}));
+}
+
 CityPlan tensor_town(const std::vector<CityTensorField>& fields, double t_junctions, std::uint64_t seed,
                      double size = 1400) {
   CityParams params;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 
@@ -151,6 +152,24 @@ TEST(Wards, PartitionTheAreaBesideARiver) {
     EXPECT_NEAR(sum / area_of(plan->area), 1, 1e-5) << "seed " << seed;
     for (const Ward& ward : plan->wards) {
       for (const CmPoint& p : ward.ring) ASSERT_TRUE(is_on_land(plan->region, in_cm(p)));
+    }
+  }
+}
+
+TEST(Wards, KeepOffSteepGround) {
+  for (std::uint64_t seed = 0; seed < 4; ++seed) {
+    CityParams params = walled_town();
+    params.maps.height = "max(0, x - 60) * 0.6";  // a steep hillside in the east
+    const Result<CityPlan> plan = planned(params, seed);
+    ASSERT_TRUE(plan) << seed;
+    ASSERT_GE(plan->wards.size(), 4U);
+    for (const Ward& ward : plan->wards) {
+      for (std::size_t i = 0; i < ward.ring.size(); ++i) {
+        const glm::dvec2 a = in_metres(ward.ring[i]), b = in_metres(ward.ring[(i + 1) % ward.ring.size()]);
+        const double rise = 0.6 * std::abs(std::max(0.0, a.x - 60) - std::max(0.0, b.x - 60));
+        // Corners of the outline move a little once the wards are chosen.
+        EXPECT_LE(rise, 0.3 * distance(ward.ring[i], ward.ring[(i + 1) % ward.ring.size()]) / 100) << seed;
+      }
     }
   }
 }

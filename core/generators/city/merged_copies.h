@@ -1,0 +1,32 @@
+#pragma once
+/// Meshes of many models that stand once each, joined by chunk and material: engines draw few large meshes faster than
+/// thousands of small ones, and files are smaller.
+#include <map>
+#include <tuple>
+#include <vector>
+
+#include "core/generators/api.h"
+#include "core/generators/city/chunks.h"
+
+namespace seedmesh::city {
+
+class MergedCopies {
+ public:
+  explicit MergedCopies(Job& job) : job_(job) {}
+
+  /// Adds the triangles of a mesh with a material of the city, at a transform without a reflection. Other topologies are
+  /// left out.
+  void add(const Mesh& mesh, int material, const Transform& at, std::uint32_t chunk);
+
+  /// Adds all meshes to the model, each below the node `group` of its chunk.
+  void write(Model& model, ChunkNodes& nodes, const char* group, const char* name);
+
+ private:
+  /// Chunk, material, and which attributes there are.
+  using Key = std::tuple<std::uint32_t, int, bool, bool>;
+
+  Job& job_;
+  std::map<Key, std::vector<Mesh>> meshes_;  ///< of at most 65,535 vertices each, for short indices
+};
+
+}  // namespace seedmesh::city
