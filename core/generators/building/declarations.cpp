@@ -193,7 +193,12 @@ void read_annotations(Parser& p, Attribute& attribute, const std::vector<std::si
   for (const std::size_t note : notes) {
     const Token& name = p.tokens.at(note);
     const std::vector<NoteArgument> given = arguments_of(p, note);
-    if (name.text == "Enum") {
+    // Before 2019, @Range("a", "b") and @Range(true, false) were lists of values.
+    const bool is_list = name.text == "Range" && std::ranges::any_of(given, [&](const NoteArgument& each) {
+                           return each.name.empty() && (each.value.text != 0 || p.tokens.is_name(each.token, "true") ||
+                                                        p.tokens.is_name(each.token, "false"));
+                         });
+    if (name.text == "Enum" || is_list) {
       for (const NoteArgument& each : given) {
         if (each.name == "restricted")
           attribute.is_restricted = each.value.number != 0;

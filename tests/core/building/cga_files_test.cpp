@@ -96,6 +96,19 @@ TEST(CgaFiles, JoinsTheOperationsInBracesBehindInline) {
   EXPECT_THAT(active(answer), HasSubstr("Wall"));
 }
 
+TEST(CgaFiles, TakesRangesOfTextsAsLists) {
+  BuildingParams params = with(
+      "version \"2018.0\"\n@Range(\"square\", \"round\") attr kind = \"square\"\n@Range(true, false) attr roofs = false\n"
+      "A --> case kind == \"round\" && roofs: B. else: C.");
+  EXPECT_EQ(active(derived(params)), "C");
+  params.attributes = {{"kind", std::string("round")}, {"roofs", true}};
+  EXPECT_EQ(active(derived(params)), "B");
+  params.attributes["kind"] = std::string("oval");
+  const std::vector<Issue> issues = check(params, Limits{});
+  ASSERT_EQ(issues.size(), 1U);
+  EXPECT_EQ(issues[0].pointer, "/attributes/kind");
+}
+
 /// The CGA reference on extrude and roofHip: y along the normal of the face, x kept as much as possible.
 TEST(CgaFiles, TurnsTheScopeTowardsTheDirectionOfAnExtrusion) {
   const auto scopes = [](const std::string& rules) {
