@@ -9,7 +9,8 @@
 ///
 /// Letters are the same in both cases; entries without a name or called comment are comments. The turtle
 /// starts to the right, in the plane of the image. It has two headings: + - | turn that of F and G, \\ and
-/// / that of D and M.
+/// / that of D and M. The turtle here has one. If an entry draws with both, it is that of F and G, and a variable is the
+/// angle from it to the other heading; rules of the interpretation keep it up to date.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -29,6 +30,7 @@ namespace {
 constexpr int usual_order = 4;       // the file does not contain the number of steps
 constexpr double most_colors = 256;  // a palette of VGA
 constexpr std::size_t longest_rule = 1'000'000;
+constexpr std::size_t deepest_branch = 1'000;  // of entries with two headings
 
 /// One entry, command by command.
 class EntryReader {
@@ -85,12 +87,6 @@ class EntryReader {
         by_steps_ = by_steps_ || c == 'F' || c == 'G';
         by_degrees_ = by_degrees_ || c == 'D' || c == 'M';
         has_mirror_ = has_mirror_ || c == '!';
-        if (by_steps_ && by_degrees_) {
-          source_.report(at,
-                         "found F or G beside D or M, which have separate headings; the turtle has one "
-                         "heading here");
-          return;
-        }
       }
     }
   }
@@ -136,6 +132,8 @@ class EntryReader {
     commands(successor, known->text);
   }
 
+  bool has_two_headings() const { return by_steps_ && by_degrees_; }
+
   /// The module for a symbol, with a parameter if the command has a number; empty if there is none.
   std::string predecessor_of(char symbol) const {
     switch (symbol) {
@@ -148,9 +146,9 @@ class EntryReader {
       case '@':
         return "@Di(n)";
       case '\\':
-        return "+(n)";
+        return has_two_headings() ? "left_m(n)" : "+(n)";
       case '/':
-        return "-(n)";
+        return has_two_headings() ? "right_m(n)" : "-(n)";
       case '!':
         return "@-";
       case '|':
@@ -178,15 +176,22 @@ class EntryReader {
           out.write(c == '|' ? half_turn(start) : std::string(1, c), start);
       } else if (c == '\\' || c == '/') {
         const std::string degrees = text_of(number(start, at, line.to));
-        if (turns(by_degrees_, by_steps_, c, start))
-          out.write((c == '\\' ? "+(" : "-(") + degrees + ")", start);
+        const bool left = c == '\\';
+        if (has_two_headings())
+          out.write((left ? "left_m(" : "right_m(") + degrees + ")", start);
+        else if (turns(by_degrees_, by_steps_, c, start))
+          out.write((left ? "+(" : "-(") + degrees + ")", start);
       } else if (c == 'C' || c == '<' || c == '>') {
         out.write(color(c, start, at, line.to), start);
       } else if (is_letter(c)) {
         used_[static_cast<unsigned char>(c)] = true;
         out.write(std::string(1, c), start);
       } else if (is_digit(c) || c == '[' || c == ']') {
-        out.copy(text, start, at);
+        if (c == ']' || !has_two_headings())
+          out.copy(text, start, at);
+        else
+          out.write("save_m[", start);
+        if (c == ']' && has_two_headings()) out.write("load_m", start);
       } else if (c == '!') {
         out.write("@-", start);
       } else if (c == '@') {
@@ -218,9 +223,12 @@ class EntryReader {
   /// The turn nearest to 180 degrees that the divisions allow, to the right. `!` does not change it.
   std::string half_turn(std::size_t at) {
     if (divisions_ % 2 == 0) return "|";
+    if (has_two_headings()) return "back_m";
     if (has_mirror_) warn_once(at, "|", "turns to the other side after `!`, unlike in Fractint");
-    return "-(" + text_of(360.0 / std::max(divisions_, 1) * (divisions_ / 2)) + ")";
+    return "-(" + text_of(odd_half_turn()) + ")";
   }
+
+  double odd_half_turn() const { return 360.0 / std::max(divisions_, 1) * (divisions_ / 2); }
 
   double number(std::size_t start, std::size_t& at, std::size_t to) {
     double value = 0;
@@ -283,6 +291,7 @@ class EntryReader {
          std::array<std::pair<char, const char*>, 3>{{{'D', "D -> F"}, {'G', "G -> f"}, {'M', "M -> f"}}}) {
       if (used_[static_cast<unsigned char>(letter)]) interpretation.push_back(meaning);
     }
+    if (has_two_headings()) put_two_headings(parameters, interpretation);
     parameters["interpretation"] = std::move(interpretation);
     out.origins.push_back({"/parameters/axiom", axiom_.runs()});
     out.request = {{"generator", "lsystem"}, {"parameters", std::move(parameters)}};
@@ -290,6 +299,27 @@ class EntryReader {
                  "an entry has no number of steps; `iterations` is " + std::to_string(usual_order),
                  "/parameters/iterations");
     return out;
+  }
+
+  /// `apart` is the angle from the heading of F and G to that of D and M, `side` is -1 after an odd number of `!`.
+  void put_two_headings(Json& parameters, Json& rules) const {
+    const std::string turn = text_of(360.0 / std::max(divisions_, 1));
+    rules = {"+ : {apart = apart - " + turn + " * side;} 1 -> +",
+             "- : {apart = apart + " + turn + " * side;} 1 -> -",
+             "| : {apart = apart + 180;} 1 -> |",
+             "back_m : {apart = apart + " + text_of(odd_half_turn()) + ";} 1 -> -(" +
+                 text_of(odd_half_turn()) + " * side)",
+             "left_m(n) : {apart = apart + n * side;} 1 -> *",
+             "right_m(n) : {apart = apart - n * side;} 1 -> *",
+             "@- : {side = -side;} 1 -> @-",
+             "save_m : {saved[level] = apart; saved[level + 1] = side; level = level + 2;} 1 -> *",
+             "load_m : {level = level - 2; apart = saved[level]; side = saved[level + 1];} 1 -> *",
+             "D -> +(apart * side)F-(apart * side)",
+             "M -> +(apart * side)f-(apart * side)",
+             "G -> f"};
+    parameters["modules"] = {"left_m(n)", "right_m(n)", "back_m", "save_m", "load_m"};
+    parameters["variables"] = {{"apart", 0}, {"side", 1}, {"level", 0}};
+    parameters["arrays"] = {{"saved", Json(std::vector<double>(2 * deepest_branch, 0.0))}};
   }
 
   struct Rule {

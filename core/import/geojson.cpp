@@ -8,6 +8,7 @@
 #include "core/import/city_plan.h"
 #include "core/import/foreign_text.h"
 #include "core/import/formats.h"
+#include "core/import/geojson_features.h"
 #include "core/import/map_names.h"
 #include "core/import/map_scene.h"
 
@@ -19,6 +20,8 @@ constexpr std::string_view blanks = " \t\r\n";
 constexpr char record_separator = '\x1e';
 // Greatest depth of geometry collections.
 constexpr int deepest = 8;
+// Larger files are parsed feature by feature.
+constexpr std::size_t whole_file = 1024 * 1024;
 
 /// The text of a property; empty for null and for lists and objects.
 std::string text_of(const Json& value) {
@@ -31,14 +34,31 @@ class GeoJsonReader {
  public:
   explicit GeoJsonReader(const ImportOptions& options) : options_(options) {}
 
-  Result<Imported> read(const Json& file) {
-    data_.plain_polygons_are_buildings = true;
-    read_crs(file);
-    is_plan_ = is_city_plan(file);
-    if (is_plan_) {
-      data_.unit = MapUnit::metres;
-      is_stated_ = true;
+  /// Reads a file whose features are still texts.
+  Result<Imported> read_in_parts(std::string_view text, const FeatureTexts& features) {
+    Result<Json> file = parse_json(features.shell, {.job = options_.job});
+    if (!file) return std::move(file).error();
+    Json& list = (*file)["features"];
+    if (!features.texts.empty()) {
+      Result<Json> first = parse_feature(text, features, 0, options_.job);
+      if (!first) return std::move(first).error();
+      list.push_back(*std::move(first));
     }
+    begin(*file);
+    if (type_of(*file) != "FeatureCollection") return read(*file);
+    for (std::size_t i = 0; i < features.texts.size() && issues_.size() < most_errors; ++i) {
+      if (i > 0) {
+        Result<Json> one = parse_feature(text, features, i, options_.job);
+        if (!one) return std::move(one).error();
+        list[0] = *std::move(one);
+      }
+      read_feature(list[0], "/features/" + std::to_string(i));
+    }
+    return made();
+  }
+
+  Result<Imported> read(const Json& file) {
+    begin(file);
     const std::string type = type_of(file);
     if (type == "FeatureCollection") {
       const Json* features = member(file, "features", "");
@@ -55,6 +75,21 @@ class GeoJsonReader {
       read_geometry(file, "", feature, 0);
       data_.features.push_back(std::move(feature));
     }
+    return made();
+  }
+
+ private:
+  void begin(const Json& file) {
+    data_.plain_polygons_are_buildings = true;
+    read_crs(file);
+    is_plan_ = is_city_plan(file);
+    if (is_plan_) {
+      data_.unit = MapUnit::metres;
+      is_stated_ = true;
+    }
+  }
+
+  Result<Imported> made() {
     if (!issues_.empty()) return Error{Code::invalid, std::move(issues_)};
     if (!is_stated_ && is_beyond_degrees_) {
       data_.unit = MapUnit::metres;
@@ -63,7 +98,6 @@ class GeoJsonReader {
     return scene_of_map(std::move(data_), "", options_);
   }
 
- private:
   void report(IssueKind kind, std::string pointer, std::string message) {
     if (issues_.size() < most_errors) issues_.push_back({kind, std::move(pointer), std::move(message)});
   }
@@ -337,6 +371,12 @@ int marks_of_geojson(std::string_view text) {
 Result<Imported> import_geojson(std::string_view text, const ImportOptions& options) {
   if (std::optional<Error> error = entry_error(options, "a file of GeoJSON is one map"))
     return *std::move(error);
+  if (text.size() > whole_file && !has_features_as_lines(text)) {
+    const std::optional<FeatureTexts> features = feature_texts(text);
+    // Errors outside of the features are found in the whole text, for their position.
+    if (features && parse_json(features->shell, {.job = options.job}))
+      return GeoJsonReader(options).read_in_parts(text, *features);
+  }
   Result<Json> file = has_features_as_lines(text) ? collection_of_lines(text, options.job)
                                                   : parse_json(text, {.job = options.job});
   if (!file) return std::move(file).error();

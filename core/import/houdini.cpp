@@ -16,6 +16,7 @@
 #include "core/import/foreign_text.h"
 #include "core/import/formats.h"
 #include "core/import/houdini_names.h"
+#include "core/import/houdini_rules.h"
 #include "core/import/houdini_settings.h"
 #include "core/import/traced_text.h"
 #include "core/lang/lexer.h"
@@ -38,6 +39,7 @@ class HoudiniReader {
       read_line(line, rules);
     }
     find_group(rules);
+    positions_ = HoudiniPositions(text_, rules);
     if (!premise_) {
       source_.report(0, "found no premise");
     } else {
@@ -48,6 +50,7 @@ class HoudiniReader {
     if (is_bare_ && rules.empty()) source_.report(premise_->from, "found no rule; expected such as `A=FA`");
     parameters_["productions"] = Json::array();
     for (const Line& each : rules) rule(each);
+    positions_.put(parameters_);
     names_.put(values_["gravity"].value, parameters_, source_);
     return made();
   }
@@ -74,7 +77,7 @@ class HoudiniReader {
       rules.push_back(rest);
     } else if (const auto value = values_.find(key); colon < line.to && value != values_.end()) {
       number(rest, value->second);
-    } else if (const std::size_t equals = equals_of(line);
+    } else if (const std::size_t equals = houdini_equals(text_, line);
                colon == line.to && equals < line.to && is_setting(line.from, equals)) {
       source_.report(equals, "found `=` behind a parameter; expected a colon such as in `Angle: 28`");
     } else if (equals < line.to) {
@@ -137,51 +140,25 @@ class HoudiniReader {
     }
   }
 
-  /// The offset of the = of a rule, outside of parentheses and comparisons; line.to if there is none.
-  std::size_t equals_of(Line line) const {
-    int depth = 0;
-    for (std::size_t i = line.from; i < line.to; ++i) {
-      const char c = text_[i];
-      if (c == '(') ++depth;
-      if (c == ')') --depth;
-      if (c != '=' || depth > 0) continue;
-      const char before = i > line.from ? text_[i - 1] : ' ', after = i + 1 < line.to ? text_[i + 1] : ' ';
-      if (after == '=') {
-        ++i;
-      } else if (before != '!' && !((before == '<' || before == '>') && has_condition(line, i))) {
-        return i;
-      }
-    }
-    return line.to;
-  }
-
-  /// Whether the line has a condition before `to`: <= and >= occur only there.
-  bool has_condition(Line line, std::size_t to) const {
-    return text_.substr(0, to).find(':', line.from) != std::string_view::npos;
-  }
-
-  /// [lc<]pred[>rc][:cond]=succ[:prob]
   void rule(Line line) {
-    const std::size_t equals = equals_of(line);
-    if (equals == line.to) {
+    const HoudiniRule parts = houdini_rule(text_, line);
+    if (parts.equals == line.to) {
       source_.report(line.from, "found a rule without `=`");
       return;
     }
-    std::size_t head = outside(':', {line.from, equals});
-    const Line condition = head < equals ? trimmed(text_, {head + 1, equals}) : Line{equals, equals};
-    const std::size_t weight = outside(':', {equals + 1, line.to});
     TracedText out;
-    names_.begin_rule(text_.substr(line.from, head - line.from));
-    pattern({line.from, head}, out);
+    names_.begin_rule(text_.substr(parts.head.from, parts.head.to - parts.head.from),
+                      positions_.reads(text_, parts));
+    pattern(parts, out);
     const auto append = [&](std::string_view before, Line part) {
       out.write(before, part.from);
       names_.note(text_.substr(part.from, part.to - part.from), part.from);
       out.copy(text_, part.from, part.to);
     };
-    if (condition.from < condition.to) append(" : ", condition);
-    out.write(" -> ", equals);
-    modules({equals + 1, weight}, Role::word, out);
-    if (weight < line.to) append(" : ", trimmed(text_, {weight + 1, line.to}));
+    if (parts.condition.from < parts.condition.to) append(" : ", parts.condition);
+    out.write(" -> ", parts.equals);
+    modules(parts.successor, Role::word, out);
+    if (parts.weight.from < parts.weight.to) append(" : ", parts.weight);
     const std::string index = std::to_string(parameters_["productions"].size());
     out_.origins.push_back({"/parameters/productions/" + index, out.runs()});
     parameters_["productions"].push_back(out.text());
@@ -191,37 +168,23 @@ class HoudiniReader {
   /// Whether a rule rewrites g, which names a group otherwise: then it is a mere variable.
   void find_group(const std::vector<Line>& rules) {
     for (const Line& each : rules) {
-      const std::size_t equals = equals_of(each);
-      const Line head = trimmed(text_, {each.from, outside(':', {each.from, equals})});
-      const std::size_t less = outside('<', head), greater = outside('>', head);
-      const Line center = trimmed(text_, {less < head.to ? less + 1 : head.from, greater});
+      const Line center = trimmed(text_, houdini_rule(text_, each).center);
       has_group_ = has_group_ || (center.from < center.to && text_[center.from] == 'g');
     }
     if (has_group_) parameters_["modules"] = {"var_g"};
   }
 
-  std::size_t outside(char mark, Line line) const {
-    int depth = 0;
-    for (std::size_t i = line.from; i < line.to; ++i) {
-      if (text_[i] == '(') ++depth;
-      if (text_[i] == ')') --depth;
-      if (depth == 0 && text_[i] == mark) return i;
+  void pattern(const HoudiniRule& rule, TracedText& out) {
+    if (rule.has_left) {
+      modules(rule.left, Role::pattern, out);
+      out.write(" < ", rule.left.to);
+    } else if (positions_.reads(text_, rule)) {
+      out.write("?P(x,y,z) < ", rule.center.from);
     }
-    return line.to;
-  }
-
-  void pattern(Line line, TracedText& out) {
-    const std::size_t less = outside('<', line);
-    const std::size_t greater = outside('>', line);
-    if (less < line.to) {
-      modules({line.from, less}, Role::pattern, out);
-      out.write(" < ", less);
-    }
-    const std::size_t from = less < line.to ? less + 1 : line.from;
-    modules({from, std::max(greater, from)}, Role::pattern, out);
-    if (greater < line.to) {
-      out.write(" > ", greater);
-      modules({greater + 1, line.to}, Role::pattern, out);
+    modules(rule.center, Role::pattern, out);
+    if (rule.has_right) {
+      out.write(" > ", rule.center.to);
+      modules(rule.right, Role::pattern, out);
     }
   }
 
@@ -248,6 +211,7 @@ class HoudiniReader {
         }
         at = close + 1;
       }
+      if (role == Role::word && positions_.has(c)) out.write("?P(0,0,0)", start);
       const std::string written = module(c, arguments, start, role);
       const std::size_t same = written.size() - std::min(written.size(), arguments.size());
       if (!arguments.empty() && written.substr(same) == arguments &&
@@ -379,6 +343,7 @@ class HoudiniReader {
   bool is_bare_ = false;    ///< the premise has no name in the file
   bool has_group_ = false;  ///< g is a variable
   HoudiniNames names_;
+  HoudiniPositions positions_;
   HoudiniArities arities_;
   std::set<char> warned_;
   Json parameters_ = Json::object();

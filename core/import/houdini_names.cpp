@@ -24,7 +24,7 @@ void each_word(std::string_view text, Use&& use) {
 }  // namespace
 
 bool HoudiniNames::is_formal(std::string_view name) const {
-  bool found = false;
+  bool found = has_position_ && (name == "x" || name == "y" || name == "z");
   int depth = 0;
   each_word(formal_, [&](const std::string& word, std::size_t) {
     if (word == "(") ++depth;

@@ -13,9 +13,13 @@ namespace seedmesh {
 
 class HoudiniNames {
  public:
-  /// The predecessor and contexts of the rule that is read; their parameters hide variables.
-  void begin_rule(std::string_view head) { formal_ = head; }
-  void end_rule() { formal_ = {}; }
+  /// The predecessor and contexts of the rule that is read; their parameters hide variables. `has_position`: x, y and z
+  /// are parameters, too.
+  void begin_rule(std::string_view head, bool has_position) {
+    formal_ = head;
+    has_position_ = has_position;
+  }
+  void end_rule() { begin_rule({}, false); }
 
   /// Notes the names of an expression at byte `at` of the file.
   void note(std::string_view text, std::size_t at);
@@ -29,6 +33,7 @@ class HoudiniNames {
   bool is_formal(std::string_view name) const;
 
   std::string_view formal_;
+  bool has_position_ = false;
   std::map<std::string, std::size_t> names_;  ///< with the first offset of each
 };
 

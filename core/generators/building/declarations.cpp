@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <span>
 
 #include "core/generators/building/compile_values.h"
 
@@ -55,13 +56,15 @@ std::size_t count_arguments(const Parser& p, std::size_t open) {
 void separate_overloads(Parser& p) {
   std::map<std::string_view, std::vector<std::size_t>> counts;
   for (std::size_t i = 0; !p.tokens.is_end(i); ++i) {
-    if (p.tokens.at(i).kind == TokenKind::name && p.tokens.is(i + 1, "(") && begins_statement(p, i) &&
-        !begins_rule(p, i) && p.tokens.is(behind_head(p, i), "=")) {
+    const bool has_brackets = p.tokens.is(i + 1, "(");
+    if (p.tokens.at(i).kind == TokenKind::name && (has_brackets || p.tokens.is(i + 1, "=")) &&
+        begins_statement(p, i) && !begins_rule(p, i) && p.tokens.is(behind_head(p, i), "=")) {
       std::vector<std::size_t>& all = counts[p.tokens.at(i).text];
-      const std::size_t count = count_arguments(p, i + 1);
-      if (std::ranges::find(all, count) == all.end()) all.push_back(count);
+      const std::size_t count = has_brackets ? count_arguments(p, i + 1) : 0;
+      // One without brackets keeps its name, because only calls with brackets are renamed.
+      if (std::ranges::find(all, count) == all.end()) all.insert(has_brackets ? all.end() : all.begin(), count);
     }
-    if (p.tokens.is(i, "{") || p.tokens.is(i, "[")) i = p.tokens.partner(i);
+    if (p.tokens.is(i, "{") || p.tokens.is(i, "[") || p.tokens.is(i, "(")) i = p.tokens.partner(i);
   }
   std::erase_if(counts, [](const auto& each) { return each.second.size() < 2; });
   if (counts.empty()) return;
@@ -116,7 +119,7 @@ std::size_t collect_definition(Parser& p, std::size_t i, bool is_constant, bool 
     add_error(p, name, in_quotes(name) + " is declared twice", IssueKind::duplicate_key);
   } else if (is_attribute || is_constant) {
     p.declared.emplace(key, p.declarations.size());
-    p.declarations.push_back({key, function.from, function.to, Declaration::State::untouched, {}});
+    p.declarations.push_back({key, function.from, function.to, Progress::untouched, {}});
     Attribute attribute;
     attribute.name = key;
     attribute.is_constant = is_constant;
@@ -190,7 +193,12 @@ void read_annotations(Parser& p, Attribute& attribute, const std::vector<std::si
   for (const std::size_t note : notes) {
     const Token& name = p.tokens.at(note);
     const std::vector<NoteArgument> given = arguments_of(p, note);
-    if (name.text == "Enum") {
+    // Before 2019, @Range("a", "b") and @Range(true, false) were lists of values.
+    const bool is_list = name.text == "Range" && std::ranges::any_of(given, [&](const NoteArgument& each) {
+                           return each.name.empty() && (each.value.text != 0 || p.tokens.is_name(each.token, "true") ||
+                                                        p.tokens.is_name(each.token, "false"));
+                         });
+    if (name.text == "Enum" || is_list) {
       for (const NoteArgument& each : given) {
         if (each.name == "restricted")
           attribute.is_restricted = each.value.number != 0;
@@ -218,28 +226,60 @@ void read_annotations(Parser& p, Attribute& attribute, const std::vector<std::si
   }
 }
 
+void compile_attribute(Parser& p, std::size_t index);
+
+/// Compiles the attributes that tokens name, also those in the bodies of functions that they call. `attribute` is the
+/// one that needs them; names in `hidden` are parameters.
+void compile_needed(Parser& p, std::size_t attribute, std::size_t from, std::size_t to,
+                    std::span<const std::string_view> hidden) {
+  for (std::size_t i = from; i < to; ++i) {
+    const Token& token = p.tokens.at(i);
+    const bool is_member = i > from && p.tokens.is(i - 1, ".");
+    if (token.kind != TokenKind::name || is_member || std::ranges::find(hidden, token.text) != hidden.end())
+      continue;
+    if (const auto found = p.declared.find(token.text); found != p.declared.end())
+      compile_attribute(p, found->second);
+    const auto called = p.functions.find(token.text);
+    if (called == p.functions.end() || called->second.order == Progress::done) continue;
+    RuleFunction& function = called->second;
+    if (function.order == Progress::in_progress) {
+      // A function may call itself, but no attribute may stand between.
+      if (function.owner != attribute)
+        add_error(p, p.tokens.at(p.declarations[attribute].from),
+                  "the value of `" + p.declarations[attribute].name + "` depends on itself",
+                  IssueKind::evaluation);
+      continue;
+    }
+    function.order = Progress::in_progress;
+    function.owner = attribute;
+    std::vector<std::string_view> names = function.parameters;
+    for (const LocalValue& each : function.locals) {
+      compile_needed(p, attribute, each.from, each.to, names);
+      names.push_back(each.name);
+    }
+    compile_needed(p, attribute, function.from, function.to, names);
+    function.order = Progress::done;
+  }
+}
+
 void compile_attribute(Parser& p, std::size_t index) {
   Declaration& declaration = p.declarations[index];
-  if (declaration.state == Declaration::State::done) return;
+  if (declaration.state == Progress::done) return;
   if (p.depth > 200) {
     add_error(p, p.tokens.at(declaration.from),
               "found a chain of more than 200 attributes that need each other");
     return;
   }
-  if (declaration.state == Declaration::State::in_progress) {
+  if (declaration.state == Progress::in_progress) {
     add_error(p, p.tokens.at(declaration.from), "the value of `" + declaration.name + "` depends on itself",
               IssueKind::evaluation);
     return;
   }
-  declaration.state = Declaration::State::in_progress;
+  declaration.state = Progress::in_progress;
   ++p.depth;
-  for (std::size_t i = declaration.from; i < declaration.to; ++i) {
-    if (p.tokens.at(i).kind != TokenKind::name || p.tokens.is(i - 1, ".")) continue;
-    const auto found = p.declared.find(p.tokens.at(i).text);
-    if (found != p.declared.end()) compile_attribute(p, found->second);
-  }
+  compile_needed(p, index, declaration.from, declaration.to, {});
   --p.depth;
-  declaration.state = Declaration::State::done;
+  declaration.state = Progress::done;
   Attribute& attribute = p.grammar.attributes[index];
   attribute.value = compile_value(p, declaration.from, declaration.to);
   read_annotations(p, attribute, declaration.annotations);

@@ -6,6 +6,7 @@
 #include "core/generators/building/containment.h"
 #include "core/generators/building/evaluate.h"
 #include "core/generators/building/operators.h"
+#include "core/generators/building/raised_solids.h"
 #include "core/generators/building/slabs.h"
 
 namespace seedmesh::building {
@@ -191,6 +192,7 @@ void run_step(Derivation& d, const OperatorRow& row, const Step& step, ShapeStat
   ++d.guarded_steps;
   try {
     row.run(d, step, state, site);
+    stand_up(d, step, before, state);
   } catch (const StepFault& fault) {
     state = before;
     d.depth_of_inline = depth;

@@ -23,8 +23,11 @@ struct Statement {
   Kind kind = Kind::other;
   std::size_t first = 0, last = 0;  ///< tokens
   std::size_t name = 0;             ///< token of its name
+  std::size_t name_end = 0;         ///< behind its name, which has points if it replaces a rule of an import
   std::size_t value = 0;            ///< of an attribute: token of its value; 0 for other declarations
   bool is_start = false, is_extension = false;
+
+  bool is_foreign() const { return name_end > name + 1; }  ///< a rule of an imported file
 };
 
 /// The tokens of one file, and how its brackets fit together.
@@ -49,6 +52,11 @@ File read_file(std::string_view plain, const RuleText::Part& part, std::vector<l
     }
   }
   return file;
+}
+
+/// Whether a token follows the one before it without a blank.
+bool touches(const File& file, std::size_t i) {
+  return i > 0 && file.at(i).offset == file.at(i - 1).offset + file.at(i - 1).length;
 }
 
 /// Whether a token still belongs to an expression, as `style` in `look = style`.
@@ -89,10 +97,15 @@ Statement statement_at(const File& file, std::size_t i) {
   if (out.is_start || out.is_extension) ++i;
   if (file.at(i).kind != TokenKind::name) return out;
   std::size_t behind = i + 1;
+  while (touches(file, behind) && file.is(behind, ".") && touches(file, behind + 1) &&
+         file.at(behind + 1).kind == TokenKind::name)
+    behind += 2;
+  const std::size_t name_end = behind;
   if (file.is(behind, "(")) behind = file.partner[behind] + 1;
   if (is_name(file.at(behind), "with") && file.is(behind + 1, "(")) behind = file.partner[behind + 1] + 1;
   out.name = i;
-  if (file.is(behind, "=")) out.kind = Statement::Kind::definition;
+  out.name_end = name_end;
+  if (file.is(behind, "=") && !out.is_foreign()) out.kind = Statement::Kind::definition;
   if (file.is(behind, "-->") || file.is(behind, "~>")) out.kind = Statement::Kind::rule;
   return out;
 }
@@ -108,6 +121,7 @@ std::vector<Statement> statements_of(const File& file) {
     }
     const std::size_t name = found.kind == Statement::Kind::other ? i : found.name;
     i = std::max(i, name) + 1;
+    if (found.kind == Statement::Kind::rule) i = std::max(i, found.name_end);
     if (file.is(i - 1, "(") || file.is(i - 1, "[") || file.is(i - 1, "{")) i = file.partner[i - 1] + 1;
     if (found.kind != Statement::Kind::other && file.is(i, "(")) i = file.partner[i] + 1;
   }
@@ -138,7 +152,8 @@ class Loader {
     for (const Statement& each : all) {
       if (each.kind == Statement::Kind::import)
         names.aliases.emplace(file.at(each.name).text);
-      else if (each.kind == Statement::Kind::definition || each.kind == Statement::Kind::rule)
+      else if ((each.kind == Statement::Kind::definition || each.kind == Statement::Kind::rule) &&
+               !each.is_foreign())
         names.own.emplace(file.at(each.name).text);
       if (each.is_start) names.start = file.at(each.name).text;
     }
@@ -150,7 +165,7 @@ class Loader {
     }
     const Token end = file.tokens.back();
     for (const Statement& each : statements) {
-      if (each.kind == Statement::Kind::import) load_import(file, each, names, statements, depth);
+      if (each.kind == Statement::Kind::import) load_import(file, each, names, statements, overrides, depth);
     }
     if (prefix.empty()) out.tokens.push_back(end);
   }
@@ -166,6 +181,13 @@ class Loader {
   Token renamed(Token token, const std::string& text) {
     token.text = *out.texts.emplace(text).first;
     return token;
+  }
+
+  /// The name of a rule of an imported file, with the names of the imports.
+  static std::string dotted(const File& file, const Statement& each) {
+    std::string text;
+    for (std::size_t i = each.name; i < each.name_end; ++i) text += file.at(i).text;
+    return text;
   }
 
   /// The declarations of a style: those before the first style, and those of the style itself, which replace them.
@@ -186,7 +208,7 @@ class Loader {
     }
     std::erase_if(base, [&](const Statement& each) {
       return (each.kind == Statement::Kind::definition || each.kind == Statement::Kind::rule) &&
-             replaced.contains(file.at(each.name).text);
+             !each.is_foreign() && replaced.contains(file.at(each.name).text);
     });
     base.insert(base.end(), own.begin(), own.end());
     return base;
@@ -226,14 +248,12 @@ class Loader {
     }
   }
 
-  static bool touches(const File& file, std::size_t i) {
-    return i > 0 && file.at(i).offset == file.at(i - 1).offset + file.at(i - 1).length;
-  }
-
   void copy(const File& file, const Statement& each, const Names& names, const Overrides& overrides) {
     const bool is_named = each.kind != Statement::Kind::other;
     const std::string_view name = is_named ? file.at(each.name).text : std::string_view();
-    if (each.kind == Statement::Kind::rule && overrides.rules.contains(name)) return;
+    if (each.kind == Statement::Kind::rule &&
+        overrides.rules.contains(each.is_foreign() ? dotted(file, each) : std::string(name)))
+      return;
     const auto value = each.value != 0 ? overrides.values.find(name) : overrides.values.end();
     if (each.is_start || each.is_extension) {
       std::size_t keyword = each.first;
@@ -250,7 +270,7 @@ class Loader {
 
   /// import id ( styles ) : "file.cga" ( attributes, values and rules )
   void load_import(const File& file, const Statement& each, const Names& names,
-                   const std::vector<Statement>& statements, int depth) {
+                   const std::vector<Statement>& statements, const Overrides& outer, int depth) {
     out.has_imports = true;
     const Token& alias = file.at(each.name);
     std::size_t i = each.name + 1;
@@ -285,6 +305,16 @@ class Loader {
         if (own.value == 0 || kept.contains(name) || overrides.values.contains(name)) continue;
         overrides.values[std::string(name)] = {renamed(file.at(own.name), names.prefix + std::string(name))};
       }
+    }
+    // `alias.Rule -->` replaces the rule, and so does such a rule of the files around this one.
+    const std::string own_prefix = std::string(alias.text) + ".";
+    for (const Statement& own : statements) {
+      if (own.kind != Statement::Kind::rule || !own.is_foreign()) continue;
+      const std::string name = dotted(file, own);
+      if (name.starts_with(own_prefix)) overrides.rules.emplace(name.substr(own_prefix.size()));
+    }
+    for (const std::string& name : outer.rules) {
+      if (name.starts_with(own_prefix)) overrides.rules.emplace(name.substr(own_prefix.size()));
     }
     load(*part, prefix, overrides, depth + 1);
     resolve_start(prefix);

@@ -144,6 +144,27 @@ void extrude_in(Derivation& d, const Step& step, ShapeState& state, const std::s
   take_solid(d, state, std::move(made));
 }
 
+void stand_up(Derivation& d, const Step& step, const ShapeState& before, ShapeState& state) {
+  constexpr Op raising[] = {Op::extrude,  Op::taper,        Op::envelope,  Op::roof_ridge,   Op::roof_hip,
+                            Op::roof_gable, Op::roof_pyramid, Op::roof_shed, Op::roof_mansard, Op::roof_gambrel};
+  if (std::ranges::find(raising, step.op) == std::end(raising) || dimension(before.size) != 2 ||
+      dimension(state.size) != 3 || state.has_asset())
+    return;
+  const glm::dmat3& axes = d.out.axes[state.axes];
+  glm::dvec3 up = d.out.axes[before.axes][flat_axis(before.size)];
+  if ((step.op == Op::extrude || step.op == Op::envelope) && is_word(d, step, 0)) {
+    const std::string direction = word_at(d, step, 0);
+    if (direction.starts_with("world.up") || direction == "world.y") up = glm::dvec3(0, 1, 0);
+  }
+  if (glm::dot(axes[1], up) > 1 - 1e-12) return;
+  glm::dvec3 along = axes[0] - up * glm::dot(axes[0], up);
+  if (glm::length(along) < 1e-6) along = axes[2] - up * glm::dot(axes[2], up);
+  along = math::unit(along, axes[0]);
+  const bool is_roof = state.roof_up != no_roof;
+  reframe(d, state, glm::dmat3(along, up, glm::cross(along, up)));
+  if (is_roof) state.roof_up = 1;
+}
+
 namespace operators {
 
 /// envelope(direction, height, base and angle of the front, back, right and left edges), or arrays of them by edge.

@@ -211,14 +211,18 @@ void give_bodies(Parser& p, const OperationRow& row, const Token& token, Step& s
 void parse_next(Parser& p, std::vector<Part>& out) {
   if (!enter_bracket(p, here(p))) return;
   std::vector<Step> steps;
-  if (here(p).kind == TokenKind::name) {
-    parse_step(p, steps);
+  Choice choice;
+  if (take(p, "{")) {
+    choice = parse_successor(p);
+    expect(p, "}", "the operations of `inline`");
   } else {
-    add_unexpected(p, "an operation or a symbol after `inline`");
+    if (here(p).kind == TokenKind::name)
+      parse_step(p, steps);
+    else
+      add_unexpected(p, "an operation, a symbol or `{` after `inline`");
+    append_rows(p.grammar.steps, steps, choice.first_step, choice.step_count);
   }
   --p.depth;
-  Choice choice;
-  append_rows(p.grammar.steps, steps, choice.first_step, choice.step_count);
   Branch branch;
   append_rows(p.grammar.choices, std::vector<Choice>{choice}, branch.first_choice, branch.choice_count);
   p.grammar.branches.push_back(branch);

@@ -24,19 +24,23 @@ struct LocalValue {
   std::size_t from = 0, to = 0;  ///< tokens of the value
 };
 
+/// How far the search for the attributes that a value needs has got.
+enum class Progress : std::uint8_t { untouched, in_progress, done };
+
 /// A function of the rules: name(a, b) = value.
 struct RuleFunction {
   std::vector<std::string_view> parameters;
   std::vector<LocalValue> locals;
   std::size_t from = 0, to = 0;  ///< tokens of the body
+  Progress order = Progress::untouched;  ///< of sorting the attributes that its body needs
+  std::size_t owner = 0;                 ///< the attribute that needs it, while in progress
 };
 
 /// An attribute or a constant, as declared.
 struct Declaration {
-  enum class State : std::uint8_t { untouched, in_progress, done };
   std::string name;
   std::size_t from = 0, to = 0;  ///< tokens of the value
-  State state = State::untouched;
+  Progress state = Progress::untouched;
   std::vector<std::size_t> annotations;  ///< tokens of their names
 };
 

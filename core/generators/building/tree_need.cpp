@@ -30,6 +30,9 @@ Signs signs_of(Parser& p, std::size_t from, std::size_t to, std::span<const std:
     const Token& token = p.tokens.at(i);
     // Each case written out is one call deeper.
     if (p.tokens.is_name(i, "case") && ++cases > 16) signs.needs_tree = true;
+    // Cases in brackets of their own, or behind an operator.
+    signs.needs_tree |= i > from && p.tokens.is_name(i, "case") && p.tokens.is(i - 1, "(") &&
+                        (i == from + 1 || p.tokens.at(i - 2).kind != TokenKind::name);
     signs.needs_tree |= i > from + 1 && p.tokens.is_name(i, "case") && p.tokens.is(i - 1, ":") &&
                         !p.tokens.is_name(i - 2, "else");
     if (token.kind == TokenKind::string) signs.has_text = true;

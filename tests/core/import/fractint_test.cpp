@@ -1,5 +1,8 @@
 #include <gmock/gmock.h>
 
+#include <cmath>
+#include <map>
+
 #include "tests/core/import/support.h"
 
 namespace seedmesh {
@@ -94,13 +97,79 @@ TEST(Fractint, PassesOverEntriesThatAreComments) {
 }
 
 TEST(Fractint, KeepsItsTwoHeadingsApart) {
-  EXPECT_THAT(reports(imported("fractint", "E {\n angle 4\n axiom F+F\n F=D\\30F\n}\n")),
-              ElementsAre(StartsWith("4:4 found F or G beside D or M")));
   const auto degrees = imported("fractint", "E {\n angle 4\n axiom D+D\\30D|D\n}\n");
   EXPECT_EQ(parameters_of(degrees)["axiom"], "-(90)DD+(30)DD") << "+ and | turn F and G alone";
   EXPECT_THAT(reports(degrees), testing::Contains(StartsWith("3:9 `+` turns only F and G")));
   const auto steps = imported("fractint", "E {\n angle 4\n axiom F/30F\n}\n");
   EXPECT_EQ(parameters_of(steps)["axiom"], "-(90)FF");
+}
+
+/// The turtle of Fractint's manual, with both headings in degrees: its segments, and the box around them.
+struct TwoHeadings {
+  int divisions;
+  int segments = 0;
+  double low[2] = {0, 0}, high[2] = {0, 0};
+
+  struct State {
+    double x = 0, y = 0, steps = 0, degrees = 0;
+    bool is_mirrored = false;
+  };
+
+  void draw(const std::string& word) {
+    State state;
+    std::vector<State> saved;
+    for (std::size_t i = 0; i < word.size(); ++i) {
+      const char c = word[i];
+      const double turn = 360.0 / divisions * (state.is_mirrored ? -1 : 1);
+      if (c == '+') state.steps += turn;
+      if (c == '-') state.steps -= turn;
+      if (c == '|') state.steps += 180;
+      if (c == '!') state.is_mirrored = !state.is_mirrored;
+      if (c == '[') saved.push_back(state);
+      if (c == ']') {
+        state = saved.back();
+        saved.pop_back();
+      }
+      if (c == '\\' || c == '/') {
+        std::size_t length = 0;
+        const double degrees = std::stod(word.substr(i + 1), &length);
+        i += length;
+        state.degrees += degrees * (c == '\\' ? 1 : -1) * (state.is_mirrored ? -1 : 1);
+      }
+      if (std::string_view("FGDM").find(c) == std::string_view::npos) continue;
+      const double angle = (c == 'F' || c == 'G' ? state.steps : state.degrees) * M_PI / 180;
+      for (const bool is_end : {false, true}) {
+        if (is_end) state.x += std::cos(angle), state.y += std::sin(angle);
+        if (c == 'G' || c == 'M') continue;
+        low[0] = std::min(low[0], state.x), high[0] = std::max(high[0], state.x);
+        low[1] = std::min(low[1], state.y), high[1] = std::max(high[1], state.y);
+      }
+      segments += c == 'F' || c == 'D' ? 1 : 0;
+    }
+  }
+};
+
+TEST(Fractint, DrawsWithBothHeadings) {
+  const std::map<char, std::string> successors = {{'F', "F+[F\\20D!-D/35M]D"}, {'X', "[\\15DX|F]!+FGX"}};
+  const auto result = imported("fractint",
+                               "E {\n angle 8\n axiom X+\\10DF\n F=F+[F\\20D!-D/35M]D\n "
+                               "X=[\\15DX|F]!+FGX\n}\n");
+  ASSERT_TRUE(result) << reports(result)[0];
+  EXPECT_THAT(reports(result), ElementsAre(HasSubstr("no number of steps")));
+  std::string word = "X+\\10DF";
+  for (int i = 0; i < 4; ++i) {
+    std::string next;
+    for (const char c : word) next += successors.contains(c) ? successors.at(c) : std::string(1, c);
+    word = next;
+  }
+  TwoHeadings expected{8};
+  expected.draw(word);
+  const auto turtle = nlohmann::json::parse(*derive(result->request, {}))["turtle"];
+  EXPECT_EQ(turtle["segments"], expected.segments);
+  for (const int axis : {0, 1}) {
+    EXPECT_NEAR(turtle["bounds"]["min"][axis].get<double>(), expected.low[axis], 1e-6);
+    EXPECT_NEAR(turtle["bounds"]["max"][axis].get<double>(), expected.high[axis], 1e-6);
+  }
 }
 
 TEST(Fractint, ReportsEveryErrorAtItsColumn) {

@@ -266,6 +266,46 @@ TEST(GeoJson, TakesGeometriesWithoutCoordinates) {
   EXPECT_EQ(parameters_of(result)["buildings"].size(), 1U);
 }
 
+TEST(GeoJson, ReadsTheFeaturesOfLargeFilesOneByOne) {
+  const auto file = [](const std::string& between, const std::string& second) {
+    return R"({"type": "FeatureCollection", "name": "a \"features\": [", "features": [)" + between +
+           R"({"type": "Feature", "properties": {"building": "yes", "height": 4}, "geometry": {"type": "Polygon",)"
+           R"("coordinates": [[[0, 0], [0.001, 0], [0.001, 0.001], [0, 0]]]}},)" +
+           "\n  " + second + R"(], "bbox": [0, 0, 1, 1]})";
+  };
+  const std::string second =
+      R"({"type": "Feature", "properties": {"note": "]}\"{"}, "geometry": {"type": "Point", "coordinates": [1, 1]}})";
+  const std::string blanks(1'200'000, ' ');
+  const auto small = imported("geojson", file("", second));
+  const auto large = imported("geojson", file(blanks, second));
+  ASSERT_TRUE(small) << reports(small)[0];
+  ASSERT_TRUE(large) << reports(large)[0];
+  EXPECT_EQ(parameters_of(large), parameters_of(small));
+  EXPECT_EQ(reports(large), reports(small));
+  for (const std::string wrong : {R"({"type": "Feature", "a": 1, "a": 2})", R"({"type": 1})",
+                                  R"({"type": "Feature", "geometry": {"x": 1e999}})", "7", "{", "{}]"}) {
+    const auto one = imported("geojson", file("", wrong)), other = imported("geojson", file(blanks, wrong));
+    ASSERT_FALSE(one) << wrong;
+    ASSERT_FALSE(other) << wrong;
+    EXPECT_EQ(reports(other), reports(one)) << wrong;
+    EXPECT_EQ(other.error().issues[0].pointer, one.error().issues[0].pointer) << wrong;
+  }
+}
+
+TEST(GeoJson, ReadsMoreValuesThanARequestMayHave) {
+  std::string text = R"({"type": "FeatureCollection", "features": [)";
+  for (int line = 0; line < 5; ++line) {
+    text += line == 0 ? "" : ",";
+    text += R"({"type": "Feature", "properties": {}, "geometry": {"type": "LineString", "coordinates": [[0,0])";
+    for (int i = 0; i < 150'000; ++i) text += ",[0,0]";
+    text += "]}}";
+  }
+  const auto result = imported("geojson", text + R"(,{"type": "Feature", "properties": {"building": "yes"},
+      "geometry": {"type": "Polygon", "coordinates": [[[0, 0], [0.001, 0], [0.001, 0.001], [0, 0]]]}}]})");
+  ASSERT_TRUE(result) << reports(result)[0];
+  EXPECT_EQ(parameters_of(result)["buildings"].size(), 1U);
+}
+
 TEST(GeoJson, ReadsWebMercatorAndMetres) {
   Value map =
       collection_of({feature_of({{"building", "yes"}}, {{{0, 0}, {20, 0}, {20, 10}, {0, 10}, {0, 0}}})});
