@@ -12,6 +12,11 @@ http::Response route(Service& service, const http::Request& request);
 http::Response post_generate(Call& call);  // routes_models.cpp
 http::Response get_model(Call& call);
 http::Response get_preset(Call& call);
+/// The Server-Timing field of a response whose head is about to be sent. The parts sum up to the total: `parse` until
+/// the model was looked for, the parts of its generation, `wait` for a worker, a cache or another request, and
+/// `compress`. A model from a cache has no generation. Large models are compressed later, while they are sent.
+std::string server_timing(const Call& call, std::string_view cache_use, const CachedModel& made,
+                          Clock::time_point asked, Clock::time_point found);
 
 /// Whether a query may have keys beside those of a picture.
 enum class RestOfQuery { refused, kept };

@@ -23,30 +23,6 @@ std::string milliseconds(std::string_view name, double duration) {
   return text;
 }
 
-/// The Server-Timing field of a response whose head is about to be sent. The parts sum up to the total: `parse` until
-/// the model was looked for, the parts of its generation, `wait` for a worker, a cache or another request, and
-/// `compress`. A model from a cache has no generation. Large models are compressed later, while they are sent.
-std::string server_timing(const Call& call, std::string_view cache_use, const CachedModel& made,
-                          Clock::time_point asked, Clock::time_point found) {
-  const auto between = [](Clock::time_point from, Clock::time_point to) {
-    return std::chrono::duration<double, std::milli>(to - from).count();
-  };
-  const auto now = Clock::now();
-  double wait = between(asked, found);
-  std::string text = milliseconds("parse", between(call.request.arrived, asked));
-  if (cache_use == "miss") {
-    for (const Product::Span& span : made.product.timing) {
-      text += ", " + milliseconds(span.name, span.milliseconds);
-      wait -= span.milliseconds;
-    }
-  } else {
-    text += ", cache;desc=\"" + std::string(cache_use) + "\"";
-  }
-  text += ", " + milliseconds("wait", std::max(0.0, wait));
-  text += ", " + milliseconds("compress", between(found, now));
-  return text + ", " + milliseconds("total", between(call.request.arrived, now));
-}
-
 /// Applies a Range field to a whole response (RFC 9110 section 14). Only models support ranges.
 void apply_range(const Call& call, http::Response& response, const std::string& validator) {
   auto& slice = std::get<http::Slice>(response.body);
@@ -215,6 +191,27 @@ http::Response redirect_to_own(const Call& call, const Request& request, const s
 }
 
 }  // namespace
+
+std::string server_timing(const Call& call, std::string_view cache_use, const CachedModel& made,
+                          Clock::time_point asked, Clock::time_point found) {
+  const auto between = [](Clock::time_point from, Clock::time_point to) {
+    return std::chrono::duration<double, std::milli>(to - from).count();
+  };
+  const auto now = Clock::now();
+  double wait = between(asked, found);
+  std::string text = milliseconds("parse", between(call.request.arrived, asked));
+  if (cache_use == "miss") {
+    for (const Product::Span& span : made.product.timing) {
+      text += ", " + milliseconds(span.name, span.milliseconds);
+      wait -= span.milliseconds;
+    }
+  } else {
+    text += ", cache;desc=\"" + std::string(cache_use) + "\"";
+  }
+  text += ", " + milliseconds("wait", std::max(0.0, wait));
+  text += ", " + milliseconds("compress", between(found, now));
+  return text + ", " + milliseconds("total", between(call.request.arrived, now));
+}
 
 http::Response post_generate(Call& call) {
   auto body = read_body(call);

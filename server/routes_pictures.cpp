@@ -34,7 +34,9 @@ http::Response picture_answer(Call& call, const Request& request, const PictureW
     return response;
   }
   if (!wait_for_memory(call)) return refuse(call, too_much_in_flight(call.service));
+  const auto asked = Clock::now();
   const Cache::Answer answer = picture_of(call, request, wish);
+  const auto found = Clock::now();
   if (const auto* refused = std::get_if<Problem>(&answer.outcome)) return refuse(call, *refused);
   const Cache::Entry entry = std::get<Cache::Entry>(answer.outcome);
   auto held = call.service.in_flight_memory.hold(entry->payload);
@@ -42,6 +44,7 @@ http::Response picture_answer(Call& call, const Request& request, const PictureW
   response.cache_use = answer.hit ? "hit" : "miss";
   response.type = entry->product.media_type;
   response.set("Content-Disposition", "inline; filename=\"" + request.name() + ".webp\"");
+  response.set("Server-Timing", server_timing(call, response.cache_use, *entry, asked, found));
   response.set("Seedmesh-Triangles", std::to_string(entry->product.statistics.triangles));
   const std::uint64_t size = held->size();
   response.body = http::Slice{std::move(held), 0, size};

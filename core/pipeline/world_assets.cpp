@@ -161,23 +161,22 @@ class Extract {
   std::map<std::pair<std::string, int>, int> numbers_;
 };
 
-/// The meshes that the nodes show: of the finest level, or of the coarsest.
+/// The meshes that the scene shows: of the finest level, or of the coarsest.
+void add_meshes(const Json& json, std::size_t number, world::AssetForm form, std::vector<int>& meshes) {
+  const Json& node = json["nodes"][number];
+  if (form == world::AssetForm::far && node.contains("extensions") &&
+      node["extensions"].contains("MSFT_lod")) {
+    const auto last = node["extensions"]["MSFT_lod"]["ids"].back().get<std::size_t>();
+    return add_meshes(json, last, form, meshes);
+  }
+  if (node.contains("mesh")) meshes.push_back(node["mesh"].get<int>());
+  for (const Json& child : node.value("children", Json::array()))
+    add_meshes(json, child.get<std::size_t>(), form, meshes);
+}
+
 std::vector<int> meshes_of(const Json& json, world::AssetForm form) {
   std::vector<int> meshes;
-  std::vector<bool> is_level(json["nodes"].size(), false);
-  for (const Json& node : json["nodes"]) {
-    if (!node.contains("extensions") || !node["extensions"].contains("MSFT_lod")) continue;
-    for (const Json& level : node["extensions"]["MSFT_lod"]["ids"]) is_level[level.get<std::size_t>()] = true;
-  }
-  for (std::size_t k = 0; k < is_level.size(); ++k) {
-    const Json& node = json["nodes"][k];
-    if (is_level[k]) continue;
-    const Json* shown = &node;
-    if (form == world::AssetForm::far && node.contains("extensions") &&
-        node["extensions"].contains("MSFT_lod"))
-      shown = &json["nodes"][node["extensions"]["MSFT_lod"]["ids"].back().get<std::size_t>()];
-    if (shown->contains("mesh")) meshes.push_back((*shown)["mesh"].get<int>());
-  }
+  for (const Json& root : json["scenes"][0]["nodes"]) add_meshes(json, root.get<std::size_t>(), form, meshes);
   return meshes;
 }
 

@@ -1,9 +1,8 @@
 #include "core/render/camera.h"
 
 #include <algorithm>
-#include <cmath>
+#include <array>
 #include <limits>
-#include <vector>
 
 #include "core/base/math.h"
 
@@ -12,30 +11,41 @@ namespace {
 
 constexpr double half_width = 0.21;  ///< at distance 1: an angle of 24 degrees
 constexpr double margin = 1.06;
-constexpr std::size_t most_points = 200'000;  ///< beyond, boxes stand for their meshes
+constexpr std::size_t most_vertices = 2'000'000;  ///< beyond, boxes stand for their meshes
 
-/// Points whose hull holds the model.
-std::vector<glm::dvec3> outline_of(const Model& model, const Items& items) {
+/// How far the positions of all items reach along directions in space: the greatest dot products.
+template <std::size_t n>
+std::array<float, n> reach_of(const Model& model, const Items& items,
+                              const std::array<glm::vec3, n>& directions) {
   std::size_t vertices = 0;
   for (const Item& item : items.list) {
     for (const Primitive& primitive : model.meshes[item.group].primitives)
       vertices += primitive.mesh.position.size();
   }
-  std::vector<Box> boxes;
-  for (const MeshGroup& group : model.meshes) boxes.push_back(box_of(group));
-  std::vector<glm::dvec3> points;
+  std::array<float, n> reach;
+  reach.fill(std::numeric_limits<float>::lowest());
   for (const Item& item : items.list) {
-    if (vertices > most_points) {
-      for (int corner = 0; corner < 8; ++corner)
-        points.emplace_back(glm::vec3(item.at * glm::vec4(corner_of(boxes[item.group], corner), 1)));
+    // Directions in the frame of the mesh.
+    std::array<glm::vec4, n> forms;
+    for (std::size_t i = 0; i < n; ++i) {
+      for (int column = 0; column < 4; ++column)
+        forms[i][column] = glm::dot(directions[i], glm::vec3(item.at[column]));
+    }
+    const auto widen = [&](const glm::vec3& p) {
+      for (std::size_t i = 0; i < n; ++i) {
+        const float along = (forms[i].x * p.x + forms[i].y * p.y) + (forms[i].z * p.z + forms[i].w);
+        reach[i] = std::max(reach[i], along);
+      }
+    };
+    if (vertices > most_vertices) {
+      for (int corner = 0; corner < 8; ++corner) widen(corner_of(items.boxes[item.group], corner));
       continue;
     }
     for (const Primitive& primitive : model.meshes[item.group].primitives) {
-      for (const glm::vec3& p : primitive.mesh.position)
-        points.emplace_back(glm::vec3(item.at * glm::vec4(p, 1)));
+      for (const glm::vec3& p : primitive.mesh.position) widen(p);
     }
   }
-  return points;
+  return reach;
 }
 
 }  // namespace
@@ -49,14 +59,6 @@ Frame frame_of(const View& view) {
   return frame;
 }
 
-Seen seen(const Camera& camera, const glm::dvec3& position) {
-  const glm::dvec3 from = position - camera.eye;
-  const double distance = -glm::dot(from, camera.frame.towards);
-  const double near = 1 / std::max(distance, 1e-9);
-  return {glm::dot(from, camera.frame.right) * near / camera.half,
-          glm::dot(from, camera.frame.up) * near / camera.half, near};
-}
-
 Camera camera_for(const Model& model, const Items& items, const View& view) {
   Camera camera;
   camera.frame = frame_of(view);
@@ -66,18 +68,16 @@ Camera camera_for(const Model& model, const Items& items, const View& view) {
   // two opposite sides meet at the eye. Positions are relative to the middle.
   const glm::dvec3 middle(0.5F * (items.box.min + items.box.max));
   const double slope = half_width / margin;
-  constexpr double far = std::numeric_limits<double>::lowest();
-  double right = far, left = far, above = far, below = far, front = far;
-  for (const glm::dvec3& p : outline_of(model, items)) {
-    const glm::dvec3 at = p - middle;
-    const double x = glm::dot(at, frame.right), y = glm::dot(at, frame.up), z = glm::dot(at, frame.towards);
-    right = std::max(right, x + slope * z);
-    left = std::max(left, -x + slope * z);
-    above = std::max(above, y + slope * z);
-    below = std::max(below, -y + slope * z);
-    front = std::max(front, z);
-  }
-  if (items.list.empty()) right = left = above = below = front = 1;
+  const std::array<glm::dvec3, 5> sides = {
+      frame.right + slope * frame.towards, slope * frame.towards - frame.right,
+      frame.up + slope * frame.towards, slope * frame.towards - frame.up, frame.towards};
+  std::array<glm::vec3, 5> directions;
+  for (std::size_t i = 0; i < sides.size(); ++i) directions[i] = glm::vec3(sides[i]);
+  const std::array<float, 5> reach = reach_of(model, items, directions);
+  std::array<double, 5> from_middle;
+  for (std::size_t i = 0; i < sides.size(); ++i)
+    from_middle[i] = items.list.empty() ? 1 : static_cast<double>(reach[i]) - glm::dot(sides[i], middle);
+  const auto [right, left, above, below, front] = from_middle;
   const double across = (right - left) / 2, high = (above - below) / 2;
   const double back =
       std::max({(right + left) / (2 * slope), (above + below) / (2 * slope), front * 1.001 + 1e-3});

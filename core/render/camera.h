@@ -26,12 +26,6 @@ struct Camera {
   double half = 0.2;  ///< half the width of the image at distance 1
 };
 
-/// A position as the camera shows it: -1 to 1 in the image, x to the right and y up, and 1 / distance.
-struct Seen {
-  double x, y, near;
-};
-Seen seen(const Camera& camera, const glm::dvec3& position);
-
 /// The camera from whose image no part of the items sticks out, with a small margin.
 Camera camera_for(const Model& model, const Items& items, const View& view);
 

@@ -1,63 +1,61 @@
 #pragma once
-/// How items appear to a camera or to the sun. For core/render only.
-#include <vector>
+/// How vertices appear to a camera or to the sun. For core/render only.
+#include <algorithm>
 
-#include "core/render/samples.h"
-#include "core/texture/scan.h"
+#include "core/render/camera.h"
 
 namespace seedmesh::render {
 
+constexpr std::int32_t fixed_bits = 4;
+constexpr std::int32_t fixed_one = 1 << fixed_bits;  ///< a sample in fixed-point numbers
+
+/// A vertex in the image: fixed-point numbers, and a depth that is linear in the image; greater is nearer.
 struct Projected {
-  texture::ScanPoint point;
-  double depth = 0;  ///< greater is nearer
+  std::int32_t x = 0, y = 0;
+  float depth = 0;
 };
 
-/// Maps positions to samples: by the camera, or in parallel towards the sun.
-class Eye {
- public:
-  Eye(const Camera& camera, std::uint32_t size) : camera_(&camera), size_(size) {}
-  explicit Eye(const ShadowMap& map) : map_(&map), size_(map.size) {}
-
-  Projected operator()(const glm::dvec3& p) const {
-    if (map_) {
-      const double x = (glm::dot(p, map_->frame.right) - map_->low.x) / map_->step;
-      const double y = (glm::dot(p, map_->frame.up) - map_->low.y) / map_->step;
-      return {{texture::fixed(x), texture::fixed(y)}, glm::dot(p, map_->frame.towards)};
-    }
-    const Seen at = seen(*camera_, p);
-    const double half = 0.5 * size_;
-    return {{texture::fixed(half + half * at.x), texture::fixed(half - half * at.y)}, at.near};
-  }
-  /// The rows of the map run upwards, those of pictures downwards.
-  bool is_mirrored() const { return map_ != nullptr; }
-  std::uint32_t size() const { return size_; }
-
- private:
-  const Camera* camera_ = nullptr;
-  const ShadowMap* map_ = nullptr;
-  std::uint32_t size_;
-};
-
-struct Scene {
-  const Model& model;
-  const Items& items;
-  const Surfaces& surfaces;
-  std::vector<Box> boxes;  ///< of mesh groups
-  std::vector<Array<Projected>>
-      seen{};  ///< vertices of all primitives of all items in order; empty: too many
-};
-
-Scene scene_of(const Model& model, const Items& items, const Surfaces& surfaces);
-
-/// Vertex `i` of a mesh as the eye sees it.
-inline Projected projected(const Eye& eye, const Item& item, const Mesh& mesh, std::size_t i) {
-  return eye(glm::dvec3(glm::vec3(item.at * glm::vec4(mesh.position[i], 1))));
+/// A position in samples as a fixed-point number, clamped to a range outside of every image, so that products of two
+/// differences fit 64 bits.
+inline std::int32_t fixed(float samples) {
+  constexpr float farthest = 1 << 20;
+  const float at = std::clamp(samples, -farthest, farthest) * fixed_one + 0.5F;
+  const auto whole = static_cast<std::int32_t>(at);
+  return whole - (static_cast<float>(whole) > at ? 1 : 0);
 }
 
-/// Projects the vertices of all items, so that not every band has to. Scenes of many copies do without.
-void project(Scene& scene, const Eye& eye, const Job& job);
+/// Maps the positions of one mesh to samples. Each row is a linear form of x, y, z and 1.
+struct Lens {
+  glm::vec4 right{0}, down{0}, towards{0};
+  glm::vec2 middle{0};          ///< the vanishing point, in samples
+  bool is_perspective = false;  ///< `towards` is the distance from the eye, and `depth` its reciprocal
 
-/// Whether an item may touch the rows of a window.
-bool touches(const Scene& scene, const Item& item, const Eye& eye, const texture::ScanWindow& rows);
+  Projected operator()(const glm::vec3& p) const {
+    const auto form = [&p](const glm::vec4& row) {
+      return (row.x * p.x + row.y * p.y) + (row.z * p.z + row.w);
+    };
+    const float x = form(right), y = form(down), along = form(towards);
+    if (!is_perspective) return {fixed(x), fixed(y), along};
+    const float near = 1 / std::max(along, 1e-9F);
+    return {fixed(middle.x + x * near), fixed(middle.y + y * near), near};
+  }
+};
+
+/// A camera with a square image, or parallel light with a square map.
+class Eye {
+ public:
+  Eye(const Camera& camera, std::uint32_t size);
+  /// The sample at (0, 0) shows `low` along the first two axes of the frame; `step` is the side of a sample.
+  Eye(const Frame& frame, const glm::dvec2& low, double step, std::uint32_t size);
+
+  Lens lens_at(const glm::mat4& at) const;
+  std::uint32_t size() const { return size_; }
+  bool is_perspective() const { return is_perspective_; }
+
+ private:
+  glm::dvec4 right_{0}, down_{0}, towards_{0};
+  bool is_perspective_;
+  std::uint32_t size_;
+};
 
 }  // namespace seedmesh::render

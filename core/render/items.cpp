@@ -1,7 +1,6 @@
 #include "core/render/items.h"
 
 #include <limits>
-#include <vector>
 
 namespace seedmesh::render {
 namespace {
@@ -28,8 +27,8 @@ Box box_of(const MeshGroup& group) {
 }
 
 Items items_of(const Model& model, const Job& job) {
-  Items items{Array<Item>(job), {glm::vec3(far), glm::vec3(-far)}};
-  std::vector<Box> boxes;
+  Items items{Array<Item>(job), {glm::vec3(far), glm::vec3(-far)}, {}};
+  std::vector<Box>& boxes = items.boxes;
   for (const MeshGroup& group : model.meshes) boxes.push_back(box_of(group));
   std::vector<glm::mat4> at;
   for (const Node& node : model.nodes) {

@@ -1,6 +1,7 @@
 #pragma once
 /// What a model shows, as a flat list of meshes with their positions.
 #include <glm/glm.hpp>
+#include <vector>
 
 #include "core/base/array.h"
 #include "core/base/job.h"
@@ -16,7 +17,8 @@ struct Item {
 
 struct Items {
   Array<Item> list;
-  Box box;  ///< of all of it
+  Box box;                 ///< of all of it
+  std::vector<Box> boxes;  ///< of Model::meshes, each in its own frame
 };
 
 /// All that is drawn at the finest level, copies one by one. Collision shapes are left out.

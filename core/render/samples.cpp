@@ -3,285 +3,385 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <utility>
 #include <vector>
 
-#include "core/base/math.h"
 #include "core/base/parallel.h"
-#include "core/render/eye.h"
+#include "core/base/wide.h"
+#include "core/render/cover.h"
 
 namespace seedmesh::render {
 namespace {
 
-using texture::fixed_one;
-using texture::scan;
-using texture::scan_area;
-using texture::ScanPoint;
-using texture::ScanWindow;
-
-constexpr std::uint32_t bands = 8;
+constexpr std::uint32_t most_bands = 8;
 constexpr std::size_t check_every = 8'192;  ///< triangles
-constexpr float darkest = std::numeric_limits<float>::lowest();
 
-/// A triangle on its way to the samples.
+/// A triangle on its way to the samples, with its corners in the order of Cover.
 struct Triangle {
+  Cover cover;
   std::array<std::uint32_t, 3> vertex;
-  std::array<ScanPoint, 3> point;
-  std::array<double, 3> depth;
-  std::int64_t area = 0;
-  bool from_behind = false;
+  std::array<float, 3> depth;
+  std::uint32_t number;
 };
 
-/// Calls visit(triangle) for each triangle of a mesh that faces the eye or has both sides, with its corners in the
-/// order of scan().
+/// Which triangles of a drawing are left out.
+enum class Sides { both, front, front_of_mirrored };
+
+/// A run of triangles.
+struct Run {
+  float depth;  ///< of its nearest vertex
+  std::uint32_t begin, end;
+};
+
+/// The triangles of a drawing in short runs, the nearest first, so that most of what is hidden is drawn last. Neighbours
+/// stay together.
+std::vector<Run> runs_of(const Shown& shown, const Drawing& drawing, std::uint32_t count) {
+  constexpr std::uint32_t length = 64, worth_sorting = 512;
+  if (count < worth_sorting || shown.vertices.empty()) return {{0, 0, count}};
+  std::vector<Run> runs;
+  const Projected* const vertices = shown.vertices.data() + drawing.first;
+  for (std::uint32_t begin = 0; begin < count; begin += length) {
+    Run run{-std::numeric_limits<float>::max(), begin, std::min(begin + length, count)};
+    for (std::size_t i = std::size_t{3} * run.begin; i < std::size_t{3} * run.end; ++i)
+      run.depth = std::max(run.depth, vertices[drawing.mesh->index.at(i)].depth);
+    runs.push_back(run);
+  }
+  std::sort(runs.begin(), runs.end(), [](const Run& a, const Run& b) {
+    return a.depth != b.depth ? a.depth > b.depth : a.begin < b.begin;
+  });
+  return runs;
+}
+
+/// Takes the corners of a triangle. False: it covers no sample of the rows, or is left out.
+bool take(Triangle& t, const Shown& shown, const Drawing& drawing, const Lens& lens, Sides sides,
+          const Rows& rows) {
+  Cover& c = t.cover;
+  for (std::size_t i = 0; i < 3; ++i) {
+    t.vertex[i] = drawing.mesh->index.at(std::size_t{3} * t.number + i);
+    const Projected p = shown.vertex(drawing, lens, t.vertex[i]);
+    c.x[i] = p.x;
+    c.y[i] = p.y;
+    t.depth[i] = p.depth;
+  }
+  if (!set_box(c, static_cast<std::int32_t>(shown.eye.size()), rows)) return false;
+  c.area = (std::int64_t{c.x[1]} - c.x[0]) * (std::int64_t{c.y[2]} - c.y[0]) -
+           (std::int64_t{c.y[1]} - c.y[0]) * (std::int64_t{c.x[2]} - c.x[0]);
+  if (c.area == 0 || (sides != Sides::both && (c.area > 0) != (sides == Sides::front_of_mirrored)))
+    return false;
+  if (c.area < 0) {
+    std::swap(t.vertex[1], t.vertex[2]);
+    std::swap(c.x[1], c.x[2]);
+    std::swap(c.y[1], c.y[2]);
+    std::swap(t.depth[1], t.depth[2]);
+    c.area = -c.area;
+  }
+  set_edges(c);
+  return true;
+}
+
+/// Calls visit(triangle) for each triangle that covers a sample of the rows and is not left out.
 template <class Visit>
-void each_triangle(const Mesh& mesh, const Array<Projected>& seen, const ScanWindow& rows, bool mirrored,
-                   bool both_sides, const Job& job, const Visit& visit) {
-  for (std::size_t i = 0; i + 2 < mesh.index.size(); i += 3) {
-    if (i % (3 * check_every) == 0) job.check();
-    Triangle t;
-    for (std::size_t c = 0; c < 3; ++c) {
-      t.vertex[c] = mesh.index.at(i + c);
-      t.point[c] = seen[t.vertex[c]].point;
-      t.depth[c] = seen[t.vertex[c]].depth;
+void each_triangle(const Shown& shown, const Drawing& drawing, Sides sides, const Rows& rows, const Job& job,
+                   const Visit& visit) {
+  const Lens lens = shown.vertices.empty() ? shown.lens_of(drawing) : Lens{};
+  const auto count = static_cast<std::uint32_t>(drawing.mesh->index.size() / 3);
+  const bool is_ordered = shown.scene.surfaces[drawing.surface].blends;
+  Triangle t;
+  for (const Run& run : is_ordered ? std::vector<Run>{{0, 0, count}} : runs_of(shown, drawing, count)) {
+    job.check();
+    for (t.number = run.begin; t.number < run.end; ++t.number) {
+      if ((t.number + 1) % check_every == 0) job.check();
+      if (take(t, shown, drawing, lens, sides, rows)) visit(t);
     }
-    const auto [top, bottom] = std::minmax({t.point[0].y, t.point[1].y, t.point[2].y});
-    if (bottom < rows.y0 * fixed_one || top >= rows.y1 * fixed_one) continue;
-    t.area = scan_area(t.point);
-    t.from_behind = (t.area > 0) != mirrored;  // rows run downwards
-    if (t.area == 0 || (t.from_behind && !both_sides)) continue;
-    if (t.area < 0) {
-      std::swap(t.vertex[1], t.vertex[2]);
-      std::swap(t.point[1], t.point[2]);
-      std::swap(t.depth[1], t.depth[2]);
-      t.area = -t.area;
-    }
-    visit(t);
   }
 }
 
-/// The level of a texture for a triangle.
-std::size_t level_of(const texture::Texels& texels, const Array<glm::vec2>& uv, const Triangle& t) {
-  const glm::dvec2 size(texels.width(), texels.height());
-  const glm::dvec2 a(uv[t.vertex[0]]), u = (glm::dvec2(uv[t.vertex[1]]) - a) * size,
-                                       v = (glm::dvec2(uv[t.vertex[2]]) - a) * size;
-  return texels.level_of(std::abs(u.x * v.y - u.y * v.x) / static_cast<double>(t.area) *
-                         (fixed_one * fixed_one));
-}
+/// The holes of a cut-out texture on one triangle. Coordinates are in texels, as planes that are linear in the image
+/// after they are multiplied by the depth.
+class Holes {
+ public:
+  Holes(const Surface& surface, const Array<glm::vec2>& uv, const Triangle& t, bool is_perspective)
+      : is_perspective_(is_perspective), repeat_(surface.repeat) {
+    std::array<glm::vec2, 3> at;
+    for (std::size_t i = 0; i < 3; ++i) at[i] = uv[t.vertex[i]];
+    const double per_area = 1 / static_cast<double>(t.cover.area);
+    level_ =
+        &surface.texels->level(surface.texels->level_of(texels_of_sample(*surface.texels, at, per_area)));
+    is_power_ = ((level_->width & (level_->width - 1)) | (level_->height & (level_->height - 1))) == 0;
+    u_ = plane_of(t, {at[0].x, at[1].x, at[2].x}, level_->width);
+    v_ = plane_of(t, {at[0].y, at[1].y, at[2].y}, level_->height);
+  }
 
-const Array<glm::vec2>* uv_of(const Mesh& mesh, const Surface& surface) {
-  if (!surface.texels || static_cast<std::size_t>(surface.uv_set) >= mesh.uv.size()) return nullptr;
-  const Array<glm::vec2>& uv = mesh.uv[static_cast<std::size_t>(surface.uv_set)];
-  return uv.empty() ? nullptr : &uv;
-}
+  /// Those of the four samples that show the surface.
+  FourFlags filled(FourFloats depth, FourFloats across, float down) const {
+    FourFloats u = u_.of(across, down), v = v_.of(across, down);
+    if (is_perspective_) {
+      const FourFloats distance = 1.0F / depth;
+      u *= distance;
+      v *= distance;
+    }
+    const FourFlags at =
+        placed(v, level_->height) * static_cast<std::int32_t>(level_->width) + placed(u, level_->width);
+    const glm::u16vec4* const texels = level_->texels.data();
+    const FourFlags alpha = {texels[at[0]].w, texels[at[1]].w, texels[at[2]].w, texels[at[3]].w};
+    return alpha >= four_flags(std::max<std::int32_t>(level_->cutoff, 1));
+  }
 
-/// The weights of the corners in the plane of the triangle. `depth` is 1 / distance for a camera.
-struct Weights {
-  double a, b, c;
+ private:
+  Plane plane_of(const Triangle& t, const std::array<float, 3>& share, std::uint32_t size) const {
+    // Whole repeats are left out, so that the numbers stay small.
+    const float least = repeat_ ? std::floor(std::min({share[0], share[1], share[2]})) : 0;
+    std::array<double, 3> q;
+    for (std::size_t i = 0; i < 3; ++i) {
+      q[i] = static_cast<double>(share[i] - least) * size;
+      if (is_perspective_) q[i] *= static_cast<double>(t.depth[i]);
+    }
+    return t.cover.plane(q[0], q[1], q[2]);
+  }
+
+  FourFlags placed(FourFloats at, std::uint32_t size) const {
+    constexpr float farthest = 1 << 24;
+    const auto most = static_cast<std::int32_t>(size) - 1;
+    at = chosen(at > four_times(0), at, four_times(0));
+    at = chosen(at < four_times(farthest), at, four_times(farthest));
+    const FourFlags whole = __builtin_convertvector(at, FourFlags);
+    if (!repeat_) return chosen(whole < four_flags(most), whole, four_flags(most));
+    if (is_power_) return whole & four_flags(most);
+    FourFlags out{};
+    for (int lane = 0; lane < 4; ++lane) out[lane] = whole[lane] % (most + 1);
+    return out;
+  }
+
+  const texture::Texels::Level* level_;
+  Plane u_, v_;
+  bool is_perspective_, repeat_, is_power_;
 };
 
-double near_of(const Triangle& t, double a, double b, double c) {
-  return a * t.depth[0] + b * t.depth[1] + c * t.depth[2];
+FourFloats load(const float* from) {
+  FourFloats out;
+  std::memcpy(&out, from, sizeof(out));
+  return out;
+}
+template <class Four>
+void store(const Four& four, void* to) {
+  std::memcpy(to, &four, sizeof(four));
+}
+void choose(FourFlags flags, std::uint32_t value, std::uint32_t* in) {
+  FourFlags held;
+  std::memcpy(&held, in, sizeof(held));
+  store(chosen(flags, four_flags(static_cast<std::int32_t>(value)), held), in);
 }
 
-Weights in_space(const Triangle& t, double a, double b, double c, double near) {
-  const double distance = 1 / near;
-  return {a * t.depth[0] * distance, b * t.depth[1] * distance, c * t.depth[2] * distance};
-}
-
-std::uint16_t word_of(double share) {
-  return static_cast<std::uint16_t>(std::clamp(share, 0.0, 1.0) * 65'535 + 0.5);
-}
-
-glm::i8vec4 bytes_of(const glm::dvec3& direction) {
-  const glm::dvec3 normal = math::unit(direction, glm::dvec3(0, 1, 0));
-  glm::i8vec4 bytes(0);
-  for (int axis = 0; axis < 3; ++axis)
-    bytes[axis] = static_cast<std::int8_t>(std::floor(std::clamp(normal[axis], -1.0, 1.0) * 127 + 0.5));
-  return bytes;
+/// Calls visit(index of the first, passed, depth) for each four samples where the triangle is nearer than what is held.
+template <class Visit>
+void each_nearer(const Triangle& t, const Surface& surface, const Array<glm::vec2>* uv, const Shown& shown,
+                 const Rows& rows, const float* held, const Visit& visit) {
+  const std::uint32_t size = shown.eye.size();
+  const std::size_t stride = stride_of(size);
+  const auto [least, greatest] = std::minmax({t.depth[0], t.depth[1], t.depth[2]});
+  const FourFloats low = four_times(least), high = four_times(greatest);
+  const Plane plane = t.cover.plane(static_cast<double>(t.depth[0]), static_cast<double>(t.depth[1]),
+                                    static_cast<double>(t.depth[2]));
+  const auto scan = [&](const auto& filled) {
+    each_four(t.cover, static_cast<std::int32_t>(size), rows,
+              [&](std::int32_t x, std::int32_t y, FourFlags inside, FourFloats across, float down) {
+                const std::size_t at = static_cast<std::size_t>(y) * stride + static_cast<std::size_t>(x);
+                FourFloats depth = plane.of(across, down);
+                depth = chosen(depth > low, depth, low);
+                depth = chosen(depth < high, depth, high);
+                FourFlags passed = inside & (depth > load(held + at));
+                if (!any_of(passed)) return;
+                passed = filled(passed, depth, across, down);
+                visit(at, passed, depth);
+              });
+  };
+  if (!uv) return scan([](FourFlags passed, FourFloats, FourFloats, float) { return passed; });
+  const Holes holes(surface, *uv, t, shown.eye.is_perspective());
+  scan([&holes](FourFlags passed, FourFloats depth, FourFloats across, float down) {
+    return passed & holes.filled(depth, across, down);
+  });
 }
 
 /// Draws into the rows of one band.
 class Band {
  public:
-  Band(const Scene& scene, const Eye& eye, const ScanWindow& rows, const Job& job)
-      : scene_(scene), eye_(eye), rows_(rows), job_(job), own_(job) {}
-
-  /// Calls draw(primitive, item, number of its surface) for each primitive in the rows, with its vertices in seen().
-  template <class Draw>
-  void each_primitive(bool blending, const Draw& draw) {
-    std::size_t first = 0;  // of the item, into Scene::seen
-    for (const Item& item : scene_.items.list) {
-      const std::vector<Primitive>& primitives = scene_.model.meshes[item.group].primitives;
-      const std::size_t begin = std::exchange(first, first + primitives.size());
-      if (!touches(scene_, item, eye_, rows_)) continue;
-      for (std::size_t i = 0; i < primitives.size(); ++i) {
-        const std::size_t surface = scene_.surfaces.number_of(primitives[i]);
-        if (scene_.surfaces[surface].blends != blending) continue;
-        seen_ = scene_.seen.empty() ? project_here(item, primitives[i].mesh) : &scene_.seen[begin + i];
-        draw(primitives[i].mesh, item, surface);
-      }
-    }
-  }
+  Band(const Shown& shown, const Rows& rows, const Job& job) : shown_(shown), rows_(rows), job_(job) {}
 
   void draw_samples(Samples& samples) {
     for (const bool blending : {false, true}) {
-      each_primitive(blending, [&](const Mesh& mesh, const Item& item, std::size_t surface) {
-        if (mesh.topology == Topology::triangles) return draw_mesh(mesh, item, surface, samples);
-        draw_thin(mesh, surface, samples);
+      if (blending && !shown_.scene.has_blending) return;
+      each_drawing(blending, [&](std::uint32_t number, const Drawing& drawing, const Surface& surface) {
+        if (drawing.mesh->topology != Topology::triangles) return draw_thin(number, drawing, samples);
+        if (blending) return draw_sheet(number, drawing, surface, samples);
+        draw_mesh(number, drawing, surface, samples);
       });
     }
   }
 
-  void draw_depth(ShadowMap& map) {
-    each_primitive(false, [&](const Mesh& mesh, const Item&, std::size_t number) {
-      if (mesh.topology != Topology::triangles) return;
-      const Surface& surface = scene_.surfaces[number];
-      const Array<glm::vec2>* uv = uv_of(mesh, surface);
-      each_triangle(mesh, *seen_, rows_, true, true, job_, [&](const Triangle& t) {
-        const std::size_t level = uv ? level_of(*surface.texels, *uv, t) : 0;
-        scan(t.point, t.area, rows_, [&](std::int64_t x, std::int64_t y, double a, double b, double c) {
-          float& held = map.depth[static_cast<std::size_t>(y) * map.size + static_cast<std::size_t>(x)];
-          const auto depth = static_cast<float>(a * t.depth[0] + b * t.depth[1] + c * t.depth[2]);
-          if (depth <= held) return;
-          if (uv) {
-            const glm::dvec2 at = a * glm::dvec2((*uv)[t.vertex[0]]) + b * glm::dvec2((*uv)[t.vertex[1]]) +
-                                  c * glm::dvec2((*uv)[t.vertex[2]]);
-            if (surface.texels->at(at, level, surface.repeat).w == 0) return;
-          }
-          held = depth;
-        });
+  void draw_depths(Array<float>& map) {
+    each_drawing(false, [&](std::uint32_t, const Drawing& drawing, const Surface& surface) {
+      if (drawing.mesh->topology != Topology::triangles) return;
+      const Array<glm::vec2>* uv = holes_of(*drawing.mesh, surface);
+      each_triangle(shown_, drawing, sides_of(drawing, surface), rows_, job_, [&](const Triangle& t) {
+        each_nearer(t, surface, uv, shown_, rows_, map.data(),
+                    [&](std::size_t at, FourFlags passed, FourFloats depth) {
+                      store(chosen(passed, depth, load(&map[at])), &map[at]);
+                    });
       });
     });
   }
 
  private:
-  const Array<Projected>* project_here(const Item& item, const Mesh& mesh) {
-    own_.resize(mesh.position.size());
-    for (std::size_t i = 0; i < own_.size(); ++i) {
-      if (i % check_every == 0) job_.check();
-      own_[i] = projected(eye_, item, mesh, i);
+  template <class Draw>
+  void each_drawing(bool blending, const Draw& draw) {
+    const Array<Drawing>& drawings = shown_.scene.drawings;
+    for (std::uint32_t i = 0; i < drawings.size(); ++i) {
+      const Surface& surface = shown_.scene.surfaces[drawings[i].surface];
+      if (surface.blends == blending && touches(drawings[i])) draw(i, drawings[i], surface);
     }
-    return &own_;
   }
 
-  void draw_mesh(const Mesh& mesh, const Item& item, std::size_t number, Samples& samples) {
-    const Surface& surface = scene_.surfaces[number];
-    const Array<glm::vec2>* uv = uv_of(mesh, surface);
-    // Of a transform that stretches along its axes, normals shrink there.
-    glm::dmat3 turn(glm::mat3(item.at));
-    for (int axis = 0; axis < 3; ++axis) turn[axis] /= std::max(glm::dot(turn[axis], turn[axis]), 1e-30);
-    const bool mirrored = glm::determinant(turn) < 0;
-    each_triangle(
-        mesh, *seen_, rows_, mirrored, surface.both_sides || surface.blends, job_, [&](const Triangle& t) {
-          const double side = t.from_behind ? -1 : 1;
-          const std::size_t level = uv ? level_of(*surface.texels, *uv, t) : 0;
-          scan(t.point, t.area, rows_, [&](std::int64_t x, std::int64_t y, double a, double b, double c) {
-            Sample& held =
-                samples.of[static_cast<std::size_t>(y) * samples.size + static_cast<std::size_t>(x)];
-            const double depth = near_of(t, a, b, c);
-            const auto near = static_cast<float>(depth);
-            if (near <= held.near) return;
-            const Weights w = in_space(t, a, b, c, depth);
-            const auto mixed = [&](const auto& values) {
-              return w.a * glm::dvec3(values[t.vertex[0]]) + w.b * glm::dvec3(values[t.vertex[1]]) +
-                     w.c * glm::dvec3(values[t.vertex[2]]);
-            };
-            glm::dvec3 color(surface.color);
-            double alpha = static_cast<double>(surface.alpha);
-            if (uv) {
-              const glm::dvec2 at = w.a * glm::dvec2((*uv)[t.vertex[0]]) +
-                                    w.b * glm::dvec2((*uv)[t.vertex[1]]) +
-                                    w.c * glm::dvec2((*uv)[t.vertex[2]]);
-              const glm::u16vec4 texel = surface.texels->at(at, level, surface.repeat);
-              if (texel.w == 0) return;
-              color *= glm::dvec3(glm::u16vec3(texel)) / 65'535.0;
-              alpha *= texel.w / 65'535.0;
-            }
-            if (!mesh.color.empty()) color *= mixed(mesh.color) / 255.0;
-            const glm::dvec3 normal =
-                mesh.normal.empty() ? glm::dvec3(0) : turn * (side * mixed(mesh.normal));
-            put(held, surface,
-                {near,
-                 {word_of(color.x), word_of(color.y), word_of(color.z)},
-                 static_cast<std::uint16_t>(number),
-                 mesh.normal.empty() ? glm::i8vec4(0) : bytes_of(normal)},
-                alpha);
-          });
-        });
+  /// Whether a drawing may touch the rows.
+  bool touches(const Drawing& drawing) const {
+    if (rows_.begin == 0 && rows_.end >= static_cast<std::int32_t>(shown_.eye.size())) return true;
+    const Item& item = shown_.scene.items.list[drawing.item];
+    const Box& box = shown_.scene.items.boxes[item.group];
+    const Lens lens = shown_.eye.lens_at(item.at);
+    std::int32_t top = std::numeric_limits<std::int32_t>::max(),
+                 bottom = std::numeric_limits<std::int32_t>::min();
+    for (int corner = 0; corner < 8; ++corner) {
+      const std::int32_t y = lens(corner_of(box, corner)).y;
+      top = std::min(top, y);
+      bottom = std::max(bottom, y);
+    }
+    constexpr std::int32_t edge = 2 * fixed_one;
+    return bottom + edge >= rows_.begin * fixed_one && top - edge <= rows_.end * fixed_one;
+  }
+
+  static const Array<glm::vec2>* holes_of(const Mesh& mesh, const Surface& surface) {
+    return surface.texels && surface.texels->has_holes() ? uv_of(mesh, surface) : nullptr;
+  }
+
+  Sides sides_of(const Drawing& drawing, const Surface& surface) const {
+    if (surface.both_sides || surface.blends) return Sides::both;
+    // The rows of a map run upwards, those of pictures downwards.
+    const bool is_map = !shown_.eye.is_perspective();
+    return is_mirrored(shown_.scene.items.list[drawing.item].at) != is_map ? Sides::front_of_mirrored
+                                                                           : Sides::front;
+  }
+
+  void draw_mesh(std::uint32_t number, const Drawing& drawing, const Surface& surface, Samples& samples) {
+    const Array<glm::vec2>* uv = holes_of(*drawing.mesh, surface);
+    each_triangle(shown_, drawing, sides_of(drawing, surface), rows_, job_, [&](const Triangle& t) {
+      each_nearer(t, surface, uv, shown_, rows_, samples.near.data(),
+                  [&](std::size_t at, FourFlags passed, FourFloats depth) {
+                    store(chosen(passed, depth, load(&samples.near[at])), &samples.near[at]);
+                    choose(passed, number, &samples.drawing[at]);
+                    choose(passed, t.number, &samples.number[at]);
+                  });
+    });
   }
 
   /// Sheets that blend leave the depth of what is behind them.
-  static void put(Sample& held, const Surface& surface, const Sample& next, double alpha) {
-    if (!surface.blends || held.near == 0) {
+  void draw_sheet(std::uint32_t number, const Drawing& drawing, const Surface& surface, Samples& samples) {
+    const Array<glm::vec2>* uv = holes_of(*drawing.mesh, surface);
+    FragmentReader front(shown_), behind(shown_);
+    each_triangle(shown_, drawing, Sides::both, rows_, job_, [&](const Triangle& t) {
+      each_nearer(t, surface, uv, shown_, rows_, samples.near.data(),
+                  [&](std::size_t at, FourFlags passed, FourFloats) {
+                    for (std::size_t lane = 0; lane < 4; ++lane) {
+                      const std::size_t column = at % samples.stride + lane, row = at / samples.stride;
+                      if (passed[static_cast<int>(lane)] == 0 || column >= samples.size) continue;
+                      const float x = (static_cast<float>(column) + 0.5F) * fixed_one,
+                                  y = (static_cast<float>(row) + 0.5F) * fixed_one;
+                      const Fragment next = front.at(number, t.number, x, y);
+                      blend(next, at + lane, samples, [&](std::uint32_t drawn, std::uint32_t triangle) {
+                        return behind.at(drawn, triangle, x, y);
+                      });
+                    }
+                  });
+    });
+  }
+
+  template <class Read>
+  static void blend(const Fragment& next, std::size_t at, Samples& samples, const Read& read) {
+    Fragment& held = samples.fragment[at];
+    const std::uint32_t drawn = samples.drawing[at];
+    samples.drawing[at] = Samples::blended;
+    if (drawn == Samples::nothing) {
       held = next;
+      samples.near[at] = next.near;
       return;
     }
-    for (int c = 0; c < 3; ++c)
-      held.color[c] = word_of((held.color[c] * (1 - alpha) + next.color[c] * alpha) / 65'535.0);
-    if (alpha < 0.5) return;
+    if (drawn != Samples::blended) {
+      held = read(drawn, samples.number[at]);
+      held.near = samples.near[at];
+    }
+    held.color = held.color * (1 - next.alpha) + next.color * next.alpha;
+    if (next.alpha < 0.5F) return;
     held.normal = next.normal;
     held.surface = next.surface;
   }
 
   /// Lines and points, two samples thick.
-  void draw_thin(const Mesh& mesh, std::size_t number, Samples& samples) {
-    const Surface& surface = scene_.surfaces[number];
-    const auto dot = [&](const Projected& at, const glm::dvec3& color) {
-      for (std::int64_t y = at.point.y / fixed_one - 1; y <= at.point.y / fixed_one; ++y) {
-        for (std::int64_t x = at.point.x / fixed_one - 1; x <= at.point.x / fixed_one; ++x) {
-          if (x < 0 || x >= rows_.x1 || y < rows_.y0 || y >= rows_.y1) continue;
-          Sample& held = samples.of[static_cast<std::size_t>(y) * samples.size + static_cast<std::size_t>(x)];
-          if (static_cast<float>(at.depth) <= held.near) continue;
-          held = {static_cast<float>(at.depth),
-                  {word_of(color.x), word_of(color.y), word_of(color.z)},
-                  static_cast<std::uint16_t>(number),
-                  glm::i8vec4(0)};
+  void draw_thin(std::uint32_t number, const Drawing& drawing, Samples& samples) {
+    const Lens lens = shown_.lens_of(drawing);
+    const Mesh& mesh = *drawing.mesh;
+    const auto size = static_cast<std::int32_t>(samples.size);
+    const auto dot = [&](std::int64_t px, std::int64_t py, float depth, std::uint32_t vertex) {
+      for (std::int64_t y = py / fixed_one - 1; y <= py / fixed_one; ++y) {
+        for (std::int64_t x = px / fixed_one - 1; x <= px / fixed_one; ++x) {
+          if (x < 0 || x >= size || y < rows_.begin || y >= rows_.end) continue;
+          const std::size_t at = samples.at(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y));
+          if (depth <= samples.near[at]) continue;
+          samples.near[at] = depth;
+          samples.drawing[at] = number;
+          samples.number[at] = vertex;
         }
       }
     };
-    const auto color_of = [&](std::uint32_t vertex) {
-      const glm::dvec3 color(surface.color);
-      return mesh.color.empty() ? color : color * glm::dvec3(glm::u8vec3(mesh.color[vertex])) / 255.0;
-    };
     if (mesh.topology == Topology::points) {
-      for (std::size_t i = 0; i < seen_->size(); ++i) {
+      for (std::uint32_t i = 0; i < mesh.position.size(); ++i) {
         if (i % check_every == 0) job_.check();
-        dot((*seen_)[i], color_of(static_cast<std::uint32_t>(i)));
+        const Projected p = shown_.vertex(drawing, lens, i);
+        dot(p.x, p.y, p.depth, i);
       }
       return;
     }
     for (std::size_t i = 0; i + 1 < mesh.index.size(); i += 2) {
       if (i % check_every == 0) job_.check();
-      const Projected &a = (*seen_)[mesh.index.at(i)], &b = (*seen_)[mesh.index.at(i + 1)];
-      const std::int64_t dx = b.point.x - a.point.x, dy = b.point.y - a.point.y;
-      const std::int64_t steps = std::max({std::abs(dx), std::abs(dy), fixed_one}) / fixed_one;
+      const Projected a = shown_.vertex(drawing, lens, mesh.index.at(i)),
+                      b = shown_.vertex(drawing, lens, mesh.index.at(i + 1));
+      const std::int64_t dx = std::int64_t{b.x} - a.x, dy = std::int64_t{b.y} - a.y;
+      const std::int64_t steps =
+          std::max({std::abs(dx), std::abs(dy), std::int64_t{fixed_one}}) / std::int64_t{fixed_one};
       // A line that leaves the picture by far is cut off.
-      for (std::int64_t step = 0; step <= std::min<std::int64_t>(steps, 8 * samples.size); ++step) {
-        const double share = static_cast<double>(step) / static_cast<double>(steps);
-        dot({{a.point.x + dx * step / steps, a.point.y + dy * step / steps},
-             a.depth + (b.depth - a.depth) * share},
-            color_of(mesh.index.at(i)));
+      for (std::int64_t step = 0; step <= std::min<std::int64_t>(steps, std::int64_t{8} * size); ++step) {
+        const float share = static_cast<float>(step) / static_cast<float>(steps);
+        dot(a.x + dx * step / steps, a.y + dy * step / steps, a.depth + (b.depth - a.depth) * share,
+            mesh.index.at(i));
       }
     }
   }
 
-  const Scene& scene_;
-  const Eye& eye_;
-  ScanWindow rows_;
+  const Shown& shown_;
+  Rows rows_;
   const Job& job_;
-  const Array<Projected>* seen_ = nullptr;  ///< the vertices of the primitive that is drawn
-  Array<Projected> own_;
 };
+
+SEEDMESH_WIDE void draw_samples_of(Band& band, Samples& samples) { band.draw_samples(samples); }
+SEEDMESH_WIDE void draw_depths_of(Band& band, Array<float>& map) { band.draw_depths(map); }
 
 /// Calls draw(band) for all bands in parallel.
 template <class Draw>
-void each_band(const Scene& scene, const Eye& eye, const Job& job, const Draw& draw) {
-  const std::uint32_t size = eye.size(), height = (size + bands - 1) / bands;
+void each_band(const Shown& shown, const Job& job, const Draw& draw) {
+  const std::uint32_t bands = has_threads(job) ? most_bands : 1, size = shown.eye.size();
+  const std::uint32_t height = (size + bands - 1) / bands;
   parallel_for(job, bands, 1, [&](std::size_t begin, std::size_t end, std::size_t) {
     for (std::size_t i = begin; i < end; ++i) {
-      const auto y0 = static_cast<std::int64_t>(i) * height;
-      Band band(scene, eye, {0, y0, size, std::min<std::int64_t>(y0 + height, size)}, job);
+      const auto first = static_cast<std::uint32_t>(i) * height;
+      Band band(shown,
+                {static_cast<std::int32_t>(first), static_cast<std::int32_t>(std::min(first + height, size))},
+                job);
       draw(band);
     }
   });
@@ -289,37 +389,25 @@ void each_band(const Scene& scene, const Eye& eye, const Job& job, const Draw& d
 
 }  // namespace
 
-Samples draw_samples(const Model& model, const Items& items, const Surfaces& surfaces, const Camera& camera,
-                     std::uint32_t size, const Job& job) {
-  Samples samples{size, Array<Sample>(job, std::size_t{size} * size, Sample{})};
-  Scene scene = scene_of(model, items, surfaces);
-  const Eye eye(camera, size);
-  project(scene, eye, job);
-  each_band(scene, eye, job, [&](Band& band) { band.draw_samples(samples); });
+Samples draw_samples(const Shown& shown, const Job& job) {
+  const std::uint32_t size = shown.eye.size();
+  const std::size_t count = stride_of(size) * size;
+  Samples samples{size,
+                  stride_of(size),
+                  Array<float>(job, count, 0.0F),
+                  Array<std::uint32_t>(job, count, Samples::nothing),
+                  Array<std::uint32_t>(job, count),
+                  Array<Fragment>(job)};
+  if (shown.scene.has_blending) samples.fragment.resize(count);
+  // `number` has no value where nothing is drawn.
+  std::memset(samples.number.data(), 0, samples.number.bytes());
+  each_band(shown, job, [&](Band& band) { draw_samples_of(band, samples); });
   return samples;
 }
 
-ShadowMap draw_shadows(const Model& model, const Items& items, const Surfaces& surfaces, const View& sun,
-                       std::uint32_t size, const Job& job) {
-  ShadowMap map;
-  map.frame = frame_of(sun);
-  map.size = size;
-  map.depth = Array<float>(job, std::size_t{size} * size, darkest);
-  glm::dvec2 low(std::numeric_limits<double>::max()), high(std::numeric_limits<double>::lowest());
-  for (int corner = 0; corner < 8; ++corner) {
-    const glm::dvec3 p(corner_of(items.box, corner));
-    const glm::dvec2 at(glm::dot(p, map.frame.right), glm::dot(p, map.frame.up));
-    low = glm::min(low, at);
-    high = glm::max(high, at);
-  }
-  constexpr double edge = 4;  // texels
-  const double across = std::max({high.x - low.x, high.y - low.y, 1e-6});
-  map.step = across / (size - 2 * edge);
-  map.low = 0.5 * (low + high) - 0.5 * map.step * size;
-  Scene scene = scene_of(model, items, surfaces);
-  const Eye eye(map);
-  project(scene, eye, job);
-  each_band(scene, eye, job, [&](Band& band) { band.draw_depth(map); });
+Array<float> draw_depths(const Shown& shown, float farthest, const Job& job) {
+  Array<float> map(job, stride_of(shown.eye.size()) * shown.eye.size(), farthest);
+  each_band(shown, job, [&](Band& band) { draw_depths_of(band, map); });
   return map;
 }
 

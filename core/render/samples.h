@@ -1,54 +1,32 @@
 #pragma once
-/// The nearest surfaces that a camera sees, and how far light reaches.
-#include <glm/glm.hpp>
-
-#include "core/base/array.h"
-#include "core/base/math.h"
-#include "core/render/camera.h"
-#include "core/render/items.h"
-#include "core/render/surfaces.h"
+/// The nearest surfaces that a camera sees.
+#include "core/render/fragment.h"
 
 namespace seedmesh::render {
 
-/// What a sample of the picture shows.
-struct Sample {
-  float near = 0;             ///< 1 / distance along the axis of the camera; 0: nothing
-  glm::u16vec3 color{0};      ///< linear, 65535 is 1
-  std::uint16_t surface = 0;  ///< into Surfaces
-  glm::i8vec4 normal{0};      ///< in the frame of the model, 127 is 1; 0 for lines and points
-};
-
-/// The samples of a picture, row 0 at the top.
+/// The samples of a picture, row 0 at the top. Each holds which triangle is nearest; what it looks like is read from the
+/// triangle later (fragment.h), so that hidden surfaces cost little.
 struct Samples {
-  std::uint32_t size = 0;  ///< samples a side
-  Array<Sample> of;
+  static constexpr std::uint32_t nothing = ~0U, blended = ~0U - 1;
+
+  std::uint32_t size = 0;        ///< samples a side
+  std::size_t stride = 0;        ///< of a row, a multiple of 4
+  Array<float> near;             ///< 1 / distance along the axis of the camera; 0: nothing
+  Array<std::uint32_t> drawing;  ///< into Scene::drawings, or one of the two constants
+  Array<std::uint32_t> number;   ///< of the triangle, or of the vertex where lines or points are drawn
+  Array<Fragment> fragment;      ///< of blended samples; empty where no surface blends
+
+  std::size_t at(std::uint32_t x, std::uint32_t y) const { return y * stride + x; }
 };
 
-/// Draws all items. Rows are drawn in bands, in parallel; the result does not depend on their number. Sheets that
-/// blend are drawn last, in the order of the items. Cost: about 40 ns a triangle and 15 ns a covered sample.
-Samples draw_samples(const Model& model, const Items& items, const Surfaces& surfaces, const Camera& camera,
-                     std::uint32_t size, const Job& job);
+/// Draws all drawings. Rows are drawn in bands, in parallel; the result does not depend on their number. Sheets that
+/// blend are drawn last, in the order of the items. Cost: about 50 ns a triangle and 1 ns a covered sample.
+Samples draw_samples(const Shown& shown, const Job& job);
 
-/// Distances from the sun, as a square map that holds the whole model.
-struct ShadowMap {
-  Frame frame;  ///< towards the sun
-  glm::dvec2 low{0};
-  double step = 1;  ///< metres of a texel
-  std::uint32_t size = 0;
-  Array<float> depth;  ///< towards the sun; greater is nearer to it
+/// A map of depths of the same form: of parallel light, without lines, points and sheets that blend.
+Array<float> draw_depths(const Shown& shown, float farthest, const Job& job);
 
-  /// Whether something is nearer to the sun than the position, moved by texels of the map. Outside: false.
-  bool is_dark(const glm::dvec3& position, const glm::dvec2& moved) const {
-    const double x = (glm::dot(position, frame.right) - low.x) / step + moved.x;
-    const double y = (glm::dot(position, frame.up) - low.y) / step + moved.y;
-    if (!(x >= 0 && y >= 0 && x < size && y < size)) return false;
-    const auto place = static_cast<std::size_t>(math::to_uint32(y)) * size + math::to_uint32(x);
-    return static_cast<double>(depth[place]) > glm::dot(position, frame.towards) + 1.5 * step;
-  }
-};
-
-/// Cost: about 30 ns a triangle and 5 ns a covered texel. Sheets that blend cast no shadow.
-ShadowMap draw_shadows(const Model& model, const Items& items, const Surfaces& surfaces, const View& sun,
-                       std::uint32_t size, const Job& job);
+/// The length of a row of the map.
+constexpr std::size_t stride_of(std::uint32_t size) { return (std::size_t{size} + 3) & ~std::size_t{3}; }
 
 }  // namespace seedmesh::render

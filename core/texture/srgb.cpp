@@ -7,7 +7,7 @@
 
 namespace seedmesh::texture {
 
-std::uint8_t srgb_of(std::uint32_t linear) {
+const std::array<std::uint8_t, 4096>& srgb_table() {
   static const std::array<std::uint8_t, 4096> table = [] {
     std::array<std::uint8_t, 4096> made{};
     std::uint8_t byte = 0;
@@ -21,7 +21,9 @@ std::uint8_t srgb_of(std::uint32_t linear) {
     }
     return made;
   }();
-  return table[std::min(linear, 65'535U) >> 4U];
+  return table;
 }
+
+std::uint8_t srgb_of(std::uint32_t linear) { return srgb_table()[std::min(linear, 65'535U) >> 4U]; }
 
 }  // namespace seedmesh::texture

@@ -22,8 +22,22 @@ std::uint8_t byte_at(const Picture& picture, std::size_t index) {
   return static_cast<std::uint8_t>(picture.bits == 16 ? value >> 8U : value);
 }
 
+/// Linear values of all bytes.
+std::array<std::uint16_t, 256> linear_words() {
+  std::array<std::uint16_t, 256> words;
+  for (std::size_t i = 0; i < words.size(); ++i)
+    words[i] = word_of(linear_of_srgb(static_cast<std::uint8_t>(i)));
+  return words;
+}
+
 /// The mean of four texels, with colours weighted by alpha.
 glm::u16vec4 mean_of(const std::array<glm::u16vec4, 4>& four) {
+  if ((four[0].w & four[1].w & four[2].w & four[3].w) == 65'535) {
+    glm::u16vec4 mean(65'535);
+    for (int c = 0; c < 3; ++c)
+      mean[c] = static_cast<std::uint16_t>((four[0][c] + four[1][c] + four[2][c] + four[3][c]) / 4);
+    return mean;
+  }
   std::uint64_t weight = 0, plain[3] = {}, weighted[3] = {};
   for (const glm::u16vec4& texel : four) {
     weight += texel.w;
@@ -59,17 +73,18 @@ Texels::Texels(const Picture& picture, float cutoff, const Job& job) {
   const auto channels = static_cast<std::size_t>(picture.channels);
   const bool has_alpha = channels == 2 || channels == 4, is_grey = channels < 3;
   Level first{picture.width, picture.height, word_of(cutoff), Array<glm::u16vec4>(job, size)};
+  const std::array<std::uint16_t, 256> words = linear_words();
   std::size_t there = 0;
   for (std::size_t i = 0; i < size; ++i) {
     if (i % 65'536 == 0) job.check();
     glm::u16vec4& texel = first.texels[i];
     for (std::size_t c = 0; c < 3; ++c) {
-      const std::uint8_t value = byte_at(picture, i * channels + (is_grey ? 0 : c));
-      texel[static_cast<int>(c)] = word_of(linear_of_srgb(value));
+      texel[static_cast<int>(c)] = words[byte_at(picture, i * channels + (is_grey ? 0 : c))];
     }
     texel.w = 65'535;
     if (has_alpha) texel.w = static_cast<std::uint16_t>(byte_at(picture, (i + 1) * channels - 1) * 257U);
     there += texel.w >= first.cutoff ? 1 : 0;
+    has_holes_ = has_holes_ || texel.w == 0 || texel.w < first.cutoff;
   }
   const double share = static_cast<double>(there) / static_cast<double>(size);
   levels_.push_back(std::move(first));

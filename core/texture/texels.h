@@ -26,13 +26,18 @@ class Texels {
   std::uint32_t width() const { return levels_.front().width; }
   std::uint32_t height() const { return levels_.front().height; }
 
- private:
   struct Level {
     std::uint32_t width = 1, height = 1;
     std::uint16_t cutoff = 0;  ///< least alpha of texels that are not empty
     Array<glm::u16vec4> texels;
   };
+  const Level& level(std::size_t number) const { return levels_[number]; }
+  std::size_t levels() const { return levels_.size(); }
+  bool has_holes() const { return has_holes_; }  ///< some texels are empty
+
+ private:
   std::vector<Level> levels_;
+  bool has_holes_ = false;
 };
 
 }  // namespace seedmesh::texture

@@ -1,6 +1,7 @@
 /// Prints one line for each request of the golden table: its name, the XXH3-128 of the bytes that it makes,
 /// and their number. The requests are every preset (with its own seed and with seed 3) and those of the given
-/// files, each a JSON object of named requests; {"import": {"format", "text"}} is a foreign file. The promise
+/// files, each a JSON object of named requests; {"import": {"format", "text"}} is a foreign file, and {"picture": {"size",
+/// "view", "ground"}, "of": REQUEST} the picture of a model. The promise
 /// behind `seed` is that this table is the same from every compiler, at every level of optimisation, on every
 /// CPU and with any number of threads. tests/golden/golden.mjs compares the tables.
 ///
@@ -18,6 +19,7 @@
 #include <functional>
 #include <iterator>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -41,6 +43,7 @@ struct Row {
   std::string name;
   std::function<Result<Request>()> read;
   bool is_summarised = false;
+  std::optional<PictureWish> picture = {};  ///< the picture of the model instead of the model
 };
 
 std::string hash_of(std::string_view bytes) {
@@ -76,7 +79,15 @@ Result<Request> imported(const Json& file) {
 
 Row row_of(const std::string& name, const Json& request) {
   if (request.contains("import")) return {name, [file = request["import"]] { return imported(file); }};
-  return {name, [text = request.dump()] { return read_request(text, Limits{}); }};
+  const Json& of = request.contains("picture") ? request["of"] : request;
+  Row row{name, [text = of.dump()] { return read_request(text, Limits{}); }};
+  if (request.contains("picture")) {
+    Overrides query;
+    for (const auto& [key, value] : request["picture"].items())
+      query.emplace_back(key, value.get<std::string>());
+    row.picture = *read_picture_wish(query);
+  }
+  return row;
 }
 
 std::vector<Row> all_rows(const Options& options) {
@@ -112,7 +123,9 @@ bool complain(const Row& row, const Error& error) {
 bool print(const Row& row, const Options& options, std::ofstream& summaries) {
   const Result<Request> request = row.read();
   if (!request) return complain(row, request.error());
-  const Result<Product> product = produce(*request, {.threads = options.threads});
+  const Job::Options job = {.threads = options.threads};
+  const Result<Product> product =
+      row.picture ? draw_picture(*request, *row.picture, job) : produce(*request, job);
   if (!product) return complain(row, product.error());
   std::string bytes = bytes_of(product->payload);
   if (row.is_summarised && summaries.is_open()) {

@@ -63,6 +63,30 @@ class SEEDMESH_OT_parameters(bpy.types.Operator):
         return {"CANCELLED"} if settings.errors else {"FINISHED"}
 
 
+class SEEDMESH_OT_picture(bpy.types.Operator):
+    """Shows a picture of the model with these parameters, drawn by the service"""
+    bl_idname = "seedmesh.picture"
+    bl_label = "Show picture"
+
+    @classmethod
+    def poll(cls, _context):
+        return service.is_allowed()
+
+    def execute(self, context):
+        settings, client = context.scene.seedmesh, service.client()
+        request = settings.request()
+
+        def done(name, error):
+            settings.errors.clear()
+            if error:
+                settings.show_error(error)
+            else:
+                settings.picture = name
+
+        service.call(lambda: pictures.draw(client, request), done)
+        return {"CANCELLED"} if settings.errors else {"FINISHED"}
+
+
 class SEEDMESH_UL_presets(bpy.types.UIList):
     def draw_item(self, _context, layout, _data, item, _icon, _active, _name):
         row = layout.split(factor=0.7)
@@ -80,8 +104,9 @@ class SEEDMESH_OT_choose(bpy.types.Operator):
         settings = context.scene.seedmesh
         settings.preset = self.preset
         settings.preset_index = max(settings.presets.find(self.preset), 0)
-        settings.parameters.clear()
+                settings.parameters.clear()
+        settings.picture = ""
         return {"FINISHED"}
 
 
-classes = (SEEDMESH_OT_gallery, SEEDMESH_OT_parameters, SEEDMESH_OT_choose, SEEDMESH_UL_presets)
+classes = (SEEDMESH_OT_gallery, SEEDMESH_OT_parameters, SEEDMESH_OT_choose, SEEDMESH_OT_picture, SEEDMESH_UL_presets)

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The gallery's pictures, as icons. Each is fetched once in a session."""
+"""Pictures as icons: those of the gallery, and those of models that the service draws. Each is fetched once in a session."""
+import hashlib
+import json
 import os
 import tempfile
 from concurrent.futures import ThreadPoolExecutor
@@ -39,6 +41,16 @@ def fetch(client, names):
 
     with ThreadPoolExecutor(8) as pool:
         list(pool.map(save, [name for name in names if not os.path.exists(path(name))]))
+
+
+def draw(client, request):
+    """Saves the picture of a model, and returns its name; runs outside the main thread."""
+    name = "request_" + hashlib.sha256(json.dumps(request, sort_keys=True).encode()).hexdigest()[:16]
+    if not os.path.exists(path(name)):
+        data = client.picture(request, size=256)
+        with open(path(name), "wb") as file:
+            file.write(data)
+    return name
 
 
 def icon(name):

@@ -44,6 +44,7 @@ class SeedmeshSettings(bpy.types.PropertyGroup):
     presets: bpy.props.CollectionProperty(type=SeedmeshPreset)
     preset_index: bpy.props.IntProperty(name="Preset")
     preset: bpy.props.StringProperty(name="Preset", default="oak")
+    picture: bpy.props.StringProperty()  # the name of the picture of the model, in pictures.py
     seed: bpy.props.IntProperty(name="Seed", min=0, default=0)
     lods: bpy.props.IntProperty(name="Levels of detail", min=1, max=5, default=1)
     collision: bpy.props.BoolProperty(name="Collision bodies")

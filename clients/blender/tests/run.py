@@ -144,6 +144,19 @@ class AddOn(unittest.TestCase):
             pictures.icon(each.name)
         self.assertEqual(pictures.icon("oakk"), 0)
 
+        def test_a_picture_shows_the_model_of_the_parameters(self):
+        pictures = sys.modules[module + ".pictures"]
+        bpy.ops.seedmesh.choose(preset="koch_island")
+        names = []
+        for seed in (1, 2):
+            self.settings.seed = seed
+            self.assertEqual(bpy.ops.seedmesh.picture(), {"FINISHED"})
+            names.append(self.settings.picture)
+            self.assertEqual(tuple(bpy.data.images.load(pictures.path(names[-1])).size), (256, 256))
+        self.assertNotEqual(*names)
+        bpy.ops.seedmesh.choose(preset="oak")
+        self.assertEqual(self.settings.picture, "")
+
     def test_copies_lie_on_the_surface_and_on_the_curve(self):
         bpy.ops.seedmesh.grow(preset="koch_snowflake", seed=0)
         root = bpy.context.object

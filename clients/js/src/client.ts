@@ -1,6 +1,6 @@
 import { Busy, Refused, error_of, is_busy } from './errors.js';
 import { events_of } from './events.js';
-import { permalink_path, preset_path, sign_path, type Overrides } from './links.js';
+import { permalink_path, picture_path, preset_path, sign_path, type Overrides, type PictureOptions } from './links.js';
 import type {
   BuildingDerivation, BuildingRequest, CityDerivation, CityRequest, FractalDerivation, FractalRequest, LsystemDerivation, LsystemRequest, PresetList, Problem,
   Request, SceneDerivation, SceneRequest, TerrainDerivation, TerrainRequest, TreeDerivation, TreeRequest, Validation,
@@ -106,6 +106,11 @@ export class Client {
   /** A link that contains the whole request, made without the server. RangeError if the request is too long for one. */
   async permalink(request: Request, extension?: string): Promise<string> {
     return this.url + await permalink_path(request, extension);
+  }
+
+    /** A picture of the model that the service draws, as WebP. RangeError if the request is too long for a link. */
+  async picture(request: Request, picture: PictureOptions = {}, options: CallOptions = {}): Promise<ArrayBuffer> {
+    return (await this.call(await picture_path(request, picture), options)).arrayBuffer();
   }
 
   preset_url(name: string, overrides: Overrides = {}, extension = 'glb'): string {

@@ -33,6 +33,20 @@ export async function permalink_path(request: Request, extension = extension_of(
   return path;
 }
 
+/** How a picture is taken. `view`: a name, or azimuth and elevation in degrees, as "35,18". */
+export interface PictureOptions {
+  size?: number;
+  view?: string;
+  ground?: 'auto' | 'none' | 'plane';
+}
+
+/** The path of a picture of a model. */
+export async function picture_path(request: Request, options: PictureOptions = {}): Promise<string> {
+  const query = new URLSearchParams();
+  for (const [key, value] of Object.entries(options)) if (value !== undefined) query.set(key, String(value));
+  return `${await permalink_path(request, 'webp')}${query.size ? `?${query}` : ''}`;
+}
+
 export function preset_path(name: string, overrides: Overrides = {}, extension = 'glb'): string {
   const query = new URLSearchParams(Object.entries(overrides).map(([key, value]) => [key, String(value)]));
   return `/v1/presets/${encodeURIComponent(name)}.${extension}${query.size ? `?${query}` : ''}`;

@@ -24,6 +24,13 @@ async function stub(answers, act) {
 const busy = [429, { 'retry-after': '1', 'content-type': 'application/problem+json' }, '{"type":"queue-full","title":"Busy","status":429}'];
 const made = [200, { 'content-type': 'model/gltf-binary', 'seedmesh-triangles': '12' }, 'glTF'];
 
+test('a model has a picture of the wanted size', async () => {
+  const data = new DataView(await client.picture(plant, { size: 64, view: 'front' }));
+  assert.equal(data.getUint32(8), 0x57454250);  // WEBP
+  assert.deepEqual([data.getUint16(26, true), data.getUint16(28, true)], [64, 64]);
+  await assert.rejects(client.picture(plant, { view: 'inside' }), Refused);
+});
+
 test('a model, its permalink and the link of a preset have the same bytes', async () => {
   const model = await client.generate(plant);
   assert.equal(new DataView(model.data).getUint32(8, true), model.data.byteLength);

@@ -40,6 +40,15 @@ class Calls(InFolder):
         with self.assertRaises(Refused):
             self.client.thumbnail("oakk")
 
+        def test_models_have_pictures(self) -> None:
+        data = self.client.picture(plant, size=64, view="front")
+        self.assertEqual((data[:4], data[8:16]), (b"RIFF", b"WEBPVP8 "))
+        width, height = struct.unpack_from("<HH", data, 26)
+        self.assertEqual((width, height), (64, 64))
+        with self.assertRaises(Refused) as caught:
+            self.client.picture(plant, size=9)
+        self.assertEqual([each["pointer"] for each in caught.exception.errors], ["/size"])
+
     def test_a_permalink_is_made_without_the_server_and_gives_the_same_bytes(self) -> None:
         link = self.client.permalink(plant)
         with urllib.request.urlopen(link) as answer:

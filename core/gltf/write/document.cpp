@@ -41,6 +41,7 @@ class Describer {
   Shown show_nodes() {
     Shown shown;
     shown.exact = options_.dialect.compressed || options_.dialect.quantized;
+    shown.parts = options_.parts;
     for (std::size_t i = 0; i < model_.nodes.size(); ++i) {
       const Node& node = model_.nodes[i];
       const int mesh = mesh_of(node);

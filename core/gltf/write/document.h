@@ -27,8 +27,9 @@ struct DocumentOptions {
       {};  ///< by number of image_numbered(); empty: the images go into the buffer
   std::vector<std::string> image_names = {};  ///< parallel to Model::textures; empty: their own
   std::vector<Extra> scene_extras = {};
-  Dialect dialect = {};  ///< `compressed` or `quantized`: `columns` are quantized
-  bool last = false;     ///< no other document follows: arrays are released once they are stored
+  Dialect dialect = {};                 ///< `compressed` or `quantized`: `columns` are quantized
+  std::vector<std::size_t> parts = {};  ///< of an object whose root has the levels (object_levels.h)
+  bool last = false;  ///< no other document follows: arrays are released once they are stored
 };
 
 /// Describes the scene of one level. Meshes, materials, textures and skins that it does not use are left out.

@@ -58,7 +58,8 @@ void append_coverage(JsonWriter& json, const Node& node, std::size_t levels) {
   });
 }
 
-void append_extras(JsonWriter& json, const Node& node, std::size_t levels) {
+/// `measured` has the thresholds of the levels.
+void append_extras(JsonWriter& json, const Node& node, const Node& measured, std::size_t levels) {
   if (node.extras.empty() && node.collision == CollisionShape::none && levels < 2) return;
   json.object("extras", [&] {
     for (const Extra& extra : node.extras) {
@@ -68,7 +69,7 @@ void append_extras(JsonWriter& json, const Node& node, std::size_t levels) {
     if (node.collision != CollisionShape::none) json.member("collision", name_of(node.collision));
     if (levels > 1) {
       json.key("MSFT_screencoverage");
-      append_coverage(json, node, levels);
+      append_coverage(json, measured, levels);
     }
   });
 }
@@ -101,6 +102,7 @@ class NodeWriter {
     find_bodies();
     next_level_ = next_copy_;
     for (std::size_t i = 0; i < model.nodes.size(); ++i) next_level_ += copies(i);
+    find_object();
     const auto is_copied = [](const Node& node) {
       return !node.instances.transforms.empty() || !node.lods.empty();
     };
@@ -111,14 +113,15 @@ class NodeWriter {
   void append_node(std::size_t number) {
     const Node& node = model_.nodes[number];
     const bool shows = stands_itself(number);
-    const std::size_t coarser = shows ? levels(number) : 0;
+    const std::size_t of_object = number == 0 ? object_.size() : 0;
+    const std::size_t coarser = of_object > 0 ? of_object : shows && object_.empty() ? levels(number) : 0;
     json_.object([&] {
       json_.member("name", node.name);
       append_transform(json_, node.transform, shown_.exact);
       if (shows) append_shown(number, shown_.meshes[number]);
       append_children(number);
       append_extensions(number, shows, coarser, true);
-      append_extras(json_, node, 1 + coarser);
+      append_extras(json_, node, of_object > 0 ? model_.nodes[widest_part_] : node, 1 + coarser);
     });
   }
 
@@ -133,14 +136,16 @@ class NodeWriter {
         append_transform(json_, node.instances.transforms[i], shown_.exact);
         append_shown(number, shown_.meshes[number]);
         append_extensions(number, false, levels(number));
-        append_extras(json_, extras, 1 + levels(number));
+        append_extras(json_, extras, extras, 1 + levels(number));
       });
       meter.step();
     }
   }
 
-  /// Appends the coarser levels in the order of their numbers: those of nodes, then those of copies.
+  /// Appends the coarser levels in the order of their numbers: those of nodes, then those of copies. Of an object, the
+  /// parts of each level come before the nodes that group them.
   void append_all_levels(TextMeter& meter) {
+    if (!object_.empty()) return append_object(meter);
     for (const bool itself : {true, false}) {
       for (std::size_t i = 0; i < model_.nodes.size(); ++i) {
         if (levels(i) > 0 && stands_itself(i) == itself) append_levels(i, meter);
@@ -178,6 +183,56 @@ class NodeWriter {
         });
         meter.step();
       }
+    }
+  }
+
+  /// The mesh of a part at a coarser level. A part without levels is the same at all of them.
+  int mesh_of_part(std::size_t part, std::size_t level) const {
+    return levels(part) == 0 ? shown_.meshes[part] : shown_.lods[part][level];
+  }
+
+  /// Numbers the nodes of the coarser levels of an object. Its parts have all levels or none.
+  void find_object() {
+    std::size_t count = 0;
+    for (const std::size_t part : shown_.parts) {
+      if (levels(part) > 0 && count > 0 && levels(part) != count) return;
+      if (levels(part) == 0 || (count > 0 && !model_.nodes[part].has_impostor)) continue;
+      count = levels(part);
+      widest_part_ = part;
+    }
+    object_.resize(count);
+    std::size_t next = next_level_;
+    for (std::size_t level = 0; level < count; ++level) {
+      for (const std::size_t part : shown_.parts) {
+        if (mesh_of_part(part, level) >= 0) object_[level].push_back(next++);
+      }
+    }
+    if (count > 0) next_level_ = next;
+  }
+
+  void append_object(TextMeter& meter) {
+    const Node& root = model_.nodes.front();
+    for (std::size_t level = 0; level < object_.size(); ++level) {
+      for (const std::size_t part : shown_.parts) {
+        if (mesh_of_part(part, level) < 0) continue;
+        json_.object([&] {
+          json_.member("name", level_name(model_.nodes[part].name, level + 1));
+          append_transform(json_, model_.nodes[part].transform, shown_.exact);
+          append_shown(part, mesh_of_part(part, level));
+        });
+        meter.step();
+      }
+    }
+    for (std::size_t level = 0; level < object_.size(); ++level) {
+      json_.object([&] {
+        json_.member("name", level_name(root.name, level + 1));
+        append_transform(json_, root.transform, shown_.exact);
+        if (object_[level].empty()) return;
+        json_.array("children", [&] {
+          for (const std::size_t child : object_[level]) json_.value(child);
+        });
+      });
+      meter.step();
     }
   }
 
@@ -270,8 +325,10 @@ class NodeWriter {
   const Shown& shown_;
   Family family_;
   std::vector<bool> is_body_;
-  std::size_t next_copy_, next_level_ = 0;      ///< numbers of the next nodes after those of the model
-  std::unordered_set<std::string_view> names_;  ///< of the model's nodes, if any node is copied
+  std::size_t next_copy_, next_level_ = 0;        ///< numbers of the next nodes after those of the model
+  std::vector<std::vector<std::size_t>> object_;  ///< of each coarser level of the object, the nodes below it
+  std::size_t widest_part_ = 0;                   ///< the part that has the thresholds of the object
+  std::unordered_set<std::string_view> names_;    ///< of the model's nodes, if any node is copied
 };
 
 }  // namespace

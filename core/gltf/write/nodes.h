@@ -25,11 +25,14 @@ struct Shown {
   std::vector<int> shapes;
   std::vector<int> shape_meshes;  ///< for each shape its mesh in the document
   bool exact = false;             ///< translations and scales are written as doubles, without rounding
+  /// The parts of an object whose root has the levels (object_levels.h), or empty.
+  std::vector<std::size_t> parts;
 };
 
 /// Appends the JSON array of all nodes: the nodes of the model in their order; then the copies of nodes as
 /// their children ("window_0"), which share the mesh; last the coarser levels of both ("bark_LOD1"), which
-/// MSFT_lod refers to and no scene shows. Identity transforms are left out. Spends the bytes of the text from
+/// MSFT_lod refers to and no scene shows. Those of an object are grouped below a node for each level ("oak_LOD1").
+/// Identity transforms are left out. Spends the bytes of the text from
 /// `job`.
 void append_nodes(std::string& out, const Model& model, const Shown& shown, Job& job);
 

@@ -10,6 +10,7 @@
 #include "core/gltf/compress/quantize.h"
 #include "core/gltf/content_names.h"
 #include "core/gltf/write/document.h"
+#include "core/gltf/write/object_levels.h"
 #include "core/gltf/write/zip.h"
 
 namespace seedmesh {
@@ -179,6 +180,8 @@ void recount(const Model& model, const Columns& columns, ModelCounts& counts) {
 Payload write(Model model, const WriteOptions& options, Job& job) {
   const Dialect& dialect = options.dialect;
   const bool is_quantized = dialect.compressed || dialect.quantized;
+  std::vector<std::size_t> parts;  // found before grids transform them
+  if (dialect.lods_inside) parts = gltf::parts_of_object(model);
   std::vector<gltf::Grid> grids;
   if (is_quantized) {
     grids =
@@ -190,8 +193,10 @@ Payload write(Model model, const WriteOptions& options, Job& job) {
                    dialect.compressed ? gltf::Encoding::filtered : gltf::Encoding::plain);
     if (options.counts) recount(model, columns, *options.counts);
   }
-  gltf::DocumentOptions described{
-      .generator = options.generator, .scene_extras = options.scene_extras, .dialect = dialect};
+  gltf::DocumentOptions described{.generator = options.generator,
+                                  .scene_extras = options.scene_extras,
+                                  .dialect = dialect,
+                                  .parts = std::move(parts)};
   if (!options.image_stem.empty()) described.image_names = gltf::image_names(model, options.image_stem);
   if (options.container == Container::zip) return write_zip(model, columns, described, job);
   described.last = true;

@@ -46,12 +46,17 @@ Made made(const std::string& preset, const std::string& output) {
   return result;
 }
 
+/// Of a node and its children.
 std::size_t triangles_of(const json& document, const json& node) {
-  if (!node.contains("mesh")) return 0;
   std::size_t corners = 0;
-  for (const json& primitive : document["meshes"][node["mesh"].get<std::size_t>()]["primitives"])
-    corners += document["accessors"][primitive["indices"].get<std::size_t>()]["count"].get<std::size_t>();
-  return corners / 3;
+  if (node.contains("mesh")) {
+    for (const json& primitive : document["meshes"][node["mesh"].get<std::size_t>()]["primitives"])
+      corners += document["accessors"][primitive["indices"].get<std::size_t>()]["count"].get<std::size_t>();
+  }
+  std::size_t triangles = corners / 3;
+  for (const json& child : node.value("children", json::array()))
+    triangles += triangles_of(document, document["nodes"][child.get<std::size_t>()]);
+  return triangles;
 }
 
 /// Triangles of each level of a file with MSFT_lod.

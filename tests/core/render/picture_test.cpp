@@ -7,6 +7,7 @@
 
 #include "core/base/rng.h"
 #include "core/render/samples.h"
+#include "core/render/shadow.h"
 
 namespace seedmesh::render {
 namespace {
@@ -76,18 +77,36 @@ void add_box(Mesh& mesh, const glm::vec3& low, const glm::vec3& high) {
   }
 }
 
-Samples samples_of(const Model& model, const View& view, std::uint32_t size, const Job& job) {
-  const Items items = items_of(model, job);
-  return draw_samples(model, items, Surfaces(model, job), camera_for(model, items, view), size, job);
-}
+/// The samples of a model, and what they are read from.
+struct Drawn {
+  Drawn(const Model& model, const View& view, std::uint32_t size, const Job& job)
+      : items(items_of(model, job)),
+        surfaces(model, job),
+        scene(scene_of(model, items, surfaces, job)),
+        shown(show(scene, Eye(camera_for(model, items, view), size), job)),
+        samples(draw_samples(shown, job)) {}
+  float near(std::uint32_t x, std::uint32_t y) const { return samples.near[samples.at(x, y)]; }
+  Fragment fragment(std::uint32_t x, std::uint32_t y) const {
+    const std::size_t at = samples.at(x, y);
+    return FragmentReader(shown).at(samples.drawing[at], samples.number[at],
+                                    (static_cast<float>(x) + 0.5F) * fixed_one,
+                                    (static_cast<float>(y) + 0.5F) * fixed_one);
+  }
+
+  Items items;
+  Surfaces surfaces;
+  Scene scene;
+  Shown shown;
+  Samples samples;
+};
 
 TEST(Picture, ShowsASphereAsTheDiscThatFitsTheFrame) {
   const Job job = job_of();
   const Model model = sphere(64, job);
   for (const View view : {View{0, 0}, View{35, 18}, View{200, -40}, View{90, 89}}) {
-    const Samples samples = samples_of(model, view, 400, job);
+    const Drawn drawn(model, view, 400, job);
     std::size_t covered = 0;
-    for (const Sample& sample : samples.of) covered += sample.near > 0 ? 1 : 0;
+    for (const float near : drawn.samples.near) covered += near > 0 ? 1 : 0;
     // The sides of the frame stand off by 6 %.
     const double share = static_cast<double>(covered) / (400.0 * 400.0),
                  disc = 3.14159265 / 4 / (1.06 * 1.06);
@@ -99,24 +118,22 @@ TEST(Picture, HasTheNormalsOfASphereInTheMiddle) {
   const Job job = job_of();
   const Model model = sphere(64, job);
   const View view{35, 18};
-  const Samples samples = samples_of(model, view, 200, job);
-  const Sample& middle = samples.of[std::size_t{100} * 200 + 100];
-  const glm::dvec3 normal = glm::dvec3(glm::i8vec3(middle.normal)) / 127.0, towards = frame_of(view).towards;
-  EXPECT_GT(glm::dot(normal, towards), 0.995);
+  const Drawn drawn(model, view, 200, job);
+  const glm::dvec3 normal(drawn.fragment(100, 100).normal), towards = frame_of(view).towards;
+  EXPECT_GT(glm::dot(normal, towards), 0.999);
 }
 
 TEST(Picture, DrawsNoBackOfAClosedSurface) {
   const Job job = job_of();
   Model model = sphere(32, job);
-  const auto before = samples_of(model, {}, 200, job);
+  const float before = Drawn(model, {}, 200, job).near(100, 100);
   Array<std::uint32_t>& index = model.meshes[0].primitives[0].mesh.index.wide;
   for (std::size_t i = 0; i < index.size(); i += 3) std::swap(index[i + 1], index[i + 2]);
-  const auto inside_out = samples_of(model, {}, 200, job);
-  const std::size_t middle = std::size_t{100} * 200 + 100;
-  EXPECT_GT(before.of[middle].near, inside_out.of[middle].near);  // the far side is seen
+  const float inside_out = Drawn(model, {}, 200, job).near(100, 100);
+  EXPECT_GT(before, inside_out);  // the far side is seen
   // By the rules of glTF, a mirrored node turns the winding of its mesh, too.
   model.nodes[0].transform.scale = {-1, 1, 1};
-  EXPECT_EQ(samples_of(model, {}, 200, job).of[middle].near, inside_out.of[middle].near);
+  EXPECT_NEAR(Drawn(model, {}, 200, job).near(100, 100), inside_out, 1e-6F);
 }
 
 /// Whether a ray from `from` along `towards` meets the box.
@@ -138,17 +155,26 @@ TEST(Picture, CastsTheShadowOfABox) {
   const Model model = model_of(std::move(mesh));
   const Items items = items_of(model, job);
   const View sun{-40, 48};
-  const ShadowMap map = draw_shadows(model, items, Surfaces(model, job), sun, 512, job);
+  const Surfaces surfaces(model, job);
+  const ShadowMap map = draw_shadows(scene_of(model, items, surfaces, job), sun, 512, job);
   const glm::dvec3 towards = frame_of(sun).towards;
-  std::size_t wrong = 0, dark = 0;
+  std::size_t wrong = 0, dark = 0, known = 0;
   for (std::uint64_t i = 0; i < 100'000; ++i) {
     const Rng rng = Rng::of_seed(i);
     const glm::dvec3 p(6 * rng.at(0).unit() - 3, -0.02, 6 * rng.at(1).unit() - 3);
     const bool expected = meets(p, towards, glm::dvec3(low), glm::dvec3(high));
     dark += expected ? 1 : 0;
-    wrong += expected != map.is_dark(p, glm::dvec2(0)) ? 1 : 0;
+    const ShadowMap::Place at = map.place_of(glm::vec3(p));
+    wrong += expected != map.is_dark(at, 0, 0) ? 1 : 0;
+    const float common = map.common_light(at);
+    known += common >= 0 ? 1 : 0;
+    for (const float dx : {-ShadowMap::reach, 0.0F, ShadowMap::reach}) {
+      const bool is_common = map.is_dark(at, dx, -dx) == (common == 0);
+      EXPECT_TRUE(common < 0 || is_common);
+    }
   }
   EXPECT_GT(dark, 5'000U);
+  EXPECT_GT(known, 50'000U);
   EXPECT_LT(wrong, 400U);  // points within a texel of the border
 }
 
@@ -197,9 +223,9 @@ TEST(Picture, CutsHolesWhereATextureIsEmpty) {
   model.textures.push_back(image);
   model.materials[0].base_color_texture = {0, 0, false};
   model.materials[0].alpha_mode = AlphaMode::mask;
-  const Samples samples = samples_of(model, {0, 0}, 200, job);
-  EXPECT_EQ(samples.of[std::size_t{100} * 200 + 60].near, 0);
-  EXPECT_GT(samples.of[std::size_t{100} * 200 + 140].near, 0);
+  const Drawn drawn(model, {0, 0}, 200, job);
+  EXPECT_EQ(drawn.near(60, 100), 0);
+  EXPECT_GT(drawn.near(140, 100), 0);
 }
 
 TEST(Picture, IsTheSameWithAnyNumberOfThreads) {

@@ -75,6 +75,10 @@ class Client:
         """The gallery's picture of a preset: WebP, 192 by 144 pixels."""
         return self._transport.call(links.thumbnail_path(name)).data
 
+        def picture(self, request: Request, size: int = 512, view: str = "three_quarter") -> bytes:
+        """A picture of the model that the service draws: WebP, square. ValueError if no link holds the request."""
+        return self._transport.call(links.picture_path(request, size, view)).data
+
     def schema(self, generator: str) -> Dict[str, Any]:
         """The JSON Schema of a generator's parameters, or of request, output or problem."""
         return cast(Dict[str, Any], self._transport.call(f"/v1/schemas/{generator}").json())
@@ -207,6 +211,9 @@ class AsyncClient:
 
     async def thumbnail(self, name: str) -> bytes:
         return await asyncio.to_thread(self.client.thumbnail, name)
+
+        async def picture(self, request: Request, size: int = 512, view: str = "three_quarter") -> bytes:
+        return await asyncio.to_thread(self.client.picture, request, size, view)
 
     async def schema(self, generator: str) -> Dict[str, Any]:
         return await asyncio.to_thread(self.client.schema, generator)

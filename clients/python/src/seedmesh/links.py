@@ -38,6 +38,11 @@ def thumbnail_path(name: str) -> str:
     return f"/thumbnails/{urllib.parse.quote(name, safe='')}.webp"
 
 
+def picture_path(request: Request, size: int = 512, view: str = "three_quarter") -> str:
+    """Path of a picture of the model. `view`: a name, or azimuth and elevation in degrees, as "35,18"."""
+    return permalink_path(request, "webp") + "?" + urllib.parse.urlencode({"size": size, "view": view})
+
+
 def preset_path(name: str, extension: str = "glb", query: Optional[Mapping[str, Union[str, int, float, bool]]] = None) -> str:
     """Path of a preset's model. `query`: seed, output.x, a parameter's name, or constants.x."""
     path = f"/v1/presets/{urllib.parse.quote(name, safe='')}.{extension}"

@@ -334,6 +334,44 @@ TEST(Levels, AreNamedByTheNodeAndShownByNoScene) {
   EXPECT_FALSE(json_of(written(with_lods(job()), {})).contains("extensionsUsed"));
 }
 
+/// A root with two parts: the first has two coarser levels, the second is the same at all of them.
+Model object_of(const Job& job) {
+  Model model = with_lods(job);
+  Node root;
+  root.name = "thing";
+  for (Node& node : model.nodes) node.parent = 0;
+  model.nodes.insert(model.nodes.begin(), root);
+  return model;
+}
+
+TEST(Levels, OfAnObjectAreOfItsRoot) {
+  const json document = json_of(written(object_of(job()), lods));
+  const json& nodes = document["nodes"];
+  ASSERT_EQ(nodes.size(), 3U + 2 * 2 + 2);
+  EXPECT_THAT(nodes[0]["extensions"]["MSFT_lod"]["ids"], ElementsAre(7, 8));
+  EXPECT_EQ(nodes[0]["extras"]["MSFT_screencoverage"].size(), 3U);
+  for (const std::size_t part : {1U, 2U}) EXPECT_FALSE(nodes[part].contains("extensions"));
+  EXPECT_EQ(nodes[7]["name"], "thing_LOD1");
+  EXPECT_THAT(nodes[7]["children"], ElementsAre(3, 4));
+  EXPECT_THAT(nodes[8]["children"], ElementsAre(5, 6));
+  EXPECT_EQ(nodes[3]["mesh"], nodes[1]["mesh"].get<int>() + 1);
+  EXPECT_EQ(nodes[4]["mesh"], nodes[2]["mesh"]);
+  EXPECT_EQ(nodes[5]["mesh"], nodes[1]["mesh"].get<int>() + 2);
+  EXPECT_THAT(document["scenes"][0]["nodes"], ElementsAre(0));
+}
+
+TEST(Levels, OfPartsThatStandApartAreTheirOwn) {
+  Model moved = object_of(job());
+  moved.nodes[2].transform.translation = {5, 0, 0};
+  Model other = object_of(job());
+  other.nodes[2].lods = {other.nodes[1].lods.front()};
+  for (Model* model : {&moved, &other}) {
+    const json document = json_of(written(std::move(*model), lods));
+    EXPECT_FALSE(document["nodes"][0].contains("extensions"));
+    EXPECT_TRUE(document["nodes"][1]["extensions"].contains("MSFT_lod"));
+  }
+}
+
 TEST(Levels, OfCopiesAreNodesOfTheirOwn) {
   Model model = with_lods(job());
   model.nodes[0].instances = scattered(job()).nodes[0].instances;

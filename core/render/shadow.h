@@ -1,0 +1,59 @@
+#pragma once
+/// How far the light of the sun reaches: a shadow map (Williams 1978) with percentage-closer filtering (Reeves and others
+/// 1987).
+#include "core/render/scene.h"
+
+namespace seedmesh::render {
+
+/// Distances from the sun, as a square map that holds the whole model.
+struct ShadowMap {
+  Frame frame;  ///< towards the sun
+  glm::dvec2 low{0};
+  double step = 1;  ///< metres of a texel
+  std::uint32_t size = 0;
+  Array<float> depth;  ///< towards the sun; greater is nearer to it
+  /// The least and the greatest depth around each square of `block` texels, to `reach` texels beyond it.
+  struct Range {
+    float least, greatest;
+  };
+  static constexpr std::uint32_t block = 8;
+  static constexpr float reach = 4;
+  Array<Range> around;
+
+  /// A position in the map: in texels, and towards the sun.
+  struct Place {
+    float x, y, depth;
+  };
+  /// `offset` is added along the normal, in texels.
+  Place place_of(const glm::vec3& position) const {
+    const auto form = [&position](const glm::vec4& row) {
+      return (row.x * position.x + row.y * position.y) + (row.z * position.z + row.w);
+    };
+    return {form(lens.right), form(lens.down), form(lens.towards) + bias};
+  }
+  /// Whether something is nearer to the sun than a position, `dx` and `dy` texels beside it. Outside: false.
+  bool is_dark(const Place& at, float dx, float dy) const {
+    const float x = at.x + dx, y = at.y + dy;
+    if (!(x >= 0 && y >= 0 && x < side && y < side)) return false;
+    return depth[static_cast<std::size_t>(y) * stride + static_cast<std::size_t>(x)] > at.depth;
+  }
+  /// 1 or 0 where is_dark() has one answer for all offsets up to `reach`; -1 where that is not known.
+  float common_light(const Place& at) const {
+    if (!(at.x >= reach && at.y >= reach && at.x < side - reach && at.y < side - reach)) return -1;
+    const Range& range =
+        around[static_cast<std::size_t>(at.y) / block * blocks + static_cast<std::size_t>(at.x) / block];
+    if (range.greatest <= at.depth) return 1;
+    return range.least > at.depth ? 0.0F : -1.0F;
+  }
+
+  Lens lens;
+  float bias = 0;  ///< metres towards the sun
+  float side = 0;  ///< `size`
+  std::size_t stride = 0, blocks = 0;
+};
+
+/// Cost: about 50 ns a triangle and 1 ns a covered texel. Sheets that blend cast no shadow,
+/// and sheets of one side none where they face away from the sun.
+ShadowMap draw_shadows(const Scene& scene, const View& sun, std::uint32_t size, const Job& job);
+
+}  // namespace seedmesh::render
