@@ -154,7 +154,7 @@ class PictureRun {
         anchors, order, {candidates_, *on_lines_}, [this] { look(); },
         [&](const std::vector<glm::dvec3>& points) {
           for (const bool is_mirrored : {false, true}) {
-            if (is_mirrored && !(grammar_.mirrors && grammar_.is_flat)) break;
+            if (is_mirrored && !grammar_.mirrors) break;
             const std::optional<OpenPlace> place =
                 solve_place(anchors, order, points, grammar_.is_flat, is_mirrored);
             if (place) try_open(index, *place);
@@ -168,7 +168,6 @@ class PictureRun {
     match.pair = index;
     match.place = found.place;
     match.values = found.values;
-    if (!grammar_.mirrors && glm::determinant(found.place.turn) < 0) return;
     for (std::size_t k = 0; k < pair.open.size(); ++k) {
       const double rounding = 1e-9 * std::max(std::abs(pair.open[k].low), std::abs(pair.open[k].high));
       if (match.values[k] < pair.open[k].low - rounding || match.values[k] > pair.open[k].high + rounding)

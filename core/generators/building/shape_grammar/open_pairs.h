@@ -32,7 +32,7 @@ void check_open_left(const PicturePair& pair, const ShapePicture& other, const s
 
 /// A point of a left shape: `at` plus the sum of the changes times the values.
 struct OpenAnchor {
-  glm::dvec3 at{0};
+  glm::dvec3 at{0}, sample{0};  ///< `sample` is the point for first_sample
   std::vector<glm::dvec3> changes;
   std::uint32_t kind = 0, owner = no_owner, corner = 0;  ///< as in PictureAnchor
   std::vector<std::uint32_t> beside;  ///< anchors at the other ends of lines that begin here
@@ -41,8 +41,9 @@ struct OpenAnchor {
 /// One for each point. Ends of lines that meet others are crossings.
 std::vector<OpenAnchor> open_anchors(const PicturePair& pair);
 
-/// The order in which anchors are searched: enough of them, those with few candidates first. `per_line` is the mean number
-/// of points on a line of the picture. Empty: they do not determine a similarity and values.
+/// The order in which anchors are searched: enough of them, those with few candidates first. In space the first three have
+/// directions that do not depend on the variables. `per_line` is the mean number of points on a line of the picture. Empty:
+/// they do not determine a similarity and values.
 std::vector<std::uint32_t> search_order(const std::vector<OpenAnchor>& anchors, bool is_flat,
                                         const std::map<std::uint32_t, std::size_t>& counts, double per_line);
 
@@ -51,8 +52,8 @@ struct OpenPlace {
   std::vector<double> values;
 };
 
-/// The similarity and the values that map these anchors to these points, by least squares; nothing if there are none. In
-/// the plane it mirrors if `is_mirrored`; in space the points decide.
+/// The similarity, mirrored or not, and the values that map these anchors to these points, by least squares; nothing if there
+/// are none.
 std::optional<OpenPlace> solve_place(const std::vector<OpenAnchor>& anchors,
                                      std::span<const std::uint32_t> order, std::span<const glm::dvec3> points,
                                      bool is_flat, bool is_mirrored);
