@@ -62,10 +62,11 @@ test('3d-tiles-renderer finds no vertex of a tile outside the boxes above it', {
   await page.context().close();
 });
 
-const missed = { three: '82 requests, two files of them twice; 3.52 MB before HTTP coding', cesium: '72 requests; 3.10 MB before HTTP coding' };
 const bounds = { requests: 70, megabytes: 3, triangles: 500_000 };
+// The view is at the corner of four tiles of each level, so clients load eight or more tiles of each.
+const missed = { three: '81 requests', cesium: '73 requests' };
 for (const client of ['three', 'cesium'])
-  test(`the standard view of ${client} is within ${bounds.requests} requests, ${bounds.megabytes} MB and ${bounds.triangles} triangles`, { timeout: 120_000, todo: missed[client] }, async (t) => {
+  test(`the standard view of ${client} is within ${bounds.megabytes} MB and ${bounds.triangles} triangles, and loads no file twice`, { timeout: 120_000 }, async (t) => {
     const page = await browser.open(client);
     await page.evaluate((options) => window.client.open(options), { url: world('temperate_land.7', 'tileset.json'), lines: 720 });
     const found = await page.evaluate((pose) => window.client.view(pose), { east: 0, north: 0, up: 1050 + await ground_at('temperate_land.7', 0, 0), heading: 0, pitch: -25 });
@@ -73,7 +74,8 @@ for (const client of ['three', 'cesium'])
     t.diagnostic(`${loaded.length} requests, ${sum('bytes').toFixed(2)} MB (${sum('sent').toFixed(2)} MB with HTTP coding), ${found.triangles} triangles, ${found.tiles} tiles`);
     assert.deepEqual([page.faults, found.faults], [[], []]);
     assert.equal(new Set(loaded.map(({ url }) => url)).size, loaded.length, 'no file is loaded twice');
-    assert.ok(found.tiles > 0 && loaded.length <= bounds.requests && sum('bytes') <= bounds.megabytes && found.triangles <= bounds.triangles);
+    assert.ok(found.tiles > 0 && sum('bytes') <= bounds.megabytes && found.triangles <= bounds.triangles);
+    await t.test(`within ${bounds.requests} requests`, { todo: missed[client] }, () => { assert.ok(loaded.length <= bounds.requests); });
     await page.context().close();
   });
 
@@ -85,7 +87,7 @@ test('the implicit form is read by both clients, and CesiumJS shows the tiles of
     for (const form of ['implicit', 'tileset']) {
       const page = await browser.open(client);
       await page.evaluate((options) => window.client.open(options), { url: world('temperate_land.7', `${form}.json`), lines: 720 });
-      const { faults, tiles, triangles } = await page.evaluate((pose) => window.client.view(pose), { east: 0, north: 0, up: 1500, heading: 0, pitch: -40 });
+      const { faults, tiles, triangles } = await page.evaluate((pose) => window.client.view(pose), { east: 0, north: 0, up: 700, heading: 0, pitch: -40 });
       assert.deepEqual([page.faults, faults], [[], []], `${client} ${form}`);
       assert.equal(page.files.filter(({ url }) => url.endsWith('.subtree')).length > 1, form === 'implicit');
       shown[form] = [tiles, triangles];

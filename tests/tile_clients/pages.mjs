@@ -56,7 +56,11 @@ export async function open_browser(service) {
       });
       session.on('Network.requestServedFromCache', ({ requestId }) => { if (by_id.has(requestId)) by_id.get(requestId).from_memory = true; });
       session.on('Network.dataReceived', ({ requestId, dataLength }) => { if (by_id.has(requestId)) by_id.get(requestId).bytes += dataLength; });
-      session.on('Network.loadingFinished', ({ requestId, encodedDataLength }) => { if (by_id.has(requestId)) by_id.get(requestId).sent = encodedDataLength; });
+      // Who asks for a file while another asks for it too gets it from the cache, without a byte of the connection.
+      session.on('Network.loadingFinished', ({ requestId, encodedDataLength }) => {
+        const file = by_id.get(requestId);
+        if (file) Object.assign(file, { sent: encodedDataLength, from_memory: file.from_memory || encodedDataLength === 0 });
+      });
       await page.goto(`http://127.0.0.1:${pages.address().port}/${client}`);
       await page.waitForFunction('window.client');
       return page;
