@@ -128,7 +128,7 @@ function move(seconds: number): void {
  * from far above, coasts are seen instead, and they need finer tiles.
  */
 function set_view(): void {
-  if (tiles) tiles.errorTarget = pose.walks ? 16 : 16 / (1 + Math.abs(pose.height) / 5000);
+  if (tiles) tiles.errorTarget = pose.walks ? 10 : 8 / (1 + Math.abs(pose.height) / 8000);
   const near = pose.walks ? 0.3 : MathUtils.clamp(Math.abs(pose.height) / 100, 1, 1000);
   if (Math.abs(near / camera.near - 1) < 0.1) return;
   camera.near = near;
