@@ -3,7 +3,7 @@
 import fs from 'node:fs';
 import path from 'node:path';
 import sharp from 'sharp';
-import { launch, until_state } from '../browser/chromium.mjs';
+import { launch } from '../browser/chromium.mjs';
 import { serve } from '../http/support.mjs';
 
 const folder = path.join(import.meta.dirname, '../../docs/pictures/worlds');
@@ -37,9 +37,9 @@ try {
     const [preset, seed] = world.split('.');
     const { heights, sea_level = 0 } = (await server.post(`/v1/derive?box=${east - 16},${north - 16},${east + 16},${north + 16}`, { preset, seed: Number(seed) })).json;
     const up = Math.max(heights.values[Math.floor(heights.values.length / 2)], sea_level) + above;
-    const page = await browser.newPage({ viewport: { width: 1600, height: 900 } });
+    const page = await browser.newPage({ viewport: { width: 1280, height: 720 } });
     await page.goto(`${server.url}/world.html#${world}@${[east, north, up, heading, pitch]}`);
-    await until_state(page, 'ready', 'failed');
+    await page.waitForFunction(() => ['ready', 'failed'].includes(document.body.dataset.state), null, { timeout: 400_000, polling: 500 });
     await page.evaluate(() => { for (const each of document.querySelectorAll('form, p, details, .sliders')) each.remove(); });
     const whole = await page.screenshot({ timeout: 120_000 });
     const png = await sharp(whole).resize(800, 450).png().toBuffer();

@@ -6,6 +6,7 @@
 #include "core/base/math.h"
 #include "core/generators/world/canopy.h"
 #include "core/generators/world/plant_layer.h"
+#include "core/generators/world/resolved.h"
 #include "core/model/model.h"
 
 namespace seedmesh::world {
@@ -35,8 +36,11 @@ constexpr double widest_canopy_spacing = widest_plants / tile_cells;
 double patches_at(const World& world, double east, double north, double spacing) {
   constexpr std::array<std::array<double, 2>, 4> octaves{{{2100, 0.5}, {520, 0.5}, {140, 0.55}, {37, 0.35}}};
   double sum = 0;
-  for (std::size_t k = 0; k < octaves.size() && spacing <= octaves[k][0] / 2; ++k)
-    sum += octaves[k][1] * octave(world.key ^ (0xC0105U + k), east, north, octaves[k][0]).value;
+  for (std::size_t k = 0; k < octaves.size(); ++k) {
+    const double shown = resolved_share(spacing, octaves[k][0]);
+    if (shown <= 0) break;
+    sum += shown * octaves[k][1] * octave(world.key ^ (0xC0105U + k), east, north, octaves[k][0]).value;
+  }
   return sum;
 }
 
