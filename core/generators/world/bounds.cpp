@@ -41,15 +41,24 @@ TileBounds in_plan(const World& world, const TileKey& key) {
   return box;
 }
 
-constexpr double plant_error = 1.0 / 128;  ///< of the side of a tile
+constexpr double plant_error = 1.0 / 128;  ///< of the side of a tile with single plants
+constexpr double wood_error = 1.0 / 192;   ///< of the side of a wider tile, with woods
 constexpr double widest_plant_error =
-    2048;  ///< metres; woods in wider tiles are seen from so far that they are flat
+    16384;  ///< metres; the error of wider tiles grows by a share for each level
+constexpr double wide_growth = 1.05;
 
-/// Heights are rounded to steps, here and in tiles below. Tiles that replace plants by simpler ones and by the surface
-/// of woods lack more of them the wider they are, up to the height of the plants.
+/// What a tile lacks where plants grow: single plants, and edges of woods between its samples.
+double plant_error_of(const World& world, const TileFrame& frame) {
+  if (!world.has(Layer::plants)) return 0;
+  if (frame.side <= 512) return plant_error * frame.side;
+  double error = wood_error * std::min(frame.side, widest_plant_error);
+  for (double side = widest_plant_error; side < frame.side; side *= 2) error *= wide_growth;
+  return error;
+}
+
+/// Heights are rounded to steps, here and in tiles below.
 double error_of(const World& world, const TileFrame& frame, const Roughness& rough, double plant_height) {
-  const double plants =
-      frame.side <= widest_plant_error ? std::min(plant_error * frame.side, plant_height) : 0;
+  const double plants = plant_height > 0 ? plant_error_of(world, frame) : 0;
   return std::max(deviation_of(world, frame.spacing, rough), plants) + frame.step;
 }
 

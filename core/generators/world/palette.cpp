@@ -29,6 +29,7 @@ std::uint8_t byte_of(double value) {
   return static_cast<std::uint8_t>(math::to_int32(std::clamp(value, 0.0, 1.0) * 255 + 0.5));
 }
 
+constexpr double widest_bank_spacing = 128;  ///< metres between samples that show green banks
 constexpr double widest_verge_spacing = 8;  ///< metres between samples that show the bare ground beside roads
 constexpr double widest_canopy_spacing = widest_plants / tile_cells;
 
@@ -56,8 +57,12 @@ std::array<std::uint8_t, 4> ground_color(const World& world, const GroundSample&
   const WorldColors& colors = world.params.colors;
   const Climate climate = climate_at(world, east, north, sample.height);
   const double patch = patches_at(world, east, north, spacing);
-  const double moisture = climate.moisture + 0.07 * patch;
-  Shade shade = mixed(shade_of(colors.dry), shade_of(colors.grass), smooth_step(moisture, 0.2, 0.46));
+  const double banks =
+      spacing <= widest_bank_spacing ? 1 - smooth_step(sample.shore + 25 * patch, 8, 110) : 0;
+  const double moisture = climate.moisture + 0.07 * patch + 0.28 * banks;
+  Shade bare_soil = mixed(shade_of(colors.dry), shade_of(colors.sand), 0.75 * smooth_step(patch, -0.1, 0.7));
+  bare_soil = mixed(bare_soil, shade_of(colors.rock), 0.4 * smooth_step(-patch, 0.15, 0.8));
+  Shade shade = mixed(bare_soil, shade_of(colors.grass), smooth_step(moisture, 0.2, 0.46));
   shade = mixed(shade, shade_of(colors.forest), 0.45 * smooth_step(moisture, 0.5, 0.85));
   shade = mixed(shade, shade_of(colors.dry), 0.6 * smooth_step(-climate.temperature + patch, -4, 2));
   if (world.has(Layer::plants)) {
@@ -86,7 +91,7 @@ std::array<std::uint8_t, 4> ground_color(const World& world, const GroundSample&
   const double snow =
       smooth_step(-climate.temperature + 1.2 * patch, 3, 6) * (1 - smooth_step(1 - steepness, 0.25, 0.5));
   shade = mixed(shade, shade_of(colors.snow), snow);
-  const double light = 1 + 0.08 * patch;
+  const double light = 1 + 0.11 * patch;
   return {byte_of(shade.red * light), byte_of(shade.green * light), byte_of(shade.blue * light), 255};
 }
 
