@@ -41,24 +41,12 @@ TileBounds in_plan(const World& world, const TileKey& key) {
   return box;
 }
 
-constexpr double plant_error = 1.0 / 128;  ///< of the side of a tile with single plants
-constexpr double wood_error = 1.0 / 192;   ///< of the side of a wider tile, with woods
-constexpr double widest_plant_error =
-    16384;  ///< metres; the error of wider tiles grows by a share for each level
-constexpr double wide_growth = 1.05;
+constexpr double plant_error = 1.0 / 192;  ///< of the side of a tile
 
-/// What a tile lacks where plants grow: single plants, and edges of woods between its samples.
-double plant_error_of(const World& world, const TileFrame& frame) {
-  if (!world.has(Layer::plants)) return 0;
-  if (frame.side <= 512) return plant_error * frame.side;
-  double error = wood_error * std::min(frame.side, widest_plant_error);
-  for (double side = widest_plant_error; side < frame.side; side *= 2) error *= wide_growth;
-  return error;
-}
-
-/// Heights are rounded to steps, here and in tiles below.
+/// Heights are rounded to steps, here and in tiles below. Tiles that leave plants out lack more of them the wider they
+/// are, up to the height of the plants.
 double error_of(const World& world, const TileFrame& frame, const Roughness& rough, double plant_height) {
-  const double plants = plant_height > 0 ? plant_error_of(world, frame) : 0;
+  const double plants = std::min(plant_error * frame.side, plant_height);
   return std::max(deviation_of(world, frame.spacing, rough), plants) + frame.step;
 }
 

@@ -26,7 +26,7 @@ enum class Finish { walls_and_roof, with_openings };
 constexpr double overhang = 0.45;       ///< metres that a roof reaches beyond the walls
 constexpr double proud = 0.05;          ///< metres that openings stand before a wall
 constexpr double storey = 2.7;          ///< metres between rows of windows
-constexpr double window_spacing = 2.6;  ///< metres
+constexpr double window_spacing = 3.3;  ///< metres
 constexpr Paint glass{9, 12, 16, 255}, door{22, 13, 8, 255}, brick{86, 44, 34, 255};  ///< linear
 
 /// A colour made lighter, or darker, and warmer.
