@@ -3,7 +3,7 @@
 import fs from 'node:fs';
 import path from 'node:path';
 import sharp from 'sharp';
-import { launch, until_state } from '../browser/chromium.mjs';
+import { launch } from '../browser/chromium.mjs';
 import { serve } from '../http/support.mjs';
 
 const folder = path.join(import.meta.dirname, '../../docs/pictures/worlds');
@@ -14,17 +14,17 @@ const before = (world, [east, north], heading, back, above, pitch) => {
 };
 /** name: world, east, north, metres above the ground, heading, pitch. Villages are those of the map. */
 export const views = {
-  temperate_ground: before('temperate_land.7', [10816, -4672], 60, 150, 3, 2),
+  temperate_ground: before('temperate_land.7', [10816, -4672], 60, 175, 5, 0),
   temperate_hill: before('temperate_land.7', [9152, 5184], 300, 620, 120, -9),
   temperate_plane: before('temperate_land.7', [9152, 5184], 330, 2600, 900, -17),
   temperate_orbit: ['temperate_land.7', 0, -20_000, 60_000, 0, -60],
   alpine_hill: before('alpine.3', [-3776, 4800], 120, 750, 160, -6),
   alpine_plane: ['alpine.3', 0, -4000, 1800, 20, -12],
-  archipelago_plane: before('archipelago.5', [2752, -3520], 160, 2400, 700, -14),
+  archipelago_plane: before('archipelago.5', [2752, -3520], 240, 2000, 600, -14),
   archipelago_orbit: ['archipelago.5', 0, -20_000, 70_000, 0, -65],
-  desert_plane: before('desert_oases.4', [-8384, 4928], 200, 1300, 420, -15),
+  desert_plane: before('desert_oases.4', [-8384, 4928], 110, 800, 240, -12),
   boreal_hill: before('boreal_plain.2', [-7872, -4928], 70, 520, 95, -8),
-  boreal_plane: before('boreal_plain.2', [-7872, -4928], 160, 3000, 1000, -17),
+  boreal_plane: before('boreal_plain.2', [-7872, -4928], 160, 2400, 800, -16),
   alien_plane: before('alien_plateaus.6', [10304, 2496], 330, 1800, 500, -13),
 };
 
@@ -37,9 +37,9 @@ try {
     const [preset, seed] = world.split('.');
     const { heights, sea_level = 0 } = (await server.post(`/v1/derive?box=${east - 16},${north - 16},${east + 16},${north + 16}`, { preset, seed: Number(seed) })).json;
     const up = Math.max(heights.values[Math.floor(heights.values.length / 2)], sea_level) + above;
-    const page = await browser.newPage({ viewport: { width: 1600, height: 900 } });
+    const page = await browser.newPage({ viewport: { width: 1280, height: 720 } });
     await page.goto(`${server.url}/world.html#${world}@${[east, north, up, heading, pitch]}`);
-    await until_state(page, 'ready', 'failed');
+    await page.waitForFunction(() => ['ready', 'failed'].includes(document.body.dataset.state), null, { timeout: 400_000, polling: 500 });
     await page.evaluate(() => { for (const each of document.querySelectorAll('form, p, details, .sliders')) each.remove(); });
     const whole = await page.screenshot({ timeout: 120_000 });
     const png = await sharp(whole).resize(800, 450).png().toBuffer();

@@ -52,6 +52,12 @@ function prepare(model: Object3D): void {
   });
 }
 
+/** Errors of tiles are of heights. Woods, fields and villages need finer tiles where the ground is flat. */
+function add_detail(tile: { geometricError: number; boundingVolume: { box?: number[] } }): void {
+  const half = tile.boundingVolume.box?.[3] ?? 0;
+  if (tile.geometricError > 0 && half < 20_000) tile.geometricError = Math.max(tile.geometricError, half / 55);
+}
+
 /** The height of the ground below the camera; null while no tile is there. */
 function ground(): number | null {
   if (!tiles) return null;
@@ -87,6 +93,7 @@ function show(world: string): void {
   name = world;
   if (tiles) { scene.remove(tiles.group); tiles.dispose(); }
   tiles = new TilesRenderer(`v1/worlds/${world}/tileset.json`);
+  tiles.registerPlugin({ name: 'WORLD_DETAIL', preprocessNode: add_detail });
   tiles.setCamera(camera);
   tiles.group.rotation.x = -Math.PI / 2; // z up becomes y up
   tiles.addEventListener('load-error', ({ error }: { error: Error }) => state(`A file of the world cannot be loaded: ${error.message}`, 'failed'));
@@ -128,7 +135,7 @@ function move(seconds: number): void {
  * from far above, coasts are seen instead, and they need finer tiles.
  */
 function set_view(): void {
-  if (tiles) tiles.errorTarget = pose.walks ? 16 : 16 / (1 + Math.abs(pose.height) / 5000);
+  if (tiles) tiles.errorTarget = pose.walks ? 14 : 12 / (1 + Math.abs(pose.height) / 6000);
   const near = pose.walks ? 0.3 : MathUtils.clamp(Math.abs(pose.height) / 100, 1, 1000);
   if (Math.abs(near / camera.near - 1) < 0.1) return;
   camera.near = near;

@@ -2214,7 +2214,7 @@ export interface WorldParametersSettlementsHousesItem {
   share?: number;
 }
 
-/** Villages where the ground is level, mild and near water. */
+/** Villages and farms where the ground is level, mild and near water. */
 export interface WorldParametersSettlements {
   /** The share of suitable locations that have a village. There is at most one in 6 km. */
   density?: number;
@@ -2254,7 +2254,7 @@ export interface WorldParametersFields {
 export interface WorldParametersPlantsItem {
   /** The name of the class in the map. */
   class: string;
-  /** The form of the plant where it has no model, and of woods seen from far away. */
+  /** The form of the plant where it has no model, and the width of crowns in woods seen from far away. */
   form?: "conifer" | "broadleaf" | "palm" | "shrub" | "cactus" | "fungus";
   /** A request of the generator tree or lsystem. Its model is scaled to the height. Near the camera it has 1,500 triangles, or more where it cannot be simplified so far; farther away stands its impostor. */
   model?: Child;
@@ -2296,7 +2296,7 @@ export interface WorldParameters {
   climate?: WorldParametersClimate;
   /** The colours of the ground and of water. */
   colors?: WorldParametersColors;
-  /** Villages where the ground is level, mild and near water. */
+  /** Villages and farms where the ground is level, mild and near water. */
   settlements?: WorldParametersSettlements;
   /** Roads between villages, with a grade of at most 10 %. */
   roads?: WorldParametersRoads;

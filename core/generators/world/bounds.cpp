@@ -41,15 +41,12 @@ TileBounds in_plan(const World& world, const TileKey& key) {
   return box;
 }
 
-constexpr double plant_error = 1.0 / 128;  ///< of the side of a tile
-constexpr double widest_plant_error =
-    2048;  ///< metres; woods in wider tiles are seen from so far that they are flat
+constexpr double plant_error = 1.0 / 192;  ///< of the side of a tile
 
-/// Heights are rounded to steps, here and in tiles below. Tiles that replace plants by simpler ones and by the surface
-/// of woods lack more of them the wider they are, up to the height of the plants.
+/// Heights are rounded to steps, here and in tiles below. Tiles that leave plants out lack more of them the wider they
+/// are, up to the height of the plants.
 double error_of(const World& world, const TileFrame& frame, const Roughness& rough, double plant_height) {
-  const double plants =
-      frame.side <= widest_plant_error ? std::min(plant_error * frame.side, plant_height) : 0;
+  const double plants = std::min(plant_error * frame.side, plant_height);
   return std::max(deviation_of(world, frame.spacing, rough), plants) + frame.step;
 }
 

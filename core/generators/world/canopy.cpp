@@ -93,7 +93,7 @@ class Canopy {
     Corner& c = at(column, row);
     Rng rng = random_at(column, row);
     const double by = jitter * grid_.spacing;
-    const double x = rng.uniform(-by, by), y = rng.uniform(-by, by), high = rng.uniform(0.66, 0.96);
+    const double x = rng.uniform(-by, by), y = rng.uniform(-by, by), high = rng.uniform(0.6, 0.92);
     const double tilt_east = rng.uniform(-0.4, 0.4), tilt_north = rng.uniform(-0.4, 0.4);
     c.light = rng.uniform(0.8, 1.15);
     c.at = {east_of(column) + (is_border(column) ? 0 : x), north_of(row) + (is_border(row) ? 0 : y),

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double widest_openings = 64, widest_models = 128, widest_roofs = 512, widest_boxes = 2048,
                  widest_prisms = 8192;  ///< metres
-constexpr double prism_cell = 128;      ///< metres
+constexpr double prisms_along = 64;     ///< of cells of a tile, each with one prism
 
 using Point = glm::dvec3;
 
@@ -26,7 +26,7 @@ enum class Finish { walls_and_roof, with_openings };
 constexpr double overhang = 0.45;       ///< metres that a roof reaches beyond the walls
 constexpr double proud = 0.05;          ///< metres that openings stand before a wall
 constexpr double storey = 2.7;          ///< metres between rows of windows
-constexpr double window_spacing = 2.6;  ///< metres
+constexpr double window_spacing = 3.3;  ///< metres
 constexpr Paint glass{9, 12, 16, 255}, door{22, 13, 8, 255}, brick{86, 44, 34, 255};  ///< linear
 
 /// A colour made lighter, or darker, and warmer.
@@ -185,7 +185,7 @@ std::vector<House> houses_of(const World& world, const TileFrame& frame, Job& jo
 }
 
 /// One box around the houses of a cell, as high as their mean.
-void add_prisms(HouseMesh& mesh, const std::vector<House>& houses) {
+void add_prisms(HouseMesh& mesh, const std::vector<House>& houses, double prism_cell) {
   struct Block {
     double west = 1e12, south = 1e12, east = -1e12, north = -1e12, low = 1e12, ridges = 0;
     int count = 0;
@@ -247,7 +247,7 @@ void add_houses(Glb& glb, const World& world, const TileFrame& frame, double bas
   if (houses.empty()) return;
   HouseMesh mesh(world, frame, base);
   if (frame.side > widest_boxes) {
-    add_prisms(mesh, houses);
+    add_prisms(mesh, houses, frame.side / prisms_along);
   } else {
     for (const House& house : houses) {
       if (frame.side > widest_roofs) {

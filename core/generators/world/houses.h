@@ -50,7 +50,7 @@ std::shared_ptr<const Plan> plan_of(const World& world, const Site& site, Job& j
 std::vector<House> houses_near(const World& world, const Rectangle& box, double reach, Job& job);
 
 /// The houses whose middle is in the tile. Tiles of up to 128 m have the models of houses, or walls and a gable roof;
-/// up to 512 m all have walls and roof, up to 2 km boxes, up to 8 km one prism for the houses of each 128 m.
+/// up to 512 m all have walls and roof, up to 2 km boxes, up to 8 km one prism for the houses of each 64 m or 128 m.
 void add_houses(Glb& glb, const World& world, const TileFrame& frame, double base, Job& job,
                 std::string_view folder);
 

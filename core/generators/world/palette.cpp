@@ -7,6 +7,7 @@
 #include "core/generators/world/canopy.h"
 #include "core/generators/world/octaves.h"
 #include "core/generators/world/plant_layer.h"
+#include "core/generators/world/resolved.h"
 #include "core/model/model.h"
 
 namespace seedmesh::world {
@@ -25,6 +26,7 @@ std::uint8_t byte_of(double value) {
   return static_cast<std::uint8_t>(math::to_int32(std::clamp(value, 0.0, 1.0) * 255 + 0.5));
 }
 
+constexpr double widest_bank_spacing = 128;  ///< metres between samples that show green banks
 constexpr double widest_verge_spacing = 8;  ///< metres between samples that show the bare ground beside roads
 constexpr double widest_canopy_spacing = widest_plants / tile_cells;
 
@@ -33,12 +35,13 @@ double patches_at(const World& world, double east, double north, double spacing)
   constexpr std::array<std::array<double, 2>, 4> octaves{{{2100, 0.5}, {520, 0.5}, {140, 0.55}, {37, 0.35}}};
   std::size_t count = 0;
   Octaves<4> patches;
-  for (; count < octaves.size() && spacing <= octaves[count][0] / 2; ++count)
+  for (; count < octaves.size() && resolved_share(spacing, octaves[count][0]) > 0; ++count)
     patches.add(world.key ^ (0xC0105U + count), east, north, 1 / octaves[count][0]);
   if (count == 0) return 0;
   patches.compute_values();
   double sum = 0;
-  for (std::size_t k = 0; k < count; ++k) sum += octaves[k][1] * patches.value(k);
+  for (std::size_t k = 0; k < count; ++k)
+    sum += resolved_share(spacing, octaves[k][0]) * octaves[k][1] * patches.value(k);
   return sum;
 }
 
@@ -66,8 +69,12 @@ std::array<std::uint8_t, 4> ground_color(const World& world, const GroundColors&
                                          double steepness, double spacing) {
   const Climate climate = climate_at(world, east, north, sample.height);
   const double patch = patches_at(world, east, north, spacing);
-  const double moisture = climate.moisture + 0.07 * patch;
-  Shade shade = mixed(colors.dry, colors.grass, smooth_step(moisture, 0.2, 0.46));
+  const double banks =
+      spacing <= widest_bank_spacing ? 1 - smooth_step(sample.shore + 25 * patch, 8, 110) : 0;
+  const double moisture = climate.moisture + 0.07 * patch + 0.28 * banks;
+  Shade bare_soil = mixed(colors.dry, colors.sand, 0.75 * smooth_step(patch, -0.1, 0.7));
+  bare_soil = mixed(bare_soil, colors.rock, 0.4 * smooth_step(-patch, 0.15, 0.8));
+  Shade shade = mixed(bare_soil, colors.grass, smooth_step(moisture, 0.2, 0.46));
   shade = mixed(shade, colors.forest, 0.45 * smooth_step(moisture, 0.5, 0.85));
   shade = mixed(shade, colors.dry, 0.6 * smooth_step(-climate.temperature + patch, -4, 2));
   if (world.has(Layer::plants)) {
@@ -95,7 +102,7 @@ std::array<std::uint8_t, 4> ground_color(const World& world, const GroundColors&
   const double snow =
       smooth_step(-climate.temperature + 1.2 * patch, 3, 6) * (1 - smooth_step(1 - steepness, 0.25, 0.5));
   shade = mixed(shade, colors.snow, snow);
-  const double light = 1 + 0.08 * patch;
+  const double light = 1 + 0.11 * patch;
   shade = {shade.red * light, shade.green * light, shade.blue * light};
   if (world.params.relief.sea) {
     const double deep = 1.5 + 0.02 * spacing, below = world.params.relief.sea_level - sample.height;

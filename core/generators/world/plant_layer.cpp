@@ -25,10 +25,10 @@ struct Showing {
 };
 /// By the levels above the leaves. Higher levels have the canopy alone.
 constexpr Showing showings[] = {{1, 1, 1, false, false},
-                                {0.25, 0.3, 1.1, false, false},
+                                {0.25, 0.3, 1.2, false, false},
                                 {0.08, 0.12, 1.35, true, false},
-                                {0.014, 0.04, 1.5, true, true},
-                                {0.003, 0.01, 1.8, true, true}};
+                                {0.03, 0.06, 1.4, true, true},
+                                {0.006, 0.012, 1.7, true, true}};
 constexpr int levels_of_plants = 5;
 constexpr double widest_open = 1.3;     ///< the most that classes whose crowns do not close are widened
 constexpr double least_far_height = 3;  ///< metres; lower classes are not seen from afar

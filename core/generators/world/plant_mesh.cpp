@@ -164,11 +164,11 @@ void add_form(Builder& builder, const WorldClass& plant) {
       return;
     case WorldForm::broadleaf:
       builder.revolve({{0.03 * h, -0.02 * h}, {0.02 * h, 0.25 * h}, {0.018 * h, 0.45 * h}}, 6, stem);
-      builder.lobe({0, 0.7 * h, 0}, {0.24 * h, 0.28 * h, 0.24 * h}, 0.5 * h, 5, 7, leaf);
+      builder.lobe({0, 0.69 * h, 0}, {0.29 * h, 0.28 * h, 0.29 * h}, 0.5 * h, 5, 7, leaf);
       for (int k = 0; k < 3; ++k) {
         const math::SinCos turn = math::sincos_degrees(120.0 * k + 20);
-        builder.lobe({0.16 * h * turn.cos, (0.5 + 0.05 * k) * h, 0.16 * h * turn.sin},
-                     {0.18 * h, 0.17 * h, 0.18 * h}, 0.5 * h, 4, 6, leaf);
+        builder.lobe({0.2 * h * turn.cos, (0.49 + 0.05 * k) * h, 0.2 * h * turn.sin},
+                     {0.22 * h, 0.19 * h, 0.22 * h}, 0.5 * h, 4, 6, leaf);
       }
       return;
     case WorldForm::palm:
@@ -221,7 +221,7 @@ void add_simple_form(Builder& builder, const WorldClass& plant) {
       return;
     case WorldForm::broadleaf:
       builder.revolve({{0.03 * h, -0.02 * h}, {0.02 * h, 0.4 * h}}, 3, stem);
-      builder.lobe({0, 0.62 * h, 0}, {0.3 * h, 0.36 * h, 0.3 * h}, 0.5 * h, 4, 6, leaf);
+      builder.lobe({0, 0.6 * h, 0}, {0.37 * h, 0.36 * h, 0.37 * h}, 0.5 * h, 4, 6, leaf);
       return;
     case WorldForm::palm:
       builder.revolve({{0.03 * h, -0.02 * h}, {0.016 * h, 0.88 * h}}, 3, stem);
@@ -273,7 +273,7 @@ double crown_width(const WorldClass& plant) {
     case WorldForm::conifer:
       return 0.4 * plant.height;
     case WorldForm::broadleaf:
-      return 0.66 * plant.height;
+      return 0.8 * plant.height;
     case WorldForm::palm:
       return 0.7 * plant.height;
     case WorldForm::shrub:

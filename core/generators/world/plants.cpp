@@ -6,6 +6,7 @@
 
 #include "core/base/math.h"
 #include "core/generators/world/plant_mesh.h"
+#include "core/generators/world/resolved.h"
 
 namespace seedmesh::world {
 namespace {
@@ -40,12 +41,11 @@ double cover_at(std::uint64_t key, double density, double east, double north, do
   for (const CoverOctave& o : cover_octaves) left += 1.1 * o.amplitude;
   for (std::size_t k = 0; k < cover_octaves.size(); ++k) {
     const auto [wavelength, amplitude] = cover_octaves[k];
-    if (spacing > wavelength / 2) {
-      hidden += amplitude / 2;
-      continue;
-    }
+    const double shown = resolved_share(spacing, wavelength);
+    hidden += (1 - shown) * amplitude / 2;
+    if (shown <= 0) continue;
     if (sum + left < edge_low || sum - left > edge_high) break;
-    sum += amplitude * octave(key + 1 + k, east, north, wavelength).value;
+    sum += shown * amplitude * octave(key + 1 + k, east, north, wavelength).value;
     left -= 1.1 * amplitude;
   }
   return lone_share + (1 - lone_share) * smooth_step(sum, edge_low - hidden, edge_high + hidden);
