@@ -21,6 +21,7 @@ struct FeatureTexts {
 std::optional<FeatureTexts> feature_texts(std::string_view text);
 
 /// Parses feature `index`; errors have the position in the whole text.
-Result<Json> parse_feature(std::string_view text, const FeatureTexts& features, std::size_t index, const Job* job);
+Result<Json> parse_feature(std::string_view text, const FeatureTexts& features, std::size_t index,
+                           const Job* job);
 
 }  // namespace seedmesh

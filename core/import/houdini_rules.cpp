@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 
 #include "core/lang/lexer.h"
 
@@ -123,10 +124,16 @@ HoudiniPositions::HoudiniPositions(std::string_view text, const std::vector<Line
          arguments_name_coordinate(part_of(text, rule.successor))))
       counts_[center[0]];
   }
+  std::set<std::pair<char, std::size_t>> always;  // replaced in every step
   for (const HoudiniRule& rule : all) {
     const std::string_view center = part_of(text, trimmed(text, rule.center));
-    if (!center.empty() && has(center[0])) counts_[center[0]].insert(parameter_count(center));
+    if (center.empty() || !has(center[0])) continue;
+    const std::size_t count = parameter_count(center);
+    counts_[center[0]].insert(count);
+    if (rule.condition.from == rule.condition.to && rule.weight.from == rule.weight.to)
+      always.emplace(center[0], count);
   }
+  for (const auto& [symbol, count] : always) counts_[symbol].erase(count);
 }
 
 bool HoudiniPositions::reads(std::string_view text, const HoudiniRule& rule) const {

@@ -41,7 +41,8 @@ class HoudiniPositions {
   void put(Json& parameters) const;
 
  private:
-  std::map<char, std::set<std::size_t>> counts_;  ///< symbols, with the numbers of parameters that have rules
+  std::map<char, std::set<std::size_t>>
+      counts_;  ///< symbols, with the numbers of parameters that may stay as they are
 };
 
 }  // namespace seedmesh

@@ -62,7 +62,8 @@ void separate_overloads(Parser& p) {
       std::vector<std::size_t>& all = counts[p.tokens.at(i).text];
       const std::size_t count = has_brackets ? count_arguments(p, i + 1) : 0;
       // One without brackets keeps its name, because only calls with brackets are renamed.
-      if (std::ranges::find(all, count) == all.end()) all.insert(has_brackets ? all.end() : all.begin(), count);
+      if (std::ranges::find(all, count) == all.end())
+        all.insert(has_brackets ? all.end() : all.begin(), count);
     }
     if (p.tokens.is(i, "{") || p.tokens.is(i, "[") || p.tokens.is(i, "(")) i = p.tokens.partner(i);
   }
@@ -194,10 +195,11 @@ void read_annotations(Parser& p, Attribute& attribute, const std::vector<std::si
     const Token& name = p.tokens.at(note);
     const std::vector<NoteArgument> given = arguments_of(p, note);
     // Before 2019, @Range("a", "b") and @Range(true, false) were lists of values.
-    const bool is_list = name.text == "Range" && std::ranges::any_of(given, [&](const NoteArgument& each) {
-                           return each.name.empty() && (each.value.text != 0 || p.tokens.is_name(each.token, "true") ||
-                                                        p.tokens.is_name(each.token, "false"));
-                         });
+    const bool is_list =
+        name.text == "Range" && std::ranges::any_of(given, [&](const NoteArgument& each) {
+          return each.name.empty() && (each.value.text != 0 || p.tokens.is_name(each.token, "true") ||
+                                       p.tokens.is_name(each.token, "false"));
+        });
     if (name.text == "Enum" || is_list) {
       for (const NoteArgument& each : given) {
         if (each.name == "restricted")

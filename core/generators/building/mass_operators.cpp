@@ -144,11 +144,32 @@ void extrude_in(Derivation& d, const Step& step, ShapeState& state, const std::s
   take_solid(d, state, std::move(made));
 }
 
+namespace {
+
+bool raises_faces(Op op) {
+  constexpr Op raising[] = {Op::extrude,      Op::taper,       Op::envelope,     Op::roof_ridge,
+                            Op::roof_hip,     Op::roof_gable,  Op::roof_pyramid, Op::roof_shed,
+                            Op::roof_mansard, Op::roof_gambrel};
+  return std::ranges::find(raising, op) != std::end(raising);
+}
+
+}  // namespace
+
+void face_forward(Derivation& d, const Step& step, ShapeState& state) {
+  if (!raises_faces(step.op) || dimension(state.size) != 2 || !state.has_solid()) return;
+  const Solid& solid = d.out.solid_of(state.geometry);
+  const int flat = flat_axis(state.size);
+  if (solid.faces.empty() || unit_normal(solid, solid.faces[0])[flat] >= 0) return;
+  glm::dmat3 axes = d.out.axes[state.axes];
+  axes[flat] = -axes[flat];
+  const int other = flat == 2 ? 1 : 2;  // x stays if it can
+  axes[other] = -axes[other];
+  reframe(d, state, axes);
+}
+
 void stand_up(Derivation& d, const Step& step, const ShapeState& before, ShapeState& state) {
-  constexpr Op raising[] = {Op::extrude,  Op::taper,        Op::envelope,  Op::roof_ridge,   Op::roof_hip,
-                            Op::roof_gable, Op::roof_pyramid, Op::roof_shed, Op::roof_mansard, Op::roof_gambrel};
-  if (std::ranges::find(raising, step.op) == std::end(raising) || dimension(before.size) != 2 ||
-      dimension(state.size) != 3 || state.has_asset())
+  if (!raises_faces(step.op) || dimension(before.size) != 2 || dimension(state.size) != 3 ||
+      state.has_asset())
     return;
   const glm::dmat3& axes = d.out.axes[state.axes];
   glm::dvec3 up = d.out.axes[before.axes][flat_axis(before.size)];

@@ -31,7 +31,7 @@ enum class Progress : std::uint8_t { untouched, in_progress, done };
 struct RuleFunction {
   std::vector<std::string_view> parameters;
   std::vector<LocalValue> locals;
-  std::size_t from = 0, to = 0;  ///< tokens of the body
+  std::size_t from = 0, to = 0;          ///< tokens of the body
   Progress order = Progress::untouched;  ///< of sorting the attributes that its body needs
   std::size_t owner = 0;                 ///< the attribute that needs it, while in progress
 };

@@ -1,6 +1,7 @@
 #include "core/generators/building/tokens.h"
 
 #include <algorithm>
+#include <set>
 #include <utility>
 
 #include "core/generators/building/syntax.h"
@@ -22,6 +23,30 @@ bool fit(std::string_view open, std::string_view close) {
 
 bool is_sign(const lang::Token& token) {
   return is_symbol(token, "-") || is_symbol(token, "+") || is_symbol(token, "!");
+}
+
+/// Leaves out the empty brackets behind the names of attributes and constants: `size()` is `size`, as in CityEngine.
+void drop_empty_brackets(std::vector<lang::Token>& tokens) {
+  const auto is_empty_call = [&](std::size_t i) {
+    return i + 2 < tokens.size() && tokens[i].kind == TokenKind::name && is_symbol(tokens[i + 1], "(") &&
+           is_symbol(tokens[i + 2], ")");
+  };
+  std::set<std::string_view> values;
+  bool has_calls = false;
+  for (std::size_t i = 0; i + 1 < tokens.size(); ++i) {
+    has_calls |= is_empty_call(i);
+    if (i > 0 && tokens[i].kind == TokenKind::name && is_symbol(tokens[i + 1], "=") &&
+        (tokens[i - 1].text == "const" || tokens[i - 1].text == "attr"))
+      values.emplace(tokens[i].text);
+  }
+  if (!has_calls || values.empty()) return;
+  std::vector<lang::Token> kept;
+  for (std::size_t i = 0; i < tokens.size(); ++i) {
+    kept.push_back(tokens[i]);
+    const bool is_defined = i + 3 < tokens.size() && is_symbol(tokens[i + 3], "=");
+    if (is_empty_call(i) && !is_defined && values.contains(tokens[i].text)) i += 2;
+  }
+  tokens = std::move(kept);
 }
 
 bool is_infix(const lang::Token& token) {
@@ -65,6 +90,7 @@ Tokens::Tokens(const RuleText& text, std::string_view style, std::vector<lang::T
     text_ += without_comments(text.text_of(part));
   }
   loaded_ = load_files(text, text_, style, faults);
+  drop_empty_brackets(loaded_.tokens);
   partner_.assign(tokens_.size(), tokens_.size() - 1);
   std::vector<std::size_t> open;
   for (std::size_t i = 0; i < tokens_.size(); ++i) {

@@ -49,7 +49,8 @@ TEST(CgaFiles, RefusesAttributesThatNeedThemselvesByAFunction) {
               HasSubstr("depends on itself"));
   EXPECT_THAT(fault("attr a = f(1)  f(x) = x + b  attr b = f(2)  A --> s(a, 1, 1) B."),
               HasSubstr("depends on itself"));
-  EXPECT_EQ(fault("attr a = f(3)  f(x) = case x < 1: b else: f(x - 1)  attr b = 4  A --> s(a, 1, 1) B."), "none")
+  EXPECT_EQ(fault("attr a = f(3)  f(x) = case x < 1: b else: f(x - 1)  attr b = 4  A --> s(a, 1, 1) B."),
+            "none")
       << "a function may call itself";
 }
 
@@ -74,7 +75,7 @@ TEST(CgaFiles, KeepsFunctionsWithAndWithoutParametersApart) {
       "mix = case scope.sx > 5: \"a\" else: \"b\"\n"
       "mix(n) = n + 1\n"
       "mix(n, m) = n * m\n"
-      "A --> report(\"x\", mix(2) + mix(3, 4)) case mix == \"a\": B. else: C.";
+      "A --> report(\"x\", mix(2) + mix(3, 4)) D  D --> case mix == \"a\": B. else: C.";
   EXPECT_EQ(reported(derived(with(rules)), "x"), 15);
   EXPECT_EQ(leaves(rules), "B");
 }
@@ -90,15 +91,39 @@ TEST(CgaFiles, TakesCasesInBracketsInsideArguments) {
 
 TEST(CgaFiles, JoinsTheOperationsInBracesBehindInline) {
   const std::string rules =
-      "A --> comp(f){ top: T }  T --> extrude(2) inline(append){ Put } Wall.  Put --> color(\"#00ff00\") Grass.";
+      "A --> comp(f){ top: T }  T --> extrude(2) inline(append){ Put } Wall.  Put --> color(\"#00ff00\") "
+      "Grass.";
   EXPECT_EQ(fault(rules), "none");
   const Json answer = derived(with(rules, {4, 1, 4}));
   EXPECT_THAT(active(answer), HasSubstr("Wall"));
 }
 
+TEST(CgaFiles, ExtrudesAReversedFaceAlongItsNormal) {
+  const auto low = [](const std::string& rules) {
+    const Model model = model_of(with("version \"2024.1\"\n" + rules, {4, 4, 4}));
+    double lowest = 1e300;
+    for (const Mesh* mesh : {&model.meshes.at(0).primitives.at(0).mesh}) {
+      for (const glm::vec3& p : mesh->position) lowest = std::min<double>(lowest, p.y);
+    }
+    return lowest;
+  };
+  EXPECT_NEAR(low("Lot --> comp(f){ bottom: extrude(3) A. }"), -3, 1e-6);
+  EXPECT_NEAR(low("Lot --> comp(f){ bottom: reverseNormals() extrude(3) A. }"), 0, 1e-6);
+  EXPECT_NEAR(low("Lot --> comp(f){ bottom: reverseNormals() rotateScope(0, 0, 180) roofPyramid(45) A. }"), 0,
+              1e-6);
+}
+
+TEST(CgaFiles, TakesConstantsWithEmptyBrackets) {
+  EXPECT_EQ(
+      reported(derived(with("const n = 3\nattr m = n() + 1\nf() = m()\nA --> report(\"x\", n() * f()) B.")),
+               "x"),
+      12);
+}
+
 TEST(CgaFiles, TakesRangesOfTextsAsLists) {
   BuildingParams params = with(
-      "version \"2018.0\"\n@Range(\"square\", \"round\") attr kind = \"square\"\n@Range(true, false) attr roofs = false\n"
+      "version \"2018.0\"\n@Range(\"square\", \"round\") attr kind = \"square\"\n@Range(true, false) attr "
+      "roofs = false\n"
       "A --> case kind == \"round\" && roofs: B. else: C.");
   EXPECT_EQ(active(derived(params)), "C");
   params.attributes = {{"kind", std::string("round")}, {"roofs", true}};
@@ -119,17 +144,20 @@ TEST(CgaFiles, TurnsTheScopeTowardsTheDirectionOfAnExtrusion) {
   EXPECT_THAT(sizes(roof, 0), ElementsAre(10));
   EXPECT_THAT(sizes(roof, 1), ElementsAre(2));
   EXPECT_THAT(sizes(roof, 2), ElementsAre(8));
-  EXPECT_NEAR(volume(with("version \"2024.1\"\nLot --> extrude(9) comp(f){ top: roofHip(45) s('1, 2, '1) Roof. }",
-                          {10, 0, 8})),
-              // A hip roof of height h over a x b: h b (3 a - b) / 6, with a ridge of a - b.
-              2.0 * 8 * (3 * 10 - 8) / 6, 1e-4);
-  const Json wall = scopes("Lot --> extrude(9) comp(f){ front: extrude(0.5) split(y){ 0.2: Inner. | ~1: Outer. } }");
+  EXPECT_NEAR(
+      volume(with("version \"2024.1\"\nLot --> extrude(9) comp(f){ top: roofHip(45) s('1, 2, '1) Roof. }",
+                  {10, 0, 8})),
+      // A hip roof of height h over a x b: h b (3 a - b) / 6, with a ridge of a - b.
+      2.0 * 8 * (3 * 10 - 8) / 6, 1e-4);
+  const Json wall =
+      scopes("Lot --> extrude(9) comp(f){ front: extrude(0.5) split(y){ 0.2: Inner. | ~1: Outer. } }");
   EXPECT_EQ(active(wall), "Inner Outer");
   EXPECT_THAT(sizes(wall, 0), ElementsAre(10, 10));
   EXPECT_THAT(sizes(wall, 2), ElementsAre(9, 9));
   EXPECT_NEAR(sizes(wall, 1)[0], 0.2, 1e-12);
-  EXPECT_EQ(active(scopes("Lot --> extrude(9) comp(f){ front: extrude(0.5) comp(f){ top: Front. | all: NIL } }")),
-            "Front");
+  EXPECT_EQ(
+      active(scopes("Lot --> extrude(9) comp(f){ front: extrude(0.5) comp(f){ top: Front. | all: NIL } }")),
+      "Front");
   // Lots have y upwards already, and rules without a version keep the axes of the face.
   EXPECT_THAT(sizes(scopes("Lot --> extrude(9) A."), 1), ElementsAre(9));
   EXPECT_THAT(sizes(derived(with("A --> comp(f){ front: extrude(0.5) B. }")), 2), ElementsAre(0.5));

@@ -274,7 +274,7 @@ TEST(GeoJson, ReadsTheFeaturesOfLargeFilesOneByOne) {
            "\n  " + second + R"(], "bbox": [0, 0, 1, 1]})";
   };
   const std::string second =
-      R"({"type": "Feature", "properties": {"note": "]}\"{"}, "geometry": {"type": "Point", "coordinates": [1, 1]}})";
+      R"({"type": "Feature", "properties": {"note": "]}\"{"}, "geometry": {"type": "Point", "coordinates": [0.002, 0.001]}})";
   const std::string blanks(1'200'000, ' ');
   const auto small = imported("geojson", file("", second));
   const auto large = imported("geojson", file(blanks, second));
@@ -296,7 +296,8 @@ TEST(GeoJson, ReadsMoreValuesThanARequestMayHave) {
   std::string text = R"({"type": "FeatureCollection", "features": [)";
   for (int line = 0; line < 5; ++line) {
     text += line == 0 ? "" : ",";
-    text += R"({"type": "Feature", "properties": {}, "geometry": {"type": "LineString", "coordinates": [[0,0])";
+    text +=
+        R"({"type": "Feature", "properties": {}, "geometry": {"type": "LineString", "coordinates": [[0,0])";
     for (int i = 0; i < 150'000; ++i) text += ",[0,0]";
     text += "]}}";
   }

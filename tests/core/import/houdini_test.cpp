@@ -117,6 +117,18 @@ TEST(Houdini, KnowsTheVariablesOfItsNode) {
   EXPECT_THAT(reports(other), testing::IsSupersetOf({HasSubstr("`in()`"), HasSubstr("`K` is a variable")}));
 }
 
+TEST(Houdini, ReadsThePositionOfTheTurtle) {
+  // Steps of 1 m: A becomes B where its height is above 2 m, which is so after three steps.
+  const std::string lines = "Premise: A\nRule 1: A:y>2=B\nRule 2: A=FA\nStep Size: 1\nGenerations: ";
+  EXPECT_EQ(derived(imported("houdini", lines + "3\n")), "FFF?P(0,3,0)A");
+  EXPECT_EQ(derived(imported("houdini", lines + "6\n")), "FFFB");
+  EXPECT_THAT(reports(imported("houdini", lines + "6\n")), IsEmpty());
+  // Branches have positions of their own; parameters stay, and a module that no rule takes keeps its query.
+  const auto branches =
+      imported("houdini", "Premise: A(1)[+(90)F A(2)]\nA(n):x>0.5=B(n,x)\nStep Size: 1\nGenerations: 2\n");
+  EXPECT_EQ(derived(branches), "?P(0,0,0)A(1)[-(90)FB(2,1)]");
+}
+
 TEST(Houdini, WarnsOfLabelsWithoutACounterpart) {
   const auto result = imported("houdini", "Type: Tube\nRows: 8\nPremise: F\nRule 1: F=FF\nGenerations: 1\n");
   ASSERT_TRUE(result) << reports(result)[0];
