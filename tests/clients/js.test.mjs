@@ -60,7 +60,7 @@ test('the tests of the package pass against a real server', async () => {
   const { status, out } = await run(process.execPath, ['--test', '--test-reporter=tap', path.join(project, 'tests/client.test.mjs')],
     { env: { SEEDMESH_URL: server.url, NODE_TEST_CONTEXT: undefined } });
   assert.equal(status, 0, out.toString());
-  assert.match(out.toString(), /^# pass 10$/m);
+  assert.match(out.toString(), /^# pass 11$/m);
 });
 
 test('the model sways in Chromium', async () => {

@@ -104,7 +104,7 @@ class SEEDMESH_OT_choose(bpy.types.Operator):
         settings = context.scene.seedmesh
         settings.preset = self.preset
         settings.preset_index = max(settings.presets.find(self.preset), 0)
-                settings.parameters.clear()
+        settings.parameters.clear()
         settings.picture = ""
         return {"FINISHED"}
 

@@ -19,7 +19,7 @@ class SEEDMESH_PT_panel(bpy.types.Panel):
         layout.operator("seedmesh.gallery", icon="FILE_REFRESH")
         if settings.presets:
             layout.template_list("SEEDMESH_UL_presets", "", settings, "presets", settings, "preset_index")
-                picture = pictures.icon(settings.picture) or pictures.icon(settings.preset)
+        picture = pictures.icon(settings.picture) or pictures.icon(settings.preset)
         if picture:
             layout.template_icon(picture, scale=7)
         self.field(layout, settings, "preset", "/preset")
@@ -29,7 +29,7 @@ class SEEDMESH_PT_panel(bpy.types.Panel):
         self.field(layout, settings, "animation", "/output/animation")
         layout.operator("seedmesh.parameters", icon="PREFERENCES")
         self.draw_parameters(layout, settings)
-                layout.operator("seedmesh.picture", icon="IMAGE_DATA")
+        layout.operator("seedmesh.picture", icon="IMAGE_DATA")
         row = layout.row()
         row.enabled = not settings.is_busy
         row.operator("seedmesh.grow", icon="OUTLINER_OB_MESH")

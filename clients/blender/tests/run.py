@@ -144,7 +144,7 @@ class AddOn(unittest.TestCase):
             pictures.icon(each.name)
         self.assertEqual(pictures.icon("oakk"), 0)
 
-        def test_a_picture_shows_the_model_of_the_parameters(self):
+    def test_a_picture_shows_the_model_of_the_parameters(self):
         pictures = sys.modules[module + ".pictures"]
         bpy.ops.seedmesh.choose(preset="koch_island")
         names = []

@@ -43,7 +43,8 @@ func _described(scene: Node) -> Dictionary:
 			"path": str(scene.get_path_to(mesh)), "triangles": triangles, "begin": mesh.visibility_range_begin, "end": mesh.visibility_range_end,
 			"texture": material.albedo_texture.get_class() if material.albedo_texture else "",
 		})
-	var bodies := scene.find_children("*", "StaticBody3D", true, false).size()
+	# The root of a file with GODOT_single_root is the body.
+	var bodies := scene.find_children("*", "StaticBody3D", true, false).size() + (1 if scene is StaticBody3D else 0)
 	var shapes := scene.find_children("*", "CollisionShape3D", true, false).size()
 	scene.free()
 	return {"meshes": meshes, "bodies": bodies, "shapes": shapes}

@@ -108,7 +108,7 @@ export class Client {
     return this.url + await permalink_path(request, extension);
   }
 
-    /** A picture of the model that the service draws, as WebP. RangeError if the request is too long for a link. */
+  /** A picture of the model that the service draws, as WebP. RangeError if the request is too long for a link. */
   async picture(request: Request, picture: PictureOptions = {}, options: CallOptions = {}): Promise<ArrayBuffer> {
     return (await this.call(await picture_path(request, picture), options)).arrayBuffer();
   }

@@ -40,7 +40,7 @@ class Calls(InFolder):
         with self.assertRaises(Refused):
             self.client.thumbnail("oakk")
 
-        def test_models_have_pictures(self) -> None:
+    def test_models_have_pictures(self) -> None:
         data = self.client.picture(plant, size=64, view="front")
         self.assertEqual((data[:4], data[8:16]), (b"RIFF", b"WEBPVP8 "))
         width, height = struct.unpack_from("<HH", data, 26)

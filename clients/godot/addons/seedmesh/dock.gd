@@ -49,7 +49,7 @@ func show_presets() -> void:
 
 
 func show_picture(index: int) -> void:
-		var answer := Service.get_bytes("/v1/presets/%s.webp?size=320&seed=%d" % [list.get_item_metadata(index), int(seed_box.value)])
+	var answer := Service.get_bytes("/v1/presets/%s.webp?size=320&seed=%d" % [list.get_item_metadata(index), int(seed_box.value)])
 	var image := Image.new()
 	if answer.errors.is_empty() and image.load_webp_from_buffer(answer.body) == OK:
 		picture.texture = ImageTexture.create_from_image(image)
