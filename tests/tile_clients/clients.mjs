@@ -87,7 +87,7 @@ test('the implicit form is read by both clients, and CesiumJS shows the tiles of
     for (const form of ['implicit', 'tileset']) {
       const page = await browser.open(client);
       await page.evaluate((options) => window.client.open(options), { url: world('temperate_land.7', `${form}.json`), lines: 720 });
-      const { faults, tiles, triangles } = await page.evaluate((pose) => window.client.view(pose), { east: 0, north: 0, up: 700, heading: 0, pitch: -40 });
+      const { faults, tiles, triangles } = await page.evaluate((pose) => window.client.view(pose), { east: 0, north: 0, up: 1500, heading: 0, pitch: -32 });
       assert.deepEqual([page.faults, faults], [[], []], `${client} ${form}`);
       assert.equal(page.files.filter(({ url }) => url.endsWith('.subtree')).length > 1, form === 'implicit');
       shown[form] = [tiles, triangles];

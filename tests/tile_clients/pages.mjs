@@ -56,7 +56,7 @@ export async function open_browser(service) {
       });
       session.on('Network.requestServedFromCache', ({ requestId }) => { if (by_id.has(requestId)) by_id.get(requestId).from_memory = true; });
       session.on('Network.dataReceived', ({ requestId, dataLength }) => { if (by_id.has(requestId)) by_id.get(requestId).bytes += dataLength; });
-      // Who asks for a file while another asks for it too gets it from the cache, without a byte of the connection.
+      // A request beside another one for the same file is answered from the cache, without a byte of the connection.
       session.on('Network.loadingFinished', ({ requestId, encodedDataLength }) => {
         const file = by_id.get(requestId);
         if (file) Object.assign(file, { sent: encodedDataLength, from_memory: file.from_memory || encodedDataLength === 0 });

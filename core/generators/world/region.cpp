@@ -10,12 +10,9 @@
 namespace seedmesh::world {
 namespace {
 
-constexpr int window_margin =
-    3;  ///< cells that a displaced border can reach beyond a region: noise is below 1
-constexpr double stray = 2 * drain_cell;  ///< metres that a river can be away from its nodes
-constexpr double displacement = 3;        ///< cells
-constexpr double jitter = 0.6;            ///< of a cell
-constexpr int pieces = 12;                ///< of a river between two nodes
+constexpr int window_margin = 3;  ///< cells that displaced borders reach beyond a region at most
+constexpr double jitter = 0.6;    ///< of a cell
+constexpr int pieces = 12;        ///< of a river between two nodes
 constexpr double cell_area = drain_cell * drain_cell / 1e6;  ///< km²
 constexpr double lake_reach = 640;   ///< metres; greatest radius, below the distance of nodes
 constexpr double lake_grade = 0.03;  ///< of a river before a lake
@@ -39,12 +36,8 @@ struct Course {
   std::string into;                ///< where it ends before the node below
 };
 
-std::uint64_t key_of(const World& world, std::uint64_t purpose) {
-  return key_at(world.key ^ 0x52454749U, purpose);
-}
-
 Node node_of(const World& world, const CellKey& cell) {
-  Rng rng(cell_key(key_of(world, 1), cell.x, cell.y));
+  Rng rng(cell_key(region_key(world, 1), cell.x, cell.y));
   Node node;
   node.cell = cell;
   node.east = (static_cast<double>(cell.x) + 0.5 + jitter * (rng.unit() - 0.5)) * drain_cell;
@@ -135,7 +128,7 @@ class Drainage {
 
   /// Of the two diagonals of four nodes, one is an edge of the graph, so that edges do not cross.
   bool has_diagonal(std::int64_t x, std::int64_t y, bool is_rising) const {
-    return ((cell_key(key_of(world_, 2), x, y) & 1U) != 0) == is_rising;
+    return ((cell_key(region_key(world_, 2), x, y) & 1U) != 0) == is_rising;
   }
 
   template <class Visit>
@@ -204,7 +197,7 @@ class Drainage {
     Node& node = at(n);
     node.lake = static_cast<int>(made_.lakes.size());
     made_.lakes.push_back({name_of('l', node.cell), node.east, node.north, node.floor, radius,
-                           3 + radius / 60, cell_key(key_of(world_, 3), node.cell.x, node.cell.y)});
+                           3 + radius / 60, cell_key(region_key(world_, 3), node.cell.x, node.cell.y)});
   }
 
   void add_flow() {
@@ -221,7 +214,7 @@ class Drainage {
       bool is_hollow = true;
       for_neighbours(
           node, [&](int other) { is_hollow &= at(other).ground > node.ground + 1 && at(other).lake < 0; });
-      Rng rng(cell_key(key_of(world_, 4), node.cell.x, node.cell.y));
+      Rng rng(cell_key(region_key(world_, 4), node.cell.x, node.cell.y));
       if (is_hollow && node.ground > node.floor + 4) add_lake(n, rng.uniform(150, lake_reach / 1.25));
     }
   }
@@ -253,8 +246,8 @@ class Drainage {
     point.north = p * from.north + q * a.y + r * to.north + s * b.y;
     const double bend = 16 * t2 * (1 - t) * (1 - t) * 150;
     const double east = point.east, north = point.north;
-    point.east += bend * noise(key_of(world_, 5), east / 620, north / 620).value;
-    point.north += bend * noise(key_of(world_, 6), east / 620, north / 620).value;
+    point.east += bend * noise(region_key(world_, 5), east / 620, north / 620).value;
+    point.north += bend * noise(region_key(world_, 6), east / 620, north / 620).value;
     keep_away(point);
     return point;
   }
@@ -379,13 +372,6 @@ class Drainage {
 
 }  // namespace
 
-CellKey region_of(const World& world, const CellKey& cell) {
-  const auto x = static_cast<double>(cell.x), y = static_cast<double>(cell.y);
-  const double east = x + displacement * noise(key_of(world, 7), x / 11, y / 11).value;
-  const double north = y + displacement * noise(key_of(world, 8), x / 11, y / 11).value;
-  return {math::to_int64(std::floor(east / region_cells)), math::to_int64(std::floor(north / region_cells))};
-}
-
 void River::add_to_bounds(const RiverPoint& p) {
   west = std::min(west, p.east);
   south = std::min(south, p.north);
@@ -404,21 +390,6 @@ std::shared_ptr<const Region> region_at(const World& world, const CellKey& regio
   return world.store->get<Region>({world.id, Store::Layer::region, region.x, region.y, 0}, job, [&] {
     return std::make_shared<const Region>(Drainage(world, region, job).make());
   });
-}
-
-std::vector<CellKey> regions_near(const World& world, double west, double south, double east, double north,
-                                  double reach) {
-  const double around = reach + stray;
-  const auto cell = [](double v) { return math::to_int64(std::floor(v / drain_cell)); };
-  std::vector<CellKey> found;
-  for (std::int64_t y = cell(south - around); y <= cell(north + around); ++y) {
-    for (std::int64_t x = cell(west - around); x <= cell(east + around); ++x) {
-      const CellKey region = region_of(world, {x, y});
-      if (std::find(found.begin(), found.end(), region) == found.end()) found.push_back(region);
-    }
-  }
-  std::sort(found.begin(), found.end());
-  return found;
 }
 
 }  // namespace seedmesh::world

@@ -27,6 +27,11 @@ struct CellKey {
   auto operator<=>(const CellKey&) const = default;
 };
 
+/// The key of the random choices of regions for one purpose.
+inline std::uint64_t region_key(const World& world, std::uint64_t purpose) {
+  return key_at(world.key ^ 0x52454749U, purpose);
+}
+
 /// The region that a cell belongs to.
 CellKey region_of(const World& world, const CellKey& cell);
 
