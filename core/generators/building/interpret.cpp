@@ -191,10 +191,10 @@ void run_step(Derivation& d, const OperatorRow& row, const Step& step, ShapeStat
   const Component* const component = d.component;
   ++d.guarded_steps;
   try {
-    face_forward(d, step, state);
+    if (d.grammar.turns_scopes) face_forward(d, step, state);
     const ShapeState face = state;
     row.run(d, step, state, site);
-    stand_up(d, step, face, state);
+    if (d.grammar.turns_scopes) stand_up(d, step, face, state);
   } catch (const StepFault& fault) {
     state = before;
     d.depth_of_inline = depth;

@@ -164,7 +164,7 @@ void parse_rule(Parser& p, std::int32_t priority) {
 void parse_all(Parser& p, std::string_view start) {
   collect_declarations(p);
   compile_attributes(p);
-  p.grammar.is_cityengine = p.tokens.has_imports();
+  p.grammar.is_cityengine = p.grammar.turns_scopes = p.tokens.has_imports();
   std::int32_t priority = 0;
   while (!p.tokens.is_end(p.at)) {
     const std::size_t before = p.at;
@@ -174,7 +174,7 @@ void parse_all(Parser& p, std::string_view start) {
       ++p.at;
       if (is_here(p, "(")) p.at = p.tokens.partner(p.at) + 1;
     } else if (token.kind == TokenKind::name && token.text == "version") {
-      p.grammar.is_cityengine = true;
+      p.grammar.is_cityengine = p.grammar.turns_scopes = true;
       p.at += 2;
     } else if (token.kind == TokenKind::name && token.text == "PRIORITY" &&
                p.tokens.at(p.at + 1).kind == TokenKind::number) {

@@ -392,6 +392,7 @@ struct Grammar {
   std::vector<FunctionTree> functions;
   std::vector<ComponentValue> component_values;
   bool uses_selectors = false;  ///< comp.sel is read somewhere
+  bool turns_scopes = false;    ///< of faces that are raised: a file with `version` or `import`; see stand_up
   bool is_cityengine = false;   ///< has `version`, `import`, `@StartRule`: faults of steps are warnings
   std::vector<Warning> warnings;
 
