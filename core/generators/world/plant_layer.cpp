@@ -27,7 +27,7 @@ struct Showing {
 constexpr Showing showings[] = {{1, 1, 1, false, false},
                                 {0.25, 0.3, 1.2, false, false},
                                 {0.08, 0.12, 1.35, true, false},
-                                {0.03, 0.06, 1.4, true, true},
+                                {0.018, 0.05, 1.45, true, true},
                                 {0, 0.012, 1.3, true, true}};
 constexpr int levels_of_plants = 5;
 constexpr double widest_open = 1.3;     ///< the most that classes whose crowns do not close are widened
