@@ -76,14 +76,14 @@ std::array<std::uint8_t, 4> ground_color(const World& world, const GroundColors&
   bare_soil = mixed(bare_soil, colors.rock, 0.4 * smooth_step(-patch, 0.15, 0.8));
   Shade shade = mixed(bare_soil, colors.grass, smooth_step(moisture, 0.2, 0.46));
   shade = mixed(shade, colors.forest, 0.45 * smooth_step(moisture, 0.5, 0.85));
-  shade = mixed(shade, colors.dry, 0.6 * smooth_step(-climate.temperature + patch, -4, 2));
+  shade = mixed(shade, colors.dry, 0.6 * smooth_step(-climate.temperature + patch, -1, 5));
   if (world.has(Layer::plants)) {
     const Wood wood = wood_at(world, sample, climate, east, north, spacing);
     // below crowns the floor of the wood, from afar the crowns themselves
-    const double dark = spacing > widest_canopy_spacing ? 0.62 : 0.4;
+    const double dark = spacing > widest_canopy_spacing ? 0.52 : 0.4;
     const Shade crowns{dark * wood.color[0], dark * wood.color[1], dark * wood.color[2]};
     shade = mixed(shade, spacing > widest_canopy_spacing ? crowns : mixed(crowns, colors.forest, 0.3),
-                  0.92 * smooth_step(wood.cover, 0.1, 0.75));
+                  0.95 * smooth_step(wood.cover, 0.06, 0.65));
   }
   if (sample.field >= 0) {
     const Shade& crop = colors.fields[static_cast<std::size_t>(sample.field)];

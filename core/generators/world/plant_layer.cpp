@@ -27,8 +27,8 @@ struct Showing {
 constexpr Showing showings[] = {{1, 1, 1, false, false},
                                 {0.25, 0.3, 1.2, false, false},
                                 {0.08, 0.12, 1.35, true, false},
-                                {0.03, 0.06, 1.4, true, true},
-                                {0.006, 0.012, 1.7, true, true}};
+                                {0.018, 0.05, 1.45, true, true},
+                                {0, 0.012, 1.3, true, true}};
 constexpr int levels_of_plants = 5;
 constexpr double widest_open = 1.3;     ///< the most that classes whose crowns do not close are widened
 constexpr double least_far_height = 3;  ///< metres; lower classes are not seen from afar
@@ -114,6 +114,7 @@ void add_places(Glb& glb, const World& world, int above_leaves, const TileFrame&
     const WorldClass& plant = world.params.plants[k];
     if (above_leaves >= first_far_level && plant.height < least_far_height) continue;
     const bool closes = has_canopy(plant);
+    if ((closes ? showing.share : showing.open_share) <= 0) continue;
     const std::vector<Plant> plants =
         plants_in(world, number, box, ground, job, closes ? showing.share : showing.open_share);
     if (plants.empty()) continue;

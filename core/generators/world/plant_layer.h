@@ -1,6 +1,6 @@
 #pragma once
 /// The plants of a tile. Leaves and tiles of 128 m show whole plants, tiles of 256 m to 1 km show simple ones, each a
-/// part of what the tiles below show. Tiles from 512 m to 2 km show the surface of woods.
+/// part of what the tiles below show. Tiles from 512 m to 4 km show the surface of woods.
 #include <string_view>
 
 #include "core/generators/world/asset.h"
@@ -9,7 +9,7 @@
 
 namespace seedmesh::world {
 
-constexpr double widest_plants = 2048;  ///< metres; wider tiles have the colour of woods alone
+constexpr double widest_plants = 4096;  ///< metres; wider tiles have the colour of woods alone
 
 /// `grid`: the terrain of the tile. `base` and `folder`: see add_canopy().
 void add_plants(Glb& glb, const World& world, const TileKey& key, const TileFrame& frame,
