@@ -127,7 +127,7 @@ std::string origin_of(const Call& call);
 /// The options of work without a worker: limits, stop and deadline of the request.
 Job::Options options_without_worker(const Call& call);
 
-/// Waits for a worker, then calls `work` with all options but the progress callback. Returns a Problem where no
+/// Waits for a worker, then calls `work` with all options except the progress callback. Returns a Problem where no
 /// worker became free; errors of the work itself are handled by `work`.
 std::optional<Problem> with_worker(const Call& call, const std::stop_token& stop,
                                    const std::function<void(Job::Options)>& work);

@@ -1,5 +1,5 @@
 #pragma once
-/// Random numbers by key. The n-th draw of a stream depends on nothing but the seed, the path of names and
+/// Random numbers by key. The n-th draw of a stream depends only on the seed, the path of names and
 /// indices that leads to the stream, and n. A draw in one part of a model therefore never changes the draws
 /// elsewhere. The distributions of <random> are not used, because they differ between standard libraries.
 ///

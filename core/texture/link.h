@@ -1,7 +1,7 @@
 #pragma once
 /// Names of generated textures, so that a model can refer to them by URL instead of holding their bytes.
 ///
-/// A name holds all that the bytes depend on but the engine: kind, seed, size, colour and channel, as in
+/// A name holds all that the bytes depend on, except the engine: kind, seed, size, colour and channel, as in
 /// `oak_bark.17.512.color` or `brick.3.512.a0b1c2.normal`. Any service with the same engine makes the same bytes
 /// of it, so no service has to remember a name.
 #include <memory>

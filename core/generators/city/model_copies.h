@@ -53,7 +53,7 @@ class CopyWriter {
   /// Writes what was merged as meshes of this name.
   void write_merged(const char* group, const char* name);
 
-  /// Adds a model below the group of each chunk. Spends the triangles of all copies but one. With Bodies::boxes, each
+  /// Adds a model below the group of each chunk. Spends the triangles of all copies except one. With Bodies::boxes, each
   /// copy gets a collision box if the output wants collision bodies.
   void add(Model made, const std::string& name, const char* group, const std::vector<Copy>& copies,
            Bodies bodies);
