@@ -63,6 +63,7 @@ struct SettingInfo {
   bool is_switch = false;  ///< the flag without a value means true
   std::string unit;        ///< "SECONDS", "BYTES", "NUMBER", ...
 };
+/// Returns all settings in the order of the help.
 std::vector<SettingInfo> settings();
 
 struct ConfigResult {

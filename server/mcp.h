@@ -91,6 +91,7 @@ struct PresetQuestion {
   std::string query, generator, tag;
   std::size_t limit = 20;
 };
+/// Returns the presets that match and that the service allows.
 Json find_presets(const Access& access, const PresetQuestion& question);
 
 /// A member of an object that is text; "" where it is missing or something else.

@@ -14,6 +14,7 @@ struct Asset {
   std::string_view gzip;  ///< `bytes` compressed; empty if that saves less than a tenth
   std::string_view br;    ///< the same with Brotli
 };
+/// Returns all files of the web client.
 std::span<const Asset> embedded_assets();
 
 /// The pages of docs/ as Markdown, such as "/lsystem.md". Their `gzip` and `br` are empty.

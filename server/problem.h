@@ -37,6 +37,7 @@ std::string_view limit_of(const Problem& problem);
 /// The problem as JSON. `instance` is the request id; `indent` is that of nlohmann::json (-1: one line).
 std::string problem_json(const Problem& problem, std::string_view instance, int indent = -1);
 
+/// Makes the response of a problem. `instance` is the request id.
 http::Response to_response(const Problem& problem, std::string_view instance);
 
 /// All problem types with status and title, for the documentation.

@@ -36,6 +36,7 @@ struct TaggedRequest {
   std::string token = {};  ///< token of its permalink; "" if not computed yet, or too long for a URL
 };
 
+/// Computes the tag of a request.
 TaggedRequest tagged(Request request);
 
 /// The token of the permalink; "" where it is too long for a URL.

@@ -117,6 +117,7 @@ struct TextPosition {
   int line = 1;
   int column = 1;
 };
+/// Returns the position of byte `offset`.
 TextPosition text_position(std::string_view text, std::size_t offset);
 
 /// An Issue about byte `offset` of the string `text`, which is the value at `pointer`.

@@ -17,6 +17,7 @@ struct Frame {
   glm::dvec3 right{1, 0, 0}, up{0, 1, 0}, towards{0, 0, 1};
 };
 
+/// Returns the axes of a view.
 Frame frame_of(const View& view);
 
 /// A pinhole camera with a square image.

@@ -18,6 +18,7 @@ struct Rows {
 
 constexpr FourFloats lane_numbers{0, 1, 2, 3};
 
+/// Whether the flag of any lane is set.
 inline bool any_of(FourFlags flags) {
   std::uint64_t halves[2];
   std::memcpy(halves, &flags, sizeof(flags));
@@ -129,6 +130,7 @@ inline std::array<std::int64_t, 3> row_at(const Cover& c, std::int32_t y) {
   return row;
 }
 
+/// Returns four numbers that begin at `first` and rise by `step`.
 inline FourFlags four_steps(std::int64_t first, std::int64_t step) {
   const auto a = static_cast<std::int32_t>(first), b = static_cast<std::int32_t>(step);
   return FourFlags{a, a + b, a + 2 * b, a + 3 * b};

@@ -20,6 +20,7 @@ struct LeafPicture {
   LeafShape shape = LeafShape::simple;
   int count = 1;
 };
+/// Returns the content of a kind, which has to be one of leaf_kinds().
 LeafPicture leaf_picture(std::string_view kind);
 
 /// The kind that shows a leaf of a shape, or a twig if there is one.

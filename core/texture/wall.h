@@ -18,6 +18,7 @@ struct WallKind {
   bool is_grey;
 };
 
+/// Returns all kinds of walls.
 std::span<const WallKind> wall_kinds();
 
 /// Null if no kind has this name.

@@ -22,6 +22,7 @@ struct BuildingParams;
 
 namespace seedmesh::building {
 
+/// Returns all errors that the schema cannot express. Pointers are relative to the parameters.
 std::vector<Issue> check(const BuildingParams& params, const Limits& limits, const Job* job = nullptr);
 
 /// The rules of a request, for requests with other seeds, sizes and attributes. Null if the request has errors or a

@@ -58,6 +58,7 @@ constexpr std::uint16_t deepest_shape = 1'000;
 /// the program.
 Issue issue_in_rules(const Task& task, IssueKind kind, std::size_t offset, const std::string& message);
 
+/// Derives the shapes of a building from its start shape.
 Shapes derive_shapes(const Task& task, Job& job);
 
 }  // namespace seedmesh::building

@@ -4,6 +4,7 @@
 
 namespace seedmesh::building {
 
+/// Returns the i-th argument of a step, which has to be given.
 inline const Argument& argument_at(const Derivation& d, const Step& step, std::uint32_t i) {
   return d.grammar.arguments[step.first_argument + i];
 }

@@ -68,6 +68,7 @@ struct Parser {
   std::map<std::string, std::uint32_t, std::less<>> function_trees;  ///< by name, into Grammar::functions
 };
 
+/// Returns the next token.
 inline const lang::Token& here(const Parser& p) { return p.tokens.at(p.at); }
 inline bool is_here(const Parser& p, std::string_view symbol) { return p.tokens.is(p.at, symbol); }
 inline std::uint32_t offset_here(const Parser& p) { return static_cast<std::uint32_t>(here(p).offset); }

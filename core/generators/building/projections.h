@@ -24,6 +24,7 @@ std::uint32_t add_projection(Derivation& d, const Projection& projection);
 struct UvRange {
   std::array<double, 2> low{}, high{}, metres{1, 1};
 };
+/// Returns the range of texture coordinates of a shape in one set.
 UvRange uv_range(const Derivation& d, const ShapeState& state, int set);
 
 }  // namespace seedmesh::building

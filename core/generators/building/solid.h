@@ -33,6 +33,7 @@ struct Solid {
   bool is_closed = false;
 };
 
+/// Returns the loops of a face, the outer one first.
 inline std::span<const Loop> loops_of(const Solid& solid, const Face& face) {
   return std::span(solid.loops).subspan(face.first_loop, face.loop_count);
 }
@@ -49,6 +50,7 @@ void add_face(Solid& solid, std::span<const std::uint32_t> corners, bool is_roun
 /// The normal of a face times twice its area, in a scope of `size` (Newell).
 glm::dvec3 area_vector(const Solid& solid, const Face& face, const glm::dvec3& size);
 
+/// Returns the area of the surface in a scope of `size`, and below it the volume.
 double area_of(const Solid& solid, const glm::dvec3& size);
 double volume_of(const Solid& solid, const glm::dvec3& size);  ///< 0 unless the solid is closed
 

@@ -26,6 +26,7 @@ std::vector<Issue> check(const CityParams& params, const CheckContext& context);
 /// The plan as data; for its output forms see plan_json() and city_model(). Errors: those of check().
 Result<CityPlan> plan_of(const CityParams& params, Job& job);
 
+/// Generates the model of a city. Errors: those of check(), and limits.
 Result<Model> generate(const CityParams& params, const GenerateContext& context);
 
 /// {statistics, plan, warnings}.

@@ -10,6 +10,7 @@
 
 namespace seedmesh::city {
 
+/// Returns the key of a position, for random numbers.
 inline std::uint64_t key_of_point(const CmPoint& p) {
   return key_at(key_at(0xC17, static_cast<std::uint32_t>(p.x)), static_cast<std::uint32_t>(p.y));
 }

@@ -12,6 +12,7 @@ struct LeastBox {
   double narrowest = 0;  ///< the least short side of the boxes that are less than 2 % larger
   glm::dvec2 centre{0}, long_direction{1, 0};
 };
+/// Returns the box of least area around a ring.
 LeastBox least_box(std::span<const CmPoint> ring);
 
 /// The convex hull, counter-clockwise (Andrew 1979).

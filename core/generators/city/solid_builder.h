@@ -18,6 +18,7 @@ struct SolidLook {
   float roughness = 0.9F;
   float metallic = 0;
 };
+/// Makes the material.
 Material material_of(const SolidLook& look);
 
 /// Adds bodies to one mesh. Bodies are closed and share no vertices.

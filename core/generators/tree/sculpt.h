@@ -14,6 +14,7 @@ namespace seedmesh::tree {
 /// unit length; its y is along the axis. Within a millionth of the length.
 double distance_in_shape(const TreeLevel& level, double length, double from, const glm::dvec3& direction);
 
+/// Writes the skeleton of a tree of this model.
 void grow_sculpt(const TreeParams& params, const RandomStreams& random, SkeletonWriter& writer);
 
 }  // namespace seedmesh::tree

@@ -20,6 +20,7 @@ std::vector<Issue> check(const TreeParams& params, const Limits& limits);
 /// One warning for each parameter that is given and has no effect. Pointers are relative to the parameters.
 std::vector<Warning> warnings_of(const TreeParams& params);
 
+/// Generates the model of a tree.
 Result<Model> generate(const TreeParams& params, const GenerateContext& context);
 
 /// {limbs, levels: [{count, length, radius}], leaves, height, bounds, warnings}: figures of the skeleton.

@@ -51,9 +51,11 @@ struct WeberPennStem {
 /// Gives trunk `number`, which has no joint yet; called for 0, 1, ... The first one draws the height of the tree.
 WeberPennStem make_trunk(WeberPennTree& tree, int number);
 
+/// Whether a stem is of the last level, which has no child stems.
 inline bool is_last(const WeberPennTree& tree, const WeberPennStem& stem) {
   return stem.level + 1 >= tree.params.Levels;
 }
+/// Returns the length of one segment of a stem.
 inline double segment_length(const WeberPennTree& tree, const WeberPennStem& stem) {
   return stem.length / tree.level(stem.level).curve_res;
 }

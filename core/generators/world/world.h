@@ -53,6 +53,7 @@ struct SharedFile {
   std::string media_type;  ///< "application/octet-stream"
   std::string extension;   ///< "bin"
 };
+/// Returns the shared file with this hash, or nothing if the world has none.
 std::optional<SharedFile> shared_file(const World& world, std::string_view hash, Job& job);
 
 struct MapBox {

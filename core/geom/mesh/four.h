@@ -14,18 +14,22 @@ namespace seedmesh {
 using FourFloats = float __attribute__((vector_size(16)));
 using FourFlags = std::int32_t __attribute__((vector_size(16)));  ///< -1 where true
 
+/// Returns `yes` in lanes whose flag is set, and `no` in the others.
 inline FourFloats chosen(FourFlags flags, FourFloats yes, FourFloats no) {
   return reinterpret_cast<FourFloats>((reinterpret_cast<FourFlags>(yes) & flags) |
                                       (reinterpret_cast<FourFlags>(no) & ~flags));
 }
+/// Whether the flags of all four lanes are set.
 inline bool all_of(FourFlags flags) {
   std::uint64_t halves[2];
   std::memcpy(halves, &flags, sizeof(flags));
   return (halves[0] & halves[1]) == ~std::uint64_t{0};
 }
+/// Returns the square root of each lane.
 inline FourFloats root(FourFloats v) {
   return FourFloats{std::sqrt(v[0]), std::sqrt(v[1]), std::sqrt(v[2]), std::sqrt(v[3])};
 }
+/// Returns the absolute value of each lane.
 inline FourFloats magnitude(FourFloats v) {
   return reinterpret_cast<FourFloats>(reinterpret_cast<FourFlags>(v) & 0x7FFFFFFF);
 }

@@ -68,6 +68,7 @@ struct PlanBox {
   glm::dvec2 along{1, 0};  ///< unit, of the longer side
   glm::dvec2 half{0};      ///< half of the longer and of the shorter side
 };
+/// Returns the smallest such rectangle by area.
 PlanBox smallest_box(const Plan& plan);
 
 /// Makes the body. `plan` has no errors (`faults_of`). Every edge of the surface belongs to one triangle in each

@@ -23,6 +23,7 @@ struct Plan {
   std::vector<PlanRing> rings;
 };
 
+/// Returns a point of the plan at a height: x east, y up, -z north.
 inline glm::dvec3 raised(const glm::dvec2& p, double height) { return {p.x, height, -p.y}; }
 
 /// An error at a point of a ring.

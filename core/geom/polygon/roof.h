@@ -86,6 +86,7 @@ struct RoofMesh {
   RoofRole role = RoofRole::slope;
   Mesh mesh;
 };
+/// Makes the meshes of all roles.
 std::vector<RoofMesh> meshes_of(const Roof& roof, Job& job);
 
 /// The triangles of one face, as positions in Roof::point.

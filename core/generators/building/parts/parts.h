@@ -58,6 +58,7 @@ struct PartMaterial {
   std::string_view color;  ///< "#rrggbb"
   float metallic = 0, roughness = 1;
 };
+/// Returns the default materials of all roles.
 std::span<const PartMaterial> part_materials();
 
 }  // namespace seedmesh::building

@@ -16,6 +16,7 @@ namespace seedmesh::building {
 /// Shares of the ranges of open variables for which left shapes are read.
 constexpr double first_sample = 0.38, second_sample = 0.62;
 
+/// Returns a value for each open variable, at this share of its range.
 std::vector<double> samples_of(const PicturePair& pair, double share);
 PictureValues named(const PicturePair& pair, const std::vector<double>& values);
 

@@ -86,6 +86,7 @@ struct BarkBuffers {
   }
 };
 
+/// Returns the present sizes of the buffers.
 BarkSizes sizes_of(const BarkBuffers& bark);
 
 /// The sum of one size over all limbs.
