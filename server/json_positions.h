@@ -26,7 +26,7 @@ class JsonPositions {
     std::string key;
     TextPosition position;  ///< position of the second one
   };
-  /// The first duplicate key in the text; none if all keys are unique.
+  /// Returns the first duplicate key in the text; none if all keys are unique.
   const std::optional<Duplicate>& duplicate() const { return duplicate_; }
 
  private:

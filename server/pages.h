@@ -17,7 +17,7 @@ struct Asset {
 /// Returns all files of the web client.
 std::span<const Asset> embedded_assets();
 
-/// The pages of docs/ as Markdown, such as "/lsystem.md". Their `gzip` and `br` are empty.
+/// Returns the pages of docs/ as Markdown, such as "/lsystem.md". Their `gzip` and `br` are empty.
 std::span<const Asset> embedded_docs();
 
 /// Whether the name contains a hash of the contents, as Vite names files. Such a file never changes.

@@ -54,7 +54,7 @@ inline FloatSinCos quick_float_sincos_degrees(double degrees) {
   return quick::turned(rest, static_cast<float>(quick::reduced_quarters(quarters)));
 }
 
-/// The angle of (x, y) in [-pi, pi]; 0 for (0, 0).
+/// Returns the angle of (x, y) in [-pi, pi]; 0 for (0, 0).
 inline float quick_atan2(float y, float x) {
   constexpr float half_turn = 3.14159265F;
   const float a = std::abs(x), b = std::abs(y), most = a > b ? a : b, least = a > b ? b : a;

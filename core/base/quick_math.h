@@ -36,7 +36,7 @@ inline SinCos kernel(double r) {
   return {sine, cosine};
 }
 
-/// The kernel's result turned by `quarters` right angles. Selects instead of branching, because branches on
+/// Returns the kernel's result turned by `quarters` right angles. Selects instead of branching, because branches on
 /// the quarter cannot be predicted and would prevent vectorisation.
 inline SinCos turned(const SinCos& a, double quarters) {
   const double rest = quarters - 4 * std::floor(0.25 * quarters);

@@ -32,7 +32,7 @@ class CpfgStatements {
   /// The names that statements so far assign.
   const std::set<std::string>& assigned() const { return assigned_; }
 
-  /// The argument of the last srand(); empty if there was none.
+  /// Returns the argument of the last srand(); empty if there was none.
   const TracedText& seed() const { return seed_; }
 
  private:

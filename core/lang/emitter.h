@@ -42,7 +42,7 @@ class Program::Emitter {
 
   explicit Emitter(Program& program);
 
-  /// The lowest free register, for the next result.
+  /// Returns the lowest free register, for the next result.
   std::uint32_t mark() const { return next_register_; }
   void free_from(std::uint32_t mark) { next_register_ = mark; }
 

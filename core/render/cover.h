@@ -123,7 +123,8 @@ inline Part part_of(const Cover& c, std::int32_t size, const Rows& rows) {
           {std::max(c.left, 0) - c.left, std::min(c.right + 1, size) - c.left}};
 }
 
-/// The edge functions of a row, less 1 where samples on the edge belong to the neighbour: none is below 0 inside.
+/// Returns the edge functions of a row, less 1 where samples on the edge belong to the neighbour: none is below 0
+/// inside.
 inline std::array<std::int64_t, 3> row_at(const Cover& c, std::int32_t y) {
   std::array<std::int64_t, 3> row;
   for (std::size_t i = 0; i < 3; ++i) row[i] = c.row[i] - (owns_edge(c, i) ? 0 : 1) + c.down[i] * (y - c.top);

@@ -34,7 +34,7 @@ std::string name_of(const Link& link);
 /// power of two from 16 to 4096, a number with leading zeros.
 std::optional<Link> read_link(std::string_view name);
 
-/// The image of a link, from `store` or made now. `store` may be null. Cost: that of the three images of the
+/// Returns the image of a link, from `store` or made now. `store` may be null. Cost: that of the three images of the
 /// recipe, about 60 ns a texel, because they are made of one relief and kept together.
 std::shared_ptr<const Image> image_of(const Link& link, TextureStore* store, const Job& job);
 

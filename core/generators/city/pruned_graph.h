@@ -17,7 +17,7 @@ inline std::uint64_t key_of_point(const CmPoint& p) {
 
 inline bool is_boundary(const PlanarEdge& edge) { return !is_street_tag(edge.tag); }
 inline bool is_given(const PlanarEdge& edge) { return edge.tag >= first_given; }
-/// The order in which streets stay where two of them are too near.
+/// Returns the order in which streets stay where two of them are too near.
 inline std::uint32_t rank_of(const PlanarEdge& edge) { return is_given(edge) ? 0 : edge.tag + 1; }
 
 inline bool is_street(const PlanarEdge& edge) { return is_street_tag(edge.tag); }

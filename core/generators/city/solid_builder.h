@@ -37,7 +37,7 @@ class SolidBuilder {
   void add_slab(const std::array<glm::vec2, 4>& plan, const std::array<float, 4>& low,
                 const std::array<float, 4>& high);
 
-  /// The mesh, with equal vertices joined.
+  /// Returns the mesh, with equal vertices joined.
   Mesh take(Job& job);
   std::size_t triangles() const { return mesh_.index.wide.size() / 3; }
 

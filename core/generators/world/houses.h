@@ -37,7 +37,7 @@ struct HouseExtent {
 /// Returns the bounds of the houses of a world.
 HouseExtent house_extent(const World& world);
 
-/// The model of a house, from the store or made now.
+/// Returns the model of a house, from the store or made now.
 std::shared_ptr<const Asset> house_asset(const World& world, int number, Job& job);
 
 struct Plan {

@@ -28,7 +28,7 @@ struct Land {
 /// Returns the land at a position.
 Land land_at(const World& world, double east, double north);
 
-/// The amplitude of an octave of detail by its wavelength.
+/// Returns the amplitude of an octave of detail by its wavelength.
 double detail_share(const World& world, double ruggedness);
 
 /// What gullies and finer wavelengths add. `land` is the ground with its slope, after rivers.

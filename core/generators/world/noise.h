@@ -41,7 +41,7 @@ inline double smooth_step(double x, double low, double high) {
   return smooth_step(Slope{x, 0, 0}, low, high).value;
 }
 
-/// The key of a lattice cell.
+/// Returns the key of a lattice cell.
 inline std::uint64_t cell_key(std::uint64_t key, std::int64_t x, std::int64_t y) {
   return mix(key + static_cast<std::uint64_t>(x) * 0x9E3779B97F4A7C15U +
              static_cast<std::uint64_t>(y) * 0xC2B2AE3D27D4EB4FU);

@@ -42,7 +42,7 @@ struct Four {
   static constexpr std::size_t size = 4;
   FourFloats x, y, z;
 
-  /// The first three lanes of four rows, transposed.
+  /// Returns the first three lanes of four rows, transposed.
   static Four of_rows(const FourFloats& a, const FourFloats& b, const FourFloats& c, const FourFloats& d) {
     const FourFloats low = __builtin_shufflevector(a, b, 0, 4, 1, 5),
                      more = __builtin_shufflevector(c, d, 0, 4, 1, 5);
@@ -57,7 +57,7 @@ struct Four {
                     &d = from[count - 1];
     return {FourFloats{a.x, b.x, c.x, d.x}, FourFloats{a.y, b.y, c.y, d.y}, FourFloats{a.z, b.z, c.z, d.z}};
   }
-  /// One vector in the first three lanes; the last lane reads the float behind it.
+  /// Returns one vector in the first three lanes; the last lane reads the float behind it.
   static FourFloats row(const glm::vec3* from) {
     static_assert(sizeof(glm::vec3) == 3 * sizeof(float));
     FourFloats v;

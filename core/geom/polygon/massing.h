@@ -80,7 +80,7 @@ Mass mass_of(const Plan& plan, const MassOptions& options, const Job& job);
 /// Whether every edge of the triangles occurs equally often in both directions, and no triangle repeats a point.
 bool is_closed(const Mass& mass);
 
-/// The height that this roof has at this angle (radians) over the plan.
+/// Returns the height that this roof has at this angle (radians) over the plan.
 double roof_height_at(const Plan& plan, const MassOptions& options, double angle, const Job& job);
 
 }  // namespace seedmesh

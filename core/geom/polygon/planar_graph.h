@@ -29,7 +29,7 @@ class PlanarGraph {
   /// matters where crossings are rounded. Cost: about 1 us and the edges in the cells that it touches.
   void add(const CmPoint& a, const CmPoint& b, std::uint32_t tag);
 
-  /// The number of the node at a point; a new node splits the edges that it lies on.
+  /// Returns the number of the node at a point; a new node splits the edges that it lies on.
   std::uint32_t node_at(const CmPoint& p);
 
   void remove(std::uint32_t edge);
