@@ -90,17 +90,17 @@ struct PictureWish {
 /// Takes `size`, `view` and `ground` out of a query. Code::invalid holds every error, with the pointer "/<key>".
 Result<PictureWish> read_picture_wish(Overrides& query);
 
-/// A picture of the model of a request as WebP, drawn in software, with textures of at most 256 texels. The
+/// Returns a picture of the model of a request as WebP, drawn in software, with textures of at most 256 texels. The
 /// options lods, animation and format of the request are ignored. Its bytes are the same on every machine.
 Result<Product> draw_picture(const Request& request, const PictureWish& wish, const Job::Options& options,
                              TextureStore* texture_store = nullptr);
 
-/// The image of a generated texture. `name` is the part after the engine version in the links that
+/// Returns the image of a generated texture. `name` is the part after the engine version in the links that
 /// `output.textures: "links"` writes (core/texture/link.h). An unknown name is Code::invalid.
 Result<std::shared_ptr<const Image>> make_texture(std::string_view name, const Job::Options& options,
                                                   TextureStore* texture_store = nullptr);
 
-/// The abstract result from which the generator makes geometry (word, skeleton, shapes, heights), as JSON
+/// Returns the abstract result from which the generator makes geometry (word, skeleton, shapes, heights), as JSON
 /// text.
 Result<std::string> derive(const Request& request, const Job::Options& options);
 
@@ -159,7 +159,7 @@ std::string vocabulary_json();
 std::string_view openapi_json();
 std::vector<std::string_view> generator_names();
 
-/// The engine number and a fingerprint of the libraries that affect bytes; part of every ETag and
+/// Returns the engine number and a fingerprint of the libraries that affect bytes; part of every ETag and
 /// permalink.
 std::string_view engine_version();
 std::string_view program_version();

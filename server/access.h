@@ -42,7 +42,7 @@ struct Grant {
   enum class By { nothing, key, signature };
   By by = By::nothing;
   std::string key;                      ///< name of the API key
-  std::optional<std::int64_t> expires;  ///< end of the signature, in seconds since 1970
+  std::optional<std::int64_t> expires;  ///< Unix time at which the signature expires; none: never
   std::size_t target_size = 0;          ///< characters of the undecoded target without the signature
   std::shared_ptr<const void> slot;  ///< counts as one concurrent request of the key until the last copy ends
 };
@@ -64,27 +64,29 @@ class Access {
   /// Denies with 401 without a credential, 403 with one that is not valid, 429 beyond a limit of the key.
   std::variant<Grant, Denial> admit(const http::Request& request);
 
-  /// The same for a file of a world. `segment` is the part of the path after the name of the world that holds a
-  /// signature: the query of a signed "/v1/worlds/<world>", which covers all files of that world; empty: none.
+  /// Like admit(), for a file of a world. `segment` is the query of a signed "/v1/worlds/<world>", which stands in the
+  /// path after the name of the world. It admits to all files of that world. Empty: no signature.
   std::variant<Grant, Denial> admit_world(const http::Request& request, std::string_view world,
                                           std::string_view segment);
 
-  /// The segment that gives the holder of `grant` all files of a world, followed by "/"; empty where the world
-  /// needs none. It expires with the signature of the grant, or after the lifetime of links.
+  /// Returns the segment that admits the holder of `grant` to all files of a world, followed by "/". It is empty
+  /// without signing keys. It expires with the signature of the grant, or else after the lifetime of links.
   std::string world_segment(const Grant& grant, std::string_view world) const;
 
-  /// Denies with 403 where the request, or one nested in it, uses a generator that is not allowed; and where only
-  /// presets are allowed and it is not a preset. Seed and output do not matter.
+  /// Denies with 403 if the request, or one nested in it, uses a generator that is not allowed. Also denies if only
+  /// presets are allowed and the request is not a preset with any seed and output.
   std::optional<Denial> forbid(const Request& request) const;
 
+  /// Whether requests may use the generator of this name.
   bool allows_generator(std::string_view name) const;
   bool only_presets() const { return only_presets_; }
 
-  /// The permalink for the holder of `grant`, signed where the service has signing keys. Empty for a request
+  /// Returns the permalink for the holder of `grant`, signed if the service has signing keys. Empty for a request
   /// that was itself signed, because the new signature would outlive the given one.
   std::string signed_for(const Grant& grant, const std::string& permalink) const;
 
-  /// The permalink with a signature that expires with that of `grant`; for redirects of signed permalinks.
+  /// Returns the permalink with a signature that expires with that of `grant`, for redirects of signed permalinks.
+  /// Returns it unchanged if the grant is not by signature.
   std::string signed_until(const Grant& grant, const std::string& permalink) const;
 
  private:

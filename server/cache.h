@@ -50,7 +50,7 @@ class Cache {
   };
   Figures figures() const;
 
-  /// The entry at `key`, or null. Not counted as a hit or a miss.
+  /// Returns the entry at `key`, or null. Not counted as a hit or a miss.
   Entry find(const std::string& key);
 
   /// Keeps an entry that was made elsewhere, such as an encoded form. Its payload may be null.

@@ -6,13 +6,13 @@
 
 namespace seedmesh {
 
-/// As immutable, or after revalidation.
+/// Whether a cache may use a response without asking (`immutable`) or has to revalidate it first.
 enum class Caching { immutable, revalidate };
 
-/// The Cache-Control field. A response to an API key is private, because caches do not check keys.
+/// Returns the Cache-Control field. A response to an API key is private, because caches do not check keys.
 std::string cache_control(const Call& call, Caching caching);
 
-/// The Vary field; with the credentials on a closed service.
+/// Returns the Vary field: `fields`, and also Authorization and X-Api-Key if the service requires a key or a signature.
 std::string varies(const Call& call, const char* fields);
 
 }  // namespace seedmesh

@@ -12,7 +12,7 @@ struct CodedBody {
   std::variant<http::Slice, http::Stream> body;
 };
 
-/// The model in the best coding that the client accepts; nothing where the memory in flight does not suffice.
+/// Returns the model in the best coding that the client accepts; nothing where the memory in flight does not suffice.
 /// It stays as it is where it is small, where compression would save less than 15 %, where the client asks for a
 /// range, and where the settings say so. Small models are encoded here, large ones while they are sent. The cache
 /// keeps the encoded form of models up to 64 MiB.

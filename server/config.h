@@ -63,6 +63,7 @@ struct SettingInfo {
   bool is_switch = false;  ///< the flag without a value means true
   std::string unit;        ///< "SECONDS", "BYTES", "NUMBER", ...
 };
+/// Returns all settings in the order of the help.
 std::vector<SettingInfo> settings();
 
 struct ConfigResult {
@@ -76,10 +77,10 @@ struct ConfigResult {
 ConfigResult load_config(const std::vector<std::string>& environment,
                          const std::vector<std::pair<std::string, std::string>>& flags);
 
-/// The environment of this process in that form.
+/// Returns the environment of this process in that form.
 std::vector<std::string> process_environment();
 
-/// The effective configuration as a JSON object without secrets; the keys are the names of flags.
+/// Returns the effective configuration as a JSON object without secrets; the keys are the names of flags.
 std::string config_json(const Config& config);
 
 /// Cores that this process may use: the smallest of the machine, the affinity and the quota of the control group.

@@ -7,7 +7,7 @@
 
 namespace seedmesh {
 
-/// The contents of a file; of standard input for "-". Nothing where it cannot be read.
+/// Returns the contents of a file; of standard input for "-". Nothing where it cannot be read.
 std::optional<std::string> read_file(const std::string& name);
 
 /// Writes a file; standard output for "-". False where it cannot be written.

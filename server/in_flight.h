@@ -27,7 +27,7 @@ class InFlight {
   /// a waiting request holds no memory.
   bool wait(Clock::time_point deadline);
 
-  /// The payload, counted with `extra` bytes until the result and its copies are gone. Null where it does not
+  /// Returns the payload, counted with `extra` bytes until the result and its copies are gone. Null where it does not
   /// fit; a payload larger than the limit fits alone. Several holders of one payload count `extra` each.
   std::shared_ptr<const Payload> hold(std::shared_ptr<const Payload> payload, std::uint64_t extra = 0);
 

@@ -15,9 +15,10 @@ class JsonPositions {
   /// Reads a valid JSON text, which has to outlive this object. Recurses as deep as the text nests.
   explicit JsonPositions(std::string_view text);
 
+  /// Whether the text has a value with this pointer.
   bool contains(std::string_view pointer) const { return starts_.find(pointer) != starts_.end(); }
 
-  /// Line and column of the value; of the nearest value around it if the text has no such value.
+  /// Returns line and column of the value, or of the nearest value around it if the text has no such value.
   TextPosition of(std::string_view pointer) const;
 
   /// A key that its object has twice.
@@ -25,6 +26,7 @@ class JsonPositions {
     std::string key;
     TextPosition position;  ///< position of the second one
   };
+  /// Returns the first duplicate key in the text; none if all keys are unique.
   const std::optional<Duplicate>& duplicate() const { return duplicate_; }
 
  private:

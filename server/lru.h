@@ -14,7 +14,7 @@ class LruMap {
  public:
   explicit LruMap(std::uint64_t capacity) : capacity_(capacity) {}
 
-  /// The value at `key`, which counts as a use; null where there is none.
+  /// Returns the value of `key`, which counts as a use; null if there is none.
   Value find(const std::string& key) {
     const auto found = by_key_.find(key);
     if (found == by_key_.end()) return nullptr;
@@ -22,7 +22,7 @@ class LruMap {
     return found->second->value;
   }
 
-  /// Adds a value of a size in bytes, unless the key has one or the size exceeds the capacity.
+  /// Adds a value that counts as `bytes` bytes. Does nothing if the key is present or `bytes` exceeds the capacity.
   void insert(const std::string& key, Value value, std::uint64_t bytes) {
     if (bytes > capacity_ || by_key_.count(key) > 0) return;
     by_use_.push_front({key, std::move(value), bytes});

@@ -37,6 +37,7 @@ struct ManifestJob {
 struct ManifestPart {
   std::size_t index = 0, count = 1;
 };
+/// Parses the text of a part. Returns nothing if it is not valid.
 std::optional<ManifestPart> read_part(std::string_view text);
 
 /// Parses a manifest; empty lines are skipped. Returns all errors: invalid JSON, an unknown member, a name that

@@ -60,7 +60,7 @@ Answer read_message(const std::string& text);
 /// Whether the message asks for no answer.
 bool is_notification(const Json& message);
 
-/// The era that the parameters of a message name; nothing where they name none.
+/// Returns the era that the parameters of a message name; nothing where they name none.
 std::optional<Era> era_of(const Json& message);
 
 /// Checks `_meta` of a stateless message.
@@ -69,7 +69,7 @@ std::optional<Failure> check_meta(const Json& message);
 /// Calls the method of a message.
 Answer answer_message(Context& context, const Json& message);
 
-/// The whole response to a message: with its id, and with what the era adds to every result.
+/// Returns the whole response to a message: with its id, and with what the era adds to every result.
 std::string response_text(const Context& context, const Json& message, Answer answer);
 std::string failure_text(const Json& id, const Failure& failure);
 
@@ -91,9 +91,10 @@ struct PresetQuestion {
   std::string query, generator, tag;
   std::size_t limit = 20;
 };
+/// Returns the presets that match and that the service allows.
 Json find_presets(const Access& access, const PresetQuestion& question);
 
-/// A member of an object that is text; "" where it is missing or something else.
+/// Returns a member of an object that is text; "" where it is missing or something else.
 std::string text_in(const Json& object, std::string_view name);
 
 /// Reads messages, one on a line, from standard input until its end, and answers on standard output. Models are

@@ -45,7 +45,7 @@ class Metrics {
     Cache::Figures cache;
     SharedCache::Figures shared;
   };
-  /// The response body for /metrics.
+  /// Returns the response body for /metrics.
   std::string text(const Levels& levels);
 
  private:

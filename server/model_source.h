@@ -37,7 +37,7 @@ class ModelSource {
  public:
   virtual ~ModelSource() = default;
   virtual SourceEngine engine() = 0;
-  /// The model of a request (JSON). `etag`: the validator of the bytes that are there; "" where there are none.
+  /// Returns the model of a request (JSON). `etag`: the validator of the bytes that are there; "" where there are none.
   /// `threads`: how many may be used here for this model.
   virtual SourceAnswer make(const std::string& request, const std::string& etag, int threads,
                             const std::stop_token& stop) = 0;

@@ -37,8 +37,8 @@ bool is_text_or_json_type(std::string_view content_type);
 /// 32 hexadecimal digits that identify the result of a canonical request with an engine version.
 std::string tag_of(std::string_view canonical, std::string_view engine);
 
-/// The validator of a response in a coding: `"<tag>"` or `W/"<tag>-gzip"`, `-br`, `-zstd`. Encoded bytes depend on
-/// the version of a library and on the processor, so their validator is weak.
+/// Returns the validator of a response in a coding: `"<tag>"` or `W/"<tag>-gzip"`, `-br`, `-zstd`. Encoded bytes
+/// depend on the version of a library and on the processor, so their validator is weak.
 std::string etag(std::string_view tag, Coding coding);
 
 /// Whether If-None-Match contains the tag in any coding, or `*`.

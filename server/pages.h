@@ -11,12 +11,13 @@ struct Asset {
   std::string_view path;  ///< "/index.html", "/assets/main-1a2b3c4d.js"
   std::string_view type;
   std::string_view bytes;
-  std::string_view gzip;  ///< "" where compression saves less than a tenth
-  std::string_view br;    ///< the same
+  std::string_view gzip;  ///< `bytes` compressed; empty if that saves less than a tenth
+  std::string_view br;    ///< the same with Brotli
 };
+/// Returns all files of the web client.
 std::span<const Asset> embedded_assets();
 
-/// The pages of docs/ as Markdown, without coded forms: "/lsystem.md".
+/// Returns the pages of docs/ as Markdown, such as "/lsystem.md". Their `gzip` and `br` are empty.
 std::span<const Asset> embedded_docs();
 
 /// Whether the name contains a hash of the contents, as Vite names files. Such a file never changes.

@@ -24,19 +24,20 @@ struct Problem {
 /// request id. A cancelled request is 499, which appears only in the log.
 Problem problem_of(const Error& error);
 
-/// A problem without a list of errors, by status: 401, 403, 404, 405, 406, 411, 413, 414, 415, 416, 417,
+/// Returns a problem without a list of errors, by status: 401, 403, 404, 405, 406, 411, 413, 414, 415, 416, 417,
 /// 429, 431, 503, 505, ...
 Problem problem(int status, std::string detail);
 
 /// 500 without details for the client; `log_text` goes to the log.
 Problem internal_error(std::string log_text);
 
-/// The resource whose limit a "limit-exceeded" is about, a word_of(Resource); "other" where no error names one.
+/// Returns the resource whose limit a "limit-exceeded" is about, a word_of(Resource); "other" where no error names one.
 std::string_view limit_of(const Problem& problem);
 
-/// The problem as JSON. `instance` is the request id; `indent` is that of nlohmann::json (-1: one line).
+/// Returns the problem as JSON. `instance` is the request id; `indent` is that of nlohmann::json (-1: one line).
 std::string problem_json(const Problem& problem, std::string_view instance, int indent = -1);
 
+/// Makes the response of a problem. `instance` is the request id.
 http::Response to_response(const Problem& problem, std::string_view instance);
 
 /// All problem types with status and title, for the documentation.

@@ -18,7 +18,7 @@ struct RedisAddress {
 /// message, which does not repeat the text, because it may contain a password. An empty text yields no address.
 std::string read_redis_address(std::string_view text, std::optional<RedisAddress>& address);
 
-/// The address without user and password, for logs and --print-config.
+/// Returns the address without user and password, for logs and --print-config.
 std::string shown_address(const RedisAddress& address);
 
 }  // namespace seedmesh

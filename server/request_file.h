@@ -32,7 +32,7 @@ using ErrorLines = std::vector<std::string>;
 /// valid is not checked.
 std::variant<RequestFile, ErrorLines> read_request_file(const std::string& path, std::string text);
 
-/// The errors of one output's request, with positions in the request file.
+/// Returns the errors of one output's request, with positions in the request file.
 ErrorLines error_lines(const RequestFile& file, std::string_view output, const std::vector<Issue>& issues);
 
 }  // namespace seedmesh

@@ -12,9 +12,10 @@ http::Response route(Service& service, const http::Request& request);
 http::Response post_generate(Call& call);  // routes_models.cpp
 http::Response get_model(Call& call);
 http::Response get_preset(Call& call);
-/// The Server-Timing field of a response whose head is about to be sent. The parts sum up to the total: `parse` until
-/// the model was looked for, the parts of its generation, `wait` for a worker, a cache or another request, and
-/// `compress`. A model from a cache has no generation. Large models are compressed later, while they are sent.
+/// Returns the Server-Timing field of a response whose head is about to be sent. The parts sum up to the total:
+/// `parse` until the model was looked for, the parts of its generation, `wait` for a worker, a cache or another
+/// request, and `compress`. A model from a cache has no generation. Large models are compressed later, while they are
+/// sent.
 std::string server_timing(const Call& call, std::string_view cache_use, const CachedModel& made,
                           Clock::time_point asked, Clock::time_point found);
 
@@ -22,7 +23,7 @@ std::string server_timing(const Call& call, std::string_view cache_use, const Ca
 enum class RestOfQuery { refused, kept };
 /// Takes the keys of a picture out of a query. Returns the response on an error (routes_pictures.cpp).
 std::variant<PictureWish, http::Response> read_wish(const Call& call, Overrides& query, RestOfQuery rest);
-/// A picture of the model of a request.
+/// Returns a picture of the model of a request.
 http::Response picture_answer(Call& call, const Request& request, const PictureWish& wish, Caching caching);
 
 http::Response get_card(Call& call);  // routes_card.cpp
@@ -30,9 +31,9 @@ http::Response get_card(Call& call);  // routes_card.cpp
 http::Response get_texture(Call& call);  // routes_textures.cpp
 
 http::Response get_world(Call& call);  // routes_worlds.cpp
-/// The tileset of a posted world.
+/// Returns the tileset of a posted world.
 http::Response post_world(Call& call, const Request& request);
-/// The map of a posted world and the box of the query; 422 for another generator.
+/// Returns the map of a posted world and the box of the query; 422 for another generator.
 http::Response derive_world(Call& call, const Request& request);
 /// Lets pages of all origins read a response, unless the settings name some origins.
 void open_to_pages(const Service& service, http::Response& response);
@@ -57,10 +58,10 @@ http::Response get_asset(Call& call);
 /// Reports the progress and result of a generation as server-sent events (events.cpp).
 http::Response generate_events(Call& call, const TaggedRequest& wanted);
 
-/// The query as decoded pairs; nothing where an escape is malformed.
+/// Returns the query as decoded pairs; nothing where an escape is malformed.
 std::optional<Overrides> read_query(std::string_view query);
 
-/// The query of a call; the response (400) where an escape is malformed.
+/// Returns the query of a call; the response (400) where an escape is malformed.
 std::variant<Overrides, http::Response> parse_query(const Call& call);
 
 /// Parses a text as an allowed request, with a worker if the text is large. Returns the response on an error.

@@ -192,7 +192,7 @@ Problem too_long() {
                        "found a world whose token has more than 2,000 characters; every tile carries it"}}});
 }
 
-/// An issue for each key of a query but one.
+/// Returns an issue for each key of a query except one.
 std::vector<Issue> keys_but(const Overrides& query, std::string_view known) {
   constexpr std::size_t most_issues = 20;
   std::vector<Issue> issues;

@@ -36,9 +36,10 @@ struct TaggedRequest {
   std::string token = {};  ///< token of its permalink; "" if not computed yet, or too long for a URL
 };
 
+/// Computes the tag of a request.
 TaggedRequest tagged(Request request);
 
-/// The token of the permalink; "" where it is too long for a URL.
+/// Returns the token of the permalink; "" where it is too long for a URL.
 std::string token_of(const Request& request);
 
 /// The requests of permalinks and presets by undecoded target, so that a 304 need not decompress a token.
@@ -124,10 +125,10 @@ Clock::time_point deadline_of(const Call& call);
 /// "https://host:port" as the client wrote it.
 std::string origin_of(const Call& call);
 
-/// The options of work without a worker: limits, stop and deadline of the request.
+/// Returns the options of work without a worker: limits, stop and deadline of the request.
 Job::Options options_without_worker(const Call& call);
 
-/// Waits for a worker, then calls `work` with all options but the progress callback. Returns a Problem where no
+/// Waits for a worker, then calls `work` with all options except the progress callback. Returns a Problem where no
 /// worker became free; errors of the work itself are handled by `work`.
 std::optional<Problem> with_worker(const Call& call, const std::stop_token& stop,
                                    const std::function<void(Job::Options)>& work);
@@ -136,10 +137,10 @@ std::optional<Problem> with_worker(const Call& call, const std::stop_token& stop
 std::optional<Problem> with_tile_worker(const Call& call, int level, const std::stop_token& stop,
                                         const std::function<void(Job::Options)>& work);
 
-/// The model of a request, from a cache or generated now.
+/// Returns the model of a request, from a cache or generated now.
 Cache::Answer model_of(const Call& call, const TaggedRequest& wanted, const Job::Progress& progress);
 
-/// A picture of the model of a request, from the cache or drawn now.
+/// Returns a picture of the model of a request, from the cache or drawn now.
 Cache::Answer picture_of(const Call& call, const Request& request, const PictureWish& wish);
 
 /// Waits until the memory of responses in flight is below its limit. False after two seconds or the deadline.
@@ -148,7 +149,7 @@ bool wait_for_memory(const Call& call);
 /// 503: too many responses are being sent to clients that read slowly.
 Problem too_much_in_flight(Service& service);
 
-/// A response with an ETag: 304 where the client has the text already, else the text in the best coding.
+/// Returns a response with an ETag: 304 where the client has the text already, else the text in the best coding.
 http::Response json_answer(const Call& call, std::string text, std::string_view type = "application/json",
                            std::string_view cache_control = "no-cache");
 
@@ -159,13 +160,13 @@ http::Response static_answer(const Call& call, const std::string& path, std::str
 /// 406: the client accepts none of the codings.
 Problem not_acceptable();
 
-/// The response for an error. Counts it in the metrics.
+/// Returns the response for an error. Counts it in the metrics.
 http::Response refuse(const Call& call, const Problem& problem);
 
-/// The response for a request that was not admitted. Counts it by its reason.
+/// Returns the response for a request that was not admitted. Counts it by its reason.
 http::Response deny(const Call& call, const Denial& denial);
 
-/// The response for a request that Access::forbid denies; nothing for an allowed request.
+/// Returns the response for a request that Access::forbid denies; nothing for an allowed request.
 std::optional<http::Response> check_allowed(const Call& call, const Request& request);
 
 }  // namespace seedmesh

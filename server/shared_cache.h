@@ -1,8 +1,8 @@
 #pragma once
-/// Models that replicas share through a Redis, so that each model is generated once. Uses hiredis.
+/// Models that replicas share through Redis, so that most models are generated only once. Uses hiredis.
 ///
-/// The shared cache never makes a request fail or wait: a thread in the background opens connections and
-/// writes; a request takes a connection that is ready, for one command with a time limit, or continues without.
+/// The shared cache never makes a request fail, and delays it by at most the time limit of one command. A thread in the
+/// background opens connections and writes. A request continues without the cache if no connection is ready.
 /// A model that is found is verified (form, length, hash of all bytes); an invalid one counts as not found.
 ///
 /// Keys are "seedmesh:" + engine version + ":" + SHA-256 of the canonical request. Anyone who can write into the
@@ -32,12 +32,14 @@ class SharedCache {
   SharedCache(const SharedCache&) = delete;
   SharedCache& operator=(const SharedCache&) = delete;
 
-  /// The model of a canonical request, or null. The entry receives `token`.
+  /// Returns the model of a canonical request, or null. The entry receives `token`.
   Cache::Entry get(const std::string& canonical, const std::string& token);
 
-  /// Queues a model to be written; drops it where the queue is full.
+  /// Queues a model to be written. Drops it if it is too large, the queue is full, or Redis does not respond.
   void put(const std::string& canonical, const Cache::Entry& entry);
 
+  /// Counts since the start. `skips`: reads without a ready connection, and writes dropped by a full queue or a
+  /// failing Redis.
   struct Figures {
     std::uint64_t hits = 0, misses = 0, writes = 0, errors = 0, skips = 0, connections = 0;
   };
@@ -75,7 +77,7 @@ class SharedCache {
   std::deque<Write> writes_;
   std::uint64_t queued_bytes_ = 0;
   Figures figures_;
-  bool failing_ = false;  ///< since the last command, so that the log reports it once
+  bool failing_ = false;  ///< the last command or connection failed; limits the log to one report
   bool ending_ = false;
   std::thread thread_;
 };

@@ -48,6 +48,7 @@ bool same_in_constant_time(std::string_view a, std::string_view b);
 /// Random bytes from the system, for new keys.
 std::string secret_bytes(std::size_t count);
 
+/// Decodes hexadecimal digits. Returns nothing if the text is not valid.
 std::optional<std::string> from_hex(std::string_view text);
 
 }  // namespace seedmesh

@@ -28,7 +28,7 @@ using Lock = std::map<std::string, LockEntry>;
 /// Nothing where the text is not that of a lock file.
 std::optional<Lock> read_lock(const std::string& text);
 
-/// One line for each request file, so that branches merge.
+/// Returns one line for each request file, so that branches merge.
 std::string lock_text(const Lock& lock);
 
 }  // namespace seedmesh

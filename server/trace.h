@@ -17,7 +17,7 @@ struct Trace {
 /// malformed, because the standard asks to ignore such a field.
 std::optional<Trace> read_traceparent(std::string_view field);
 
-/// The field with our span. The response carries it, so that the client can refer to the span.
+/// Returns the field with our span. The response carries it, so that the client can refer to the span.
 std::string traceparent(const Trace& trace);
 
 }  // namespace seedmesh

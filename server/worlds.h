@@ -29,7 +29,7 @@ struct NamedWorld {
 std::variant<std::shared_ptr<const NamedWorld>, Problem> read_world_name(
     std::string_view name, const Job::Options& options, const std::shared_ptr<WorldMemory>& memory);
 
-/// The token of a world's request; "" where it is too long.
+/// Returns the token of a world's request; "" where it is too long.
 std::string world_token(const Request& request);
 
 /// The worlds that were asked for last, bounded in bytes, and the memory of their tiles.

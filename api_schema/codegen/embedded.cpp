@@ -26,7 +26,7 @@ std::string schema_name(const fs::path& path) {
   return file.substr(0, file.size() - std::string(schema_ending).size());
 }
 
-/// The schemas that the service answers: all but common.schema.json, which is resolved into the others.
+/// The schemas that the service answers: all except common.schema.json, which is resolved into the others.
 std::vector<fs::path> served_schemas(const fs::path& folder) {
   std::vector<fs::path> files = files_in(folder, schema_ending);
   std::erase_if(files, [](const fs::path& file) { return schema_name(file) == "common"; });

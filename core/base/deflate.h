@@ -7,6 +7,7 @@
 
 namespace seedmesh {
 
+/// Compresses a text.
 std::string deflate_raw(std::string_view text);
 
 /// The inverse. Returns nothing where `data` is not exactly one whole stream, or yields more than `limit` bytes.

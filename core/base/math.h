@@ -38,7 +38,7 @@ std::int64_t to_int64(double x);
 std::int32_t to_int32(double x);
 std::uint32_t to_uint32(double x);
 
-/// The unit vector along `v`, or `otherwise` where v is zero or not finite. Divides by the correctly rounded
+/// Returns the unit vector along `v`, or `otherwise` where v is zero or not finite. Divides by the correctly rounded
 /// root. glm::normalize multiplies by a reciprocal instead, which loses the last bits.
 glm::dvec3 unit(const glm::dvec3& v, const glm::dvec3& otherwise);
 glm::vec3 unit(const glm::vec3& v, const glm::vec3& otherwise);

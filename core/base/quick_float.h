@@ -33,8 +33,9 @@ inline FloatSinCos turned(float rest, float quarters) {
   return {is_below ? -first : first, is_left ? -second : second};
 }
 
-inline float last_two_bits(float quarters) { return quarters - 4 * nearest(0.25F * quarters); }
-inline double last_two_bits(double quarters) { return quarters - 4 * nearest(0.25 * quarters); }
+/// Reduces a whole number of quarter turns modulo 4 to -2, -1, 0, 1 or 2.
+inline float reduced_quarters(float quarters) { return quarters - 4 * nearest(0.25F * quarters); }
+inline double reduced_quarters(double quarters) { return quarters - 4 * nearest(0.25 * quarters); }
 
 }  // namespace quick
 
@@ -43,17 +44,17 @@ inline FloatSinCos quick_sincos(float x) {
   const float quarters = nearest(x * 0.636619772F);
   const float rest =
       ((x - quarters * 1.5703125F) - quarters * 4.837512969970703125e-4F) - quarters * 7.54978995489e-8F;
-  return quick::turned(rest, quick::last_two_bits(quarters));
+  return quick::turned(rest, quick::reduced_quarters(quarters));
 }
 
 /// Sine and cosine of an angle in degrees; exact at multiples of 90 degrees.
 inline FloatSinCos quick_float_sincos_degrees(double degrees) {
   const double quarters = nearest(degrees * (1.0 / 90));
   const auto rest = static_cast<float>((degrees - 90 * quarters) * 0.017453292519943295);
-  return quick::turned(rest, static_cast<float>(quick::last_two_bits(quarters)));
+  return quick::turned(rest, static_cast<float>(quick::reduced_quarters(quarters)));
 }
 
-/// The angle of (x, y) in [-pi, pi]; 0 for (0, 0).
+/// Returns the angle of (x, y) in [-pi, pi]; 0 for (0, 0).
 inline float quick_atan2(float y, float x) {
   constexpr float half_turn = 3.14159265F;
   const float a = std::abs(x), b = std::abs(y), most = a > b ? a : b, least = a > b ? b : a;

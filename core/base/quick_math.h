@@ -36,7 +36,7 @@ inline SinCos kernel(double r) {
   return {sine, cosine};
 }
 
-/// The kernel's result turned by `quarters` right angles. Selects instead of branching, because branches on
+/// Returns the kernel's result turned by `quarters` right angles. Selects instead of branching, because branches on
 /// the quarter cannot be predicted and would prevent vectorisation.
 inline SinCos turned(const SinCos& a, double quarters) {
   const double rest = quarters - 4 * std::floor(0.25 * quarters);
@@ -48,6 +48,7 @@ inline SinCos turned(const SinCos& a, double quarters) {
 
 }  // namespace quick
 
+/// Returns sine and cosine of `x` radians, with the error stated above.
 inline SinCos quick_sincos(double x) {
   const double quarters = std::floor(x * (2 / pi) + 0.5);
   const double rest = (x - quarters * 1.57079632673412561417e+00) - quarters * 6.07710050650619224932e-11;

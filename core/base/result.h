@@ -106,10 +106,10 @@ struct Error {
   std::vector<Issue> issues;
 };
 
-/// An Issue of IssueKind::limit. `message` says what needs how much, and the limit.
+/// Returns an Issue of IssueKind::limit. `message` says what needs how much, and the limit.
 Issue limit_issue(const Limit& limit, std::string message, std::string pointer = "");
 
-/// The last entry of a list that was cut: "and 12 more errors".
+/// Returns the last entry of a list that was cut: "and 12 more errors".
 Issue truncated_list(std::uint64_t unlisted);
 
 /// Line and column, both from 1, of byte `offset` in UTF-8 `text`. Columns count code points.
@@ -117,9 +117,10 @@ struct TextPosition {
   int line = 1;
   int column = 1;
 };
+/// Returns the position of byte `offset`.
 TextPosition text_position(std::string_view text, std::size_t offset);
 
-/// An Issue about byte `offset` of the string `text`, which is the value at `pointer`.
+/// Returns an Issue about byte `offset` of the string `text`, which is the value at `pointer`.
 Issue issue_at(IssueKind kind, std::string pointer, std::string_view text, std::size_t offset,
                std::string message);
 

@@ -1,5 +1,5 @@
 #pragma once
-/// Random numbers by key. The n-th draw of a stream depends on nothing but the seed, the path of names and
+/// Random numbers by key. The n-th draw of a stream depends only on the seed, the path of names and
 /// indices that leads to the stream, and n. A draw in one part of a model therefore never changes the draws
 /// elsewhere. The distributions of <random> are not used, because they differ between standard libraries.
 ///
@@ -20,7 +20,7 @@ constexpr std::uint64_t mix(std::uint64_t x) {
   return x;
 }
 
-/// The key of child `index` of `key`. The order of the arguments matters.
+/// Returns the key of child `index` of `key`. The order of the arguments matters.
 constexpr std::uint64_t key_at(std::uint64_t key, std::uint64_t index) {
   return mix(key + 0x9E3779B97F4A7C15U * (index + 1));
 }
@@ -33,7 +33,7 @@ class Rng {
   /// The stream of a request's seed.
   static constexpr Rng of_seed(std::uint64_t seed) { return Rng(mix(seed ^ 0x5EED5EED5EED5EEDU)); }
 
-  /// A child stream, e.g. rng.at("limb").at(limb_index).
+  /// Returns a child stream, e.g. rng.at("limb").at(limb_index).
   constexpr Rng at(std::uint64_t index) const { return Rng(key_at(key_, index)); }
   constexpr Rng at(std::string_view name) const {
     std::uint64_t hash = 0xCBF29CE484222325U;  // FNV-1a

@@ -42,7 +42,7 @@ Result<Json> derive_child(const Child& child, const std::string& pointer, Rng st
 Result<Appraisal> appraise_child(const Child& child, const std::string& pointer, Rng stream,
                                  const GenerateContext& around);
 
-/// The message for a generator that does not exist, with the nearest name or with all names.
+/// Returns the message for a generator that does not exist, with the nearest name or with all names.
 std::string unknown_generator(GeneratorList generators, std::string_view name);
 
 }  // namespace seedmesh

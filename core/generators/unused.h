@@ -8,7 +8,7 @@
 
 namespace seedmesh {
 
-/// `unused`: from unused_parameters(params), which is generated from the schema.
+/// Converts the result of unused_parameters(), which is generated from the schema, to warnings without a text position.
 inline std::vector<Warning> warnings_of(std::vector<UnusedParameter> unused) {
   std::vector<Warning> warnings;
   warnings.reserve(unused.size());

@@ -31,10 +31,10 @@ enum class Pool {
 /// Bytes of one element; 0 for pools of neither vertices nor indices.
 std::uint32_t stride_of(Pool pool);
 
-/// The bufferView target (a number of OpenGL); 0 for neither vertices nor indices.
+/// Returns the bufferView target (a number of OpenGL); 0 for neither vertices nor indices.
 int target_of(Pool pool);
 
-/// The pool of a vertex attribute or of indices, which follows from stride and filter.
+/// Returns the pool of a vertex attribute or of indices, which follows from stride and filter.
 Pool vertex_pool(const Column& column);
 Pool index_pool(const Column& column);
 
@@ -68,7 +68,7 @@ class Bin {
   const std::vector<View>& views() const { return views_; }
   std::uint64_t size() const { return size_; }  ///< a multiple of 4
 
-  /// The arrays of each view, in order. Call it between arrange() and drain().
+  /// Returns the arrays of each view, in order. Call it between arrange() and drain().
   std::vector<std::vector<Slice>> slices() const;
 
   /// Releases all arrays; the locations stay.
@@ -95,10 +95,10 @@ class Bin {
 /// zip64.
 void refuse_beyond_4_gib(std::uint64_t bytes, const Job& job);
 
-/// The bytes of the buffer.
+/// Returns the bytes of the buffer.
 Payload raw(Bin bin, Job& job);
 
-/// The buffer in base64 (RFC 4648, padded), in blocks of 4 MiB charged to `job`.
+/// Returns the buffer in base64 (RFC 4648, padded), in blocks of 4 MiB charged to `job`.
 Payload base64(Bin bin, Job& job);
 
 constexpr std::uint64_t base64_size(std::uint64_t bytes) { return (bytes + 2) / 3 * 4; }

@@ -15,7 +15,7 @@ namespace seedmesh::gltf {
 /// number has this form.
 std::string short_hash(std::string_view bytes);
 
-/// All 64 bits of the same hash, as 16 hexadecimal digits.
+/// Returns all 64 bits of the same hash, as 16 hexadecimal digits.
 std::string long_hash(std::string_view bytes);
 
 struct ContentNames {

@@ -25,7 +25,7 @@ void append_integer(std::string& out, long long value);
 /// In quotes and escaped. Bytes that are not UTF-8 become U+FFFD.
 void append_string(std::string& out, std::string_view text);
 
-/// The double whose shortest decimal is that of `value`, for libraries that print only doubles.
+/// Returns the double whose shortest decimal is that of `value`, for libraries that print only doubles.
 double shortest(float value);
 
 /// Appends JSON without spaces to a text and sets the commas. It has no state beside the text: a text may be

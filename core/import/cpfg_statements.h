@@ -13,24 +13,26 @@ class CpfgStatements {
  public:
   CpfgStatements(ForeignText& source, CpfgWords& words) : source_(source), words_(words) {}
 
-  /// The statements of text[slice], without the braces around them. Calls that print and expressions without effect are
-  /// left out with a warning, and so are calls that read a file.
+  /// Converts the statements in text[slice], which has no outer braces, to those of L-systems. Calls that print and
+  /// expressions without effect are left out with a warning, and so are calls that read a file.
   TracedText converted(const TracedText& text, lsystem::Slice slice);
 
-  /// The statements of a rule, which begin with 0 for each name that only inner braces assign: cpfg's names belong to
-  /// the whole rule. begin_rule() names those that exist before: parameters and what `Start` sets.
+  /// Like converted(), for the statements of a rule. They begin with `name = 0;` for each name that only inner braces
+  /// assign, because names of cpfg belong to the whole rule.
   TracedText converted_in_rule(const TracedText& text, lsystem::Slice slice);
+  /// Begins a rule. `known` are the names that exist before it: parameters, and those that `Start` sets.
   void begin_rule(std::set<std::string> known) {
     known_ = std::move(known);
     known_.insert(shared_.begin(), shared_.end());
     inner_.clear();
   }
+  /// Adds names that exist in all following rules.
   void share(const std::set<std::string>& names) { shared_.insert(names.begin(), names.end()); }
 
   /// The names that statements so far assign.
   const std::set<std::string>& assigned() const { return assigned_; }
 
-  /// The argument of the last srand(); empty if there was none.
+  /// Returns the argument of the last srand(); empty if there was none.
   const TracedText& seed() const { return seed_; }
 
  private:

@@ -19,33 +19,33 @@ class CpfgWords {
   /// A word is written; a pattern is matched, and its parameters are names.
   enum class Role { word, pattern };
 
-  /// The modules of text[slice]. A module without a counterpart is left out of a word, with a warning; in a pattern it
-  /// is an error.
+  /// Returns the modules of text[slice]. A module without a counterpart is left out of a word, with a warning; in a
+  /// pattern it is an error.
   TracedText modules(const TracedText& text, lsystem::Slice slice, Role role);
 
   /// An expression or statements. In cpfg a sign binds closer than `^`, which is left associative, and `a ? b : c`
   /// chooses.
   TracedText expression(const TracedText& text, lsystem::Slice slice) const;
 
-  /// The number of modules in our notation.
+  /// Returns the number of modules in our notation.
   static std::size_t count(const TracedText& text);
 
-  /// The surfaces that `~` places, by their character, with the first offset of each.
+  /// Returns the surfaces that `~` places, by their character, with the first offset of each.
   const std::map<char, std::size_t>& surfaces() const { return surfaces_; }
   void add_surface(char symbol, std::size_t at) { surfaces_.emplace(symbol, at); }
   static std::string surface_name(char symbol);
 
-  /// The circles and spheres that occur, by the name of their surface: `_o`, `_c` and `_O`.
+  /// Returns the circles and spheres that occur, by the name of their surface: `_o`, `_c` and `_O`.
   const std::map<std::string, std::size_t, std::less<>>& rounds() const { return rounds_; }
 
-  /// The symbols of more than one character that occur, such as `@v` and `~l`.
+  /// Returns the symbols of more than one character that occur, such as `@v` and `~l`.
   const std::set<std::string>& longer() const { return longer_; }
 
-  /// The symbols for a list of characters to ignore or consider. cpfg compares single characters, so that a longer symbol
-  /// belongs to the list if its first character does.
+  /// Returns the symbols for a list of characters to ignore or consider. cpfg compares single characters, so that a
+  /// longer symbol belongs to the list if its first character does.
   std::string listed(std::string_view characters) const;
 
-  /// The characters behind the first of such a symbol, with the symbol.
+  /// Returns the characters behind the first of such a symbol, with the symbol.
   const std::map<char, std::string>& inside() const { return inside_; }
 
   void warn_once(std::size_t at, const std::string& symbol, const std::string& text);

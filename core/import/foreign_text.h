@@ -55,8 +55,8 @@ std::vector<Line> lines_of(std::string_view text);
 /// distinguished without reading a whole map.
 constexpr std::size_t largest_tree_file = 256 * 1024;
 
-/// An error for an entry that is chosen from a format without entries; nullopt without one. `what`: "a file of cpfg
-/// holds one system".
+/// Returns an error for an entry that is chosen from a format without entries; nullopt without one. `what`: "a file of
+/// cpfg holds one system".
 std::optional<Error> entry_error(const ImportOptions& options, const std::string& what);
 
 bool is_blank(char c);

@@ -18,7 +18,7 @@ struct HoudiniRule {
   bool has_left = false, has_right = false;
 };
 
-/// The offset of the = of a rule, outside of parentheses and comparisons; line.to if there is none.
+/// Returns the offset of the = of a rule, outside of parentheses and comparisons; line.to if there is none.
 std::size_t houdini_equals(std::string_view text, Line line);
 HoudiniRule houdini_rule(std::string_view text, Line line);
 

@@ -77,7 +77,7 @@ std::span<const ImportFormat> import_formats();
 /// The format of this name; null if there is none.
 const ImportFormat* find_import_format(std::string_view name);
 
-/// The format with the greatest score; null if all are 0.
+/// Returns the format with the greatest score; null if all are 0.
 const ImportFormat* likeliest_format(std::string_view text);
 
 }  // namespace seedmesh

@@ -56,7 +56,7 @@ enum class MapUnit { degrees, web_mercator, metres };
 class MapWarnings {
  public:
   void add(std::string message, const MapPosition& position);
-  /// A copy as a list, in the order in which they came first. `text`: the file, for lines and columns; empty
+  /// Returns a copy as a list, in the order in which they came first. `text`: the file, for lines and columns; empty
   /// for JSON.
   std::vector<Warning> take(std::string_view text) const;
 

@@ -16,7 +16,7 @@ class TransverseMercator {
   /// East and north of the origin, of a longitude and latitude in degrees.
   glm::dvec2 forward(const glm::dvec2& position) const;
 
-  /// The projection as PROJ writes it.
+  /// Returns the projection as PROJ writes it.
   std::string text() const;
 
  private:

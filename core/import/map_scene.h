@@ -33,8 +33,8 @@ struct MapConversion {
   double outline_work = 0;                      ///< the sum of the squared numbers of points of all outlines
   double reach = 0;  ///< the greatest distance of buildings and areas from the origin, along an axis
 
-  /// The rings of a polygon in metres; empty, with a warning, if it has too many points or all polygons together have.
-  /// `what`: "a footprint".
+  /// Returns the rings of a polygon in metres; empty, with a warning, if it has too many points or all polygons
+  /// together have. `what`: "a footprint".
   std::vector<PlanRing> outline(const std::vector<MapRing>& polygon, const char* what,
                                 const MapPosition& position);
 
@@ -45,13 +45,13 @@ struct MapConversion {
   Json rings(const Plan& plan);
 };
 
-/// The height in metres of the models of trees at scale 1.
+/// Returns the height in metres of the models of trees at scale 1.
 constexpr double map_tree_height(bool is_needle) { return is_needle ? 12 : 10; }
 
 /// The kinds of features that are areas and lines of the ground.
 bool is_area_tagged(const MapTags& tags);
-/// The key of a value that only one kind of line or area has, such as "leisure" of "park"; empty if there is none, or if
-/// it may be a building.
+/// Returns the key of a value that only one kind of line or area has, such as "leisure" of "park"; empty if there is
+/// none, or if it may be a building.
 std::string_view map_key_of(std::string_view value, bool is_line);
 
 /// Buildings and parts of buildings (map_buildings.cpp). Returns whether each feature was one.

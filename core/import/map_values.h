@@ -6,13 +6,13 @@
 
 namespace seedmesh {
 
-/// A length in metres: "12", "12.5 m", "40 ft", "40'", "40'6\"", "1.2 km". Nullopt for anything else.
+/// Returns a length in metres: "12", "12.5 m", "40 ft", "40'", "40'6\"", "1.2 km". Nullopt for anything else.
 std::optional<double> map_length(std::string_view text);
 
-/// A number without a unit; of a list such as "2;3" the first.
+/// Returns a number without a unit; of a list such as "2;3" the first.
 std::optional<double> map_number(std::string_view text);
 
-/// A number of degrees, with or without the sign.
+/// Returns a number of degrees, with or without the sign.
 std::optional<double> map_degrees(std::string_view text);
 
 /// Degrees clockwise from north: a number, or a point of the compass such as "NNE" or "south".
@@ -21,7 +21,7 @@ std::optional<double> map_direction(std::string_view text);
 /// "#rrggbb" of "#rgb", "#rrggbb", "rrggbb", "rgb(r, g, b)" or a name of CSS, whose words "_", "-" and blanks may separate.
 std::optional<std::string> map_color(std::string_view text);
 
-/// The usual colour of a building material, as #rrggbb; empty for an unknown one.
+/// Returns the usual colour of a building material, as #rrggbb; empty for an unknown one.
 std::string_view map_material_color(std::string_view material);
 
 /// "glass", "metal" or "plain", the surfaces of a scene.

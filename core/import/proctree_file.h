@@ -6,7 +6,7 @@
 
 namespace seedmesh {
 
-/// The 22 parameters as a JSON object with the names of proctree.js.
+/// Returns the 22 parameters as a JSON object with the names of proctree.js.
 std::string proctree_file(const TreeParams& params);
 
 }  // namespace seedmesh

@@ -21,7 +21,7 @@ class ShapemlText {
 
   /// The index of the next token `symbol` at the level of brackets of token i, or of the end token.
   std::size_t find(std::size_t i, std::string_view symbol) const;
-  /// The arguments of a call as ranges of tokens.
+  /// Returns the arguments of a call as ranges of tokens.
   std::vector<std::pair<std::size_t, std::size_t>> arguments(std::size_t i) const;
   /// Writes the expression of the tokens from `from` to before `to`, with names translated to those of CGA.
   void expression(std::size_t from, std::size_t to, TracedText& out);

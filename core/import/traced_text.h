@@ -32,7 +32,7 @@ class TracedText {
   /// Replaces one byte.
   void replace(std::size_t at, char with) { text_[at] = with; }
 
-  /// The source offset of text()[at]; for the end, the offset behind the last byte.
+  /// Returns the source offset of text()[at]; for the end, the offset behind the last byte.
   std::size_t origin(std::size_t at) const;
 
   const std::vector<TextRun>& runs() const { return runs_; }
@@ -44,7 +44,7 @@ class TracedText {
   std::vector<TextRun> runs_;
 };
 
-/// The source offset of byte `at`; 0 without runs.
+/// Returns the source offset of byte `at`; 0 without runs.
 std::size_t origin_in(const std::vector<TextRun>& runs, std::size_t at);
 
 }  // namespace seedmesh

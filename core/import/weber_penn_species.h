@@ -18,13 +18,14 @@ class WeberPennSpecies {
   /// Sets it where the file does not.
   void set_default(const std::string& name, double value) { values_.emplace(name, Value{value, none}); }
 
-  /// The value of a parameter; `otherwise` where the file has none.
+  /// Returns the value of a parameter; `otherwise` where the file has none.
   double value(const std::string& name, double otherwise) const {
     const auto found = values_.find(name);
     return found == values_.end() ? otherwise : found->second.value;
   }
 
-  /// The request. Parameters of levels that do not exist are left out; there, files have 0 where no value counts.
+  /// Returns the request. Parameters of levels that do not exist are left out; there, files have 0 where no value
+  /// counts.
   Imported made(std::uint64_t seed) const;
 
   /// The parameters with a digit of a level before their names.

@@ -12,7 +12,7 @@
 namespace seedmesh::lang {
 
 /// Registers that one level of depth keeps while the next one is computed: the left sides of a comparison, a sum, a
-/// product and a power, and all arguments of a call but the last.
+/// product and a power, and all arguments of a call except the last.
 constexpr std::size_t registers_per_level = 4 + (max_arity - 1);
 
 /// Registers of one evaluation, 12 KiB of stack.
@@ -42,7 +42,7 @@ class Program::Emitter {
 
   explicit Emitter(Program& program);
 
-  /// The lowest free register, for the next result.
+  /// Returns the lowest free register, for the next result.
   std::uint32_t mark() const { return next_register_; }
   void free_from(std::uint32_t mark) { next_register_ = mark; }
 

@@ -53,11 +53,11 @@ inline bool is_symbol(const Token& token, std::string_view text) {
   return token.kind == TokenKind::symbol && token.text == text;
 }
 
-/// The token as a message names it: `x` in backquotes, shortened to 40 bytes, or "the end".
+/// Returns the token as a message names it: `x` in backquotes, shortened to 40 bytes, or "the end".
 std::string in_quotes(const Token& token);
 std::string in_quotes(std::string_view text);
 
-/// The value of a string token, with its escapes resolved.
+/// Returns the value of a string token, with its escapes resolved.
 std::string string_value(const Token& token);
 
 }  // namespace seedmesh::lang

@@ -9,7 +9,7 @@
 
 namespace seedmesh::lang {
 
-/// The rows of a function, one for each number of arguments; empty without such a function.
+/// Returns the rows of a function, one for each number of arguments; empty without such a function.
 std::span<const Function> rows_of(std::string_view name);
 
 std::string unknown_name(const Names& names, std::string_view name);

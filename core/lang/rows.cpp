@@ -137,7 +137,7 @@ RowEvaluator::RowEvaluator(const Program& program, const Expression& expression)
 
 void RowEvaluator::add_constant(std::uint32_t index, double value) {
   if (constant_rows_.empty()) first_number_ = index;
-  // Operands are numbered in the order of the code, but for those of brackets, which may come earlier.
+  // Operands are numbered in the order of the code, except those of brackets, which may come earlier.
   if (index < first_number_) {
     constant_rows_.insert(constant_rows_.begin(), first_number_ - index, 0);
     first_number_ = index;

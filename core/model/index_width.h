@@ -8,7 +8,7 @@ namespace seedmesh {
 /// Generators of many small meshes may make 16-bit indices directly.
 void widen(Model& model, const Job& job);
 
-/// A deep copy of all arrays, charged to the same memory budgets.
+/// Returns a deep copy of all arrays, charged to the same memory budgets.
 Mesh copy_of(const Mesh& mesh);
 
 /// Refuses a mesh of more vertices than 32-bit indices can name. `what`: "The bark", as the subject of the

@@ -8,10 +8,10 @@
 
 namespace seedmesh {
 
-/// The greatest number of levels of any node, the finest included; at least 1.
+/// Returns the greatest number of levels of any node, the finest included; at least 1.
 std::size_t levels_of(const Model& model);
 
-/// The mesh that `node` shows at `level` (0 is the finest), or -1 where it shows none. A node with fewer
+/// Returns the mesh that `node` shows at `level` (0 is the finest), or -1 where it shows none. A node with fewer
 /// levels shows its coarsest.
 int mesh_at(const Node& node, std::size_t level);
 

@@ -61,7 +61,7 @@ struct Mesh {
   std::uint64_t bytes() const;  ///< of all arrays
 };
 
-/// The bounding box of `position`; {0, 0} where it is empty.
+/// Returns the bounding box of `position`; {0, 0} where it is empty.
 Box bounds_of(std::span<const glm::vec3> position);
 Box bounds_of(const Mesh& mesh);
 

@@ -172,11 +172,11 @@ struct ModelCounts {
 };
 ModelCounts count(const Model& model);
 
-/// The bounding box of all that is drawn, with node transforms and instances applied; {0, 0} for an empty
+/// Returns the bounding box of all that is drawn, with node transforms and instances applied; {0, 0} for an empty
 /// model.
 Box bounds_of(const Model& model);
 
-/// The linear value 0..1 of an sRGB byte, after IEC 61966-2-1.
+/// Returns the linear value 0..1 of an sRGB byte, after IEC 61966-2-1.
 float linear_of_srgb(std::uint8_t value);
 
 }  // namespace seedmesh

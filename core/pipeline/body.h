@@ -27,7 +27,7 @@ inline WantedFormat wanted_format(const OutputParams& output) {
   return {text_of(output.format), text_of(output.profile)};
 }
 
-/// The part of a request that has a member of this name: "output", "parameters" (of `generator`), or "" for
+/// Returns the part of a request that has a member of this name: "output", "parameters" (of `generator`), or "" for
 /// none.
 std::string_view part_with(std::string_view member, std::string_view generator);
 

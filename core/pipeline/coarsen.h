@@ -9,7 +9,7 @@
 
 namespace seedmesh {
 
-/// The triangles that a level draws, with all copies.
+/// Returns the triangles that a level draws, with all copies.
 std::uint64_t drawn_at(const Model& model, std::size_t level);
 
 /// A copy with the same name, materials and triangles. Its memory is charged to the request.

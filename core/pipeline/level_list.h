@@ -8,13 +8,14 @@
 
 namespace seedmesh {
 
-/// The number of levels.
+/// Returns the number of levels.
 int level_count(const OutputParams& output);
 
 /// Whether the triangles of levels are given: a list of several levels, or of one that is smaller than the model.
 bool has_listed_levels(const OutputParams& output);
 
-/// The list as numbers of triangles, for a model with `whole` triangles: shares up to 1 of it, and numbers above 1.
+/// Returns the list as numbers of triangles, for a model with `whole` triangles: shares up to 1 of it, and numbers
+/// above 1.
 std::vector<std::uint64_t> listed_triangles(const OutputParams& output, std::uint64_t whole);
 
 /// Errors of a list: numbers of triangles that are not whole, and entries that do not fall.

@@ -16,7 +16,7 @@ bool has_links(const OutputParams& output);
 /// Texels of a side; 0: no textures.
 int texture_size(const OutputParams& output);
 
-/// A seed as a number, or as text where JavaScript would round it.
+/// Returns a seed as a number, or as text where JavaScript would round it.
 Json seed_json(std::uint64_t seed);
 
 Demand demand_of(const OutputParams& output, const Generator& generator);

@@ -21,7 +21,7 @@ std::string name_stem(const Request::Body& body);
 /// Longer canonical requests are not written into models: they may hold whole images as data URIs.
 constexpr std::size_t longest_written_request = 16'384;
 
-/// The origin of the model: engine, generator, seed as text, preset where `output.name` names it, request
+/// Returns the origin of the model: engine, generator, seed as text, preset where `output.name` names it, request
 /// (canonical JSON) and permalink (a path). Where the request is too long, request_hash stands for it: 64 bits
 /// of XXH3 as 16 hexadecimal digits. A permalink that is too long for a URL is left out.
 std::vector<Extra> provenance(const Request& request);

@@ -36,12 +36,12 @@ struct Naming {
   std::function<bool(const Address&)> holds = {};  ///< tiles that the tree has; empty: all
 };
 
-/// An explicit tileset of at most four levels from `root` down. The tiles below the last of them point to tilesets
-/// of their own, whose roots have the same box and error.
+/// Returns an explicit tileset of at most four levels from `root` down. The tiles below the last of them point to
+/// tilesets of their own, whose roots have the same box and error.
 std::string explicit_tileset(const Address& root, const Naming& naming, const BoundsOf& bounds_of);
 
-/// An implicit tileset. Most clients overlook the metadata and halve box and error of the root, so the box is exactly
-/// the square of side `extent` in plan, and `error`, halved `level` times, is never below the error of a tile.
+/// Returns an implicit tileset. Most clients overlook the metadata and halve box and error of the root, so the box is
+/// exactly the square of side `extent` in plan, and `error`, halved `level` times, is never below the error of a tile.
 std::string implicit_tileset(double extent, double error, const Naming& naming, const BoundsOf& bounds_of);
 
 /// Bit of a tile among those of its level in a subtree: the bits of x at even places, those of y at odd ones.
@@ -50,7 +50,8 @@ std::uint32_t morton(std::uint32_t x, std::uint32_t y);
 /// Bits of all tiles of the first `levels` levels of a subtree: (4^levels - 1) / 3.
 std::uint32_t tiles_of(int levels);
 
-/// A binary subtree of five levels without metadata, whose tiles are those of a tree of `levels` levels without holes.
+/// Returns a binary subtree of five levels without metadata, whose tiles are those of a tree of `levels` levels
+/// without holes.
 std::string bare_subtree(const Address& root, int levels);
 
 /// The same with the box and the error of each tile as metadata (TILE_BOUNDING_BOX, TILE_GEOMETRIC_ERROR).

@@ -64,17 +64,17 @@ struct TileRange {
 };
 TileRange tiles_in(const OpenWorld& world, int level, const WorldBox& box);
 
-/// The explicit tileset of four levels below a tile whose level is a multiple of four. With a part, it has the tiles
-/// above and inside the part alone, and those above have no content.
+/// Returns the explicit tileset of four levels below a tile whose level is a multiple of four. With a part, it has the
+/// tiles above and inside the part alone, and those above have no content.
 Result<std::string> world_tileset(const OpenWorld& world, const TileAddress& root, std::string_view prefix,
                                   const Job::Options& options, const WorldPart* part = nullptr);
-/// The implicit tileset of the whole world.
+/// Returns the implicit tileset of the whole world.
 Result<std::string> world_implicit(const OpenWorld& world, std::string_view prefix,
                                    const Job::Options& options);
-/// The binary subtree of five levels below a tile whose level is a multiple of five.
+/// Returns the binary subtree of five levels below a tile whose level is a multiple of five.
 Result<std::string> world_subtree(const OpenWorld& world, const TileAddress& root,
                                   const Job::Options& options);
-/// The content of a tile as binary glTF.
+/// Returns the content of a tile as binary glTF.
 Result<std::string> world_tile(const OpenWorld& world, const TileAddress& address,
                                const Job::Options& options);
 

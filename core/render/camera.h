@@ -17,6 +17,7 @@ struct Frame {
   glm::dvec3 right{1, 0, 0}, up{0, 1, 0}, towards{0, 0, 1};
 };
 
+/// Returns the axes of a view.
 Frame frame_of(const View& view);
 
 /// A pinhole camera with a square image.
@@ -26,7 +27,7 @@ struct Camera {
   double half = 0.2;  ///< half the width of the image at distance 1
 };
 
-/// The camera from whose image no part of the items sticks out, with a small margin.
+/// Returns the camera from whose image no part of the items sticks out, with a small margin.
 Camera camera_for(const Model& model, const Items& items, const View& view);
 
 }  // namespace seedmesh::render

@@ -18,6 +18,7 @@ struct Rows {
 
 constexpr FourFloats lane_numbers{0, 1, 2, 3};
 
+/// Whether the flag of any lane is set.
 inline bool any_of(FourFlags flags) {
   std::uint64_t halves[2];
   std::memcpy(halves, &flags, sizeof(flags));
@@ -122,13 +123,15 @@ inline Part part_of(const Cover& c, std::int32_t size, const Rows& rows) {
           {std::max(c.left, 0) - c.left, std::min(c.right + 1, size) - c.left}};
 }
 
-/// The edge functions of a row, less 1 where samples on the edge belong to the neighbour: none is below 0 inside.
+/// Returns the edge functions of a row, less 1 where samples on the edge belong to the neighbour: none is below 0
+/// inside.
 inline std::array<std::int64_t, 3> row_at(const Cover& c, std::int32_t y) {
   std::array<std::int64_t, 3> row;
   for (std::size_t i = 0; i < 3; ++i) row[i] = c.row[i] - (owns_edge(c, i) ? 0 : 1) + c.down[i] * (y - c.top);
   return row;
 }
 
+/// Returns four numbers that begin at `first` and rise by `step`.
 inline FourFlags four_steps(std::int64_t first, std::int64_t step) {
   const auto a = static_cast<std::int32_t>(first), b = static_cast<std::int32_t>(step);
   return FourFlags{a, a + b, a + 2 * b, a + 3 * b};

@@ -47,8 +47,8 @@ class FragmentReader {
   double per_area_ = 0;
 };
 
-/// The texels that a sample covers, of a triangle with these texture coordinates; `per_area` is the reciprocal of its
-/// doubled area in fixed-point units.
+/// Returns the texels that a sample covers, of a triangle with these texture coordinates; `per_area` is the reciprocal
+/// of its doubled area in fixed-point units.
 inline double texels_of_sample(const texture::Texels& texels, const std::array<glm::vec2, 3>& at,
                                double per_area) {
   const glm::vec2 u = at[1] - at[0], v = at[2] - at[0];

@@ -21,13 +21,13 @@ struct Items {
   std::vector<Box> boxes;  ///< of Model::meshes, each in its own frame
 };
 
-/// All that is drawn at the finest level, copies one by one. Collision shapes are left out.
+/// Returns all that is drawn at the finest level, copies one by one. Collision shapes are left out.
 Items items_of(const Model& model, const Job& job);
 
-/// The bounding box of a mesh group, in its own frame.
+/// Returns the bounding box of a mesh group, in its own frame.
 Box box_of(const MeshGroup& group);
 
-/// The corners of a box.
+/// Returns the corners of a box.
 inline glm::vec3 corner_of(const Box& box, int corner) {
   return {(corner & 1) != 0 ? box.max.x : box.min.x, (corner & 2) != 0 ? box.max.y : box.min.y,
           (corner & 4) != 0 ? box.max.z : box.min.z};

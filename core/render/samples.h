@@ -23,10 +23,10 @@ struct Samples {
 /// blend are drawn last, in the order of the items. Cost: about 50 ns a triangle and 1 ns a covered sample.
 Samples draw_samples(const Shown& shown, const Job& job);
 
-/// A map of depths of the same form: of parallel light, without lines, points and sheets that blend.
+/// Returns a map of depths of the same form: of parallel light, without lines, points and sheets that blend.
 Array<float> draw_depths(const Shown& shown, float farthest, const Job& job);
 
-/// The length of a row of the map.
+/// Returns the length of a row of the map.
 constexpr std::size_t stride_of(std::uint32_t size) { return (std::size_t{size} + 3) & ~std::size_t{3}; }
 
 }  // namespace seedmesh::render

@@ -41,7 +41,7 @@ struct Shown {
 /// Cost: about 5 ns a vertex.
 Shown show(const Scene& scene, const Eye& eye, const Job& job);
 
-/// The texture coordinates of a mesh that a surface refers to; null: none.
+/// Returns the texture coordinates of a mesh that a surface refers to; null: none.
 const Array<glm::vec2>* uv_of(const Mesh& mesh, const Surface& surface);
 
 /// Whether a transform turns left into right.

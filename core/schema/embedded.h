@@ -16,7 +16,7 @@ std::span<const EmbeddedText> embedded_schemas();
 /// The preset files, sorted by name: {title, description, tags, generator, seed?, parameters, output?}.
 std::span<const EmbeddedText> embedded_presets();
 
-/// The OpenAPI 3.1 document, with the schemas as components.
+/// Returns the OpenAPI 3.1 document, with the schemas as components.
 std::string_view embedded_openapi();
 
 }  // namespace seedmesh

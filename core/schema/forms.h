@@ -20,7 +20,7 @@ extern const Form model_name;   ///< 1 to 64 letters, digits, - and _
 extern const Form digits;       ///< 1 to 20 decimal digits
 }  // namespace forms
 
-/// The form with this pattern; null if there is none.
+/// Returns the form with this pattern; null if there is none.
 const Form* find_form(std::string_view pattern);
 
 }  // namespace seedmesh::schema

@@ -29,26 +29,26 @@ struct JsonLimits {
 /// job; does not recurse. Cost: linear.
 Result<Json> parse_json(std::string_view text, const JsonLimits& limits = {});
 
-/// The canonical text: no spaces, sorted members, numbers as ECMAScript prints them (7.0 is 7), and escapes only
-/// where JSON requires them. Equal values give equal texts. All numbers have to be finite.
+/// Returns the canonical text: no spaces, sorted members, numbers as ECMAScript prints them (7.0 is 7), and escapes
+/// only where JSON requires them. Equal values give equal texts. All numbers have to be finite.
 std::string canonical_text(const Json& value);
 
 /// Applies a JSON Merge Patch (RFC 7396): objects are merged member by member, null removes a member, and any
 /// other value replaces the old one. Recurses as deep as the patch, whose depth parse_json bounds.
 void merge_patch(Json& target, const Json& patch);
 
-/// One reference token of a JSON Pointer (RFC 6901), with its leading slash: "a/b" gives "/a~1b".
+/// Returns one reference token of a JSON Pointer (RFC 6901), with its leading slash: "a/b" gives "/a~1b".
 std::string pointer_token(std::string_view key);
 
-/// The text of ECMAScript's Number::toString (ECMA-262, 6.1.6.1.20): the fewest digits that read back as the
+/// Returns the text of ECMAScript's Number::toString (ECMA-262, 6.1.6.1.20): the fewest digits that read back as the
 /// same double. Numbers from 1e21 and below 1e-6 get an exponent; -0 gives "0". `number` has to be finite.
 std::string number_text(double number);
 
-/// The offset of the first byte that is not valid UTF-8, or npos. Overlong forms, surrogates and code points
+/// Returns the offset of the first byte that is not valid UTF-8, or npos. Overlong forms, surrogates and code points
 /// above U+10FFFF are invalid.
 std::size_t find_bad_utf8(std::string_view text);
 
-/// The first `most` code points of UTF-8 `text`, followed by "…" if there are more. For messages.
+/// Returns the first `most` code points of UTF-8 `text`, followed by "…" if there are more. For messages.
 std::string shortened(std::string_view text, std::size_t most);
 
 }  // namespace seedmesh

@@ -21,8 +21,8 @@ const std::map<std::string, Preset, std::less<>>& preset_requests();
 /// The names of all presets, sorted.
 std::vector<std::string_view> preset_names();
 
-/// The request `json` merged over the preset that it names, without its member "preset". Unchanged if it names no
-/// preset, or one that does not exist.
+/// Returns the request `json` merged over the preset that it names, without its member "preset". Unchanged if it names
+/// no preset, or one that does not exist.
 Json with_preset(const Json& json);
 
 }  // namespace seedmesh

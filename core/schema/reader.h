@@ -39,7 +39,7 @@ class Location {
   JsonKind kind() const;
   std::string pointer() const;
 
-  /// The member `key` of an object, if there is one.
+  /// Returns the member `key` of an object, if there is one.
   std::optional<Location> member(std::string_view key) const;
   Location child(const Json& value, std::string_view key) const { return {value, key, npos, *this}; }
   Location child(const Json& value, std::size_t index) const { return {value, {}, index, *this}; }
@@ -100,8 +100,8 @@ void read_seed(const Location& location,
 void read_child(const Location& location, Child& out);  ///< parameters stay JSON until read_parameters()
 void read_free_object(const Location& location);        ///< checks only that it is an object
 
-/// The index of the value in a list of words, or nullopt after an error. `beside` names the other types that the
-/// value may have, for the message.
+/// Returns the index of the value in a list of words, or nullopt after an error. `beside` names the other types that
+/// the value may have, for the message.
 std::optional<std::size_t> read_word(const Location& location, std::span<const std::string_view> words,
                                      std::string_view beside = {});
 

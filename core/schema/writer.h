@@ -11,9 +11,10 @@
 
 namespace seedmesh::schema {
 
-/// A number if JavaScript reads it exactly, else its digits as a text.
+/// Returns a number if JavaScript reads it exactly, else its digits as a text.
 Json write_seed(std::uint64_t seed);
 
+/// Writes a nested request.
 Json write_child(const Child& child);
 
 template <class List, class Write>

@@ -22,7 +22,7 @@ struct Painting {
   Finish finish;
 };
 
-/// The dark, main and light colours around `main`, or around `tint` if it is given.
+/// Returns the dark, main and light colours around `main`, or around `tint` if it is given.
 Ramp ramp_round(glm::vec3 main, float dark, float light, glm::vec3 accent, const Tint& tint);
 
 /// `kind` is one of bark_kinds(). Cost: about 20 ns a texel for cracked kinds, 10 ns for smooth ones.

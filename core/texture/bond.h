@@ -45,7 +45,7 @@ class Courses {
 class PieceNumbers {
  public:
   PieceNumbers(const Bond& bond, Rng rng);
-  /// The number of the piece in this column.
+  /// Returns the number of the piece in this column.
   float at(const Courses::Row& row, int column) const {
     return numbers_[static_cast<std::size_t>(row.row * columns_ + column)];
   }

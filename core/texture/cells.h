@@ -40,7 +40,7 @@ class CellRows {
   struct Row {
     const float *border, *shade;
   };
-  /// The values of a row, until the next call.
+  /// Returns the values of a row, until the next call.
   Row row(int y);
 
  private:

@@ -98,7 +98,7 @@ std::string fault_of_jpeg(const std::vector<std::uint8_t>& bytes) {
       ++at;
       continue;
     }
-    // A frame header is C0 to CF, but for C4, C8 and CC, which are tables and an extension.
+    // A frame header is C0 to CF, except C4, C8 and CC, which are tables and an extension.
     if (marker >= 0xC0 && marker <= 0xCF && marker != 0xC4 && marker != 0xC8 && marker != 0xCC) {
       const unsigned height = bytes[at + 5] * 256U + bytes[at + 6],
                      width = bytes[at + 7] * 256U + bytes[at + 8];

@@ -33,17 +33,18 @@ Result<Picture> decode_jpeg(std::span<const std::byte> file, const PngLimits& li
 /// WebP without animation: RGB, or RGBA if it has alpha.
 Result<Decoded> decode_webp(std::span<const std::byte> file, const PngLimits& limits, const Job& job);
 
-/// The first image of a TIFF (TIFF 6.0, BigTIFF) in strips or tiles, uncompressed or with LZW, Deflate, PackBits or
-/// Zstandard: grey, RGB and palettes of 8 or 16 bits as a picture, other numbers as samples. Rows of a GeoTIFF that run
-/// northwards are put in order.
+/// Returns the first image of a TIFF (TIFF 6.0, BigTIFF) in strips or tiles, uncompressed or with LZW, Deflate,
+/// PackBits or Zstandard: grey, RGB and palettes of 8 or 16 bits as a picture, other numbers as samples. Rows of a
+/// GeoTIFF that run northwards are put in order.
 Result<Decoded> decode_tiff(std::span<const std::byte> file, const PngLimits& limits, const Job& job);
 
 namespace detail {
 
-/// An error without a pointer.
+/// Returns an error without a pointer.
 Error refused_picture(std::string message);
 
-/// An error if a side of a picture is 0 or longer than the limit, or if a file of `bytes` cannot hold the pixels.
+/// Returns an error if a side of a picture is 0 or longer than the limit, or if a file of `bytes` cannot hold the
+/// pixels.
 std::optional<Error> size_error(const char* format, std::uint64_t width, std::uint64_t height,
                                 const PngLimits& limits);
 

@@ -29,7 +29,7 @@ class Field {
 /// Calls body(begin, end) for ranges of rows of an image, in parallel.
 void for_rows(const Job& job, int rows, const std::function<void(int begin, int end)>& body);
 
-/// A smooth step from 0 at `low` to 1 at `high`.
+/// Returns a smooth step from 0 at `low` to 1 at `high`.
 inline float step_between(float low, float high, float x) {
   const float t = (x - low) * (1 / (high - low));
   const float c = t < 0 ? 0 : t > 1 ? 1 : t;

@@ -20,12 +20,13 @@ struct LeafPicture {
   LeafShape shape = LeafShape::simple;
   int count = 1;
 };
+/// Returns the content of a kind, which has to be one of leaf_kinds().
 LeafPicture leaf_picture(std::string_view kind);
 
-/// The kind that shows a leaf of a shape, or a twig if there is one.
+/// Returns the kind that shows a leaf of a shape, or a twig if there is one.
 std::string_view leaf_kind(LeafShape shape, bool is_twig);
 
-/// The least alpha of texels that are drawn. For distant leaves, renderers compare it with means over many
+/// Returns the least alpha of texels that are drawn. For distant leaves, renderers compare it with means over many
 /// texels, so that images of thin needles need a low value, or the crown vanishes.
 float leaf_cutoff(std::string_view kind);
 

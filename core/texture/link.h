@@ -1,7 +1,7 @@
 #pragma once
 /// Names of generated textures, so that a model can refer to them by URL instead of holding their bytes.
 ///
-/// A name holds all that the bytes depend on but the engine: kind, seed, size, colour and channel, as in
+/// A name holds all that the bytes depend on, except the engine: kind, seed, size, colour and channel, as in
 /// `oak_bark.17.512.color` or `brick.3.512.a0b1c2.normal`. Any service with the same engine makes the same bytes
 /// of it, so no service has to remember a name.
 #include <memory>
@@ -34,7 +34,7 @@ std::string name_of(const Link& link);
 /// power of two from 16 to 4096, a number with leading zeros.
 std::optional<Link> read_link(std::string_view name);
 
-/// The image of a link, from `store` or made now. `store` may be null. Cost: that of the three images of the
+/// Returns the image of a link, from `store` or made now. `store` may be null. Cost: that of the three images of the
 /// recipe, about 60 ns a texel, because they are made of one relief and kept together.
 std::shared_ptr<const Image> image_of(const Link& link, TextureStore* store, const Job& job);
 

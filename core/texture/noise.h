@@ -55,7 +55,7 @@ class Noise {
 class NoiseRows {
  public:
   explicit NoiseRows(const Noise& noise);
-  /// The values of a row, until the next call.
+  /// Returns the values of a row, until the next call.
   const float* row(int y);
 
  private:

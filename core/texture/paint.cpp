@@ -31,7 +31,7 @@ std::shared_ptr<const Maps> make(const TextureRecipe& recipe, int size, const Jo
   return std::make_shared<const Maps>(make_maps(painting.relief, painting.finish, recipe.kind, job));
 }
 
-/// Images that have no bytes here, but the URLs of generated textures.
+/// Images that have URLs of generated textures instead of bytes.
 std::shared_ptr<const Maps> linked_maps(const TextureRecipe& recipe, int size, const std::string& prefix) {
   const auto linked = [&](Channel channel, const char* suffix) {
     auto image = std::make_shared<Image>();

@@ -13,20 +13,20 @@
 
 namespace seedmesh::texture {
 
-/// All kinds that a recipe can name: bark, leaves, twigs, petals, walls and roofs.
+/// Returns all kinds that a recipe can name: bark, leaves, twigs, petals, walls and roofs.
 std::span<const std::string_view> texture_kinds();
 
 /// Whether a kind tiles; bark and walls do.
 bool is_repeating_kind(std::string_view name);
 
-/// The width and height in texels at which a kind is painted for textures of `size`: half of it for single leaves and
-/// petals, which few pixels show; not below 64.
+/// Returns the width and height in texels at which a kind is painted for textures of `size`: half of it for single
+/// leaves and petals, which few pixels show; not below 64.
 int painted_size(std::string_view kind, int size);
 
 /// `kind` is one of texture_kinds().
 Painting paint_kind(std::string_view kind, int size, std::uint64_t seed, const Tint& tint, const Job& job);
 
-/// The images of a recipe as PNG, from `store` or made now. `store` may be null.
+/// Returns the images of a recipe as PNG, from `store` or made now. `store` may be null.
 std::shared_ptr<const Maps> maps_of(const TextureRecipe& recipe, int size, TextureStore* store,
                                     const Job& job);
 

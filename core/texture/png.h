@@ -33,7 +33,7 @@ struct Picture {
   int bits = 8;
   Array<std::uint8_t> bytes;
 
-  /// The value of the channel with this number, counted over all pixels, for 8 and 16 bits.
+  /// Returns the value of the channel with this number, counted over all pixels, for 8 and 16 bits.
   std::uint32_t channel(std::size_t index) const;
   PictureView view() const { return {width, height, channels, bits, std::as_bytes(bytes.span())}; }
 };

@@ -30,7 +30,7 @@ enum class Accent { none, painted };
 using PaintRows = std::function<void(int begin, int end, const std::function<ReliefRow(int y)>& row_at)>;
 Relief paint_rows(int size, Accent accent, const Job& job, const PaintRows& paint);
 
-/// The nearest number from 0 to 1.
+/// Returns the nearest number from 0 to 1.
 inline float clamp_share(float x) { return x < 0 ? 0 : x > 1 ? 1 : x; }
 
 /// Colours in sRGB, 0 .. 1.
@@ -62,8 +62,8 @@ struct Maps {
   }
 };
 
-/// The width and height of the third image beside others of `size`: half of it, as light shows no more of it, and at
-/// least 16.
+/// Returns the width and height of the third image beside others of `size`: half of it, as light shows no more of it,
+/// and at least 16.
 constexpr int surface_size(int size) { return size < 32 ? size : size / 2; }
 
 /// Makes the images of a relief. Their names begin with `name`.

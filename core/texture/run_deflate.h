@@ -8,7 +8,7 @@
 
 namespace seedmesh::texture {
 
-/// The most bytes of the stream of `size` bytes.
+/// Returns the most bytes of the stream of `size` bytes.
 std::size_t run_deflate_bound(std::size_t size);
 
 /// Writes the stream of `data`, whose pixels have `period` bytes (1 to 4), to `out`, which has run_deflate_bound()

@@ -14,8 +14,8 @@ namespace seedmesh::texture {
 
 constexpr std::int64_t fixed_one = 16;  ///< a sample in fixed-point numbers
 
-/// A position in samples as a fixed-point number. It is clamped to a range outside of every image, so that products of
-/// two still fit 64 bits.
+/// Returns a position in samples as a fixed-point number. It is clamped to a range outside of every image, so that
+/// products of two still fit 64 bits.
 inline std::int64_t fixed(double samples) {
   constexpr double farthest = 1 << 24;
   return math::to_int64(std::floor(std::clamp(samples, -farthest, farthest) * fixed_one + 0.5));

@@ -5,7 +5,7 @@
 
 namespace seedmesh::texture {
 
-/// The nearest sRGB byte of a linear value, where 65535 is 1. Larger values give 255. Cost: about 1 ns.
+/// Returns the nearest sRGB byte of a linear value, where 65535 is 1. Larger values give 255. Cost: about 1 ns.
 std::uint8_t srgb_of(std::uint32_t linear);
 
 /// The same for loops: srgb_of(linear) is the element of `linear` / 16.

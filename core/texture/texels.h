@@ -16,7 +16,7 @@ class Texels {
   /// level. Cost: about 40 ns a texel.
   Texels(const Picture& picture, float cutoff, const Job& job);
 
-  /// The level for a sample that covers this many texels.
+  /// Returns the level for a sample that covers this many texels.
   std::size_t level_of(double texels) const;
 
   /// Linear RGB and alpha from 0 to 65535; empty texels have alpha 0. With `repeat` the image tiles, else its

@@ -10,7 +10,7 @@ namespace seedmesh {
 class TextureStore {
  public:
   virtual ~TextureStore() = default;
-  /// The entry of this key, or null.
+  /// Returns the entry of this key, or null.
   virtual std::shared_ptr<const void> find(const std::string& key) = 0;
   /// Keeps `value`, which is never changed again and takes `bytes` of memory; may forget it at any time. The
   /// type behind the pointer follows from the key.

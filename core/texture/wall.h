@@ -18,6 +18,7 @@ struct WallKind {
   bool is_grey;
 };
 
+/// Returns all kinds of walls.
 std::span<const WallKind> wall_kinds();
 
 /// Null if no kind has this name.
@@ -26,7 +27,7 @@ const WallKind* wall_kind(std::string_view name);
 /// The mean grey of such textures, linear.
 glm::vec3 wall_grey();
 
-/// The main grey of one kind that is grey, linear.
+/// Returns the main grey of one kind that is grey, linear.
 float grey_of(std::string_view name);
 
 /// `name` is the name of one of wall_kinds(). Cost: about 30 ns a texel.

@@ -67,7 +67,7 @@ void put_constant(BitWriter& bits) {
   bits.flush();
 }
 
-/// The lengths of a code, themselves in a code. Runs of lengths are not shortened, but for zeros.
+/// The lengths of a code, themselves in a code. Runs of lengths are not shortened, except for zeros.
 void put_lengths(BitWriter& bits, std::span<const std::uint8_t> lengths) {
   constexpr std::array<std::uint8_t, 19> order = {17, 18, 0, 1,  2,  3,  4,  5,  16, 6,
                                                   7,  8,  9, 10, 11, 12, 13, 14, 15};

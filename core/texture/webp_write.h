@@ -19,7 +19,7 @@ constexpr std::uint32_t longest_webp_side = 16'383;
 /// is meant for pictures that are looked at once.
 enum class WebpQuality { quick = 75, usual = 85, fine = 92 };
 
-/// The version of libwebp's encoder, as 0x010204.
+/// Returns the version of libwebp's encoder, as 0x010204.
 int webp_encoder_version();
 
 /// Writes pixels of 8 bits a channel: grey, RGB or RGBA. Both sides are from 1 to longest_webp_side (asserted). Cost:

@@ -1,6 +1,7 @@
 #pragma once
-/// The connection to one client: reads with absolute deadlines, joins small writes, ends slow readers, and closes
-/// so that the client can read the last response. Owns the socket. Used by one thread, except for end_if_idle().
+/// The connection to one client. It reads with absolute deadlines, joins small writes and disconnects slow clients.
+/// When it closes, the client can still read the last response. Owns the socket. Used by one thread, except for
+/// end_if_idle().
 #include <atomic>
 #include <chrono>
 #include <cstddef>
@@ -13,12 +14,12 @@
 
 namespace seedmesh::http {
 
-/// How fast a client has to read a response. Only the time counts in which the socket takes no more bytes, so a
-/// response that fits into the buffers of the kernel is never too slow.
+/// How fast a client has to read a response. Only time during which the socket accepts no bytes is counted. A client is
+/// therefore never too slow for a response that fits into the buffers of the kernel.
 struct ReadingPace {
   std::chrono::steady_clock::duration timeout = std::chrono::seconds(30);  ///< timeout for each `step`
   std::uint64_t step = 64 * 1'024;  ///< bytes; single bytes do not extend the timeout
-  /// Time of waiting before `rate` holds.
+  /// Time spent waiting for the client before `rate` is enforced.
   std::chrono::steady_clock::duration grace = std::chrono::seconds(10);
   double rate = 0;  ///< least bytes per second from the first wait on; 0: no limit
 };
@@ -54,8 +55,10 @@ class Connection {
   /// Queues a small piece; sends a large one at once, after what is queued. False when the client cannot be
   /// written to any more.
   bool write(std::string_view piece);
+  /// Sends what is queued. False when the client cannot be written to any more.
   bool flush();
-  void begin_response();  ///< the pace is measured for each response
+  /// Starts to measure the pace of a response. Has to be called before its first write.
+  void begin_response();
   bool broken() const { return broken_; }
   bool slow() const { return slow_; }           ///< the client did not keep the pace; broken() is true, too
   std::uint64_t sent() const { return sent_; }  ///< bytes before encryption

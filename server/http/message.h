@@ -18,7 +18,7 @@ namespace seedmesh::http {
 /// Header fields in the order in which they arrive or are sent. Names keep their spelling.
 using Headers = std::vector<std::pair<std::string, std::string>>;
 
-/// All values of a field joined by ", " as RFC 9110 section 5.3 allows; "" where the field is absent.
+/// Returns all values of a field joined by ", " as RFC 9110 section 5.3 allows; "" where the field is absent.
 std::string field_value(const Headers& headers, std::string_view name);
 std::size_t field_count(const Headers& headers, std::string_view name);
 

@@ -35,10 +35,13 @@ struct RequestHead {
 };
 
 /// Parses a whole head: request line, fields and the empty line at the end.
-/// Errors: 400 for a bare CR or LF, a folded line, white space before a colon, a control character, no Host, two
-/// or one that is not a host with an optional port, two lengths or one that is not a number, an invalid escape, a
-/// NUL or a dot segment in the path; 411 for Transfer-Encoding or a missing length; 413, 414 and 431 beyond a
-/// limit; 415 for an encoded body; 417 for an unknown expectation; 505 for another version.
+/// Errors:
+/// - 400: a bare CR or LF, a folded line, white space before a colon, or a control character;
+/// - 400: a missing, repeated or malformed Host; a repeated Content-Length, or one that is not a number;
+/// - 400: an invalid escape, a NUL or a dot segment in the path;
+/// - 411: Transfer-Encoding, or a missing length;
+/// - 413, 414 and 431: a limit is exceeded;
+/// - 415: an encoded body; 417: an unknown expectation; 505: another version.
 std::variant<RequestHead, Refusal> parse_head(std::string_view text, const HeadLimits& limits);
 
 /// Returns 414 or 431 as soon as a head that is not complete yet exceeds its limits, else nothing.

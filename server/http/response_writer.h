@@ -4,7 +4,7 @@
 
 namespace seedmesh::http {
 
-/// The status line and header fields of a response, with Date, X-Request-Id, X-Content-Type-Options and the
+/// Returns the status line and header fields of a response, with Date, X-Request-Id, X-Content-Type-Options and the
 /// framing of the body: its length, or chunks for a stream. A field whose name or value contains a line break
 /// is left out, so that no value can add a field.
 std::string response_head(const Request& request, const Response& response);

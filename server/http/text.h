@@ -7,27 +7,28 @@
 
 namespace seedmesh::http {
 
-/// Compares as field names and media types compare: ASCII letters without regard to case.
+/// Whether the texts are equal without regard to the case of ASCII letters, as for field names and media types.
 bool equals_ignoring_case(std::string_view a, std::string_view b);
 
-/// The text without spaces and tabs at both ends.
+/// Returns the text without spaces and tabs at both ends.
 std::string_view trimmed(std::string_view text);
 
 /// Removes everything up to and including the first `separator` from `rest`. Returns the trimmed part before
 /// it, or all of `rest` where there is no separator.
 std::string_view take_part(std::string_view& rest, char separator);
 
-/// Decodes %xx. Returns nothing where an escape is malformed.
-enum class Plus { literal, space };  ///< `space`: "+" stands for a space, as in form data
+/// How percent_decode() reads a plus sign: as itself, or as a space as in form data.
+enum class Plus { literal, space };
+/// Decodes %xx. Returns nothing if an escape is malformed.
 std::optional<std::string> percent_decode(std::string_view text, Plus plus = Plus::literal);
 
-/// Two lower-case hexadecimal digits for each byte.
+/// Returns two lower-case hexadecimal digits for each byte.
 std::string hex(std::string_view bytes);
 
-/// 16 hexadecimal digits that are unique in this process and hard to guess from outside; never all zero.
+/// Returns 16 hexadecimal digits that are unique in this process and hard to guess from outside; never all zero.
 std::string random_id();
 
-/// The number that the whole text spells; nothing where it spells none or one out of range.
+/// Parses a number. Returns nothing if the text is not exactly one number, or if the number is out of range.
 template <class Number>
 std::optional<Number> parse_number(std::string_view text) {
   Number value{};

@@ -32,7 +32,7 @@ class BodySource {
   bool is_part(const Shape& shape) const {
     return is_asset(shape) && assets_[shape.geometry & ~asset_bit].row != nullptr;
   }
-  /// The asset of a shape. A built-in part is made for the size of the scope, once for equal sizes.
+  /// Returns the asset of a shape. A built-in part is made for the size of the scope, once for equal sizes.
   Asset& asset_of(const Shape& shape);
   /// Fills the surface of a body that is no asset, in the frame of its scope.
   void fill(const Shape& shape, BodySurface& surface);

@@ -16,7 +16,7 @@ class BoxTree {
  public:
   explicit BoxTree(std::span<const WorldBox> boxes);
 
-  /// The numbers of the boxes that meet or touch this one, rising. Cost: log n and the boxes found.
+  /// Returns the numbers of the boxes that meet or touch this one, rising. Cost: log n and the boxes found.
   std::vector<std::uint32_t> meeting(const WorldBox& box) const;
 
  private:

@@ -22,10 +22,11 @@ struct BuildingParams;
 
 namespace seedmesh::building {
 
+/// Returns all errors that the schema cannot express. Pointers are relative to the parameters.
 std::vector<Issue> check(const BuildingParams& params, const Limits& limits, const Job* job = nullptr);
 
-/// The rules of a request, for requests with other seeds, sizes and attributes. Null if the request has errors or a
-/// shape grammar.
+/// Returns the rules of a request, for requests with other seeds, sizes and attributes. Null if the request has errors
+/// or a shape grammar.
 Generator::Prepared prepare(const BuildingParams& params, const CheckContext& context);
 
 /// Reads no rules if the context has prepared ones of equal parameters. The model is the same.
@@ -36,7 +37,7 @@ Result<Model> generate(const BuildingParams& params, const GenerateContext& cont
 Result<Json> derive(const BuildingParams& params, const GenerateContext& context);
 Result<Appraisal> appraise(const BuildingParams& params, const GenerateContext& context);
 
-/// The vocabulary of rules: operations, other words, parts and names of materials.
+/// Returns the vocabulary of rules: operations, other words, parts and names of materials.
 Json vocabulary();
 
 }  // namespace seedmesh::building

@@ -36,11 +36,11 @@ struct RuleSet {
   std::vector<std::string> materials;
 };
 
-/// The rules of the request or of its blueprint; empty if it has a shape grammar. Adds an issue if the main file is not
-/// clear.
+/// Returns the rules of the request or of its blueprint; empty if it has a shape grammar. Adds an issue if the main
+/// file is not clear.
 RuleText rule_text_of(const BuildingParams& params, std::vector<Issue>& issues);
 
-/// The value of an attribute as expressions see it; true is 1, false is 0.
+/// Returns the value of an attribute as expressions see it; true is 1, false is 0.
 lang::TaggedValue value_of(Texts& texts, const AttributeValue& given);
 
 /// Checks a value for an attribute of the rules. `base` is the pointer of the object of values, with a slash at its end.
@@ -49,7 +49,7 @@ void check_attribute_value(const Grammar& grammar, Texts& texts,
                            const std::pair<const std::string, AttributeValue>& given, const std::string& base,
                            std::vector<Issue>& issues);
 
-/// A warning if nothing is drawn and no NIL removed shapes.
+/// Returns a warning if nothing is drawn and no NIL removed shapes.
 std::optional<Warning> nothing_drawn(const Shapes& shapes);
 
 /// Within what check_all works.
@@ -58,8 +58,8 @@ struct Bounds {
   const Job* job = nullptr;  ///< checked for stop and deadline; may be null
 };
 
-/// All errors. Fills the rules, or the pictures if the request has a shape grammar. Rules that are set already are not
-/// read again; they have to be those of the parameters (has_rules_of). Rules with errors become null.
+/// Returns all errors. Fills the rules, or the pictures if the request has a shape grammar. Rules that are set already
+/// are not read again; they have to be those of the parameters (has_rules_of). Rules with errors become null.
 std::vector<Issue> check_all(const BuildingParams& params, const Bounds& bounds,
                              std::shared_ptr<const RuleSet>& rules, PictureGrammar& pictures);
 

@@ -8,7 +8,8 @@ namespace seedmesh::building {
 /// never used and rules that cut their own symbol without an end.
 void check_grammar(Parser& p, std::string_view start);
 
-/// The symbols whose weights are constants that do not sum to 1, or to more than 1 beside an else. One error for each.
+/// Returns the symbols whose weights are constants that do not sum to 1, or to more than 1 beside an else. One error
+/// for each.
 std::vector<lang::TextError> errors_of_weights(const Grammar& grammar);
 
 }  // namespace seedmesh::building

@@ -4,11 +4,12 @@
 
 namespace seedmesh::building {
 
-// Reserved step numbers that no successor uses. They key the random numbers of conditions and of choices.
+// Keys of random numbers below the key of a shape: for conditions, and for the choice of a successor. Successors use
+// the index of their step as key, which is always smaller.
 constexpr std::uint64_t step_of_conditions = 0xFFFF'FFFF'0001U, step_of_choice = 0xFFFF'FFFF'0002U;
 
-/// Returns the weight of `choice`. Without a given weight it is 1 - `before`, where `before` is the sum of the earlier
-/// weights. The result is at least 0.
+/// Returns the weight of `choice`, at least 0. Percentages count as hundredths. Without a given weight it is 1 -
+/// `before`, where `before` is the sum of the earlier weights.
 double weight_of(Derivation& d, const Choice& choice, double before);
 
 /// Returns the choice that replaces shape `index`, drawn with the key of the shape. Returns null if no rule holds.

@@ -13,16 +13,16 @@ struct Component {
   std::uint32_t classes[2] = {0, 0};
 };
 
-/// All components of a kind, in the order of the geometry. Faces have the origin at their first corner, x along the first
-/// edge and z along the normal; edges have x along them and z as the mean of the normals of their faces. Cost: linear;
-/// edges n log n.
+/// Returns all components of a kind, in the order of the geometry. Faces have the origin at their first corner, x
+/// along the first edge and z along the normal; edges have x along them and z as the mean of the normals of their
+/// faces. Cost: linear; edges n log n.
 std::vector<Component> components_of(Derivation& d, const ShapeState& state, std::uint8_t kind);
 
 /// Whether a selector takes a component that is the `number`th of those of its classes.
 bool is_selected(Derivation& d, const Part& part, const Component& component, std::int32_t number,
                  std::uint32_t shape);
 
-/// The bits of a selector such as front or eave; 0 for other words.
+/// Returns the bits of a selector such as front or eave; 0 for other words.
 std::uint32_t class_named(std::string_view name);
 /// Reads the words of a selector, perhaps with a frame: front, world.up, street.front. False: it is none.
 bool read_selector(std::string_view dotted, std::uint32_t& classes, std::uint8_t& frame);

@@ -42,7 +42,7 @@ enum class Rounding : std::uint8_t { nearest, ceil };
 bool cut(std::span<const Cell> cells, std::uint32_t first, std::uint32_t count, double length,
          Rounding rounding, double most, std::vector<Cut>& out, double& wanted);
 
-/// The number of equal pieces of Repeat("X", size): length / size rounded up or to the nearest, at least 1.
+/// Returns the number of equal pieces of Repeat("X", size): length / size rounded up or to the nearest, at least 1.
 double copies_of(double length, double size, Rounding rounding);
 
 }  // namespace seedmesh::building

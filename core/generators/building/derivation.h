@@ -89,7 +89,7 @@ void warn(Derivation& d, std::uint32_t offset, const std::string& message);
 /// have too many corners.
 std::uint32_t add_axes(Derivation& d, const glm::dmat3& axes);
 std::uint32_t add_solid(Derivation& d, Solid solid);
-/// The number of a style, which is added unless an equal one exists.
+/// Returns the number of a style, which is added unless an equal one exists.
 std::uint32_t style_with(Derivation& d, Style style);
 
 /// Applies the edit of the request to a new shape, if it has one: its style, symbol and activity.
@@ -100,9 +100,9 @@ double area_of(const Derivation& d, const ShapeState& state);
 /// Volume in cubic metres; 0 if the geometry is not closed.
 double volume_of(const Derivation& d, const ShapeState& state);
 
-/// The geometry of a flat state; it lies in the unit square of its scope.
+/// Returns the geometry of a flat state; it lies in the unit square of its scope.
 const Solid& flat_solid(const Derivation& d, const ShapeState& state);
-/// A copy of the geometry of a state, in the unit cube of its scope.
+/// Returns a copy of the geometry of a state, in the unit cube of its scope.
 Solid solid_of(const Derivation& d, const ShapeState& state);
 /// Sets the geometry to `solid` (coordinates in metres, along the axes of the scope), and the scope to its
 /// bounding box.

@@ -54,10 +54,11 @@ struct Task {
 
 constexpr std::uint16_t deepest_shape = 1'000;
 
-/// An issue at a byte of the rules: with /rules, line and column, or with /blueprint if the rules are part of
+/// Returns an issue at a byte of the rules: with /rules, line and column, or with /blueprint if the rules are part of
 /// the program.
 Issue issue_in_rules(const Task& task, IssueKind kind, std::size_t offset, const std::string& message);
 
+/// Derives the shapes of a building from its start shape.
 Shapes derive_shapes(const Task& task, Job& job);
 
 }  // namespace seedmesh::building

@@ -41,8 +41,8 @@ struct EditTree {
 /// Errors of the edits of a request, with their pointers.
 void check_edits(const BuildingParams& params, const Grammar& grammar, std::vector<Issue>& issues);
 
-/// The edits of a request that has no errors. Texts of attributes are added to `texts`, which begin with those of the
-/// grammar.
+/// Returns the edits of a request that has no errors. Texts of attributes are added to `texts`, which begin with those
+/// of the grammar.
 EditTree edits_of(const BuildingParams& params, const Grammar& grammar, Texts& texts);
 
 /// Counts shapes of one symbol below one predecessor while they are made, and finds those of a tree.
@@ -68,7 +68,7 @@ class EditSearch {
 /// Warnings about edits without a shape.
 std::vector<Warning> missing_edits(const BuildingParams& params, const Shapes& shapes);
 
-/// The paths of the first `most` shapes. Paths beyond 32 MiB together are empty.
+/// Returns the paths of the first `most` shapes. Paths beyond 32 MiB together are empty.
 std::vector<std::string> paths_of(const Shapes& shapes, const Grammar& grammar, std::size_t most);
 
 }  // namespace seedmesh::building

@@ -11,12 +11,12 @@ namespace seedmesh::building {
 
 using Rings = std::vector<std::vector<std::array<double, 2>>>;
 
-/// The errors of a footprint, with pointers below /footprint: rings without an area, rings that cross
+/// Returns the errors of a footprint, with pointers below /footprint: rings without an area, rings that cross
 /// themselves or each other, and holes that lie outside. There may be 5,000 points, which is a limit. Cost:
 /// about n log n in practice. Checks stop and deadline where there is a job.
 std::vector<Issue> check_footprint(const Rings& rings, const Job* job = nullptr);
 
-/// A valid footprint as a flat solid in its unit square; `origin` and `size` say where that square lies.
+/// Returns a valid footprint as a flat solid in its unit square; `origin` and `size` say where that square lies.
 Solid footprint_of(const Rings& rings, glm::dvec3& origin, glm::dvec3& size);
 
 }  // namespace seedmesh::building

@@ -9,7 +9,7 @@ namespace seedmesh::building {
 
 constexpr std::size_t most_hull_points = 32;
 
-/// The convex hull as a closed solid of flat faces, in the coordinates of the points. It has no faces if the
+/// Returns the convex hull as a closed solid of flat faces, in the coordinates of the points. It has no faces if the
 /// points lie in a plane. Of more than most_hull_points points, those farthest in 32 directions count. Every
 /// plane through three points with all others behind it is a face. Cost: n^4 for n points, about 0.2 ms for
 /// 16.

@@ -8,7 +8,7 @@
 
 namespace seedmesh::building {
 
-/// The lowest free layer for each shape, in order. A layer is not free for a closed body if a body in it has
+/// Returns the lowest free layer for each shape, in order. A layer is not free for a closed body if a body in it has
 /// a corner at the same position, to 10^-5 of the diagonal. It is not free for a flat face if a face in it
 /// has an edge in the same direction at the same position. So walls side by side, or around the corner of a
 /// house, share a layer. There are at most 64 layers; boxes cut in a grid need 8. Cost: about 30 ns a corner,

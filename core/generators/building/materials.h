@@ -31,13 +31,13 @@ class MaterialTable {
     made_.clear();
   }
   int material_of(const Shape& shape);
-  /// The material of a role of a built-in part. Stone has the current colour, and so have frames and
+  /// Returns the material of a role of a built-in part. Stone has the current colour, and so have frames and
   /// doors in the material "painted", unless `materials` of the request have the role.
   int material_of_part(std::string_view role, const Style& style);
-  /// The size of one tile in metres if the material has textures, and so needs texture coordinates; else
+  /// Returns the size of one tile in metres if the material has textures, and so needs texture coordinates; else
   /// null.
   const glm::dvec2* tile_of(int material) const;
-  /// A warning if no shape had the facade picture of the request.
+  /// Returns a warning if no shape had the facade picture of the request.
   std::optional<Warning> unused_facade_image() const;
 
  private:

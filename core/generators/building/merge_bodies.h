@@ -14,7 +14,7 @@ struct Merging {
   double diagonal = 1;  ///< diagonal of the box around all bodies
 };
 
-/// The meshes of all layers; empty if nothing is drawn. Walls side by side share their corners, including
+/// Returns the meshes of all layers; empty if nothing is drawn. Walls side by side share their corners, including
 /// those in the middle of a neighbour's edge (coplanar_rectangles.h). Spends Resource::triangles. Returns at least
 /// `least` layers, or one for each body if there are fewer bodies. Levels of detail need equal numbers of layers.
 std::vector<MeshGroup> merged_bodies(const Model& model, const Merging& merging,

@@ -14,7 +14,7 @@ struct Texturing {
   const Projection* projection = nullptr;
 };
 
-/// A mesh without vertices, whose memory is charged to the request.
+/// Returns a mesh without vertices, whose memory is charged to the request.
 Mesh empty_mesh(bool has_uv, const Job& job);
 
 /// Appends a body that lies in the frame of its scope; `axes` and `origin` place it.

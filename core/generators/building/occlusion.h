@@ -29,7 +29,7 @@ class Context {
  public:
   Context(Shapes shapes, std::vector<SnapPlane> snaps, const Grammar& grammar);
 
-  /// The answer for a shape of the second pass: 0 or 1, or a Cover. `lineage` has the keys of the shape and
+  /// Returns the answer for a shape of the second pass: 0 or 1, or a Cover. `lineage` has the keys of the shape and
   /// its ancestors, its own first.
   double answer(const Query& query, const Scope& scope, std::span<const std::uint64_t> lineage,
                 Job& job) const;
@@ -45,7 +45,7 @@ class Context {
   Scope scope_of(std::uint32_t shape) const;
   /// Null: a box.
   const Solid* solid_of(std::uint32_t shape) const;
-  /// The number of other shapes of the query, or the distance to the nearest of their scopes.
+  /// Returns the number of other shapes of the query, or the distance to the nearest of their scopes.
   double measure(const Query& query, const Scope& scope, std::uint32_t self, Job& job) const;
   bool is_visible(const Query& query, const Scope& scope, std::uint32_t self, Job& job) const;
   /// Calls `body` for each candidate in a cell between low and high, perhaps more than once, until it returns

@@ -25,6 +25,7 @@ enum class Status : std::uint8_t {
   ignored,  ///< a warning, and no shape: it serves textures or editing alone
   error,
 };
+/// Returns the name of a status.
 std::string_view text_of(Status status);
 
 struct OperationRow {
@@ -40,6 +41,7 @@ struct OperationRow {
   Status status = Status::done;
 };
 
+/// Returns all operations.
 std::span<const OperationRow> operations();
 
 /// scope, cut, mass, roof, part, material, texture, attribute or report: a group for the reader.

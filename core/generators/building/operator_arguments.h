@@ -4,6 +4,7 @@
 
 namespace seedmesh::building {
 
+/// Returns the i-th argument of a step, which has to be given.
 inline const Argument& argument_at(const Derivation& d, const Step& step, std::uint32_t i) {
   return d.grammar.arguments[step.first_argument + i];
 }
@@ -11,13 +12,13 @@ inline const Argument& argument_at(const Derivation& d, const Step& step, std::u
 inline bool is_word(const Derivation& d, const Step& step, std::uint32_t i) {
   return i < step.argument_count && argument_at(d, step, i).word != none;
 }
-/// The word of the i-th argument, or the text that it evaluates to; other arguments are rejected.
+/// Returns the word of the i-th argument, or the text that it evaluates to; other arguments are rejected.
 const std::string& word_at(Derivation& d, const Step& step, std::uint32_t i);
 /// The same, or another word if the argument is not given.
 std::string word_or(Derivation& d, const Step& step, std::uint32_t i, std::string_view other);
-/// The i-th argument as a number, or another number if it is not given.
+/// Returns the i-th argument as a number, or another number if it is not given.
 double number_or(Derivation& d, const Step& step, std::uint32_t i, double other);
-/// The set of texture coordinates from 0 to 9 that the i-th argument names.
+/// Returns the set of texture coordinates from 0 to 9 that the i-th argument names.
 int uv_set_at(Derivation& d, const Step& step, std::uint32_t i);
 
 /// Gives the shape the material with the name of an image, with a warning if the request does not have it.
@@ -29,7 +30,7 @@ void insert_named_geometry(Derivation& d, const Step& step, ShapeState& state, s
 /// Replaces an inserted part or asset by its box, with a warning: rules do not know its faces.
 void take_box_of_asset(Derivation& d, const Step& step, ShapeState& state);
 
-/// The geometry of a state in metres of its scope, as take_solid() reads it.
+/// Returns the geometry of a state in metres of its scope, as take_solid() reads it.
 Solid solid_in_metres(const Derivation& d, const ShapeState& state);
 
 }  // namespace seedmesh::building

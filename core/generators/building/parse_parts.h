@@ -16,7 +16,7 @@ void assign_bodies(Parser& p, std::vector<Part>& cells, const std::vector<std::u
 
 /// Reads one selector and the separator after it: front :, world.up =, isTagged("a") && top =:
 Part parse_selector(Parser& p);
-/// The ComponentKind that a word names: f, e, v, fe, fv, g, m or h. Others are an error.
+/// Returns the ComponentKind that a word names: f, e, v, fe, fv, g, m or h. Others are an error.
 std::uint8_t read_component(Parser& p, const lang::Token& token);
 
 /// Reads selectors: `front : A | side = B | 3 : C`.

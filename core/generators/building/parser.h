@@ -68,6 +68,7 @@ struct Parser {
   std::map<std::string, std::uint32_t, std::less<>> function_trees;  ///< by name, into Grammar::functions
 };
 
+/// Returns the next token.
 inline const lang::Token& here(const Parser& p) { return p.tokens.at(p.at); }
 inline bool is_here(const Parser& p, std::string_view symbol) { return p.tokens.is(p.at, symbol); }
 inline std::uint32_t offset_here(const Parser& p) { return static_cast<std::uint32_t>(here(p).offset); }
@@ -88,7 +89,8 @@ void add_warning(Parser& p, std::uint32_t offset, std::string message);
 /// Counts an opened bracket. False, with an error: brackets are nested too deep.
 bool enter_bracket(Parser& p, const lang::Token& token);
 
-/// The token behind the head of a rule or function: its name at `i`, its parameters, and `with (name := value)`.
+/// Returns the token behind the head of a rule or function: its name at `i`, its parameters, and `with (name :=
+/// value)`.
 std::size_t behind_head(const Parser& p, std::size_t i);
 /// Whether `name := ` begins at a token, as in with(...).
 bool begins_local(const Parser& p, std::size_t i);
@@ -96,7 +98,7 @@ bool begins_local(const Parser& p, std::size_t i);
 bool begins_rule(const Parser& p, std::size_t i);
 bool begins_statement(const Parser& p, std::size_t i);
 
-/// The number of a symbol or word in the grammar, which gets it if it is new.
+/// Returns the number of a symbol or word in the grammar, which gets it if it is new.
 std::uint32_t symbol_index(Parser& p, std::string_view name, std::uint32_t offset);
 std::uint32_t word_index(Parser& p, std::string_view word);
 

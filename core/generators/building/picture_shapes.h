@@ -5,10 +5,10 @@
 
 namespace seedmesh::building {
 
-/// The symbols of these shapes: picture, line, the kinds of solids and the labels of markers.
+/// Returns the symbols of these shapes: picture, line, the kinds of solids and the labels of markers.
 Grammar grammar_of_names(const PictureGrammar& pictures);
 
-/// One inactive shape "picture" with a child for each element: a bar for a line, the solid itself, and a
+/// Returns one inactive shape "picture" with a child for each element: a bar for a line, the solid itself, and a
 /// sphere for a marker if marker_size is above 0. A bar is longer than its line by its width, so that corners
 /// are filled.
 Shapes shapes_of_picture(const PictureGrammar& pictures, const DerivedPicture& derived,

@@ -6,15 +6,15 @@
 
 namespace seedmesh::building {
 
-/// The projection of a set that was applied (projectUV) or set up. Without either, and for shapes that are flat, it is the scope in
-/// metres: u along x, v along y (of a lot along -z), from the origin of the scope.
+/// Returns the projection of a set that was applied (projectUV) or set up. Without either, and for shapes that are
+/// flat, it is the scope in metres: u along x, v along y (of a lot along -z), from the origin of the scope.
 Projection projection_of(const Derivation& d, const ShapeState& state, int set);
 /// Whether a set has a projection, so that it means the same for all faces of a solid.
 bool has_projection(const Derivation& d, const ShapeState& state, int set);
 /// Applies a projection.
 void use_projection(Derivation& d, ShapeState& state, int set, const Projection& projection);
 
-/// The number of the projection that a set has set up or applied; 0: none.
+/// Returns the number of the projection that a set has set up or applied; 0: none.
 std::uint32_t projection_id(const Derivation& d, const ShapeState& state, int set, bool in_force);
 void set_projection_id(Derivation& d, ShapeState& state, int set, bool in_force, std::uint32_t id);
 /// Stores a projection and returns its number.
@@ -24,6 +24,7 @@ std::uint32_t add_projection(Derivation& d, const Projection& projection);
 struct UvRange {
   std::array<double, 2> low{}, high{}, metres{1, 1};
 };
+/// Returns the range of texture coordinates of a shape in one set.
 UvRange uv_range(const Derivation& d, const ShapeState& state, int set);
 
 }  // namespace seedmesh::building

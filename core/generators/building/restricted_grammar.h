@@ -4,7 +4,7 @@
 
 namespace seedmesh::building {
 
-/// An error for each step that the restriction forbids, at most max_errors: steps that erase, and with
+/// Returns an error for each step that the restriction forbids, at most max_errors: steps that erase, and with
 /// `is_unimarker` a second symbol with a rule in one successor. A symbol in a repeated cell, or one that
 /// several components may take, counts once.
 std::vector<lang::TextError> errors_of_restriction(const Grammar& grammar, bool is_unimarker);

@@ -23,26 +23,27 @@ struct RuleText {
   std::string_view text_of(const Part& part) const {
     return std::string_view(text).substr(part.first, part.count);
   }
-  /// The file that holds a byte of the joined text.
+  /// Returns the file that holds a byte of the joined text.
   const Part& part_at(std::size_t offset) const;
-  /// The file that an import names: by its key, with or without directories and the ending ".cga". Null: there is none.
+  /// Returns the file that an import names: by its key, with or without directories and the ending ".cga". Null: there
+  /// is none.
   const Part* find(std::string_view path) const;
 };
 
-/// The text of a single file.
+/// Returns the text of a single file.
 RuleText rule_text(std::string_view text);
 
-/// The files of a request, of which at least one is given. The main file is the one that no other file imports. If there
-/// are several, it is the one with the rule `start`, else the only one with a mark of its start rule. Adds an issue
-/// if none or several are left.
+/// Returns the files of a request, of which at least one is given. The main file is the one that no other file
+/// imports. If there are several, it is the one with the rule `start`, else the only one with a mark of its start
+/// rule. Adds an issue if none or several are left.
 RuleText rule_text(const std::map<std::string, std::string>& files, std::string_view start,
                    std::vector<Issue>& issues);
 
-/// The pointer, line and column of a byte of the rules: /rules, or /rules/<file>.
+/// Returns the pointer, line and column of a byte of the rules: /rules, or /rules/<file>.
 Issue issue_at(IssueKind kind, const RuleText& text, std::size_t offset, std::string message);
 
-/// A text with blanks instead of comments (// # and /* */), and typographical signs such as ≥ as those of the language.
-/// No byte moves.
+/// Returns a text with blanks instead of comments (// # and /* */), and typographical signs such as ≥ as those of the
+/// language. No byte moves.
 std::string without_comments(std::string_view text);
 
 /// A name as a token of a JSON Pointer.

@@ -8,7 +8,7 @@
 
 namespace seedmesh::building {
 
-/// The first `most` shapes, parents before children. A shape that was replaced has the first line of the rule
+/// Returns the first `most` shapes, parents before children. A shape that was replaced has the first line of the rule
 /// that replaced it, the line where that rule begins, and, if the rule has several choices, the number of the
 /// choice from 1.
 nlohmann::json json_of(const Shapes& shapes, const Grammar& grammar, const RuleText& rules, std::size_t most,

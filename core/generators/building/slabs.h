@@ -6,8 +6,8 @@
 
 namespace seedmesh::building {
 
-/// The piece of a shape at a cut along an axis, with a scope fitted to its geometry. With `keeps_slab`, the scope is
-/// the whole slab. Empty: the shape has no geometry there. Throws Stop if the solids have too many corners.
+/// Returns the piece of a shape at a cut along an axis, with a scope fitted to its geometry. With `keeps_slab`, the
+/// scope is the whole slab. Empty: the shape has no geometry there. Throws Stop if the solids have too many corners.
 std::optional<ShapeState> slab_of(Derivation& d, const ShapeState& state, int axis, const Cut& cut,
                                   bool keeps_slab);
 

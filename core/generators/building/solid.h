@@ -33,10 +33,11 @@ struct Solid {
   bool is_closed = false;
 };
 
+/// Returns the loops of a face, the outer one first.
 inline std::span<const Loop> loops_of(const Solid& solid, const Face& face) {
   return std::span(solid.loops).subspan(face.first_loop, face.loop_count);
 }
-/// The corners of a loop, as positions in Solid::points.
+/// Returns the corners of a loop, as positions in Solid::points.
 inline std::span<const std::uint32_t> points_of(const Solid& solid, const Loop& loop) {
   return std::span(solid.corners).subspan(loop.first, loop.count);
 }
@@ -46,9 +47,10 @@ void add_loop(Solid& solid, std::span<const std::uint32_t> corners);
 /// Adds a face of one loop by its points.
 void add_face(Solid& solid, std::span<const std::uint32_t> corners, bool is_round = false);
 
-/// The normal of a face times twice its area, in a scope of `size` (Newell).
+/// Returns the normal of a face times twice its area, in a scope of `size` (Newell).
 glm::dvec3 area_vector(const Solid& solid, const Face& face, const glm::dvec3& size);
 
+/// Returns the area of the surface in a scope of `size`, and below it the volume.
 double area_of(const Solid& solid, const glm::dvec3& size);
 double volume_of(const Solid& solid, const glm::dvec3& size);  ///< 0 unless the solid is closed
 
@@ -61,16 +63,16 @@ bool is_inside(const Solid& solid, std::span<const Loop> loops, const glm::dvec3
 /// cube they filled. Coordinates along an axis without extent become 0.
 void fit(Solid& solid, glm::dvec3& low, glm::dvec3& extent);
 
-/// The part of a solid below `at` on the axis (`sign` 1) or above it (`sign` -1). The cut through a closed
+/// Returns the part of a solid below `at` on the axis (`sign` 1) or above it (`sign` -1). The cut through a closed
 /// solid gets caps. Faces may be concave and have holes. Cost: n log n for n corners.
 Solid clipped(const Solid& solid, int axis, double at, double sign);
 
-/// A solid of height 1 over a flat face whose normal is `axis`: a prism, or a pyramid whose tip lies over the
+/// Returns a solid of height 1 over a flat face whose normal is `axis`: a prism, or a pyramid whose tip lies over the
 /// centroid.
 Solid extruded(const Solid& face, int axis);
 Solid tapered(const Solid& face, int axis);
 
-/// The unit square with its normal along `axis`.
+/// Returns the unit square with its normal along `axis`.
 Solid square(int axis);
 Solid unit_box();
 Solid cylinder();
@@ -80,7 +82,7 @@ Solid triangular_prism();  ///< a gable: the ridge runs along z
 Solid sphere();
 Solid cone();
 
-/// The solid mirrored along each axis whose bit is set.
+/// Returns the solid mirrored along each axis whose bit is set.
 Solid mirrored(const Solid& solid, unsigned axes);
 
 }  // namespace seedmesh::building

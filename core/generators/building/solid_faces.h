@@ -1,5 +1,5 @@
 #pragma once
-/// What the functions of solid_tools.h share.
+/// Helpers for the faces of a solid, which the tools and the operators of solids share.
 #include <cmath>
 #include <utility>
 
@@ -8,11 +8,13 @@
 
 namespace seedmesh::building {
 
+/// Returns the unit normal of a face; +Y if its area is 0.
 inline glm::dvec3 unit_normal(const Solid& solid, const Face& face) {
   return math::unit(area_vector(solid, face, glm::dvec3(1)), glm::dvec3(0, 1, 0));
 }
 
-/// Copies a face with other loops. Loops of fewer than three corners are left out, and with the outer loop the face.
+/// Copies a face with other loops, the outer one first. Leaves out loops of fewer than three corners, and the whole
+/// face if its outer loop has fewer.
 inline void copy_face(Solid& to, const Face& face, const std::vector<std::vector<std::uint32_t>>& loops) {
   if (loops.empty() || loops[0].size() < 3) return;
   Face made = face;
@@ -26,7 +28,7 @@ inline void copy_face(Solid& to, const Face& face, const std::vector<std::vector
   to.faces.push_back(made);
 }
 
-/// The axes of a plane, right-handed with its normal.
+/// Indices of the two coordinate axes to which a plane is projected. Counter-clockwise loops stay counter-clockwise.
 struct PlaneAxes {
   int u, v;
   explicit PlaneAxes(const glm::dvec3& n) {
@@ -41,7 +43,7 @@ struct PlaneAxes {
   glm::dvec2 flat(const glm::dvec3& p) const { return {p[u], p[v]}; }
 };
 
-/// An edge as a face runs along it.
+/// A directed edge: its start and end in the order of the face's loop.
 using Directed = std::pair<std::uint32_t, std::uint32_t>;
 
 }  // namespace seedmesh::building

@@ -10,7 +10,7 @@ struct Scope {
   glm::dmat3 axes{1};
 };
 
-/// The share of the volume of `box` that lies inside a closed solid in the unit cube of `other`, 0 to 1. Of a
+/// Returns the share of the volume of `box` that lies inside a closed solid in the unit cube of `other`, 0 to 1. Of a
 /// flat box, a thin layer on either side is tested and the larger share counts. Cost: six cuts of the solid.
 double share_inside(const Scope& box, const Solid& solid, const Scope& other);
 
@@ -19,7 +19,7 @@ double share_inside(const Scope& box, const Solid& solid, const Scope& other);
 bool is_line_blocked(const glm::dvec3& from, const glm::dvec3& to, const Solid* solid, const Scope& other,
                      double skin);
 
-/// The point of the box nearest to `to`.
+/// Returns the point of the box nearest to `to`.
 glm::dvec3 nearest_point(const Scope& box, const glm::dvec3& to);
 
 }  // namespace seedmesh::building

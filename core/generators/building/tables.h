@@ -6,15 +6,15 @@ namespace seedmesh::building {
 
 enum class TableCells : std::uint8_t { texts, numbers };
 
-/// The text of the table that a path names: by its whole name, or without directories and ending. Rejects a name
-/// that the request has not.
+/// Returns the text of the table that a path names: by its whole name, or without directories and ending. Rejects a
+/// name that the request has not.
 const std::string& table_text(Evaluation& at, std::string_view path);
 
-/// The cells of a table, row by row. Cells are separated by the sign of `;`, a tabulator or `,` that the first line has; a
-/// cell in double quotes can hold it. Rows that are too short are filled with empty cells or 0.
+/// Returns the cells of a table, row by row. Cells are separated by the sign of `;`, a tabulator or `,` that the first
+/// line has; a cell in double quotes can hold it. Rows that are too short are filled with empty cells or 0.
 ValueArray read_table(Evaluation& at, std::string_view path, TableCells cells);
 
-/// The cells of one table, for tests.
+/// Returns the cells of one table, for tests.
 std::vector<std::vector<std::string>> cells_of_table(std::string_view text);
 
 }  // namespace seedmesh::building

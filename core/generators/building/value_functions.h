@@ -33,7 +33,7 @@ std::span<const ValueFunctionRow> state_functions();
 std::span<const ValueFunctionRow> color_functions();
 std::span<const ValueFunctionRow> material_functions();
 
-/// The number of a function in all of these tables; none if there is none of this name.
+/// Returns the number of a function in all of these tables; none if there is none of this name.
 std::uint32_t find_value_function(std::string_view name);
 const ValueFunctionRow& value_function(std::uint32_t number);
 std::uint32_t value_function_count();
@@ -48,7 +48,7 @@ lang::TaggedValue text_value(Evaluation& at, std::string_view text);
 inline lang::TaggedValue number_value(double number) { return {number, 0}; }
 inline lang::TaggedValue truth_value(bool truth) { return {truth ? 1.0 : 0.0, 0}; }
 
-/// The values of an array; of any other value an array of one.
+/// Returns the values of an array; of any other value an array of one.
 ValueArray array_in(const Evaluation& at, const lang::TaggedValue& value);
 /// Stores an array. At most 100,000 values.
 lang::TaggedValue array_value(Evaluation& at, ValueArray array);

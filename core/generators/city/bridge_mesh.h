@@ -6,7 +6,7 @@
 
 namespace seedmesh::city {
 
-/// All bridges as one mesh. Tunnels have no surface above the ground and are left out.
+/// Returns all bridges as one mesh. Tunnels have no surface above the ground and are left out.
 Mesh bridge_mesh(const CityPlan& plan, const Job& job);
 
 }  // namespace seedmesh::city

@@ -22,9 +22,10 @@ class Chunks {
  public:
   Chunks(const CityPlan& plan, const CityParams& params);
 
-  /// The chunk of a position in metres; `block` is no_index in the street space. 0 where the city is not divided.
+  /// Returns the chunk of a position in metres; `block` is no_index in the street space. 0 where the city is not
+  /// divided.
   std::uint32_t at(const glm::dvec2& metres, std::uint32_t block) const;
-  /// The chunk of a part, by the middle of its outline.
+  /// Returns the chunk of a part, by the middle of its outline.
   std::uint32_t of(const Part& part) const;
 
   bool is_divided() const { return by_ != By::nothing; }
@@ -43,9 +44,9 @@ class ChunkNodes {
  public:
   ChunkNodes(Model& model, const Chunks& chunks) : model_(model), chunks_(chunks) {}
 
-  /// The node "city" > chunk > group, or "city" > group where the city is not divided.
+  /// Returns the node "city" > chunk > group, or "city" > group where the city is not divided.
   int group(std::uint32_t chunk, const char* name);
-  /// The node of the chunk, or of the city.
+  /// Returns the node of the chunk, or of the city.
   int chunk(std::uint32_t chunk);
 
  private:

@@ -20,12 +20,13 @@ struct CityParams;
 
 namespace seedmesh::city {
 
-/// All errors that the schema cannot express, with pointers relative to the parameters.
+/// Returns all errors that the schema cannot express, with pointers relative to the parameters.
 std::vector<Issue> check(const CityParams& params, const CheckContext& context);
 
-/// The plan as data; for its output forms see plan_json() and city_model(). Errors: those of check().
+/// Returns the plan as data; for its output forms see plan_json() and city_model(). Errors: those of check().
 Result<CityPlan> plan_of(const CityParams& params, Job& job);
 
+/// Generates the model of a city. Errors: those of check(), and limits.
 Result<Model> generate(const CityParams& params, const GenerateContext& context);
 
 /// {statistics, plan, warnings}.
@@ -37,7 +38,7 @@ Result<Appraisal> appraise(const CityParams& params, const GenerateContext& cont
 /// The format "geojson": the plan alone.
 Result<Payload> encode(const CityParams& params, const WantedFormat& format, const GenerateContext& context);
 
-/// The modules of street productions.
+/// Returns the modules of street productions.
 Json vocabulary();
 
 }  // namespace seedmesh::city

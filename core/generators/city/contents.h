@@ -12,13 +12,14 @@ struct CityParams;
 
 namespace seedmesh::city {
 
-/// Adds all contents to the model. Spends Resource::triangles. Errors: those of requests inside.
+/// Adds all contents to the model. Spends Resource::triangles. Errors: those of the nested requests, such as
+/// buildings and trees.
 std::optional<Error> add_contents(Model& model, ChunkNodes& nodes, const Chunks& chunks,
                                   const Surface& surface, const CityParams& params,
                                   const GenerateContext& context);
 
-/// Adds the triangles and bytes of all contents to an estimate. One sample is made of each rule and number of floors,
-/// and of each other model.
+/// Adds the triangles and bytes of all contents to an estimate. Generates one sample for each rule and number of
+/// floors, with a camera also for each width class of 4 m, and one for each other model.
 std::optional<Error> estimate_contents(Estimate& estimate, const Surface& surface, const CityParams& params,
                                        const GenerateContext& context);
 

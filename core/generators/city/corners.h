@@ -16,11 +16,11 @@ struct CornerInput {
   double cap = 0;     ///< how far the outline passes the tip of a dead end
 };
 
-/// The greatest radius of an arc, in centimetres, that stays on the street's side of the block's corner, behind a
-/// sidewalk of this width.
+/// Returns the greatest radius of an arc, in centimetres, that stays on the street's side of the block's corner,
+/// behind a sidewalk of this width.
 double fillet_of(const CornerInput& corner, double walk);
 
-/// The points of the corner, in the order of the outline; at least one. Convex corners have an odd number.
+/// Returns the points of the corner, in the order of the outline; at least one. Convex corners have an odd number.
 std::vector<CmPoint> corner_points(const CornerInput& corner);
 
 }  // namespace seedmesh::city

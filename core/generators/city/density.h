@@ -26,13 +26,13 @@ class FieldMap {
                                       const glm::dvec2& low, const glm::dvec2& high, const Job& job,
                                       std::vector<Issue>& issues);
 
-  /// The value at a position in metres, between 0 and 1; 0 where the expression has no finite value.
+  /// Returns the value at a position in metres, between 0 and 1; 0 where the expression has no finite value.
   double at(const glm::dvec2& metres) const;
 
   /// Like at(), but the value is not limited to 0..1. Used for heights.
   double value_at(const glm::dvec2& metres) const;
 
-  /// The polygons, if the map consists of polygons.
+  /// Returns the polygons, if the map consists of polygons.
   const std::vector<Rings>& polygons() const { return polygons_; }
 
  private:

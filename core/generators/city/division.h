@@ -20,7 +20,7 @@ struct SharedEdge {
   std::uint32_t street = no_index, sidewalk = no_index;
   std::vector<CmPoint> added;
 
-  /// The added corners strictly between two points of the edge, in the order from `from` to `to`.
+  /// Returns the added corners strictly between two points of the edge, in the order from `from` to `to`.
   std::vector<CmPoint> between(const CmPoint& from, const CmPoint& to) const;
 };
 
@@ -48,7 +48,7 @@ class Division {
   const std::vector<SharedEdge>& edges() const { return edges_; }
   const Piece& whole() const { return whole_; }
 
-  /// The outline of a piece with the corners of all neighbours.
+  /// Returns the outline of a piece with the corners of all neighbours.
   CmRing outline(const Piece& piece) const;
 
   /// Metres along streets times 100.
@@ -85,9 +85,9 @@ class Division {
   std::vector<double> offsets_;  ///< offsets of the corners from a cut; kept for its memory
 };
 
-/// The pieces along the streets of a block by its straight skeleton (Vanegas et al. 2012), and, where `depth` (cm) is
-/// finite, the courts that are farther from all streets. Pieces that hold no lot are joined with a neighbour. Adds
-/// the edges between pieces to the division. Empty where the skeleton does not give sound pieces.
+/// Returns the pieces along the streets of a block by its straight skeleton (Vanegas et al. 2012), and, where `depth`
+/// (cm) is finite, the courts that are farther from all streets. Pieces that hold no lot are joined with a neighbour.
+/// Adds the edges between pieces to the division. Empty where the skeleton does not give sound pieces.
 std::vector<Piece> strips_of(Division& division, double depth, const Job& job);
 
 }  // namespace seedmesh::city

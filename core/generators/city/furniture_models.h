@@ -8,8 +8,8 @@
 
 namespace seedmesh::city {
 
-/// The number of built-in models of a kind: "lamps", "trees", "park_trees", "yard_trees", "benches", "bins", "signs"
-/// and "cars". 1 for other names.
+/// Returns the number of built-in models of a kind: "lamps", "trees", "park_trees", "yard_trees", "benches", "bins",
+/// "signs" and "cars". 1 for other names.
 std::uint32_t built_in_count(std::string_view kind);
 
 /// Model number `number` of a kind: one node with one mesh of 12 to 220 triangles. Spends them.

@@ -13,7 +13,7 @@ struct CityParams;
 
 namespace seedmesh::city {
 
-/// The cross sections of the classes, by EdgeClass.
+/// Returns the cross sections of the classes, by EdgeClass.
 std::vector<CrossSection> classes_of(const CityParams& params);
 
 /// A given line whose corners are the nodes where others meet it.
@@ -24,13 +24,13 @@ struct GivenLine {
   int level = 0;
 };
 
-/// The lines of the given streets, joined where an end or corner of one lies within 3 m of another. Adds their cross
-/// sections to `sections`. Issues: properties out of range, geometries that cannot be read, lines below 3 m, and
+/// Returns the lines of the given streets, joined where an end or corner of one lies within 3 m of another. Adds their
+/// cross sections to `sections`. Issues: properties out of range, geometries that cannot be read, lines below 3 m, and
 /// crossings without an end or corner.
 std::vector<GivenLine> given_lines(const CityParams& params, std::vector<CrossSection>& sections,
                                    std::vector<Issue>& issues);
 
-/// The given water.
+/// Returns the given water.
 std::vector<Rings> given_water(const CityParams& params, std::vector<Issue>& issues);
 
 }  // namespace seedmesh::city

@@ -137,7 +137,7 @@ double length_of(const Bridge& bridge) {
   return length;
 }
 
-/// Vertices: the nodes, then the inner samples of each edge but the ends of its level parts, which are as high as its
+/// Vertices: the nodes, then the inner samples of each edge except the ends of its level parts, which are as high as its
 /// nodes.
 GradeGraph grade_graph(const CityPlan& plan, const Landform& landform, double least,
                        const StreetHeights& heights) {

@@ -35,14 +35,14 @@ struct StreetHeights {
 /// of all heights. Cost: n log n in the samples.
 StreetHeights street_heights(const CityPlan& plan, const Landform& landform, double least, Job& job);
 
-/// The height of an edge at a station in metres; level beyond both ends.
+/// Returns the height of an edge at a station in metres; level beyond both ends.
 double height_on_street(const StreetHeights& heights, std::uint32_t edge, double station);
 
-/// The steepest grade of a street, as rise over run.
+/// Returns the steepest grade of a street, as rise over run.
 double steepest_grade(const StreetHeights& heights, std::uint32_t edge);
 
-/// The points of a street on another level: its corners and points about every 10 m between them. On level ground the
-/// heights are those above it.
+/// Returns the points of a street on another level: its corners and points about every 10 m between them. On level
+/// ground the heights are those above it.
 std::vector<ProfilePoint> bridge_profile(const CityPlan& plan, const Bridge& bridge);
 
 }  // namespace seedmesh::city

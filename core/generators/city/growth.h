@@ -26,11 +26,11 @@ struct GrowthInput {
   const FieldMap& density;
   const StreetGrammar& grammar;
   const Region& region;
-  const FieldMap* obstacles = nullptr;  ///< null: none
-  const Route* given = nullptr;         ///< null: none
-  const WardPlan* wards = nullptr;      ///< null: major streets grow
-  const TensorField* tensor = nullptr;  ///< null: streets follow patterns
-  const Landform* landform = nullptr;   ///< null: level ground
+  const FieldMap* obstacles = nullptr;      ///< null: none
+  const Route* given = nullptr;             ///< null: none
+  const WardPlan* wards = nullptr;          ///< null: major streets grow
+  const TensorField* tensor = nullptr;      ///< null: streets follow patterns
+  const Landform* landform = nullptr;       ///< null: level ground
   std::vector<CrossSection> sections = {};  ///< by tag
   double least_height = -1e9;               ///< of streets, m
 
@@ -44,21 +44,21 @@ struct GrowthInput {
   bool is_too_steep(const glm::dvec2& a, const glm::dvec2& b, double grade_limit) const;
   /// Whether a piece meets given streets only where it crosses one of them at a wide angle.
   bool keeps_off_given(const StreetPiece& piece) const;
-  /// The grade limit of a street of a kind that grows.
+  /// Returns the grade limit of a street of a kind that grows.
   double limit_of(std::uint32_t kind) const;
 };
 
-/// The major streets, or all streets of a raster, clipped to the area.
+/// Returns the major streets, or all streets of a raster, clipped to the area.
 Route grow_majors(const GrowthInput& input, Job& job);
 
 /// Points in centimetres of a lattice over the box around the land that are on land.
 std::vector<glm::dvec2> lattice_of(const Region& region);
 
-/// One straight street through a dense position, for areas in which the pattern has no street. Empty where the
+/// Returns one straight street through a dense position, for areas in which the pattern has no street. Empty where the
 /// density is too low everywhere, or if the productions build no road.
 std::vector<StreetPiece> through_street(const GrowthInput& input, const Job& job);
 
-/// The minor streets within one cell, which is a face of the graph of major streets and the border. `loops`
+/// Returns the minor streets within one cell, which is a face of the graph of major streets and the border. `loops`
 /// holds the half-edges of its outline and of the components inside.
 std::vector<StreetPiece> grow_cell(const GrowthInput& input, const StreetGraph& majors,
                                    const std::vector<std::vector<std::uint32_t>>& loops, Job& job);
@@ -69,11 +69,11 @@ std::vector<StreetPiece> grow_cell(const GrowthInput& input, const StreetGraph& 
 std::vector<StreetPiece> links_between_networks(const GrowthInput& input, const StreetGraph& graph,
                                                 const Job& job);
 
-/// The whole street graph: majors, cells, and what is left after pieces outside of the area and loose components
-/// are removed.
+/// Returns the whole street graph: majors, cells, and what is left after pieces outside of the area and loose
+/// components are removed.
 StreetGraph grow_streets(const GrowthInput& input, Job& job);
 
-/// The directions of a pattern at a position: a unit vector; the others are its quarter turns.
+/// Returns the directions of a pattern at a position: a unit vector; the others are its quarter turns.
 glm::dvec2 frame_at(const CityStreets& streets, bool is_radial, const glm::dvec2& cm);
 
 }  // namespace seedmesh::city

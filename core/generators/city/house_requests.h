@@ -18,7 +18,7 @@ class HouseRequests {
  public:
   explicit HouseRequests(const CityParams& params);
 
-  /// The request of a house. Made alone it gives the same building as in the city.
+  /// Returns the request of a house. Made alone it gives the same building as in the city.
   Child of(const House& house) const;
 
  private:
@@ -33,7 +33,7 @@ struct SharedHouse {
   std::vector<std::uint32_t> lots;
 };
 
-/// The different requests of all houses, in the order of their first lots.
+/// Returns the different requests of all houses, in the order of their first lots.
 std::vector<SharedHouse> shared_houses(const CityPlan& plan, const CityParams& params);
 
 /// Errors of the requests that rules make: another generator than building, and attributes that their buildings do

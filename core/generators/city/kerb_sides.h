@@ -17,7 +17,7 @@ struct KerbSide {
   const CmPoint& from() const { return corner.back(); }
 };
 
-/// The unit direction of a half-edge.
+/// Returns the unit direction of a half-edge.
 glm::dvec2 unit_of(const StreetGraph& graph, std::uint32_t half);
 
 /// By half-edge: how far the corners at its start reach along it, on both sides, in metres.

@@ -20,19 +20,19 @@ class Landform {
   /// Level ground at height 0.
   Landform() = default;
 
-  /// The ground of a request. Issues: those of the terrain, below /terrain/parameters, and of the expression at
+  /// Returns the ground of a request. Issues: those of the terrain, below /terrain/parameters, and of the expression at
   /// /maps/height.
   static Result<Landform> make(const CityParams& params, Job& job);
 
   bool is_level() const { return !heights_ && field_.width == 0; }
 
-  /// The height of the natural ground; beyond the border of a terrain, that of its border.
+  /// Returns the height of the natural ground; beyond the border of a terrain, that of its border.
   double at(const glm::dvec2& metres) const;
 
   /// The rise per metre to the east and to the north, as the mean over 20 metres.
   glm::dvec2 gradient(const glm::dvec2& metres) const;
 
-  /// The height of the water of a terrain that is partly below it.
+  /// Returns the height of the water of a terrain that is partly below it.
   const std::optional<double>& water_level() const { return water_level_; }
 
   /// Whether a rectangle lies within the terrain.

@@ -19,7 +19,7 @@ struct CrossLine {
   glm::dvec2 left{0}, right{0};
 };
 
-/// The position at a share of the way from left to right.
+/// Returns the position at a share of the way from left to right.
 inline glm::dvec2 point_across(const CrossLine& line, double share) {
   return share == 0 ? line.left : share == 1 ? line.right : line.left + (line.right - line.left) * share;
 }
@@ -30,8 +30,8 @@ struct StreetStrips {
   std::vector<StripKind> kinds;
 };
 
-/// The strips of an edge; empty where its carriageway has no straight kerbs on both sides. On a terrain lines are at most
-/// 6 m apart.
+/// Returns the strips of an edge; empty where its carriageway has no straight kerbs on both sides. On a terrain lines
+/// are at most 6 m apart.
 StreetStrips strips_of_street(const CityPlan& plan, std::uint32_t edge);
 
 /// A piece of a strip between two shares of the way from the left to the right kerb.
@@ -40,10 +40,10 @@ struct StripPiece {
   bool is_marking = false;
 };
 
-/// The number of bars of a pedestrian crossing. Gaps are as wide as bars, and lie at both kerbs.
+/// Returns the number of bars of a pedestrian crossing. Gaps are as wide as bars, and lie at both kerbs.
 int bars_of(const CrossSection& section);
 
-/// The pieces of a strip from left to right. With textures, a pedestrian crossing is one piece.
+/// Returns the pieces of a strip from left to right. With textures, a pedestrian crossing is one piece.
 std::vector<StripPiece> pieces_of(StripKind kind, const CrossSection& section, bool has_textures);
 
 }  // namespace seedmesh::city

@@ -13,7 +13,8 @@ namespace seedmesh::city {
 /// The levels of detail of a model.
 struct LevelInfo {
   std::vector<std::uint64_t> triangles;  ///< finest first
-  double radius = 0, middle = 0;         ///< of a sphere around it, and the height of its centre, metres
+  double radius = 0;                     ///< radius of the bounding sphere, metres
+  double middle = 0;                     ///< height of the centre of that sphere, metres
 };
 
 /// A point of view: chooses a level for each copy by the share of the screen's height that it fills, as scenes do.
@@ -23,8 +24,8 @@ class ViewPoint {
 
   /// Whether the request has a camera.
   bool is_given() const { return half_height_ > 0; }
-  /// The level of a copy; 0 without a camera. Level 0 from half of the screen's height, 1 from 0.25, 2 from 0.12, 3
-  /// from 0.06.
+  /// Returns the level of a copy; 0 without a camera. Level 0 is for a share of the screen's height of at least 0.5,
+  /// level 1 from 0.25, 2 from 0.12, 3 from 0.06, and 4 below.
   std::size_t level(const LevelInfo& info, const Transform& at) const;
 
  private:
@@ -32,7 +33,7 @@ class ViewPoint {
   double half_height_ = 0;
 };
 
-/// The number of levels that models of a city need.
+/// Returns the number of levels that models of a city need.
 int level_count(const ViewPoint& view, const Demand& demand);
 
 struct Copy {
@@ -47,12 +48,12 @@ class CopyWriter {
 
   enum class Bodies { none, boxes };
 
-  /// From now on, models that stand once are merged by chunk and material, without levels, until write_merged().
+  /// From now on, models with a single copy are merged by chunk and material, without levels, until write_merged().
   void merge_single() { merged_.emplace(context_.job); }
   /// Writes what was merged as meshes of this name.
   void write_merged(const char* group, const char* name);
 
-  /// Adds a model below the group of each chunk. Spends the triangles of all copies but one. With Bodies::boxes, each
+  /// Adds a model below the group of each chunk. Spends the triangles of all copies except one. With Bodies::boxes, each
   /// copy gets a collision box if the output wants collision bodies.
   void add(Model made, const std::string& name, const char* group, const std::vector<Copy>& copies,
            Bodies bodies);
@@ -71,7 +72,7 @@ class CopyWriter {
   std::optional<MergedCopies> merged_;
 };
 
-/// Measures the levels of a model and empties it.
+/// Measures the levels of a model, which it consumes.
 LevelInfo level_info_of(Model made, Job& job);
 
 }  // namespace seedmesh::city

@@ -49,14 +49,14 @@ struct BorderPiece {
   std::uint32_t part = 0;  ///< of one of its lots
 };
 
-/// The borders between neighbouring lots of which one has a building, without the parts that pass within 0.4 m of a
-/// building. Each is there once. Cost: n log n in the edges of lots.
+/// Returns the borders between neighbouring lots of which one has a building, without the parts that pass within 0.4 m
+/// of a building. Each is there once. Cost: n log n in the edges of lots.
 std::vector<BorderPiece> lot_borders(const CityPlan& plan, const Job& job);
 
-/// The distance from a position to a ring, metres.
+/// Returns the distance from a position to a ring, metres.
 double distance_to_ring(const CmRing& ring, const glm::dvec2& metres);
 
-/// A direction from the street to the lot as the turn of an object that faces the street.
+/// Returns a direction from the street to the lot as the turn of an object that faces the street.
 double turn_of(const glm::dvec2& inward);
 
 }  // namespace seedmesh::city

@@ -216,7 +216,7 @@ struct CityPlan {
   const CrossSection& class_of(std::uint32_t edge) const { return classes[graph.edges[edge].tag]; }
 };
 
-/// The area of the rings in square metres; holes count negative.
+/// Returns the area of the rings in square metres; holes count negative.
 double area_of(const std::vector<CmRing>& rings);
 
 }  // namespace seedmesh::city

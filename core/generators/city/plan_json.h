@@ -10,7 +10,7 @@ struct CityParams;
 
 namespace seedmesh::city {
 
-/// A FeatureCollection; docs/cities.md lists kinds and properties.
+/// Returns a FeatureCollection; docs/cities.md lists kinds and properties.
 Json plan_json(const CityPlan& plan, const CityParams& params, Job& job);
 
 }  // namespace seedmesh::city

@@ -10,13 +10,14 @@
 
 namespace seedmesh::city {
 
+/// Returns the key of a position, for random numbers.
 inline std::uint64_t key_of_point(const CmPoint& p) {
   return key_at(key_at(0xC17, static_cast<std::uint32_t>(p.x)), static_cast<std::uint32_t>(p.y));
 }
 
 inline bool is_boundary(const PlanarEdge& edge) { return !is_street_tag(edge.tag); }
 inline bool is_given(const PlanarEdge& edge) { return edge.tag >= first_given; }
-/// The order in which streets stay where two of them are too near.
+/// Returns the order in which streets stay where two of them are too near.
 inline std::uint32_t rank_of(const PlanarEdge& edge) { return is_given(edge) ? 0 : edge.tag + 1; }
 
 inline bool is_street(const PlanarEdge& edge) { return is_street_tag(edge.tag); }

@@ -24,14 +24,15 @@ struct Region {
   std::vector<OutlineEdge> outline;                 ///< outline of land and water
 };
 
-/// The region of an area without water.
+/// Returns the region of an area without water.
 Region region_of(const std::vector<CmRing>& area);
 
 /// Cuts polygons of water out of an area: the outer ring counter-clockwise, then holes clockwise. Water and islands
 /// below 100 square metres are left out.
 Region region_of(const std::vector<CmRing>& area, const std::vector<Rings>& water, Job& job);
 
-/// A position in centimetres just inside of a face: 1.5 cm to the left of the middle of the longest edge of its loop.
+/// Returns a position in centimetres just inside of a face: 1.5 cm to the left of the middle of the longest edge of
+/// its loop.
 glm::dvec2 position_in(const std::vector<CmPoint>& nodes, const std::vector<PlanarEdge>& edges,
                        std::span<const std::uint32_t> loop);
 
@@ -41,8 +42,8 @@ bool is_on_land(const Region& region, const glm::dvec2& cm);
 /// A quantity at a position in metres.
 using ValueAt = std::function<double(const glm::dvec2&)>;
 
-/// The polygon where a value is at least 0.5, within the box [low, high] in metres: marching squares on a lattice of
-/// at most 300 squares a side, corners moved along the lattice to the border, and simplified to a metre.
+/// Returns the polygon where a value is at least 0.5, within the box [low, high] in metres: marching squares on a
+/// lattice of at most 300 squares a side, corners moved along the lattice to the border, and simplified to a metre.
 Rings contour_of(const ValueAt& value, const glm::dvec2& low, const glm::dvec2& high, Job& job);
 
 }  // namespace seedmesh::city

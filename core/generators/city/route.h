@@ -14,7 +14,8 @@ struct OutlineHit {
   bool is_shore = false;
 };
 
-/// All positions where the segment from a to b crosses the outline of the land, in its order, without its start.
+/// Returns all positions where the segment from a to b crosses the outline of the land, in its order, without its
+/// start.
 std::vector<OutlineHit> hits_of(const Region& region, const glm::dvec2& a, const glm::dvec2& b);
 
 /// The part of a line that can be built.

@@ -12,12 +12,13 @@ struct LeastBox {
   double narrowest = 0;  ///< the least short side of the boxes that are less than 2 % larger
   glm::dvec2 centre{0}, long_direction{1, 0};
 };
+/// Returns the box of least area around a ring.
 LeastBox least_box(std::span<const CmPoint> ring);
 
-/// The convex hull, counter-clockwise (Andrew 1979).
+/// Returns the convex hull, counter-clockwise (Andrew 1979).
 CmRing hull_of(std::span<const CmPoint> ring);
 
-/// The cosine of the sharpest inner corner of a counter-clockwise ring; -1 without any.
+/// Returns the cosine of the sharpest inner corner of a counter-clockwise ring; -1 without any.
 double sharpest_cosine(std::span<const CmPoint> ring);
 
 /// Whether a counter-clockwise ring is somewhere narrower than `least`, in centimetres, between a corner and an edge

@@ -18,6 +18,7 @@ struct SolidLook {
   float roughness = 0.9F;
   float metallic = 0;
 };
+/// Makes the material.
 Material material_of(const SolidLook& look);
 
 /// Adds bodies to one mesh. Bodies are closed and share no vertices.
@@ -36,7 +37,7 @@ class SolidBuilder {
   void add_slab(const std::array<glm::vec2, 4>& plan, const std::array<float, 4>& low,
                 const std::array<float, 4>& high);
 
-  /// The mesh, with equal vertices joined.
+  /// Returns the mesh, with equal vertices joined.
   Mesh take(Job& job);
   std::size_t triangles() const { return mesh_.index.wide.size() / 3; }
 

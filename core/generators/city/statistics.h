@@ -11,10 +11,10 @@ namespace seedmesh::city {
 /// Streets nearer to the border of the area than this are left out, metres.
 constexpr double border_margin = 60;
 
-/// The statistics as docs/cities.md lists them; what would divide by nothing is null.
+/// Returns the statistics as docs/cities.md lists them; what would divide by nothing is null.
 Json statistics_of(const CityPlan& plan, const Job& job);
 
-/// The area of the points that are at least `margin` from the border, in square metres. The error is below
+/// Returns the area of the points that are at least `margin` from the border, in square metres. The error is below
 /// 0.01 % of the area.
 double inner_area(const std::vector<CmRing>& area, double margin, const Job& job);
 

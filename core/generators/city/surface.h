@@ -22,7 +22,7 @@ class Surface {
   const CityPlan& plan() const { return plan_; }
   double wall_height() const { return wall_height_; }
 
-  /// The height of a part at a position in metres on it.
+  /// Returns the height of a part at a position in metres on it.
   double height(std::uint32_t part, const glm::dvec2& metres) const;
 
   /// The positions in metres strictly between two corners of a part, from `a` to `b`, at which its outline has further
@@ -30,13 +30,13 @@ class Surface {
   /// have some on a terrain only.
   void points_between(const CmPoint& a, const CmPoint& b, std::vector<glm::dvec2>& points) const;
 
-  /// The strips of an edge's carriageway.
+  /// Returns the strips of an edge's carriageway.
   const StreetStrips& strips(std::uint32_t edge) const { return strips_[edge]; }
 
-  /// The part on the other side of the edge from `a` to `b` of some part; no_index outside of the area.
+  /// Returns the part on the other side of the edge from `a` to `b` of some part; no_index outside of the area.
   std::uint32_t part_beyond(const CmPoint& a, const CmPoint& b) const;
 
-  /// The height of the floor of a building: the highest ground below it. `lowest` becomes the lowest.
+  /// Returns the height of the floor of a building: the highest ground below it. `lowest` becomes the lowest.
   double floor_height(const Footing& footing, double& lowest) const;
 
  private:

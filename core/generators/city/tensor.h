@@ -35,14 +35,14 @@ class TensorField {
   /// is a grid that smooth noise turns by up to 40 degrees.
   TensorField(const CityStreets& streets, const FieldMap& blend, const Landform* landform, Rng rng);
 
-  /// The share of an organic pattern at a position in centimetres; 0 without a blend.
+  /// Returns the share of an organic pattern at a position in centimetres; 0 without a blend.
   double organic_share_at(const glm::dvec2& cm) const;
 
   /// R cos 2a and R sin 2a at a position in centimetres.
   glm::dvec2 tensor_at(const glm::dvec2& cm) const;
 
-  /// The major direction as a unit vector, of either sign; the minor one is its quarter turn. 0, 0 at degenerate
-  /// points.
+  /// Returns the major direction as a unit vector, of either sign; the minor one is its quarter turn. 0, 0 at
+  /// degenerate points.
   glm::dvec2 direction_at(const glm::dvec2& cm) const;
 
  private:
@@ -66,12 +66,12 @@ class TensorField {
   Rng rng_{0};
 };
 
-/// The pattern where the map of patterns is 1.
+/// Returns the pattern where the map of patterns is 1.
 CityPattern second_pattern_of(const CityStreets& streets);
 
-/// The major streets: streamlines of both directions about `major_spacing` apart (Jobard and Lefer, "Creating evenly
-/// spaced streamlines of arbitrary density", 1997), cut where they cross, with the share `t_junctions` of the crossings
-/// less one arm. Draws depend on positions only.
+/// Returns the major streets: streamlines of both directions about `major_spacing` apart (Jobard and Lefer, "Creating
+/// evenly spaced streamlines of arbitrary density", 1997), cut where they cross, with the share `t_junctions` of the
+/// crossings less one arm. Draws depend on positions only.
 Route trace_majors(const GrowthInput& input, const TensorField& field, Job& job);
 
 }  // namespace seedmesh::city

@@ -19,12 +19,12 @@ struct WardCells {
   std::vector<std::vector<std::uint32_t>> rings;
   std::vector<glm::dvec2> middle;
 
-  /// The first corner within a distance, or a new one.
+  /// Returns the first corner within a distance, or a new one.
   std::uint32_t corner_near(const glm::dvec2& p, double reach);
   CmRing ring_of(std::uint32_t cell) const;
 };
 
-/// The corners around a set of cells, counter-clockwise. Empty unless they have one outline that touches itself
+/// Returns the corners around a set of cells, counter-clockwise. Empty unless they have one outline that touches itself
 /// nowhere.
 std::vector<std::uint32_t> outline_of(const WardCells& cells, const std::vector<std::uint32_t>& chosen);
 

@@ -34,14 +34,16 @@ struct WardGround {
   const Landform* landform = nullptr;   ///< null: level ground
 };
 
-/// Lays out the wards: Voronoi cells of points on a spiral, those nearest to the centre first, as long as they lie on
-/// land, have one outline without a hole, and no street around them is too steep. Main streets are shortest paths along the cells from the gates to the
+/// Lays out the wards, which are Voronoi cells of points on a spiral, those nearest to the centre first. A cell has to
+/// be on land, 25 m away from water and the border, free of obstacles, populated, and not too steep. All wards
+/// together have one outline without a hole. Main streets are shortest paths along the cells from the gates to the
 /// square; roads lead straight from the gates to the border of the area. Adds the cross sections of the streets along
-/// the wall to `sections`. Issues: fewer than four wards find space. Cost: quadratic in the number of wards.
+/// the wall to `sections`. Adds an issue if fewer than four cells are suitable. Cost: quadratic in the number of
+/// wards.
 WardPlan lay_out_wards(const CityParams& params, const WardGround& ground,
                        std::vector<CrossSection>& sections, Job& job, std::vector<Issue>& issues);
 
-/// The ward around a position in centimetres; null outside of all.
+/// Returns the ward that contains a position in centimetres; null if there is none.
 const Ward* ward_at(const std::vector<Ward>& wards, const glm::dvec2& cm);
 
 }  // namespace seedmesh::city

@@ -20,14 +20,14 @@ inline Affine compose(const Affine& outer, const Affine& inner) {
   return {outer.linear * inner.linear, outer(inner.offset)};
 }
 
-/// The largest factor by which the map stretches a direction: the root of the largest eigenvalue of AᵀA, by
+/// Returns the largest factor by which the map stretches a direction: the root of the largest eigenvalue of AᵀA, by
 /// Jacobi rotations (Golub and Van Loan, "Matrix Computations", 8.5).
 double norm(const Affine& map);
 
 /// Returns the scale factor if the map is a similarity (reflections included), else nullopt.
 std::optional<double> similarity(const Affine& map);
 
-/// The map as scale, rotation and translation. It must be a similarity with the factor `scale`.
+/// Returns the map as scale, rotation and translation. It must be a similarity with the factor `scale`.
 Transform transform_of(const Affine& map, double scale);
 
 }  // namespace seedmesh::fractal

@@ -31,7 +31,7 @@ class StartPoints {
   std::vector<Piece> pieces_;
 };
 
-/// The first points of a request: on its element, or in the unit cube. Errors: those of the element's model.
+/// Returns the first points of a request: on its element, or in the unit cube. Errors: those of the element's model.
 Result<StartPoints> start_of(const FractalParams& params, const GenerateContext& context);
 
 /// Gives `count` points. A chain begins at a point of `start`, and its first `drop` points are left out. Up to 65,536 points are one chain, in the order of the game. More are divided into chunks of

@@ -29,18 +29,20 @@ Result<Element> element_of(const FractalParams& params, const GenerateContext& c
 bool is_named(const FractalParams& params, FractalElement name);
 bool is_cube(const FractalParams& params);
 
-/// The sides of the rainbow cube: -X, +X, -Y, +Y, -Z, +Z.
+/// Returns the sides of the rainbow cube: -X, +X, -Y, +Y, -Z, +Z.
 std::array<glm::u8vec4, 6> rainbow();
 
+/// Converts an sRGB colour to linear bytes.
 glm::u8vec4 linear_color(std::uint8_t red, std::uint8_t green, std::uint8_t blue);
 
-/// The material of everything that has no material of its own.
+/// Returns the material of everything that has no material of its own.
 Material plain_material(const FractalParams& params);
 
 /// Area and volume of a named solid; nullopt for other elements.
 struct Measures {
   double area, volume;
 };
+/// Returns the measures of the element of a request.
 std::optional<Measures> measures_of(const FractalParams& params);
 
 }  // namespace seedmesh::fractal

@@ -21,11 +21,11 @@ struct EscapeField {
 /// computed in parallel.
 EscapeField escape_field(const FractalParams& params, Job& job);
 
-/// The colour of a value of the field: the palette from its first to its last colour as the escape time
+/// Returns the colour of a value of the field: the palette from its first to its last colour as the escape time
 /// grows, nearly black for points that never escape.
 Color escape_color(const FractalParams& params, float value);
 
-/// A closed plate with edges of `size` in the XZ plane, with the imaginary axis along -Z and the relief along
+/// Returns a closed plate with edges of `size` in the XZ plane, with the imaginary axis along -Z and the relief along
 /// +Y. Its underside is at y = -size * plate. Colours are those of escape_color().
 Mesh escape_plate(const FractalParams& params, const EscapeField& field, Job& job);
 

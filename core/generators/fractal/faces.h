@@ -24,7 +24,7 @@ Solid solid_of(const Lattice& lattice, int rounds, const Job& job);
 /// Colours of the sides -X, +X, -Y, +Y, -Z, +Z.
 using SideColors = std::array<glm::u8vec4, 6>;
 
-/// The number of exposed squares. Reads each word of the grid once.
+/// Returns the number of exposed squares. Reads each word of the grid once.
 std::uint64_t count_exposed(const Solid& solid, const Job& job);
 
 /// Every exposed square as two triangles. Squares of one plane that face the same way share vertices. The

@@ -31,10 +31,12 @@ struct FractalParams;
 
 namespace seedmesh::fractal {
 
+/// Returns all errors that the schema cannot express. Pointers are relative to the parameters.
 std::vector<Issue> check(const FractalParams& params, const Limits& limits);
-/// One warning for each parameter that is given and has no effect. Pointers are relative to the parameters.
+/// Returns one warning for each parameter that is given and has no effect. Pointers are relative to the parameters.
 std::vector<Warning> warnings_of(const FractalParams& params);
 
+/// Generates the model of a fractal.
 Result<Model> generate(const FractalParams& params, const GenerateContext& context);
 
 /// {pieces, dimension, exposed_quads, surface_area, volume, genus, bounds, non_manifold_edges, warnings}, in

@@ -57,7 +57,7 @@ class BitGrid {
 /// The world axis of each axis of a grid.
 using Axes = std::array<int, 3>;
 
-/// The cells after `rounds` rounds. Each round joins translated copies of the one before, so the cost is
+/// Returns the cells after `rounds` rounds. Each round joins translated copies of the one before, so the cost is
 /// about that of writing the grid once. Throws Stop for a grid of more than 2^20 cells along a side. Spends
 /// the memory.
 BitGrid grid_of(const Lattice& lattice, int rounds, const Axes& axes, const Job& job);

@@ -185,7 +185,7 @@ Measure measure(const FractalParams& params, const Instructions& instructions, i
 
 Measure measure_divided(const FractalParams& params, const Instructions& instructions, int rounds, Job& job) {
   FractalParams plain = params;
-  plain.element = FractalElement::letter_plate;  // nothing but the dimension is computed
+  plain.element = FractalElement::letter_plate;  // only the dimension is computed
   Measure result;
   result.dimension = measure(plain, instructions, 0, job).dimension;
   Element one;

@@ -33,7 +33,7 @@ Measure measure(const FractalParams& params, const Instructions& instructions, i
 /// Stop if there are too many (count_divided).
 Measure measure_divided(const FractalParams& params, const Instructions& instructions, int rounds, Job& job);
 
-/// The number of exposed squares in closed form; nullopt if copies leave their block.
+/// Returns the number of exposed squares in closed form; nullopt if copies leave their block.
 std::optional<double> exposed_quads(const Lattice& lattice, int rounds);
 
 }  // namespace seedmesh::fractal

@@ -4,7 +4,7 @@
 
 namespace seedmesh::fractal {
 
-/// The surface of exposed_faces() as rectangles: equal runs of squares in consecutive rows of a plane become
+/// Returns the surface of exposed_faces() as rectangles: equal runs of squares in consecutive rows of a plane become
 /// one. A corner of a rectangle is a vertex of every rectangle on whose boundary it lies, so the mesh is
 /// closed and has no T-junctions. Normals are flat. Rectangles of one plane share vertices. Spends two
 /// triangles for each rectangle when it is found, and the others before the mesh is made. Needs one bit for

@@ -50,7 +50,7 @@ DividedCount count_divided(const Instructions& instructions, const Element& elem
 void add_divided(Model& model, int parent, const Instructions& instructions, const Element& element,
                  const Division& division, Job& job);
 
-/// A copy of the mesh, scaled by `edge`, at each position. Spends Resource::triangles.
+/// Returns a copy of the mesh, scaled by `edge`, at each position. Spends Resource::triangles.
 Mesh scattered(const Mesh& element, std::span<const glm::vec3> positions, double edge, Job& job);
 
 }  // namespace seedmesh::fractal

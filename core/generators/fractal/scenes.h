@@ -20,7 +20,7 @@ void each_stage(Model& model, const FractalParams& params, std::int64_t amount, 
 void add_cloud(Model& model, int parent, const FractalParams& params, Cloud cloud,
                const std::vector<Primitive>& element, Job& job);
 
-/// The area inside the Koch snowflake as a closed plate with a tenth of the thickness of the unit element.
+/// Returns the area inside the Koch snowflake as a closed plate with a tenth of the thickness of the unit element.
 Mesh koch_plate(int rounds, double size, Job& job);
 
 }  // namespace seedmesh::fractal

@@ -25,7 +25,7 @@ struct Side {
   int world_normal() const { return axes[static_cast<std::size_t>(slice_axis)]; }
   int world_rows() const { return axes[static_cast<std::size_t>(3 - slice_axis)]; }
   int world_bits() const { return axes[0]; }
-  /// The index of the side in SideColors.
+  /// Returns the index of the side in SideColors.
   std::size_t number() const { return static_cast<std::size_t>(2 * world_normal() + (step > 0 ? 1 : 0)); }
   /// Returns whether bits, rows and normal are a right-handed frame.
   bool turns_right() const {
@@ -72,7 +72,7 @@ class CornerRows {
   /// Writes position, normal and colour of all corners, beginning with vertex `at`.
   void write(const Solid& solid, int slice, const SideColors* colors, Mesh& mesh, std::size_t at);
 
-  /// The vertex of the corner at bit 64 * w + `bit` of row `r`.
+  /// Returns the vertex of the corner at bit 64 * w + `bit` of row `r`.
   std::uint32_t number(int r, std::size_t w, std::size_t bit) const {
     const std::uint64_t below = (std::uint64_t{1} << bit) - 1;
     return numbers_[static_cast<std::size_t>(r) * words_ + w] +

@@ -16,7 +16,7 @@ struct SolidTopology {
   /// Closed surfaces: the outsides of bodies and the walls of cavities; 0 if the surface is not a manifold.
   std::uint64_t surfaces = 0;
 
-  /// The sum over all surfaces, by Euler's formula; nullopt if the surface is not a manifold.
+  /// Returns the sum over all surfaces, by Euler's formula; nullopt if the surface is not a manifold.
   std::optional<std::uint64_t> genus() const;
 };
 

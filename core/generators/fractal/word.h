@@ -8,12 +8,12 @@
 
 namespace seedmesh::fractal {
 
-/// A map for each dot of the word, which is centred and fills the width of the unit frame. Letters have 5 by
-/// 7 dots with a gap of one dot. Small letters equal capital ones. Empty if a character has no letter or
-/// there are no dots.
+/// Returns one affine map for each dot of the word. The word is centred and as wide as the unit frame. Letters have 5
+/// by 7 dots with a gap of one dot. Lower-case letters are drawn as upper-case ones. The result is empty if a
+/// character has no letter or there are no dots.
 std::vector<Affine> word_maps(std::string_view text);
 
-/// Is there a letter for the character?
+/// Whether there is a letter for the character.
 bool has_letter(char character);
 
 }  // namespace seedmesh::fractal

@@ -17,7 +17,7 @@ struct LimbBody {
 /// Are limbs that begin below the ground left out, such as roots of trees?
 enum class BelowGround { counted, left_out };
 
-/// The pieces of limbs with at least a third of the radius of the trunk, at most 32. Cost: linear.
+/// Returns the pieces of limbs with at least a third of the radius of the trunk, at most 32. Cost: linear.
 std::vector<LimbBody> limb_bodies(const Limbs& limbs, BelowGround below, Job& job);
 
 /// Adds a node and a mesh for each body: a closed prism with eight sides. Names follow context.demand.collision;

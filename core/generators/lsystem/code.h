@@ -71,7 +71,7 @@ class CodeRunner {
     return grammar_.program.evaluate(step.value, slots, rng);
   }
 
-  /// The slot of an element of an array.
+  /// Returns the slot of an element of an array.
   std::uint32_t element(const Step& step, const double* slots, const Rng& stream, std::uint32_t at) const {
     Rng rng = stream.at(at).at(~std::uint64_t{0});
     const double index = grammar_.program.evaluate(step.index, slots, rng);

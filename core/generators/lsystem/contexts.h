@@ -30,7 +30,7 @@ class ContextMatcher {
 
   void set_partner(std::span<const std::uint32_t> partner) { partner_ = partner; }
 
-  /// The variables of the grammar: the first slots of every match.
+  /// Returns the variables of the grammar: the first slots of every match.
   double* variables() { return slots_.data(); }
 
   /// Returns the slots of `production` at `position`: the variables, the parameters of the predecessor, then

@@ -13,7 +13,8 @@ enum class Sides { one, both };
 /// Checks what the schema cannot express: a material needs a colour, a texture or a colour image.
 void check_materials(const LsystemParams& params, std::vector<Issue>& issues);
 
-/// Returns true where a material has an image, which has to repeat a whole number of times around a limb.
+/// Whether a material has a generated texture, or an image of colour or normals. They have to repeat a whole number of
+/// times around a limb.
 bool wraps_images(const LsystemParams& params);
 
 /// Creates materials on first use: one for each colour index, number of visible sides and kind of texture.
@@ -22,8 +23,8 @@ class MaterialSet {
   /// Reads the images of the request into `model`. Throws Stop (Code::invalid) for a damaged image.
   MaterialSet(Model& model, const LsystemParams& params, const Job& job);
 
-  /// Returns the index into the materials of the request for a colour. Colours past the end of the list use
-  /// the last material.
+  /// Returns the index of the material for a colour, in the list of the request or else in the palette. Colours past
+  /// the end of the list use the last material.
   std::int16_t index_of(std::int16_t color) const { return std::min(color, last_); }
 
   /// Returns the index of a material in Model::materials. `recipe` may be empty; otherwise it is the texture

@@ -18,7 +18,8 @@ bool has_shared_parts(const Grammar& grammar, const LsystemParams& params, std::
 /// Warns of `share: always`, if the model is made as a whole.
 void warn_of_whole(const LsystemParams& params, std::vector<Warning>& warnings);
 
-/// The model with shared parts. Spends the modules, joints and triangles that are made, not those that are shown.
+/// Returns the model with shared parts. Spends the modules, joints and triangles that are made, not those that are
+/// shown.
 Model shared_model(const Grammar& grammar, const LsystemParams& params, std::uint32_t steps,
                    const GenerateContext& context);
 

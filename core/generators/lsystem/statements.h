@@ -19,7 +19,7 @@ std::size_t open_after(std::string_view text, std::string_view word, std::size_t
 class Statements {
  public:
   Statements(std::string_view text, const Marks& marks) : text_(text), marks_(marks) {}
-  /// The parenthesis of a `for` at `at`; `to`: there is none.
+  /// Returns the parenthesis of a `for` at `at`; `to`: there is none.
   std::size_t loop_at(std::size_t at, std::size_t to) const;
   /// That of an `if` with a block or a comparison.
   std::size_t condition_at(std::size_t at, std::size_t to) const;
@@ -27,7 +27,7 @@ class Statements {
   bool is_let(std::size_t at, std::size_t to) const;
   /// True where one of = += -= *= /= ++ -- is at `at`, and not ==.
   bool changes(std::size_t at, std::size_t to) const;
-  /// The next semicolon outside parentheses; `to`: there is none.
+  /// Returns the next semicolon outside parentheses; `to`: there is none.
   std::size_t find_semicolon(std::size_t at, std::size_t to) const;
 
  private:

@@ -25,7 +25,7 @@ constexpr std::size_t merged_vertices = 60'000;
 /// above the roof, options without effect.
 void check_outlines(const SceneParams& params, const Job& job, std::vector<Issue>& issues);
 
-/// The plan of rings of positions (east, south), with its y northwards.
+/// Returns the plan of rings of positions (east, south), with its y northwards.
 Plan plan_of_rings(const std::vector<std::vector<std::array<double, 2>>>& rings);
 
 /// Adds the areas and the buildings below the first node. A building is one closed mesh about the middle of its
@@ -33,7 +33,7 @@ Plan plan_of_rings(const std::vector<std::vector<std::array<double, 2>>>& rings)
 /// to the building. Warnings: roofs that had to be of another shape or lower than they were asked to be.
 void add_outlines(Model& model, const SceneParams& params, const Ground& ground, Job& job);
 
-/// The rectangle around each building, which later layers keep away from.
+/// Returns the rectangle around each building, which later layers keep away from.
 Array<Footprint> footprints_of_buildings(const SceneParams& params, const Job& job);
 
 /// About how many triangles the areas and buildings have.

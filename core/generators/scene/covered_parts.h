@@ -22,15 +22,16 @@ using CellParts = std::uint64_t;
 constexpr int parts_a_side = 8;
 constexpr CellParts all_parts = ~CellParts{0};
 
-/// For each cell around and each position in it, the squares of the centre cell that lie completely inside the
-/// disc around that position.
+/// Table of the squares of the centre cell that lie completely inside the disc around a position in a neighbouring
+/// cell.
 class CoveredParts {
  public:
   CoveredParts();
 
-  /// `offset`: index of cells_around. `at`: the position inside that cell, 0 to 1 along each side; values
-  /// outside are clamped. The position is rounded to a box of 1/16 of a cell, and only squares that every position
-  /// of the box covers are returned, so squares at the rim of the disc can be missing.
+  /// Returns the covered squares. `offset` is the index of the neighbouring cell in cells_around. `at` is the position
+  /// inside that cell as (x, z), each from 0 to 1; values outside are clamped. The position is rounded to a box of
+  /// 1/16 of a cell, and only squares that every position of the box covers are returned, so squares at the rim of the
+  /// disc can be missing.
   CellParts of(std::size_t offset, const glm::vec2& at) const {
     return table_[row_of(offset, box_of(at.x), box_of(at.y))];
   }
@@ -45,7 +46,7 @@ class CoveredParts {
   std::array<CellParts, cells_around.size() * boxes * boxes> table_{};
 };
 
-/// The only table.
+/// Returns the table that all callers share. It is computed on first use; any thread may call this.
 const CoveredParts& covered_parts();
 
 }  // namespace seedmesh::scene

@@ -21,7 +21,7 @@ class GroundClasses {
   GroundClasses(PaletteName palette, const Field& field, const Window& world, const Sites& sites,
                 const GroundColors& colors, const Material& plain, Model& model);
 
-  /// The mesh in one primitive for each class, with texture coordinates in set 1 and tangents. Vertices between
+  /// Returns the mesh in one primitive for each class, with texture coordinates in set 1 and tangents. Vertices between
   /// classes or sides are duplicated. Vertex colours are brightened by what the grey textures darken, and vary more
   /// than those of ground without details. About 100 ns a vertex.
   std::vector<Primitive> divide(const Mesh& mesh, const Sites& sites, const Job& job) const;

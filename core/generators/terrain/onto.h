@@ -11,18 +11,18 @@
 namespace seedmesh::terrain {
 
 /// Returns the height of the infinite mirrored field at `x` metres east and `z` metres south of its
-/// north-west corner, by bilinear interpolation; margin 0 or more.
+/// north-west corner, by bilinear interpolation. The margin of the field is not used.
 double mirrored_height(const Field& field, double x, double z);
 
 /// Splits every triangle into four, `rounds` times, and moves every vertex by the height along the mean
-/// normal at its position. Vertices at one position move alike, so a closed surface stays closed, and shared
-/// normals stay shared. Meshes without normals are unchanged. Spends triangles. Cost: about 150 ns for each
-/// vertex.
+/// normal at its position. Vertices nearer than 1e-6 of the diagonal move alike, so a closed surface stays closed, and
+/// shared normals stay shared. Tangents are removed. Meshes without normals are unchanged. Spends triangles. Cost:
+/// about 150 ns for each vertex.
 void displace(Model& model, const Field& field, int rounds, Job& job);
 
-/// Adds a second set of texture coordinates to every triangle mesh with normals, projected along the dominant
-/// axis of each triangle. Every material in use gets a repeating normal map of the field of `side` pixels,
-/// which replaces existing normal maps and texture recipes.
+/// Writes the second set of texture coordinates of every triangle mesh with normals, projected along the dominant axis
+/// of each triangle. Every material of such a mesh gets a repeating normal map of the field with `side` pixels a side.
+/// It replaces existing normal maps and texture recipes. A mesh without a material gets one. Tangents are removed.
 void add_normal_map(Model& model, const Field& field, std::int32_t side, Job& job);
 
 }  // namespace seedmesh::terrain

@@ -21,10 +21,10 @@ constexpr int longest_brownian = 4097;
 /// time series using fractional differencing", 1984). 0 < hurst < 1. About 1 ns for each pair of samples.
 Array<float> brownian_heights(int count, double hurst, double amplitude, Rng rng, const Job& job);
 
-/// The heights of the request. Its shape is profile.
+/// Returns the heights of the request. Its shape is profile.
 Array<float> profile_heights(const TerrainParams& params, const Job& job);
 
-/// The graph as lines in the plane z = 0, centred on x = 0.
+/// Returns the graph as lines in the plane z = 0, centred on x = 0.
 Model profile_model(const TerrainParams& params, Job& job);
 
 }  // namespace seedmesh::terrain

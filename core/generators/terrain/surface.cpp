@@ -200,7 +200,7 @@ void fill_triangles(const Field& field, const Window& part, Array<Index>& out, c
                });
 }
 
-/// Applies leaning_back() to normals[i] at columns x + i of row z, with the result of least_around(), but for
+/// Applies leaning_back() to normals[i] at columns x + i of row z, with the result of least_around(), except for
 /// several columns at once. Slopes of a square in both directions are independent, so the smallest product is
 /// the sum of the smallest ones of each direction.
 void lean_back_run(const Field& field, std::int32_t x, std::int32_t z, std::size_t count,

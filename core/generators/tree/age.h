@@ -13,7 +13,7 @@
 
 namespace seedmesh::tree {
 
-/// The time at which the internode of each joint sprouts in the growth animation, 0 .. 0.8, from the foot of
+/// Returns the time at which the internode of each joint sprouts in the growth animation, 0 .. 0.8, from the foot of
 /// each limb to its tip.
 Array<float> births_of(const Limbs& limbs, Job& job);
 

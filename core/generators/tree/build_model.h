@@ -7,6 +7,7 @@
 
 namespace seedmesh::tree {
 
+/// Makes the model, with the levels of detail and the animation that the context demands.
 Model build_model(Skeleton skeleton, const TreeParams& params, const GenerateContext& context);
 
 /// Options of the bark of the finest level of detail.

@@ -22,6 +22,7 @@ class EzTreeRandom {
   std::uint32_t w_, z_;
 };
 
+/// Writes the skeleton of a tree as ez-tree grows it.
 void grow_ez_tree(const TreeParams& params, const RandomStreams& random, std::uint64_t seed,
                   SkeletonWriter& writer);
 

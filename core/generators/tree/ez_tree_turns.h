@@ -1,6 +1,6 @@
 #pragma once
-/// The rotations of ez-tree, which keeps orientations as angles about X, Y and Z in this order, as three.js does: a
-/// random turn is added to two of these angles. Radians.
+/// Rotations as in ez-tree, in radians. Orientations are Euler angles about X, Y and Z in this order, as in three.js:
+/// ez-tree adds random angles to two of them.
 #include <glm/glm.hpp>
 
 #include "core/geom/plant/frame.h"
@@ -11,18 +11,22 @@ struct EzTurn {
   double x = 0, y = 0, z = 0, w = 1;  ///< a unit quaternion
 };
 
+/// Returns the rotation with these Euler angles.
 EzTurn turn_of_angles(const glm::dvec3& angles);
+/// Returns the rotation about an axis of length 1.
 EzTurn turn_about(const glm::dvec3& axis, double angle);
-/// The smallest turn from +Y to `to`, which need not have length 1. Half a turn about Z for -Y.
+/// Returns the smallest rotation from +Y to `to`, which need not have length 1. For -Y it is half a turn about Z.
 EzTurn turn_from_up(const glm::dvec3& to);
+/// Returns the rotation `b` followed by `a`.
 EzTurn product(const EzTurn& a, const EzTurn& b);
-/// The share `t` of the way from `a` to `b`, the shorter way round; beyond 0 and 1, the way goes on.
+/// Interpolates from `a` (`t` is 0) to `b` (1) at constant speed along the shorter arc. Extrapolates for other `t`.
 EzTurn between(const EzTurn& a, const EzTurn& b, double t);
 /// Turns `a` toward `b` by the angle `step`, at most to `b`. A negative angle turns it away.
 EzTurn toward(const EzTurn& a, const EzTurn& b, double step);
 
+/// Returns the Euler angles of a rotation.
 glm::dvec3 angles_of(const EzTurn& turn);
-/// Heading along the turned +Y, up along the turned +Z.
+/// Returns the frame whose heading is the rotated +Y and whose up vector is the rotated +Z.
 Frame frame_of(const EzTurn& turn);
 
 }  // namespace seedmesh::tree

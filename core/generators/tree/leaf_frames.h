@@ -8,11 +8,11 @@
 
 namespace seedmesh::tree {
 
-/// A leaf at `position`, turned about +Y by the share `bend` so that its upper side faces away from the
+/// Returns a leaf at `position`, turned about +Y by the share `bend` so that its upper side faces away from the
 /// trunk, then up by the same share. In double precision, for single leaves.
 Frame turned_to_light(const Frame& leaf, const glm::dvec3& position, double bend);
 
-/// A leaf whose upper side faces down, turned over about its heading.
+/// Returns a leaf whose upper side faces down, turned over about its heading.
 inline Frame upper_side_up(const Frame& leaf) {
   const double side = leaf.up.y < 0 ? -1 : 1;
   return {leaf.heading, leaf.left * side, leaf.up * side};

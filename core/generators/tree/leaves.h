@@ -16,7 +16,7 @@ struct LeafMotion {
   const WindField* wind = nullptr;
 };
 
-/// The mesh of a leaf of length 1, with faces on one side.
+/// Returns the mesh of a leaf of length 1, with faces on one side.
 Mesh leaf_of(const TreeParams& params, int level, const Job& job);
 
 /// The same as a thin leaf if leaves have outward faces: all faces once more with vertices of their own, 0.003 of

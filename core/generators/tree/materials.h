@@ -45,6 +45,7 @@ struct LeafMaterials {
   int material = -1;          ///< material of the season of the request
   std::vector<int> variants;  ///< indices by Model::variants; may be empty
 };
+/// Adds the materials of leaves and their variants. Throws Stop (Code::invalid) for a damaged image.
 LeafMaterials add_leaf_materials(Model& model, const TreeParams& params, const GenerateContext& context);
 
 }  // namespace seedmesh::tree

@@ -10,6 +10,7 @@
 
 namespace seedmesh::tree {
 
+/// Writes the skeleton of a tree of the model `proctree`.
 void grow_proctree(const TreeParams& params, const RandomStreams& random, SkeletonWriter& writer);
 
 }  // namespace seedmesh::tree

@@ -19,6 +19,7 @@ struct RangeShares {
   double twigs = 1;     ///< limbs of branches: all to 50 m, none from 100 m
   double leaves = 1;    ///< all to 50 m (25 m in spring), at least an eighth; larger ones
 };
+/// Returns the shares for the `range` of a request.
 RangeShares shares_at(const TreeParams& params);
 
 /// The share of the leaves that is made, from `leaf.density` and `range`; 0 if there are no leaves.

@@ -9,11 +9,12 @@
 
 namespace seedmesh::tree {
 
-/// The distance that a ray from the axis of a limb travels inside the bounding shape of the limb, which
+/// Returns the distance that a ray from the axis of a limb travels inside the bounding shape of the limb, which
 /// reaches from its foot to its tip. The ray begins at the distance `from` from the foot. `direction` has
 /// unit length; its y is along the axis. Within a millionth of the length.
 double distance_in_shape(const TreeLevel& level, double length, double from, const glm::dvec3& direction);
 
+/// Writes the skeleton of a tree of this model.
 void grow_sculpt(const TreeParams& params, const RandomStreams& random, SkeletonWriter& writer);
 
 }  // namespace seedmesh::tree

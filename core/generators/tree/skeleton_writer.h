@@ -35,7 +35,7 @@ static_assert(Rng(7).at(name_key("down")).key() == Rng(7).at("down").key());
 /// Uniform in [-range, range).
 inline double spread(Rng rng, double range) { return range == 0 ? 0 : rng.uniform(-range, range); }
 
-/// The frame turned about a unit axis.
+/// Returns the frame turned about a unit axis.
 inline Frame rotated(const Frame& frame, const glm::dvec3& axis, const math::SinCos& angle) {
   const auto turn = [&](const glm::dvec3& v) {
     return v * angle.cos + glm::cross(axis, v) * angle.sin + axis * (glm::dot(axis, v) * (1 - angle.cos));
@@ -43,10 +43,10 @@ inline Frame rotated(const Frame& frame, const glm::dvec3& axis, const math::Sin
   return {turn(frame.heading), turn(frame.left), turn(frame.up)};
 }
 
-/// The frame with this unit heading that differs from `frame` by the smallest rotation.
+/// Returns the frame with this unit heading that differs from `frame` by the smallest rotation.
 Frame headed(const Frame& frame, const glm::dvec3& heading);
 
-/// A random number of 53 bits that decides whether the leaf or limb with this key is drawn.
+/// Returns a random number of 53 bits that decides whether the leaf or limb with this key is drawn.
 inline std::uint64_t draw_number(std::uint64_t key) { return key_at(key, 0xDE45) >> 11U; }
 
 /// True for the share `density` of all keys.
@@ -147,7 +147,7 @@ class SkeletonWriter {
   /// Appends this many leaves, which the caller fills in.
   Organ* extend(std::size_t leaves) { return organs_.organ.extend(leaves); }
 
-  /// The radius at a joint, where its internode ends.
+  /// Returns the radius at a joint, where its internode ends.
   double radius(std::uint32_t joint) const { return static_cast<double>(limbs_.radius[joint - first_]); }
   glm::dvec3 position(std::uint32_t joint) const { return glm::dvec3(limbs_.position[joint - first_]); }
   /// Calls each(joint) for the joints that follow `root` on its limb, until a call returns false.

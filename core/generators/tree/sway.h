@@ -23,7 +23,7 @@ struct SwayAngles {
 /// a whole stem turns by at most 90 degrees.
 SwayAngles sway_angles(const TreeSway& sway, const SwayingStem& stem, double z, double radius);
 
-/// The frame of a segment turned by these angles.
+/// Returns the frame of a segment turned by these angles.
 Frame swayed(const Frame& frame, const SwayAngles& angles);
 
 }  // namespace seedmesh::tree

@@ -17,9 +17,10 @@ namespace seedmesh::tree {
 /// Checks what the schema cannot express: mSegments is even, and images can be read.
 std::vector<Issue> check(const TreeParams& params, const Limits& limits);
 
-/// One warning for each parameter that is given and has no effect. Pointers are relative to the parameters.
+/// Returns one warning for each parameter that is given and has no effect. Pointers are relative to the parameters.
 std::vector<Warning> warnings_of(const TreeParams& params);
 
+/// Generates the model of a tree.
 Result<Model> generate(const TreeParams& params, const GenerateContext& context);
 
 /// {limbs, levels: [{count, length, radius}], leaves, height, bounds, warnings}: figures of the skeleton.
@@ -30,7 +31,7 @@ Result<Json> derive(const TreeParams& params, const GenerateContext& context);
 /// takes about 0.1 s. The triangles of the bark are estimated within 50 %.
 Result<Appraisal> appraise(const TreeParams& params, const GenerateContext& context);
 
-/// An empty object, because trees have no notation.
+/// Returns an empty object, because trees have no notation.
 Json vocabulary();
 
 }  // namespace seedmesh::tree

@@ -10,6 +10,7 @@
 
 namespace seedmesh::tree {
 
+/// Writes the skeleton of a tree of the model `weber_penn`.
 void grow_weber_penn(const TreeParams& params, const RandomStreams& random, SkeletonWriter& writer);
 
 }  // namespace seedmesh::tree

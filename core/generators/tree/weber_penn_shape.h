@@ -25,25 +25,25 @@ std::array<WeberPennLevel, 4> weber_penn_levels(const TreeParams& params);
 /// math::pow with a relative error below 1e-11, but faster. Exact for the exponents 1, 2 and 0.5.
 double power(double base, double exponent);
 
-/// The length of branches as a share of the greatest length, for `ratio` from 1 at the base of the crown to 0
+/// Returns the length of branches as a share of the greatest length, for `ratio` from 1 at the base of the crown to 0
 /// at its top. Shape 8 is the envelope.
 double shape_ratio(const TreeParams& params, int shape, double ratio);
 
-/// The radius at share `z` of a stem of `length` with `radius` at its base, without flare and lobes.
+/// Returns the radius at share `z` of a stem of `length` with `radius` at its base, without flare and lobes.
 double tapered(double taper, double radius, double length, double z);
 
-/// The factor for the radius of the trunk at share `z` of its length: that of the paper for flares up to
+/// Returns the factor for the radius of the trunk at share `z` of its length: that of the paper for flares up to
 /// 1.25, and a flatter one for wider flares.
 double flared(double flare, double z);
 
-/// The factor of Flare and trunk_flare together: at the ground the product of both.
+/// Returns the factor of Flare and trunk_flare together: at the ground the product of both.
 double flared_trunk(const TreeParams& params, double z);
 
 /// Is the point at the distance `aside` from the axis, and at `height` above the ground, within the envelope
 /// of a tree of height `scale`?
 bool is_in_envelope(const TreeParams& params, double scale, double aside, double height);
 
-/// The inverse cosine within 1e-7, for -1 .. 1. After M. Abramowitz and I. Stegun, Handbook of Mathematical
+/// Returns the inverse cosine within 1e-7, for -1 .. 1. After M. Abramowitz and I. Stegun, Handbook of Mathematical
 /// Functions, 1964, 4.4.46.
 inline double approximate_acos(double x) {
   const double a = std::abs(x);

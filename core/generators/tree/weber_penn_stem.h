@@ -51,20 +51,22 @@ struct WeberPennStem {
 /// Gives trunk `number`, which has no joint yet; called for 0, 1, ... The first one draws the height of the tree.
 WeberPennStem make_trunk(WeberPennTree& tree, int number);
 
+/// Whether a stem is of the last level, which has no child stems.
 inline bool is_last(const WeberPennTree& tree, const WeberPennStem& stem) {
   return stem.level + 1 >= tree.params.Levels;
 }
+/// Returns the length of one segment of a stem.
 inline double segment_length(const WeberPennTree& tree, const WeberPennStem& stem) {
   return stem.length / tree.level(stem.level).curve_res;
 }
 
-/// The radius at the share `z` of the length.
+/// Returns the radius at the share `z` of the length.
 double radius_at(const WeberPennTree& tree, const WeberPennStem& stem, double z);
 
-/// The frame of segment `segment` of a stem, from that of the segment before it.
+/// Returns the frame of segment `segment` of a stem, from that of the segment before it.
 Frame next_frame(const WeberPennTree& tree, const WeberPennStem& stem, const Frame& frame, int segment);
 
-/// The frame turned by the wind.
+/// Returns the frame turned by the wind.
 Frame swayed_frame(const WeberPennTree& tree, const WeberPennStem& stem, const Frame& frame, int segment);
 
 /// How many children or leaves a whole stem bears; not rounded.
@@ -88,8 +90,9 @@ double child_radius(const WeberPennTree& tree, const WeberPennStem& stem, double
 /// is left. `frames` is memory that calls reuse.
 bool prune(const WeberPennTree& tree, WeberPennStem& stem, std::vector<Frame>& frames);
 
-/// The rounding error of splits behind the segments from `segment` on and the clones that split off there. Arbaro adds it up
-/// from stem to stem of a level, to each clone before the rest of its stem. Cost: that of the segments, at most 10,000.
+/// Returns the rounding error of splits behind the segments from `segment` on and the clones that split off there.
+/// Arbaro adds it up from stem to stem of a level, to each clone before the rest of its stem. Cost: that of the
+/// segments, at most 10,000.
 double carried_behind(const WeberPennLevel& level, double carried, int segment);
 
 /// Divides a stem at the end of `segment`, which is at `position`: appends its clones, which grow from

@@ -32,7 +32,7 @@ class WeberPennTwigs {
 
   /// The number of leaves of twig `i`, drawn or not.
   std::size_t count(std::size_t i) const { return count_[i]; }
-  /// A bit for each leaf that is drawn.
+  /// Returns a bit for each leaf that is drawn.
   std::uint64_t drawn(std::size_t i) const { return drawn_[i]; }
   double offset(std::size_t i, std::size_t leaf) const { return offset_[leaf][i]; }
   std::uint64_t leaf_key(std::size_t i, std::size_t leaf) const { return key_at(leaves_[i], leaf); }

@@ -27,10 +27,10 @@ struct Area {
   double border() const { return *std::min_element(borders.begin(), borders.end()); }
 };
 
-/// The areas of the tiles `depth` levels below a tile: rows from the south.
+/// Returns the areas of the tiles `depth` levels below a tile: rows from the south.
 std::vector<Area> areas_below(const World& world, const TileKey& root, int depth, Job& job);
 
-/// The square of four.
+/// Returns the square of four.
 Area joined(const Area& sw, const Area& se, const Area& nw, const Area& ne);
 
 }  // namespace seedmesh::world

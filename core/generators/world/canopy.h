@@ -18,6 +18,7 @@ struct Wood {
   double height = 0;              ///< metres, of the crowns
   std::array<double, 3> color{};  ///< linear, of the crowns
 };
+/// Returns what covers a position, given as metres east and north.
 Wood wood_at(const World& world, const GroundSample& sample, const Climate& climate, double east,
              double north, double spacing);
 
@@ -32,6 +33,7 @@ struct CanopyTexture {
   std::string hash, file;
   std::uint64_t bytes() const { return sizeof(CanopyTexture) + file.size(); }
 };
+/// Returns the texture of a world, from the store or made now.
 std::shared_ptr<const CanopyTexture> canopy_texture(const World& world, Job& job);
 
 }  // namespace seedmesh::world

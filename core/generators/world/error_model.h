@@ -23,7 +23,7 @@ struct Roughness {
   void add(const Roughness& other);
 };
 
-/// The roughest ground that a world can have.
+/// Returns the roughest ground that a world can have.
 Roughness roughest(const World& world);
 
 /// Metres between the ground and triangles through samples `spacing` apart. Rises with the spacing.

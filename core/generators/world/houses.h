@@ -34,9 +34,10 @@ constexpr double most_cellar = 4;  ///< metres from the ground at its middle to 
 struct HouseExtent {
   double across = 0, up = 0;
 };
+/// Returns the bounds of the houses of a world.
 HouseExtent house_extent(const World& world);
 
-/// The model of a house, from the store or made now.
+/// Returns the model of a house, from the store or made now.
 std::shared_ptr<const Asset> house_asset(const World& world, int number, Job& job);
 
 struct Plan {

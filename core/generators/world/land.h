@@ -25,9 +25,10 @@ struct Land {
   std::array<float, range_octaves>
       ridges{};  ///< the share of its full amplitude that each octave of ridges has
 };
+/// Returns the land at a position.
 Land land_at(const World& world, double east, double north);
 
-/// The amplitude of an octave of detail by its wavelength.
+/// Returns the amplitude of an octave of detail by its wavelength.
 double detail_share(const World& world, double ruggedness);
 
 /// What gullies and finer wavelengths add. `land` is the ground with its slope, after rivers.
@@ -42,6 +43,7 @@ enum class Biome { ice, tundra, taiga, steppe, grassland, forest, desert, savann
 /// By temperature and moisture, roughly as in Whittaker 1975 ("Communities and Ecosystems").
 Biome biome_of(const Climate& climate);
 
+/// Returns the climate at a position and a height in metres.
 Climate climate_at(const World& world, double east, double north, double height);
 
 }  // namespace seedmesh::world

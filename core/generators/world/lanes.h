@@ -22,7 +22,7 @@ constexpr double farm_reach = 2.8;
 
 /// From the store, or made in some milliseconds after the roads of the settlement.
 std::shared_ptr<const Lanes> lanes_of(const World& world, const Site& site, Job& job);
-/// The lanes of settlements whose lanes can be within `reach` of a rectangle.
+/// Returns the lanes of settlements whose lanes can be within `reach` of a rectangle.
 std::vector<std::shared_ptr<const Lanes>> lanes_near(const World& world, const Rectangle& box, double reach,
                                                      Job& job);
 

@@ -36,11 +36,12 @@ inline Slope smooth_step(const Slope& a, double low, double high) {
   if (t >= 1) return {1, 0, 0};
   return applied(a, t * t * (3 - 2 * t), 6 * t * (1 - t) / (high - low));
 }
+/// The same for a number without a derivative.
 inline double smooth_step(double x, double low, double high) {
   return smooth_step(Slope{x, 0, 0}, low, high).value;
 }
 
-/// The key of a lattice cell.
+/// Returns the key of a lattice cell.
 inline std::uint64_t cell_key(std::uint64_t key, std::int64_t x, std::int64_t y) {
   return mix(key + static_cast<std::uint64_t>(x) * 0x9E3779B97F4A7C15U +
              static_cast<std::uint64_t>(y) * 0xC2B2AE3D27D4EB4FU);
@@ -80,6 +81,7 @@ inline std::size_t number_of(std::uint64_t hash) {
   return hash >> 60U;
 }
 
+/// Returns the unit vector of a lattice corner.
 inline const double* direction_of(std::uint64_t key, std::uint64_t x, std::uint64_t y) {
   return direction[number_of(key ^ (x * column_factor) ^ (y * row_factor))];
 }

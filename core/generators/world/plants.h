@@ -20,10 +20,10 @@ struct Plant {
   std::uint64_t key = 0;       ///< key of further random choices
 };
 
-/// The plants of a class in [west, east) x [south, north), which is inside the rectangle of `ground`, whose marks are
-/// below `share`. A plant depends on candidates with lower marks alone, so those of a lower share are a part of those
-/// of a higher one, and take less time. `reach`: how many spacings of candidates around the rectangle compete; tests
-/// try other values than the default.
+/// Returns the plants of a class in [west, east) x [south, north), which is inside the rectangle of `ground`, whose
+/// marks are below `share`. A plant depends on candidates with lower marks alone, so those of a lower share are a part
+/// of those of a higher one, and take less time. `reach`: how many spacings of candidates around the rectangle
+/// compete; tests try other values than the default.
 std::vector<Plant> plants_in(const World& world, int plant_class, const Rectangle& box, const Ground& ground,
                              Job& job, double share = 1, double reach = thinning_rounds);
 

@@ -4,7 +4,7 @@
 
 namespace seedmesh::world {
 
-/// The share of an octave of noise that samples `spacing` metres apart show, 0 to 1.
+/// Returns the share of an octave of noise that samples `spacing` metres apart show, 0 to 1.
 inline double resolved_share(double spacing, double wavelength) {
   return 1 - smooth_step(spacing / wavelength, 0.08, 0.34);
 }

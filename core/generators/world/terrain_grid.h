@@ -18,6 +18,7 @@ struct TerrainGrid {
     return samples[static_cast<std::size_t>((row + halo) * wide + column + halo)];
   }
 };
+/// Samples the ground of a tile with `cells` cells a side and `halo` samples around them.
 TerrainGrid sample_grid(const World& world, const TileFrame& frame, int cells, int halo, Job& job);
 
 }  // namespace seedmesh::world

@@ -20,12 +20,12 @@ TerrainMesh terrain_mesh(const World& world, const TileFrame& frame, const Terra
 /// Metres that the skirt of a tile hangs down, so that no gap shows beside tiles up to three levels coarser or finer.
 /// `grid` is that of the tile.
 double skirt_depth(const World& world, const TileFrame& frame, const TerrainGrid& grid);
-/// A bound of the depths of skirts in an area.
+/// Returns a bound of the depths of skirts in an area.
 double most_skirt(const World& world, const TileFrame& frame, const Roughness& roughness);
 
 /// Whole steps at `height`, relative to `base`, within 16 bits.
 std::int16_t steps_of(double height, double base, double step);
-/// A multiple of the step near the middle of a range of heights.
+/// Returns a multiple of the step near the middle of a range of heights.
 double base_of(double low, double high, double step);
 
 }  // namespace seedmesh::world

@@ -14,6 +14,7 @@ struct TileFrame {
   double step = 0;  ///< step of quantized positions: a power of two that follows from the side alone
 };
 
+/// Returns the frame of a tile.
 inline TileFrame frame_of(const World& world, const TileKey& key) {
   TileFrame frame;
   frame.side = world.extent / static_cast<double>(std::int64_t{1} << key.level);

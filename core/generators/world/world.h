@@ -38,13 +38,13 @@ struct TileBounds {
 /// tree.
 TileBounds tile_bounds(const World& world, const TileKey& key, Job& job);
 
-/// The geometric error that the root of an implicit tileset has to declare: divided by 2^level, it is at least
+/// Returns the geometric error that the root of an implicit tileset has to declare: divided by 2^level, it is at least
 /// that of every tile of the level.
 double greatest_error(const World& world);
 
-/// The content of a tile as binary glTF: core glTF with KHR_mesh_quantization. One root node has the middle of the
-/// tile as its translation; below it are nodes named by layer. `folder` leads from the tile to the folder that
-/// has the directory "a" of shared files. Spends Resource::triangles. `key` is in the tree.
+/// Returns the content of a tile as binary glTF: core glTF with KHR_mesh_quantization. One root node has the middle of
+/// the tile as its translation; below it are nodes named by layer. `folder` leads from the tile to the folder that has
+/// the directory "a" of shared files. Spends Resource::triangles. `key` is in the tree.
 std::string tile_glb(const World& world, const TileKey& key, Job& job, std::string_view folder = "../../../");
 
 /// A file that tiles share, by the hash in its name.
@@ -53,6 +53,7 @@ struct SharedFile {
   std::string media_type;  ///< "application/octet-stream"
   std::string extension;   ///< "bin"
 };
+/// Returns the shared file with this hash, or nothing if the world has none.
 std::optional<SharedFile> shared_file(const World& world, std::string_view hash, Job& job);
 
 struct MapBox {

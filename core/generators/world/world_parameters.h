@@ -30,6 +30,7 @@ struct NoiseKeys {
   std::array<std::uint64_t, 3> moisture{};
   std::uint64_t temperature = 0;
 };
+/// Derives the keys of all noises from the key of a world.
 NoiseKeys noise_keys(std::uint64_t key);
 
 /// What a layer reads around the part that it makes: cells of a region, water, settlements

@@ -72,7 +72,7 @@ class Coarsening {
   float corners_at(std::size_t limb, std::size_t station) const {
     return options_.skin ? static_cast<float>(corners_[limb].now) : stations_[station].corners;
   }
-  /// The radius at the base of a limb.
+  /// Returns the radius at the base of a limb.
   float first_radius(std::uint32_t head) const {
     const std::uint32_t joint = limbs_.parent[head] == Limbs::none ? chains_.next[head] : head;
     return joint == Limbs::none ? 0 : limbs_.base_radius[joint];

@@ -28,7 +28,7 @@ struct Quadric {
   }
 };
 
-/// The cost of moving a point onto another: the error of both quadrics there, plus a small term that grows
+/// Returns the cost of moving a point onto another: the error of both quadrics there, plus a small term that grows
 /// with the fourth power of the distance, so that short edges are collapsed first on flat surfaces.
 inline double collapse_cost(const Quadric& from, const Quadric& to, const glm::dvec3& at,
                             const glm::dvec3& target) {

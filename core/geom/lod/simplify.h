@@ -16,10 +16,11 @@ namespace seedmesh {
 /// between meshes keep their positions. No triangle is flipped, degenerate, duplicated, or faces away from a
 /// normal of its corners. The cost of a collapse is the quadric error (Garland and Heckbert, "Surface
 /// Simplification Using Quadric Error Metrics", 1997). `fixed` has one entry for each mesh; fixed meshes,
-/// lines and points stay unchanged. To be called before finish(), with wide indices.
+/// lines and points stay unchanged. Has to be called before finish()
+/// (core/geom/mesh/finish.h), while the indices have 32 bits (`wide`).
 ///
-/// No collapse costs more than `most_cost`: a squared distance times twice the area that it is taken over, in
-/// m^4.
+/// Collapses that cost more than `most_cost` are refused. Its unit is m^4: a squared distance times twice the area of
+/// the triangles.
 ///
 /// Returns the number of remaining triangles. Time: n log n, about 2 us for each triangle that is given. Deterministic.
 std::uint64_t simplify(std::span<Mesh* const> meshes, std::uint64_t target, const std::vector<bool>& fixed,

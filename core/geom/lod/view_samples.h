@@ -22,7 +22,7 @@ class ViewSamples {
   int views() const { return static_cast<int>(views_.size()); }
   double texels_a_metre() const { return scale_; }
 
-  /// The position of a point in a view, in texels.
+  /// Returns the position of a point in a view, in texels.
   glm::dvec2 at(int view, const glm::vec3& point) const {
     const glm::dvec3 off = glm::dvec3(point) - middle_;
     const View& from = views_[static_cast<std::size_t>(view)];
@@ -30,7 +30,7 @@ class ViewSamples {
             0.5 * across + scale_ * glm::dot(off, from.up)};
   }
 
-  /// The texel at a position in a view, or `texels` where it is outside.
+  /// Returns the texel at a position in a view, or `texels` where it is outside.
   static std::size_t texel(const glm::dvec2& at) {
     if (!(at.x >= 0 && at.y >= 0 && at.x < across && at.y < across)) return texels;
     return static_cast<std::size_t>(at.y) * across + static_cast<std::size_t>(at.x);
@@ -61,7 +61,7 @@ class ViewSamples {
   struct View {
     glm::dvec3 right, up;
   };
-  /// The first texel whose centre is not below `low`.
+  /// Returns the first texel whose centre is not below `low`.
   static int first(double low) {
     return static_cast<int>(std::ceil(std::clamp(low - 0.5, 0.0, static_cast<double>(across))));
   }

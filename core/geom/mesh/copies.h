@@ -4,7 +4,7 @@
 
 namespace seedmesh {
 
-/// The number of copies of all meshes that are shown more than once, by several nodes or by Node::instances.
+/// Returns the number of copies of all meshes that are shown more than once, by several nodes or by Node::instances.
 std::uint64_t count_copies(const Model& model);
 
 /// Replaces all copies of meshes that are shown more than once by a new node "copies". Its mesh has one

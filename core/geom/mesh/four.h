@@ -14,18 +14,22 @@ namespace seedmesh {
 using FourFloats = float __attribute__((vector_size(16)));
 using FourFlags = std::int32_t __attribute__((vector_size(16)));  ///< -1 where true
 
+/// Returns `yes` in lanes whose flag is set, and `no` in the others.
 inline FourFloats chosen(FourFlags flags, FourFloats yes, FourFloats no) {
   return reinterpret_cast<FourFloats>((reinterpret_cast<FourFlags>(yes) & flags) |
                                       (reinterpret_cast<FourFlags>(no) & ~flags));
 }
+/// Whether the flags of all four lanes are set.
 inline bool all_of(FourFlags flags) {
   std::uint64_t halves[2];
   std::memcpy(halves, &flags, sizeof(flags));
   return (halves[0] & halves[1]) == ~std::uint64_t{0};
 }
+/// Returns the square root of each lane.
 inline FourFloats root(FourFloats v) {
   return FourFloats{std::sqrt(v[0]), std::sqrt(v[1]), std::sqrt(v[2]), std::sqrt(v[3])};
 }
+/// Returns the absolute value of each lane.
 inline FourFloats magnitude(FourFloats v) {
   return reinterpret_cast<FourFloats>(reinterpret_cast<FourFlags>(v) & 0x7FFFFFFF);
 }
@@ -38,7 +42,7 @@ struct Four {
   static constexpr std::size_t size = 4;
   FourFloats x, y, z;
 
-  /// The first three lanes of four rows, transposed.
+  /// Returns the first three lanes of four rows, transposed.
   static Four of_rows(const FourFloats& a, const FourFloats& b, const FourFloats& c, const FourFloats& d) {
     const FourFloats low = __builtin_shufflevector(a, b, 0, 4, 1, 5),
                      more = __builtin_shufflevector(c, d, 0, 4, 1, 5);
@@ -53,7 +57,7 @@ struct Four {
                     &d = from[count - 1];
     return {FourFloats{a.x, b.x, c.x, d.x}, FourFloats{a.y, b.y, c.y, d.y}, FourFloats{a.z, b.z, c.z, d.z}};
   }
-  /// One vector in the first three lanes; the last lane reads the float behind it.
+  /// Returns one vector in the first three lanes; the last lane reads the float behind it.
   static FourFloats row(const glm::vec3* from) {
     static_assert(sizeof(glm::vec3) == 3 * sizeof(float));
     FourFloats v;

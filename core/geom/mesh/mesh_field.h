@@ -23,7 +23,7 @@ class MeshField {
   MeshField(const Model& model, const glm::dvec3& stretch, const glm::dvec3& shift, const Job& job);
 
   std::size_t triangles() const { return corner_.size() / 3; }
-  /// The nearest point of the surface. There must be at least one triangle.
+  /// Returns the nearest point of the surface. There must be at least one triangle.
   Nearest nearest(const glm::dvec3& point) const;
   /// True where the point is inside, by the parity of the intersections of a ray. The direction of the ray is
   /// fixed and unlikely to be parallel to an edge.

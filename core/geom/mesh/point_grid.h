@@ -15,7 +15,7 @@ class PointGrid {
  public:
   PointGrid(const Box& box, float cell) : low_(box.min), per_cell_(cell > 0 ? 1 / cell : 0) {}
 
-  /// The key of the cell of `point`, which must lie inside the box. A cell is centred on the corner of the
+  /// Returns the key of the cell of `point`, which must lie inside the box. A cell is centred on the corner of the
   /// box, so that rounding errors about a coordinate that many points share do not cross a border of cells.
   std::uint64_t key(const glm::vec3& point) const {
     const glm::vec3 cell = (point - low_) * per_cell_ + 0.5F;
@@ -54,7 +54,7 @@ class NumberTable {
   NumberTable(const Job& job, std::size_t expected)
       : job_(&job), slots_(empty(expected + expected / 2 + 16)) {}
 
-  /// The number of `key`, or `none`.
+  /// Returns the number of `key`, or `none`.
   std::uint32_t peek(std::uint64_t key) { return find(key).number; }
 
   /// The number of `key`. It is `none` where the key is new; the caller then assigns a number. The reference
@@ -82,7 +82,7 @@ class NumberTable {
 
   Array<Slot> empty(std::size_t size) const { return Array<Slot>(*job_, size, Slot{0, 0, none}); }
 
-  /// The first slot to probe for a key (Lemire, "Fast random integer generation in an interval", 2019).
+  /// Returns the first slot to probe for a key (Lemire, "Fast random integer generation in an interval", 2019).
   std::size_t home(std::uint64_t key) const {
     __extension__ using Wide = unsigned __int128;
     return static_cast<std::size_t>(Wide{mix(key)} * slots_.size() >> 64U);
@@ -125,7 +125,7 @@ class Weld {
     point_.reserve(points.size());
   }
 
-  /// The number of points[i].
+  /// Returns the number of points[i].
   std::uint32_t number(std::uint32_t i) {
     const glm::vec3& point = points_[i];
     std::uint32_t found = NumberTable::none;

@@ -6,7 +6,7 @@
 
 namespace seedmesh {
 
-/// A mesh with these four arrays, all empty.
+/// Returns a mesh with these four arrays, all empty.
 Mesh empty_sheet(const Job& job);
 
 /// Turns normals of corners that point to the back of one of their faces to its front.

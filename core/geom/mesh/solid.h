@@ -9,13 +9,14 @@ namespace seedmesh {
 enum class SolidShape { box, sphere, cylinder, cone, mesh };
 
 /// A shape that fills a box of `size`. `position` is the centre of the box's lower face. Cylinders are
-/// upright; cones have their apex up. Sphere, cylinder and cone are scaled where the sides of the box differ.
-/// Absolute distances are then upper bounds; they are far too large in long, thin shapes.
+/// upright; cones have their apex up. Sphere, cylinder and cone are scaled if the sides of the box differ.
+/// The absolute values of their distances are then only upper bounds, which are far too large in long, thin shapes.
 struct Solid {
   SolidShape shape = SolidShape::box;
   glm::dvec3 position{0};
   glm::dvec3 size{1};
-  std::shared_ptr<const MeshField> mesh;  ///< for SolidShape::mesh, in world space; else null
+  /// Surface of SolidShape::mesh in world space; position and size are then not used. Else null.
+  std::shared_ptr<const MeshField> mesh;
 };
 
 /// The result of a query from a point.
@@ -24,6 +25,7 @@ struct SurfacePoint {
   double distance = 0;  ///< positive outside, negative inside
 };
 
+/// Returns the nearest point of the surface and the signed distance.
 SurfacePoint surface_near(const Solid& solid, const glm::dvec3& point);
 
 }  // namespace seedmesh

@@ -14,6 +14,7 @@ struct Scale {
   float thinnest = 0;  ///< a radius below this is a point
   float apart = 0;     ///< least distance of two vertices of a tube
 };
+/// Returns the scale of a skeleton whose tubes have this number of sides.
 Scale scale_of(const Limbs& limbs, int sides);
 
 /// Flags of a joint.

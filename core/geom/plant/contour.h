@@ -38,10 +38,10 @@ std::vector<ContourCorner> corners_of(const Contour& contour, std::uint32_t side
 /// The same for the circle.
 std::vector<ContourCorner> corners_of_circle(std::uint32_t sides);
 
-/// The least number of sides with which all points of all contours are kept.
+/// Returns the least number of sides with which all points of all contours are kept.
 std::uint32_t least_sides(std::span<const Contour> contours);
 
-/// The number of sides of a regular polygon whose edges are as short as the shortest edge, or the smallest
+/// Returns the number of sides of a regular polygon whose edges are as short as the shortest edge, or the smallest
 /// distance of an edge from the origin, of any contour. Scale is computed by it.
 int fineness(std::span<const Contour> contours, std::uint32_t sides);
 

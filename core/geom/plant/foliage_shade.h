@@ -27,10 +27,10 @@ class FoliageShade {
   /// Linear in joints and organs; 8 bytes a joint and at most 16 KiB for the grid. Borrows nothing.
   FoliageShade(const Limbs& limbs, const Organs& organs, const Options& options, const Job& job);
 
-  /// The colour of all vertices of an organ, red in the lowest byte; opaque.
+  /// Returns the colour of all vertices of an organ, red in the lowest byte; opaque.
   std::uint32_t color_of(const Organ& organ) const;
 
-  /// The share of light at a point, 1 - options.occlusion to 1.
+  /// Returns the share of light at a point, 1 - options.occlusion to 1.
   float light_at(const glm::vec3& point) const;
 
  private:

@@ -54,7 +54,7 @@ inline Frame upright(const Frame& f) {
   return {f.heading, left, glm::cross(f.heading, left)};
 }
 
-/// The rotation that takes +Y to heading, -X to left and +Z to up, w >= 0. Square roots only; after Shepperd,
+/// Returns the rotation that takes +Y to heading, -X to left and +Z to up, w >= 0. Square roots only; after Shepperd,
 /// "Quaternion from Rotation Matrix", 1978: the largest of the four components is found first, so none is a
 /// small difference.
 inline glm::dquat fine_quaternion(const Frame& f) {
@@ -88,7 +88,7 @@ inline glm::quat quaternion(const Frame& f) {
   return {static_cast<float>(q.w), static_cast<float>(q.x), static_cast<float>(q.y), static_cast<float>(q.z)};
 }
 
-/// The orientation at a share of the shorter rotation from one orientation to another. It follows the chord of
+/// Returns the orientation at a share of the shorter rotation from one orientation to another. It follows the chord of
 /// the quaternions, without trigonometry, so the rate is not quite constant.
 inline Frame between(const Frame& from, const Frame& to, double share) {
   const glm::dquat a = fine_quaternion(from), b = fine_quaternion(to);

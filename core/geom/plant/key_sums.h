@@ -28,7 +28,7 @@ class KeySums {
     }
     entry.sum += amount;
   }
-  /// The sum of a key, or 0.
+  /// Returns the sum of a key, or 0.
   double at(std::uint64_t key) const { return entries_.empty() ? 0 : entries_[place_of(key)].sum; }
 
  private:

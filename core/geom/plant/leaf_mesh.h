@@ -44,9 +44,9 @@ struct FruitForm {
 };
 Mesh fruit_mesh(const FruitForm& form, const Job& job);
 
-/// A ball of diameter 1 about the origin.
+/// Returns a ball of diameter 1 about the origin.
 Mesh ball_mesh(int sides, const Job& job);
-/// A disc of diameter 1 about the origin in the plane of x and y, with `sides` corners; its normal is +z.
+/// Returns a disc of diameter 1 about the origin in the plane of x and y, with `sides` corners; its normal is +z.
 Mesh disc_mesh(int sides, const Job& job);
 
 /// A surface of bicubic patches, 16 control points each, row by row.

@@ -20,7 +20,7 @@ struct Stand {
   }
 };
 
-/// The line in the frame of the drawing.
+/// Returns the line in the frame of the drawing.
 inline LeafLine moved(LeafLine line, const Stand& stand) {
   return {stand(line.from), stand(line.to), line.width * stand.length, line.end_width * stand.length};
 }

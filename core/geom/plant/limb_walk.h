@@ -102,7 +102,7 @@ class MitreCheck {
   /// `a`.
   bool allows(const Internode& a, const Internode& b, float radius_before, Turn& turn);
 
-  /// The length of the last internode between the ring where it begins and its far end.
+  /// Returns the length of the last internode between the ring where it begins and its far end.
   float free_of(const Internode& a) const { return a.length - last_.turn.reach; }
 
  private:

@@ -29,7 +29,7 @@ struct Limbs {
   Array<std::uint8_t> contour;
   Array<float> birth;        ///< age in iterations at which the internode appears; optional (empty)
   Array<std::uint64_t> key;  ///< identity of the joint, the key of its random numbers; optional (empty)
-  /// Of a root: the earlier joint that it moves with, or `none`; optional (empty).
+  /// Index of an earlier joint with which a root moves, or `none`. Optional (empty).
   Array<std::uint32_t> anchor;
   /// Fraction of the internode that has grown, for fractional iterations. Width rules use it. Optional (empty: 1).
   Array<float> share;
@@ -45,9 +45,9 @@ struct Organ {
   glm::quat frame{1, 0, 0, 0};
   glm::vec3 position{0};
   glm::vec3 scale{1};
-  std::uint32_t limb_joint = Limbs::none;
-  std::int16_t color = 0;
-  std::uint64_t key = 0;
+  std::uint32_t limb_joint = Limbs::none;  ///< joint with which the organ moves
+  std::int16_t color = 0;                  ///< the turtle's colour index
+  std::uint64_t key = 0;                   ///< identity of the organ, the key of its random numbers
 };
 struct Organs {
   Array<Organ> organ;
@@ -55,12 +55,12 @@ struct Organs {
   explicit Organs(const Job& job) : organ(job) {}
 };
 
-/// Filled polygons drawn by the turtle between { and }, in the order of their closing.
+/// A filled polygon drawn by the turtle between { and }. Outlines::outline has the order of the closing braces.
 struct Outline {
   std::uint32_t first = 0, count = 0;  ///< range in Outlines::vertex
   std::int16_t color = 0;
   std::uint64_t key = 0;
-  std::uint32_t limb_joint = Limbs::none;  ///< the joint that it moves with
+  std::uint32_t limb_joint = Limbs::none;  ///< joint with which the polygon moves
 };
 struct Outlines {
   Array<glm::vec3> vertex;

@@ -14,7 +14,7 @@ struct OrganGroup {
   std::vector<std::uint32_t> organs;
 };
 
-/// The groups by rising surface and colour, without the organs that place_organs() leaves out. 5 ns an organ.
+/// Returns the groups by rising surface and colour, without the organs that place_organs() leaves out. 5 ns an organ.
 std::vector<OrganGroup> organ_groups(const Organs& organs, const FoliageOptions& options, const Job& job);
 
 }  // namespace seedmesh

@@ -16,10 +16,10 @@ struct TextureAxes {
   bool operator==(const TextureAxes&) const = default;
 };
 
-/// The axes of each vertex of a surface with positions, uv[0] and wide indices.
+/// Returns the axes of each vertex of a surface with positions, uv[0] and wide indices.
 std::vector<TextureAxes> texture_axes(const Mesh& surface);
 
-/// The unit vector of `v`, by one division. Sets the flag where the length is 0 or not of ordinary size.
+/// Returns the unit vector of `v`, by one division. Sets the flag where the length is 0 or not of ordinary size.
 inline glm::vec3 organ_unit(const glm::vec3& v, std::uint32_t& failure) {
   const float square = v.x * v.x + v.y * v.y + v.z * v.z;
   failure |= square > 1e-30F && square < 1e30F ? 0U : 1U;
@@ -27,7 +27,7 @@ inline glm::vec3 organ_unit(const glm::vec3& v, std::uint32_t& failure) {
   return {v.x * by, v.y * by, v.z * by};
 }
 
-/// The tangent at a unit normal, where u grows along `u` and `across` is the cross product of the directions
+/// Returns the tangent at a unit normal, where u grows along `u` and `across` is the cross product of the directions
 /// of u and v. Sets the flag where u grows along the normal.
 inline glm::vec4 organ_tangent(const glm::vec3& normal, const glm::vec3& u, const glm::vec3& across,
                                std::uint32_t& failure) {

@@ -42,10 +42,10 @@ struct SkinOptions {
   std::span<const LimbCorners> corners = {};
 };
 
-/// The least number of sides that a limb may have.
+/// Returns the least number of sides that a limb may have.
 int least_sides_of(const SkinOptions& options);
 
-/// The sides of a limb with the first radius `radius`, where `most` is the largest first radius of the model.
+/// Returns the sides of a limb with the first radius `radius`, where `most` is the largest first radius of the model.
 int sides_of_limb(const SkinOptions& options, float radius, float most);
 
 /// The bark of one colour index, as one mesh.
@@ -84,10 +84,10 @@ struct Bark {
 /// their number.
 std::vector<Bark> skin(const Limbs& limbs, const SkinOptions& options, Job& job);
 
-/// The number of internodes that skin() leaves out because they are too thin for the size of the model.
+/// Returns the number of internodes that skin() leaves out because they are too thin for the size of the model.
 std::uint64_t too_thin(const Limbs& limbs, int sides);
 
-/// The skeleton as line segments, two vertices a segment and shared along limbs; one mesh for each colour
+/// Returns the skeleton as line segments, two vertices a segment and shared along limbs; one mesh for each colour
 /// index. Joints at one position share a vertex, unless the model has more than 131,072 joints and hardly any
 /// coincide, or has more than 1,048,576. The second form reuses the memory of the limbs.
 std::vector<Bark> wires(const Limbs& limbs, Job& job);
@@ -96,8 +96,8 @@ std::vector<Bark> wires(Limbs&& limbs, Job& job);
 /// Whether a count finds repeated internodes, which takes ten times as long, or counts them twice.
 enum class Redrawn { counted, found };
 
-/// The number of triangles that skin() would write; exact, except for repeated internodes. Spends nothing of the
-/// job, but stops with it.
+/// Returns the number of triangles that skin() would write; exact, except for repeated internodes. Spends nothing of
+/// the job, but stops with it.
 std::uint64_t skin_triangles(const Limbs& limbs, const SkinOptions& options, const Job& job,
                              Redrawn repeats = Redrawn::counted);
 

@@ -52,10 +52,10 @@ class Surroundings {
   };
   Surroundings(Options options, Job& job);
 
-  /// The signed distance from a point to the surface of guides and obstacles, in metres: positive where
+  /// Returns the signed distance from a point to the surface of guides and obstacles, in metres: positive where
   /// growth is allowed. 1e9 where there are neither guides nor obstacles.
   double room_at(const glm::dvec3& point) const;
-  /// The unit vector to the nearest point of an obstacle, or of a guide where there are no obstacles; 0 on
+  /// Returns the unit vector to the nearest point of an obstacle, or of a guide where there are no obstacles; 0 on
   /// the surface or where there are neither.
   glm::dvec3 toward_surface(const glm::dvec3& point) const;
 

@@ -36,7 +36,7 @@ struct CrossSection {
   std::uint32_t corners;  ///< vertices of a ring: sides + 1 where the seam is doubled
 };
 
-/// The number of inner rings of an internode. `free`: the length between its two outer rings; `twist`: the
+/// Returns the number of inner rings of an internode. `free`: the length between its two outer rings; `twist`: the
 /// cosine of its twist.
 inline int inner_rings(const SkinOptions& options, const Scale& scale, glm::vec2 radii, float free,
                        float twist) {

@@ -13,19 +13,19 @@ namespace seedmesh {
 /// The cone that closes a tube inside its parent or at a bend, as a share of the radius.
 constexpr float cap_share = 0.5F;
 
-/// The length of the cone at a free tip, where `free` is the length of the last straight piece: the limb
+/// Returns the length of the cone at a free tip, where `free` is the length of the last straight piece: the limb
 /// stays as long as it was drawn.
 inline float tip_length(float radius, float free) { return std::min(radius, 0.3F * free); }
 
-/// A number in [0, 1) from a hash.
+/// Returns a number in [0, 1) from a hash.
 inline float fraction_of(std::uint64_t hash) { return static_cast<float>(hash >> 40U) * 0x1p-24F; }
 
-/// The repetitions of a wrapped texture around a limb: one for each metre of circumference, at least one.
+/// Returns the repetitions of a wrapped texture around a limb: one for each metre of circumference, at least one.
 inline float texture_repeats(float radius) {
   return std::max(1.0F, std::floor(static_cast<float>(2 * math::pi) * radius + 0.5F));
 }
 
-/// A unit vector at right angles to the unit vector `along` (Duff et al., "Building an Orthonormal Basis,
+/// Returns a unit vector at right angles to the unit vector `along` (Duff et al., "Building an Orthonormal Basis,
 /// Revisited", 2017).
 inline glm::vec3 any_aside(const glm::vec3& along) {
   const float sign = along.z < 0 ? -1.0F : 1.0F;
@@ -45,7 +45,7 @@ inline int paired_corners(int wanted, int most) {
   return wanted <= 3 ? 3 : wanted != most ? wanted + wanted % 2 : wanted;
 }
 
-/// The corners of a welded limb by its radius, from 3 up to `most` for the radius `thickest`.
+/// Returns the corners of a welded limb by its radius, from 3 up to `most` for the radius `thickest`.
 inline int corners_by_radius(float radius, float thickest, int most, double exponent = corner_power) {
   const double share = thickest > 0 ? static_cast<double>(std::min(1.0F, radius / thickest)) : 1;
   return paired_corners(math::to_int32(most * math::pow(std::max(share, 1e-6), exponent) + 0.5), most);

@@ -11,7 +11,7 @@ constexpr float least_lean = 2;
 
 }  // namespace
 
-/// Decides before each ring but the first whether it is turned by half a side against the ring before it, at
+/// Decides before each ring except the first whether it is turned by half a side against the ring before it, at
 /// the distance `way`.
 void TubeWriter::turn_on(float way, float radius) {
   if (section_.sides == finest_sides_ || has_contours()) return;

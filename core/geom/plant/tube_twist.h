@@ -16,7 +16,7 @@ struct Twist {
   float cosine = 1;
 };
 
-/// The part of `axis`, in the frame of the joint, that is across the internode; 0 where there is none.
+/// Returns the part of `axis`, in the frame of the joint, that is across the internode; 0 where there is none.
 inline glm::vec3 across(const Limbs& limbs, const Internode& internode, const glm::vec3& axis) {
   glm::vec3 left = limbs.frame[internode.joint] * axis;
   left -= internode.along * glm::dot(left, internode.along);
@@ -24,7 +24,7 @@ inline glm::vec3 across(const Limbs& limbs, const Internode& internode, const gl
   return length > 1e-3F ? left * (1 / length) : glm::vec3{0};
 }
 
-/// The direction of angle 0 in a tube's first ring: the turtle's left.
+/// Returns the direction of angle 0 in a tube's first ring: the turtle's left.
 inline glm::vec3 first_side(const Limbs& limbs, const Internode& first) {
   const glm::vec3 left = across(limbs, first, {-1, 0, 0});
   return left == glm::vec3{0} ? across(limbs, first, {0, 0, 1}) : left;
@@ -68,7 +68,7 @@ inline bool is_round(const Limbs& limbs, std::uint32_t joint) {
 /// A twist of less than 2 degrees counts as none.
 constexpr bool is_twisted(float cosine) { return cosine < 0.9994F; }
 
-/// The twist for each metre, radians, anticlockwise about the internode from the side where it begins.
+/// Returns the twist for each metre, radians, anticlockwise about the internode from the side where it begins.
 inline float spin_of(const Internode& internode, const glm::vec3& side, const Twist& twist) {
   const glm::vec3 step = twist.side - side;
   const float chord2 = glm::dot(step, step);
@@ -77,7 +77,7 @@ inline float spin_of(const Internode& internode, const glm::vec3& side, const Tw
   return sense * angle / internode.length;
 }
 
-/// The number of inner rings that a twist needs: one for each 15 degrees, so that the faces of a hollow
+/// Returns the number of inner rings that a twist needs: one for each 15 degrees, so that the faces of a hollow
 /// outline keep their outside.
 inline int rings_of_twist(float cosine) {
   constexpr float cosine_15 = 0.9659258F, cosine_30 = 0.8660254F;

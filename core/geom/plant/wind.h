@@ -26,7 +26,7 @@ class WindField {
   /// gets.
   WindField(const Limbs& limbs, std::span<const std::uint32_t> was, const WindField& finest, Job& job);
 
-  /// The bend (0..1) and phase at a point of the internode of `joint`; (0, 0) without a joint.
+  /// Returns the bend (0..1) and phase at a point of the internode of `joint`; (0, 0) without a joint.
   glm::vec2 at(std::uint32_t joint, const glm::vec3& point) const;
   float trunk_bend(float height) const;
 

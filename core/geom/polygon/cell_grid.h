@@ -51,7 +51,7 @@ class CellGrid {
 
   std::size_t cells() const { return head_.size(); }
   std::size_t entries() const { return entries_.size() + packed_.size(); }
-  /// The number of entries in a cell since the last `reset`.
+  /// Returns the number of entries in a cell since the last `reset`.
   std::size_t count(std::size_t cell) const { return count_[cell]; }
 
   /// Puts a number into a cell unless it is the last one there.
@@ -107,7 +107,7 @@ class CellGrid {
   std::uint32_t column_of(double x) const { return clamped((x - low_.x) / size_, columns_ - 1); }
   std::uint32_t row_of(double y) const { return clamped((y - low_.y) / size_, rows_ - 1); }
 
-  /// The extent in x of the part of the hull between two heights.
+  /// Returns the extent in x of the part of the hull between two heights.
   static std::pair<double, double> width_between(std::span<const glm::dvec2> hull, double below,
                                                  double above) {
     double from = infinite, to = -infinite;

@@ -26,12 +26,14 @@ constexpr std::int64_t cross(const CmPoint& o, const CmPoint& a, const CmPoint& 
          (std::int64_t{a.y} - o.y) * (std::int64_t{b.x} - o.x);
 }
 
+/// Converts a position to centimetres or to metres as doubles.
 inline glm::dvec2 in_cm(const CmPoint& p) { return {p.x, p.y}; }
 inline glm::dvec2 in_metres(const CmPoint& p) { return {p.x / 100.0, p.y / 100.0}; }
 
 /// Returns the nearest whole centimetres of a position in centimetres; halves go up. Coordinates have to be in range.
 CmPoint rounded_cm(const glm::dvec2& cm);
 
+/// Returns the distance of two points in centimetres.
 double distance(const CmPoint& a, const CmPoint& b);
 
 /// Distance from `p` to the segment a b, in centimetres.

@@ -68,6 +68,7 @@ struct PlanBox {
   glm::dvec2 along{1, 0};  ///< unit, of the longer side
   glm::dvec2 half{0};      ///< half of the longer and of the shorter side
 };
+/// Returns the smallest such rectangle by area.
 PlanBox smallest_box(const Plan& plan);
 
 /// Makes the body. `plan` has no errors (`faults_of`). Every edge of the surface belongs to one triangle in each
@@ -79,7 +80,7 @@ Mass mass_of(const Plan& plan, const MassOptions& options, const Job& job);
 /// Whether every edge of the triangles occurs equally often in both directions, and no triangle repeats a point.
 bool is_closed(const Mass& mass);
 
-/// The height that this roof has at this angle (radians) over the plan.
+/// Returns the height that this roof has at this angle (radians) over the plan.
 double roof_height_at(const Plan& plan, const MassOptions& options, double angle, const Job& job);
 
 }  // namespace seedmesh

@@ -27,7 +27,7 @@ class CutPlan {
   const std::vector<glm::dvec2>& points() const { return point_; }
   const std::vector<std::array<std::uint32_t, 3>>& triangles() const { return triangle_; }
 
-  /// The point that follows each point along the border, counter-clockwise around the inside; the point itself
+  /// Returns the point that follows each point along the border, counter-clockwise around the inside; the point itself
   /// for points inside.
   std::vector<std::uint32_t> next_on_border() const;
 

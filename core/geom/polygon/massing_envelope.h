@@ -24,16 +24,16 @@ struct Envelope {
   double height(const glm::dvec2& p) const { return planes[lowest(p)].at(p); }
 };
 
-/// One level plane.
+/// Returns one level plane.
 Envelope level_envelope();
 
-/// The roof over the rectangle around the plan: skillion, gabled, half-hipped, gambrel, saltbox or round.
+/// Returns the roof over the rectangle around the plan: skillion, gabled, half-hipped, gambrel, saltbox or round.
 Envelope envelope_of(const Plan& plan, const MassOptions& options);
 
 /// Four slopes from the sides of the rectangle around the plan, with the height of the options.
 Envelope hipped_envelope(const Plan& plan, const MassOptions& options);
 
-/// The width of the plan across the ridge, or down the slope of a skillion roof.
+/// Returns the width of the plan across the ridge, or down the slope of a skillion roof.
 double width_across(const Plan& plan, const MassOptions& options);
 
 }  // namespace seedmesh

@@ -23,6 +23,7 @@ struct Plan {
   std::vector<PlanRing> rings;
 };
 
+/// Returns a point of the plan at a height: x east, y up, -z north.
 inline glm::dvec3 raised(const glm::dvec2& p, double height) { return {p.x, height, -p.y}; }
 
 /// An error at a point of a ring.
@@ -31,26 +32,26 @@ struct PlanFault {
   std::string message;  ///< "crosses the edge from point 3 of ring 0"
 };
 
-/// All errors of a plan: fewer than three points, numbers that are not finite, points nearer to the next than
+/// Returns all errors of a plan: fewer than three points, numbers that are not finite, points nearer to the next than
 /// a millionth of the diagonal, rings without an area, edges that cross or touch, holes outside of the outer
 /// ring or inside other holes. The direction of rings may be wrong, but a last point equal to the first is an
 /// error (see `read_plan`). Cost: about n log n in practice. Looks at stop and deadline where there is a job.
 std::vector<PlanFault> faults_of(const Plan& plan, const Job* job = nullptr);
 
-/// A plan of rings in any direction. A last point equal to the first is removed, as GeoJSON has it. Points in
+/// Returns a plan of rings in any direction. A last point equal to the first is removed, as GeoJSON has it. Points in
 /// the middle of straight edges stay.
 Plan read_plan(std::vector<PlanRing> rings);
 
 double signed_area(std::span<const glm::dvec2> ring);
 double area(const Plan& plan);
-/// The centroid of a ring, whose area is not 0.
+/// Returns the centroid of a ring, whose area is not 0.
 glm::dvec2 centroid_of(std::span<const glm::dvec2> ring);
 std::uint32_t edge_count(const Plan& plan);
 /// The two ends of an edge, by its number through all rings.
 std::pair<glm::dvec2, glm::dvec2> edge_of(const Plan& plan, std::uint32_t edge);
 /// Whether a point lies inside the plan or on its border.
 bool contains(const Plan& plan, const glm::dvec2& point);
-/// The diagonal of the box around the outer ring.
+/// Returns the diagonal of the box around the outer ring.
 double diagonal_of(const Plan& plan);
 
 /// What happens to triangles without area, which join straight corners to their edges. `keep` closes the edges of

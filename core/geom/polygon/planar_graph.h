@@ -29,7 +29,7 @@ class PlanarGraph {
   /// matters where crossings are rounded. Cost: about 1 us and the edges in the cells that it touches.
   void add(const CmPoint& a, const CmPoint& b, std::uint32_t tag);
 
-  /// The number of the node at a point; a new node splits the edges that it lies on.
+  /// Returns the number of the node at a point; a new node splits the edges that it lies on.
   std::uint32_t node_at(const CmPoint& p);
 
   void remove(std::uint32_t edge);
@@ -92,10 +92,12 @@ struct PlanarFaces {
 /// near them.
 PlanarFaces faces_of(std::span<const CmPoint> nodes, std::span<const PlanarEdge> edges, const Job& job);
 
+/// Returns the node where a half-edge starts.
 inline std::uint32_t start_of(std::span<const PlanarEdge> edges, std::uint32_t half) {
   const PlanarEdge& edge = edges[half / 2];
   return half % 2 == 0 ? edge.from : edge.to;
 }
+/// Returns the node where a half-edge ends.
 inline std::uint32_t end_of(std::span<const PlanarEdge> edges, std::uint32_t half) {
   return start_of(edges, half ^ 1U);
 }
@@ -108,6 +110,7 @@ struct PlanarArms {
     return std::span(half_edges).subspan(first[node], first[node + 1] - first[node]);
   }
 };
+/// Sorts the half-edges around all nodes.
 PlanarArms arms_of(std::span<const CmPoint> nodes, std::span<const PlanarEdge> edges);
 
 }  // namespace seedmesh

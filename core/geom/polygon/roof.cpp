@@ -372,7 +372,7 @@ Roof roof(const Plan& plan, const RoofOptions& options, const Job& job) {
   const std::vector<PlanFault> faults = faults_of(plan, &job);
   if (!faults.empty() || options.kind == RoofKind::flat)
     return RoofMaker(plan, options, attempts[0], job).make(faults);
-  std::optional<Roof> bare;  // closed but for its cover
+  std::optional<Roof> bare;  // closed except for its cover
   for (const Attempt& attempt : attempts) {
     RoofMaker maker(plan, options, attempt, job);
     Roof made = maker.make(faults);

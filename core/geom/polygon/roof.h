@@ -75,7 +75,7 @@ struct Roof {
 /// that faces up, and no solid.
 Roof roof(const Plan& plan, const RoofOptions& options, const Job& job);
 
-/// The edges that RoofKind::gable makes vertical unless the options name some: those whose slope of the hip
+/// Returns the edges that RoofKind::gable makes vertical unless the options name some: those whose slope of the hip
 /// roof is a triangle, of two neighbours the shorter edge, and never all edges.
 std::vector<std::uint32_t> gable_edges(const Plan& plan, const Job& job);
 
@@ -86,9 +86,10 @@ struct RoofMesh {
   RoofRole role = RoofRole::slope;
   Mesh mesh;
 };
+/// Makes the meshes of all roles.
 std::vector<RoofMesh> meshes_of(const Roof& roof, Job& job);
 
-/// The triangles of one face, as positions in Roof::point.
+/// Returns the triangles of one face, as positions in Roof::point.
 /// Checks stop and deadline where there is a job.
 std::vector<std::uint32_t> triangulate(const Roof& roof, const RoofFace& face, const Job* job = nullptr);
 

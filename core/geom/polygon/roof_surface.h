@@ -53,6 +53,7 @@ struct RoofPlane {
   std::uint32_t edge = 0;
   bool is_bare = false;
 };
+/// Makes the surface of a roof with one plane.
 RoofSurface plane_surface(const RoofBase& base, const RoofPlane& plane);
 
 /// Joins points nearer than `reach`, and removes faces that lose their area.
@@ -65,6 +66,7 @@ std::vector<std::vector<std::uint32_t>> lower_rings(const RoofSurface& surface, 
 /// rounded to float.
 bool is_closed(const Roof& roof, bool is_cover, const Job& job);
 
+/// Returns the height of the highest point.
 double height_of(const RoofSurface& surface);
 
 /// Returns the height where the slope of a two-slope roof changes, so that it is a share of the whole height. `depth` is

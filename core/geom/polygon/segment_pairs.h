@@ -13,7 +13,7 @@ struct Segment {
 };
 
 /// Calls visit(i, k) for all pairs i < k of segments with points at most `reach` apart, and perhaps for others,
-/// until it returns false. i rises, and k rises for each i. Looks at stop and deadline where there is a job.
+/// until it returns false. i rises, and k rises for each i. Checks stop and deadline if `job` is not null.
 /// Cost: n log n and the number of pairs that share a cell of a grid with n cells.
 template <class Visit>
 void each_near_pair(std::span<const Segment> segments, double reach, const Job* job, const Visit& visit) {

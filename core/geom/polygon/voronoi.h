@@ -9,8 +9,9 @@
 
 namespace seedmesh {
 
-/// The cells of distinct points within the box [low, high]: counter-clockwise rings in the order of the points. Corners
-/// that several cells share agree up to rounding. A point outside of the box can have an empty cell. Cost: quadratic.
+/// Returns the cells of distinct points within the box [low, high]: counter-clockwise rings in the order of the
+/// points. Corners that several cells share agree up to rounding. A point outside of the box can have an empty cell.
+/// Cost: quadratic.
 std::vector<std::vector<glm::dvec2>> voronoi_cells(std::span<const glm::dvec2> points, const glm::dvec2& low,
                                                    const glm::dvec2& high, const Job& job);
 

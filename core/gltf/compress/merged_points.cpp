@@ -192,7 +192,7 @@ class Separation {
     return best;
   }
 
-  /// Moves all vertices at a point but those of the first exact position.
+  /// Moves all vertices at a point except those of the first exact position.
   bool part_from(Word at) {
     auto occupant = std::lower_bound(occupants_.begin(), occupants_.end(), at,
                                      [](const Occupant& a, Word b) { return a.at < b; });

@@ -22,7 +22,7 @@ struct GridOptions {
   bool keeps_copies = false;
 };
 
-/// One grid for each mesh; meshes that one node or one skin shows get equal grids.
+/// Returns one grid for each mesh; meshes that one node or one skin shows get equal grids.
 std::vector<Grid> grids_of(const Model& model, const GridOptions& options = {});
 
 /// Computes grids_of() and writes the inverse of the quantization into the model: into the transforms of

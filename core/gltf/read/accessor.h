@@ -22,19 +22,24 @@ struct Accessor {
   std::size_t count = 0;  ///< 0: the attribute does not exist
   std::size_t stride = 0;
   int component = 0;  ///< component type by its OpenGL number
-  int lanes = 0;
+  int lanes = 0;      ///< number of components of an element, 1 to 4
   bool normalized = false;
 
+  /// Returns one component as a number; normalized integers become -1 to 1.
   double lane(std::size_t i, int lane) const;
-  glm::vec4 at(std::size_t i) const;  ///< missing components are 0, but w is 1
+  /// Returns an element. Missing components are 0, except w, which is 1. Throws Unreadable for a number that is not
+  /// finite or is beyond 1e9.
+  glm::vec4 at(std::size_t i) const;
 };
 
-/// Throws Unreadable where the accessor is sparse, has no view, or leaves its buffer.
+/// Reads an accessor. Throws Unreadable if it is missing, sparse, empty, of an unsupported type, or not inside its
+/// buffer.
 Accessor accessor_of(const tinygltf::Model& file, int number);
 
+/// Returns a colour as bytes, clamped to 0 to 1 before. It is white if the attribute has fewer than three components.
 glm::u8vec4 color_at(const Accessor& color, std::size_t i);
 
-/// Corners of triangles, three for each, all below `vertices`. Strips and fans become triangles.
+/// Returns the corners of triangles, three for each, all below `vertices`. Strips and fans become triangles.
 Array<std::uint32_t> triangles_of(const tinygltf::Model& file, const tinygltf::Primitive& primitive,
                                   std::size_t vertices, Job& job);
 

@@ -16,7 +16,7 @@ struct ReadFile {
   std::vector<std::string> unused_parts;  ///< names of the members that were left out
 };
 
-/// An upper bound of the memory for parsing: charge it first. `json` is the JSON chunk of `glb`
+/// Returns an upper bound of the memory for parsing: charge it first. `json` is the JSON chunk of `glb`
 /// (checked_json).
 std::uint64_t parsing_cost(std::span<const std::byte> glb, std::string_view json);
 

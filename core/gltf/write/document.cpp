@@ -167,7 +167,7 @@ class Describer {
     append_views(view_list_, bin, options_.dialect.quantized);
   }
 
-  /// Appends the members that need no node list. Ordered by name, but for views and the lists that may be
+  /// Appends the members that need no node list. Ordered by name, except for views and the lists that may be
   /// long.
   void append_members(JsonWriter& json, std::string& out) const {
     append_asset(json, model_, options_.generator);

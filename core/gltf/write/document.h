@@ -17,7 +17,7 @@ struct Document {
   Bin bin;                          ///< arranged; where it is empty, nothing goes between head and tail
 };
 
-/// An image of the model by number: the elements of Model::textures, and after them their forms as WebP.
+/// Returns an image of the model by number: the elements of Model::textures, and after them their forms as WebP.
 const std::shared_ptr<const Image>& image_numbered(const Model& model, std::size_t number);
 
 struct DocumentOptions {

@@ -10,7 +10,8 @@ namespace seedmesh::gltf {
 /// The number of the texture object for a use, -1 for none.
 using TextureNumber = std::function<int(const TextureUse&)>;
 
-/// The value of KHR_materials_emissive_strength: 1, or the largest component of the emission if that is above 1.
+/// Returns the value of KHR_materials_emissive_strength: 1, or the largest component of the emission if that is above
+/// 1.
 float emissive_strength(const Material& material);
 
 /// Appends a material object, with its members sorted by name and without the defaults of glTF.

@@ -9,9 +9,9 @@
 
 namespace seedmesh::gltf {
 
-/// The nodes of an object whose root has the levels: children of one root that show meshes, in ascending order. Empty
-/// where the parts keep their own levels: there is one part or no root, or a part has copies, children, a transform, a
-/// skin, extras or other thresholds. Collision shapes are no parts.
+/// Returns the nodes of an object whose root has the levels: children of one root that show meshes, in ascending
+/// order. Empty where the parts keep their own levels: there is one part or no root, or a part has copies, children, a
+/// transform, a skin, extras or other thresholds. Collision shapes are no parts.
 std::vector<std::size_t> parts_of_object(const Model& model);
 
 }  // namespace seedmesh::gltf

@@ -57,7 +57,7 @@ class PartWriter {
   std::vector<PartPiece> pieces_;
 };
 
-/// The corners of a rectangle, counter-clockwise.
+/// Returns the corners of a rectangle, counter-clockwise.
 PlanRing rectangle(const glm::dvec2& low, const glm::dvec2& high);
 
 }  // namespace seedmesh::building

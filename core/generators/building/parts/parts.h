@@ -2,8 +2,8 @@
 /// Built-in parts of buildings (windows, doors, columns, ...), made for the size of a scope.
 ///
 /// Frame: a part fills the box from the origin to `size`. x points to the right, y up and z to the front; the
-/// handle of a door is on +z. Parts are closed solids with flat normals, smooth ones on round faces, and
-/// texture coordinates in metres.
+/// handle of a door is on +z. Parts are closed solids with texture coordinates in metres. Normals are flat, and smooth
+/// on round faces.
 #include <glm/vec3.hpp>
 #include <span>
 #include <string_view>
@@ -15,7 +15,7 @@ namespace seedmesh::building {
 
 /// The triangles of a part that have one material.
 struct PartPiece {
-  std::string_view role;  ///< a row of part_materials(), such as "glass"
+  std::string_view role;  ///< name of a material in part_materials(), such as "glass"
   Mesh mesh;
 };
 
@@ -36,7 +36,7 @@ struct PartOptions {
 
 struct PartRow {
   std::string_view name;
-  std::string_view text;  ///< one sentence for the vocabulary
+  std::string_view text;  ///< description in one sentence, for GET /v1/vocabulary
   glm::dvec3 size;        ///< the size of the part where the scope has size 0 along all axes
   std::vector<PartPiece> (*make)(const glm::dvec3& size, const PartOptions& options, Job& job);
 };
@@ -44,7 +44,7 @@ struct PartRow {
 /// All parts, sorted by name.
 std::span<const PartRow> part_rows();
 
-/// Null if no part has this name.
+/// Returns the part of this name, or null if there is none.
 const PartRow* part_named(std::string_view name);
 
 /// Makes a part, or a box of its first role if the scope is too flat for it. Each size must be above 0.
@@ -58,6 +58,7 @@ struct PartMaterial {
   std::string_view color;  ///< "#rrggbb"
   float metallic = 0, roughness = 1;
 };
+/// Returns the default materials of all roles.
 std::span<const PartMaterial> part_materials();
 
 }  // namespace seedmesh::building

@@ -18,13 +18,13 @@ struct PictureAnchor {
 constexpr std::uint32_t no_owner = 0xFFFFFFFFU;
 constexpr std::uint32_t anchor_crossing = 0, anchor_end = 1;
 
-/// The anchors of markers and solids.
+/// Returns the anchors of markers and solids.
 std::vector<PictureAnchor> anchors_of_wholes(const ShapePicture& picture);
-/// The points where two lines cross or meet, once for each pair. Cost: the square of the lines.
+/// Returns the points where two lines cross or meet, once for each pair. Cost: the square of the lines.
 std::vector<PictureAnchor> crossings_of(const std::vector<PictureLine>& lines, double near, const Job* job);
 std::vector<PictureAnchor> ends_of(const std::vector<PictureLine>& lines);
 
-/// The anchors of a left shape. Ends of lines count only if the others do not determine a similarity.
+/// Returns the anchors of a left shape. Ends of lines count only if the others do not determine a similarity.
 /// `is_determined` becomes true if there are two different points, or in space three that are not on a line.
 std::vector<PictureAnchor> anchors_of_left(const ShapePicture& left, bool is_flat, bool& is_determined);
 

@@ -16,13 +16,14 @@ namespace seedmesh::building {
 /// Shares of the ranges of open variables for which left shapes are read.
 constexpr double first_sample = 0.38, second_sample = 0.62;
 
+/// Returns a value for each open variable, at this share of its range.
 std::vector<double> samples_of(const PicturePair& pair, double share);
 PictureValues named(const PicturePair& pair, const std::vector<double>& values);
 
 /// Reports variables that are named twice or like a parameter, and empty ranges.
 void check_open_variables(const BuildingPair& given, const std::string& pointer, std::vector<Issue>& issues);
 
-/// The left shape for these values.
+/// Returns the left shape for these values.
 ShapePicture left_shape(const PicturePair& pair, const std::vector<double>& values);
 
 /// Reports a left shape that is not linear in its variables, or whose points do not determine them and a similarity.
@@ -38,12 +39,12 @@ struct OpenAnchor {
   std::vector<std::uint32_t> beside;  ///< anchors at the other ends of lines that begin here
 };
 
-/// One for each point. Ends of lines that meet others are crossings.
+/// Returns one for each point. Ends of lines that meet others are crossings.
 std::vector<OpenAnchor> open_anchors(const PicturePair& pair);
 
-/// The order in which anchors are searched: enough of them, those with few candidates first. In space the first three have
-/// directions that do not depend on the variables. `per_line` is the mean number of points on a line of the picture. Empty:
-/// they do not determine a similarity and values.
+/// Returns the order in which anchors are searched: enough of them, those with few candidates first. In space the
+/// first three have directions that do not depend on the variables. `per_line` is the mean number of points on a line
+/// of the picture. Empty: they do not determine a similarity and values.
 std::vector<std::uint32_t> search_order(const std::vector<OpenAnchor>& anchors, bool is_flat,
                                         const std::map<std::uint32_t, std::size_t>& counts, double per_line);
 
@@ -52,8 +53,8 @@ struct OpenPlace {
   std::vector<double> values;
 };
 
-/// The similarity, mirrored or not, and the values that map these anchors to these points, by least squares; nothing if there
-/// are none.
+/// Returns the similarity, mirrored or not, and the values that map these anchors to these points, by least squares;
+/// nothing if there are none.
 std::optional<OpenPlace> solve_place(const std::vector<OpenAnchor>& anchors,
                                      std::span<const std::uint32_t> order, std::span<const glm::dvec3> points,
                                      bool is_flat, bool is_mirrored);

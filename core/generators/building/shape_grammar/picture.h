@@ -77,7 +77,7 @@ void remove_line(std::vector<PictureLine>& lines, const PictureLine& line, doubl
 /// Adds the elements that `to` does not have yet.
 void add(ShapePicture& to, const ShapePicture& what, double near);
 
-/// The greatest magnitude of a coordinate.
+/// Returns the greatest magnitude of a coordinate.
 double reach_of(const ShapePicture& picture);
 
 }  // namespace seedmesh::building

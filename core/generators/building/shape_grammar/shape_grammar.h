@@ -66,8 +66,8 @@ PictureGrammar read_pictures(const BuildingShapeGrammar& given, PictureRestricti
 /// Values that a match has found, by name.
 using PictureValues = std::map<std::string, double>;
 
-/// The right shape of a rule for these values of its open variables; nothing if its condition is 0. Errors as in
-/// read_pictures, of which it reports only those that depend on values.
+/// Returns the right shape of a rule for these values of its open variables; nothing if its condition is 0. Errors as
+/// in read_pictures, of which it reports only those that depend on values.
 std::optional<ShapePicture> right_shape(const BuildingShapeGrammar& given, const PictureGrammar& grammar,
                                         std::size_t rule, const PictureValues& values,
                                         std::vector<Issue>& issues);

@@ -86,9 +86,10 @@ struct BarkBuffers {
   }
 };
 
+/// Returns the present sizes of the buffers.
 BarkSizes sizes_of(const BarkBuffers& bark);
 
-/// The sum of one size over all limbs.
+/// Returns the sum of one size over all limbs.
 std::uint32_t sum_of(std::span<const LimbRange> ranges, std::uint32_t BarkSizes::*size);
 
 /// Sets the capacity for vertices; new elements are not initialised.

@@ -19,7 +19,7 @@ struct Crease {
 /// is too small to be seen.
 bool can_be_creased(const GraftInput& in, const BarkBuffers& bark, std::uint32_t triangle, std::size_t limb);
 
-/// The creased triangles, by their numbers in the buffers, that still belong to a limb.
+/// Returns the creased triangles, by their numbers in the buffers, that still belong to a limb.
 std::vector<Crease> remaining_creases(const BarkBuffers& bark, std::vector<std::uint32_t> creased);
 
 /// Gives each creased triangle a vertex of its own, with the normal of the face, at each corner whose normal

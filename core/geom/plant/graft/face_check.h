@@ -17,7 +17,7 @@ struct FaceCheck {
   float least_square;
 };
 
-/// The least squared size of a face (twice its area) for a model of this size, Scale::size.
+/// Returns the least squared size of a face (twice its area) for a model of this size, Scale::size.
 float least_face_square(float model_size);
 
 /// Adds to `bad` the numbers of those triangles from `first` to `last - 1` that are not sound. `index` holds

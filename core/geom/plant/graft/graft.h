@@ -65,7 +65,7 @@ struct GraftCounts {
   std::uint32_t creases = 0;      ///< faces with a normal of their own
 };
 
-/// The bark of all limbs, of all colours. Where limbs part so sharply that no normal is in front of all faces
+/// Returns the bark of all limbs, of all colours. Where limbs part so sharply that no normal is in front of all faces
 /// of a vertex, the face behind gets a vertex of its own: a crease.
 ///
 /// Guarantees, as skin(): a closed surface, where every edge belongs to two triangles after welding by

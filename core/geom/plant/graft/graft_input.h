@@ -32,7 +32,7 @@ struct GraftInput {
   std::uint64_t key_of(std::uint32_t joint) const { return limbs.key.empty() ? joint : limbs.key[joint]; }
 };
 
-/// The limb that each limb grows from, or Limbs::none.
+/// Returns the limb that each limb grows from, or Limbs::none.
 std::vector<std::uint32_t> parent_limbs(const GraftInput& in);
 
 }  // namespace seedmesh

@@ -75,13 +75,13 @@ struct ChildLimb {
   LoopAngles* angles = nullptr;
 };
 
-/// A collar at point `at_point` of the parent, on the piece after it, or on the piece before it for a limb
+/// Returns a collar at point `at_point` of the parent, on the piece after it, or on the piece before it for a limb
 /// that points backward. Appends its points to `points`. Returns nullopt where the limb leaves at too flat an
 /// angle, or is too thick or too short.
 std::optional<Junction> collar_at(const LimbAxis& parent, std::size_t at_point, const ChildLimb& child,
                                   std::vector<LoopPoint>& points);
 
-/// A fork at an inner point of the parent, after P. Brunt, proctree, 2012. Appends its points to `points`.
+/// Returns a fork at an inner point of the parent, after P. Brunt, proctree, 2012. Appends its points to `points`.
 /// Returns nullopt where the radii differ too much or the tubes part too far away.
 std::optional<Junction> fork_at(const LimbAxis& parent, std::size_t at_point, const ChildLimb& child,
                                 std::vector<LoopPoint>& points);

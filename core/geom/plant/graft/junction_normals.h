@@ -41,7 +41,7 @@ void solve_junction_normals(BarkBuffers& bark, const BarkRounds& rounds, const J
 /// Writes the group normals to the vertices of a limb, and their tangents.
 void store_junction_normals(BarkBuffers& bark, const BarkRounds& rounds, std::size_t limb);
 
-/// The number of limbs that one thread processes at once.
+/// Returns the number of limbs that one thread processes at once.
 std::size_t limbs_a_chunk(std::size_t limbs);
 
 }  // namespace seedmesh

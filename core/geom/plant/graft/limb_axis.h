@@ -26,7 +26,7 @@ struct LimbAxis {
   float length() const { return at.back(); }
   glm::vec3 aside(std::size_t piece) const { return glm::cross(along[piece], u[piece]); }
 
-  /// The piece that contains the length `s`; the search starts at piece `from`.
+  /// Returns the piece that contains the length `s`; the search starts at piece `from`.
   std::size_t piece_at(float s, std::size_t from) const;
   /// The same as piece_at(s, 0), searched near `hint`: of two pieces that meet at `s` the first.
   std::size_t first_piece_at(float s, std::size_t hint) const {

@@ -15,6 +15,7 @@ constexpr float deep_ribs = 0.1F;
 /// Returns the largest base radius of all internodes.
 float thickest_base(const Limbs& limbs);
 
+/// Whether the ribs of limbs are deeper than `deep_ribs`.
 inline bool has_deep_ribs(const GraftOptions& options) {
   return options.lobes > 0 && options.lobe_depth > deep_ribs;
 }
@@ -40,6 +41,7 @@ struct RingTables {
   std::vector<UnitCircle> own_circles;  ///< circles with more corners than the common table has
   std::vector<float> corner_radius;     ///< the least radii of limbs with 4, 5, ... corners
 };
+/// Makes the tables for a skeleton, up to its thickest limb.
 RingTables ring_tables(const Limbs& limbs, const GraftOptions& options);
 
 /// Returns the same as corners_by_radius(), but looks it up in the tables instead of calling pow().

@@ -13,7 +13,7 @@ struct RingCorner {
 };
 using RingCorners = std::vector<RingCorner>;
 
-/// The number of triangles between two rings.
+/// Returns the number of triangles between two rings.
 inline std::size_t strip_triangles(const RingCorners& below, const RingCorners& above) {
   return below.size() + above.size() - 2;
 }

@@ -138,7 +138,7 @@ std::uint32_t vertex_of(LimbWriter& w, OpenCorner& corner, const RingPlane& plan
   return made;
 }
 
-/// Sorts corners by angle, equal angles by number. Insertion sort: all but the points of loops are in order.
+/// Sorts corners by angle, equal angles by number. Insertion sort: all except the points of loops are in order.
 void sort_corners(RingCorners& order) {
   for (std::size_t i = 1; i < order.size(); ++i) {
     const RingCorner corner = order[i];

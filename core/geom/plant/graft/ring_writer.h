@@ -62,7 +62,7 @@ inline bool has_ribs(const LimbWriter& w) { return w.axis.order == 0 && w.in.opt
 RingPlane plane_at(const LimbAxis& axis, float at, std::size_t piece);
 RingPlane plane_of(const LimbAxis& axis, const PlannedRing& ring);
 
-/// The corners of a ring of this radius: by the radius, the ribs, the side limbs, and the loop that the limb
+/// Returns the corners of a ring of this radius: by the radius, the ribs, the side limbs, and the loop that the limb
 /// begins with, whose number it keeps until it differs by more than 1.
 int sides_for(const LimbWriter& w, float radius);
 
