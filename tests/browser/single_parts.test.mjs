@@ -66,7 +66,7 @@ test('a selected shape gets attributes, which stay when its rule changes', { tim
   await page.keyboard.type('.5');
   await becomes(page, 'edits', [{ shape, attributes: { sill: 2.5 } }]);
   assert.equal(await sill.inputValue(), '2.5');
-  const answer = await (await server.post('/v1/derive', { generator: 'building', seed: 1, parameters: await parameters_of(page) })).json();
+  const answer = (await server.post('/v1/derive', { generator: 'building', seed: 1, parameters: await parameters_of(page) })).json;
   const wall = answer.shapes.find((each) => each.path === `${shape}/Wall[1]`);
   assert.equal(wall.scope.size[1], 2.5);
   assert.equal(answer.shapes.filter((each) => each.symbol === 'Wall' && each.scope.size[1] === 0.9).length, 1);
