@@ -26,11 +26,11 @@ struct GrowthInput {
   const FieldMap& density;
   const StreetGrammar& grammar;
   const Region& region;
-  const FieldMap* obstacles = nullptr;  ///< null: none
-  const Route* given = nullptr;         ///< null: none
-  const WardPlan* wards = nullptr;      ///< null: major streets grow
-  const TensorField* tensor = nullptr;  ///< null: streets follow patterns
-  const Landform* landform = nullptr;   ///< null: level ground
+  const FieldMap* obstacles = nullptr;      ///< null: none
+  const Route* given = nullptr;             ///< null: none
+  const WardPlan* wards = nullptr;          ///< null: major streets grow
+  const TensorField* tensor = nullptr;      ///< null: streets follow patterns
+  const Landform* landform = nullptr;       ///< null: level ground
   std::vector<CrossSection> sections = {};  ///< by tag
   double least_height = -1e9;               ///< of streets, m
 
