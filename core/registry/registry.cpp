@@ -148,11 +148,11 @@ constexpr Generator rows[] = {
                                                       .has_collision = true,
                                                       .has_impostor = true}),
     Row<BuildingParams, read_building, write_building, building::check, building::generate, building::derive,
-        building::appraise,
-        building::vocabulary>::prepared<building::prepare>({.name = "building",
-                                                            .has_collision = true,
-                                                            .parts = true,
-                                                            .own_levels = levels_of_rules}),
+        building::appraise, building::vocabulary>::prepared<building::prepare>({.name = "building",
+                                                                                .has_collision = true,
+                                                                                .parts = true,
+                                                                                .own_levels =
+                                                                                    levels_of_rules}),
     Row<TerrainParams, read_terrain, write_terrain, terrain::check, terrain::generate, terrain::derive,
         terrain::appraise, terrain::vocabulary>::row<terrain::encode,
                                                      terrain::check_format>(

@@ -108,6 +108,7 @@ void report_model(const char* name, const Json& parameters, const Limits& limits
       "{\"name\":\"%s\",\"unit\":\"models\",\"amount\":1,\"seconds\":%.9f,\"bytes\":%llu,\"triangles\":%llu}"
       "\n",
       name, seconds, static_cast<unsigned long long>(bytes), static_cast<unsigned long long>(triangles));
+  std::fflush(stdout);
 }
 
 /// About 26,000 houses, nearly all different: 100,000 seeds and lots of many sizes.

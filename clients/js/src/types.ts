@@ -319,6 +319,8 @@ export interface CityParametersMaps {
   water?: string | Polygons;
   /** Where no street may grow, as an expression, an image or polygons: from 0.5 upwards. Nothing is built on lots there. */
   obstacles?: string | Polygons;
+  /** The share of streets.second_pattern in the pattern of the streets, from 0 to 1, as an expression, an image or polygons with the value 1. Between the two, directions are the weighted mean of those of both patterns, as a tensor. Only for the method growth. */
+  pattern?: string | Polygons;
   /** Named zones, which rules of buildings can use. Where polygons overlap, the first one counts. Wards have zones of their own. */
   zones?: CityParametersMapsZonesItem[];
   /** The height of the natural ground in metres, instead of a terrain: an expression over x (east) and y (north) in metres. */
@@ -483,6 +485,8 @@ export interface CityParametersStreets {
   productions?: string[];
   /** The pattern of the major streets. organic: an irregular net. raster: right angles, also for minor streets unless minor_pattern says otherwise. radial: rings and rays about the centre. slope: along the contours of the ground and straight up its slope; a raster on level ground. */
   pattern?: "organic" | "raster" | "radial" | "slope";
+  /** The pattern where maps.pattern is 1. Default: raster, or organic if the pattern is raster. */
+  second_pattern?: "organic" | "raster" | "radial" | "slope";
   /** The pattern of the minor streets between the major ones. Default: that of the major streets. */
   minor_pattern?: "organic" | "raster" | "radial" | "slope";
   /** The direction of the raster, counter-clockwise from east. */

@@ -32,7 +32,7 @@ constexpr std::string_view lod_attribute = "lod";
 /// The intermediate results between parameters and shapes.
 struct Work {
   std::shared_ptr<const RuleSet> rules;  ///< of a shape grammar, once it is derived, the names
-  PictureGrammar pictures;  ///< where there is a shape grammar
+  PictureGrammar pictures;               ///< where there is a shape grammar
   std::vector<AssetBox> boxes;
   std::vector<Asset> assets;
   Model model;  ///< materials and textures of assets, and warnings
@@ -40,9 +40,10 @@ struct Work {
 
 /// With the prepared rules, if the context has those of the parameters.
 Work work_of(const BuildingParams& params, const GenerateContext& context) {
-  Work work;
   auto prepared = std::static_pointer_cast<const RuleSet>(context.prepared);
-  if (prepared && has_rules_of(*prepared, params)) work.rules = std::move(prepared);
+  if (prepared && !has_rules_of(*prepared, params)) prepared = nullptr;
+  Work work;
+  work.rules = std::move(prepared);
   return work;
 }
 
@@ -110,15 +111,6 @@ struct DerivationOptions {
   std::uint64_t most_shapes = ~std::uint64_t{0};
 };
 
-/// What fileSearch and fileRandom find.
-std::vector<std::string> file_names(const BuildingParams& params) {
-  std::set<std::string> names;
-  for (const auto& entry : params.assets) names.insert(entry.first);
-  for (const auto& entry : params.materials) names.insert(entry.first);
-  for (const auto& entry : params.tables) names.insert(entry.first);
-  return {names.begin(), names.end()};
-}
-
 Shapes shapes_of(Work& work, const BuildingParams& params, const GenerateContext& context,
                  const DerivationOptions& options = {}) {
   Job& job = context.job;
@@ -149,8 +141,7 @@ Shapes shapes_of(Work& work, const BuildingParams& params, const GenerateContext
     plan.size = {params.size[0], params.size[1], params.size[2]};
     plan.origin = {-0.5 * plan.size.x, 0, -0.5 * plan.size.z};
   }
-  for (const auto& [name, given] : params.attributes)
-    plan.attributes.emplace(name, value_of(texts, given));
+  for (const auto& [name, given] : params.attributes) plan.attributes.emplace(name, value_of(texts, given));
   const EditTree edits = edits_of(params, grammar, texts);
   plan.edits = &edits;
   if (options.lod) plan.attributes[std::string(lod_attribute)] = {*options.lod, 0};
@@ -305,16 +296,16 @@ void point_at_blueprint(const BuildingParams& params, std::vector<Warning>& warn
 }  // namespace
 
 std::vector<Issue> check(const BuildingParams& params, const Limits& limits, const Job* job) {
-  std::shared_ptr<const RuleSet> rules;
-  PictureGrammar pictures;
-  return check_all(params, {limits, job}, rules, pictures);
+  Work work;
+  return check_all(params, {limits, job}, work.rules, work.pictures);
 }
 
 Generator::Prepared prepare(const BuildingParams& params, const CheckContext& context) {
-  std::shared_ptr<const RuleSet> rules;
-  PictureGrammar pictures;
+  Work work;
   if (params.shape_grammar) return nullptr;
-  return check_all(params, {context.job.limits(), &context.job}, rules, pictures).empty() ? rules : nullptr;
+  return check_all(params, {context.job.limits(), &context.job}, work.rules, work.pictures).empty()
+             ? work.rules
+             : nullptr;
 }
 
 Result<Model> generate(const BuildingParams& params, const GenerateContext& context) {
@@ -390,7 +381,8 @@ Result<Appraisal> appraise(const BuildingParams& params, const GenerateContext& 
   // The file contains the merged meshes of all levels.
   const CopyForm copies = lods.empty() ? demand.copies : CopyForm::merge;
   appraisal.estimate = estimate_of(shapes, copies, demand.share_organs, own);
-  if (appraisal.estimate) appraisal.estimate->bytes += texture_bytes(params, work.rules->grammar, shapes, context);
+  if (appraisal.estimate)
+    appraisal.estimate->bytes += texture_bytes(params, work.rules->grammar, shapes, context);
   for (const double lod : lods) {
     const Shapes level = shapes_of(work, params, sketch, {.lod = lod, .most_shapes = most_appraised});
     const std::optional<Estimate> more = estimate_of(level, CopyForm::merge, false, own);

@@ -276,6 +276,14 @@ bool has_rules_of(const RuleSet& rules, const BuildingParams& params) {
          rules.materials == material_names(params);
 }
 
+std::vector<std::string> file_names(const BuildingParams& params) {
+  std::set<std::string> names;
+  for (const auto& entry : params.assets) names.insert(entry.first);
+  for (const auto& entry : params.materials) names.insert(entry.first);
+  for (const auto& entry : params.tables) names.insert(entry.first);
+  return {names.begin(), names.end()};
+}
+
 lang::TaggedValue value_of(Texts& texts, const AttributeValue& given) {
   if (const auto* text = std::get_if<std::string>(&given)) return {0, texts.id_of(*text)};
   if (const auto* flag = std::get_if<bool>(&given)) return {*flag ? 1.0 : 0.0, 0};

@@ -40,6 +40,9 @@ struct RuleSet {
 /// file is not clear.
 RuleText rule_text_of(const BuildingParams& params, std::vector<Issue>& issues);
 
+/// Returns the names of the files that fileSearch and fileRandom find.
+std::vector<std::string> file_names(const BuildingParams& params);
+
 /// Returns the value of an attribute as expressions see it; true is 1, false is 0.
 lang::TaggedValue value_of(Texts& texts, const AttributeValue& given);
 

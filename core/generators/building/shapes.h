@@ -115,7 +115,7 @@ struct Shapes {
   std::vector<DecomposedBody> masses;
   std::vector<PartOptions> part_options{PartOptions{}};
   std::map<std::string, Report> reports;
-  std::vector<std::string_view> asset_names;  ///< of geometry with asset_bit; names of the request and of parts
+  std::vector<std::string_view> asset_names;  ///< of geometry with asset_bit; not owned
   Texts texts;
   std::vector<Warning> warnings;
   bool takes_away = false;        ///< a rule or an edit has removed a shape (NIL)

@@ -103,9 +103,9 @@ void check_patterns(const CityParams& params, const Job& job, std::vector<Issue>
                       "found the method " + std::string(text_of(streets.method)) +
                           ", which has no patterns; expected the method growth"});
   if (second_pattern_of(streets) == streets.pattern)
-    issues.push_back({IssueKind::conflict, "/streets/second_pattern",
-                      "found " + std::string(text_of(streets.pattern)) +
-                          ", which is the pattern; expected another one"});
+    issues.push_back(
+        {IssueKind::conflict, "/streets/second_pattern",
+         "found " + std::string(text_of(streets.pattern)) + ", which is the pattern; expected another one"});
 }
 
 }  // namespace

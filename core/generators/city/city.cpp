@@ -215,16 +215,16 @@ Result<CityPlan> plan_of(const CityParams& params, Job& job) {
   WardPlan wards;
   const bool has_wards = params.streets.method == CityMethod::wards;
   if (has_wards)
-    wards = lay_out_wards(params, {plan.region, *maps.density, obstacles, landform}, plan.classes, job,
-                          issues);
+    wards =
+        lay_out_wards(params, {plan.region, *maps.density, obstacles, landform}, plan.classes, job, issues);
   const std::optional<TensorField> tensor =
       field_of(params, plan.region, maps.pattern ? &*maps.pattern : nullptr, landform, job, issues);
   if (!issues.empty()) return Error{Code::invalid, std::move(issues)};
-  plan.graph = grow_streets(
-      {params.streets, *maps.density, grammar, plan.region, obstacles, lines.empty() ? nullptr : &given,
-       has_wards ? &wards : nullptr, tensor ? &*tensor : nullptr, landform, plan.classes,
-       least_height(*plan.landform)},
-      job);
+  plan.graph =
+      grow_streets({params.streets, *maps.density, grammar, plan.region, obstacles,
+                    lines.empty() ? nullptr : &given, has_wards ? &wards : nullptr,
+                    tensor ? &*tensor : nullptr, landform, plan.classes, least_height(*plan.landform)},
+                   job);
   plan.wards = std::move(wards.wards);
   plan.gates = std::move(wards.gates);
   plan.charges.emplace_back(job, plan.graph.edges.size() * bytes_a_street);

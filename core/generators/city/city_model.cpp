@@ -179,10 +179,12 @@ void add_ground(Model& model, const Surface& surface, const CityParams& params, 
         return striped_material(name, stripes, params, model, job);
       };
     };
-    add("markings", [&] { return material_of(marking_look, params); }, meshes.markings, piece.chunk);
+    add(
+        "markings", [&] { return material_of(marking_look, params); }, meshes.markings, piece.chunk);
     add("crossings", striped("crossing", {16, 16, 0}), meshes.crossings, piece.chunk);
     add("lane_lines", striped("lane_line", {16, 16, 16}), meshes.lane_lines, piece.chunk);
-    add(look.name, [&] { return material_of(look, params); }, meshes.plain, piece.chunk);
+    add(
+        look.name, [&] { return material_of(look, params); }, meshes.plain, piece.chunk);
   }
 }
 

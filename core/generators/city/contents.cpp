@@ -65,7 +65,8 @@ std::vector<Contents> other_contents(const Surface& surface, const CityParams& p
     each.request = &landmark.request;
     each.pointer = landmark.pointer + "/model";
     const std::uint32_t block = landmark.part == no_index ? no_index : plan.parts[landmark.part].block;
-    double height = landmark.part == no_index ? 0 : surface.height(landmark.part, landmark.position), lowest = 0;
+    double height = landmark.part == no_index ? 0 : surface.height(landmark.part, landmark.position),
+           lowest = 0;
     if (const auto footing = footing_of(landmark)) height = surface.floor_height(*footing, lowest);
     each.copies.push_back(
         {transform_at(landmark.position, height, landmark.turn), chunks.at(landmark.position, block)});
@@ -105,8 +106,9 @@ std::vector<Copy> copies_of(const SharedHouse& house, const Surface& surface, co
   for (const std::uint32_t number : house.lots) {
     const Lot& lot = plan.lots[number];
     double lowest = 0;
-    copies.push_back({transform_at(lot.house->position, surface.floor_height(lot.footing(), lowest), lot.house->turn),
-                      chunks.at(lot.house->position, plan.parts[lot.part].block)});
+    copies.push_back(
+        {transform_at(lot.house->position, surface.floor_height(lot.footing(), lowest), lot.house->turn),
+         chunks.at(lot.house->position, plan.parts[lot.part].block)});
   }
   return copies;
 }

@@ -129,9 +129,8 @@ bool Division::is_partition() const {
     if (!is_simple(ring) || doubled_area(ring) <= 0) return false;
     add(ring, 1);
   }
-  std::sort(sides.begin(), sides.end(), [](const Side& s, const Side& t) {
-    return s.low != t.low ? s.low < t.low : s.high < t.high;
-  });
+  std::sort(sides.begin(), sides.end(),
+            [](const Side& s, const Side& t) { return s.low != t.low ? s.low < t.low : s.high < t.high; });
   int open = 0;
   for (std::size_t i = 0; i < sides.size(); ++i) {
     open += sides[i].count;

@@ -122,7 +122,8 @@ void GroundMesh::add_carriageway(std::uint32_t number, StreetLayer layer) {
   const Dashes dashes = dashes_of(strips);
   double station = 0;
   for (std::size_t i = 0; i < strips.kinds.size(); ++i) {
-    after = i + 1 < strips.kinds.size() ? pieces_of(strips.kinds[i + 1], section, has_textures_) : std::vector<StripPiece>{};
+    after = i + 1 < strips.kinds.size() ? pieces_of(strips.kinds[i + 1], section, has_textures_)
+                                        : std::vector<StripPiece>{};
     StripSides sides;
     sides.start = strips.lines[i];
     sides.end = strips.lines[i + 1];

@@ -37,8 +37,7 @@ std::vector<glm::dvec2> plan_of_building(const Child& request) {
 /// A position of the landmark's own frame, x and z, in the city.
 glm::dvec2 placed(const Landmark& landmark, const glm::dvec2& p) {
   const math::SinCos turn = math::sincos_degrees(landmark.turn);
-  return landmark.position +
-         glm::dvec2(p.x * turn.cos + p.y * turn.sin, p.x * turn.sin - p.y * turn.cos);
+  return landmark.position + glm::dvec2(p.x * turn.cos + p.y * turn.sin, p.x * turn.sin - p.y * turn.cos);
 }
 
 /// Whether a landmark's ground plan lies on a lot: its corners, and no edge that crosses the outline of the lot.

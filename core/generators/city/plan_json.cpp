@@ -190,7 +190,8 @@ class Writer {
       add_building(landmark.request, {landmark.position, floor}, landmark.turn, properties);
     } else if (lot.house) {
       double lowest = 0;
-      const double floor = surface_ ? millimetres(surface_->floor_height(lot.footing(), lowest)) : kerb_height;
+      const double floor =
+          surface_ ? millimetres(surface_->floor_height(lot.footing(), lowest)) : kerb_height;
       add_building(requests_.of(*lot.house), {lot.house->position, floor}, lot.house->turn, properties);
     }
   }

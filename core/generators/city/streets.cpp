@@ -170,7 +170,8 @@ StreetGraph grow_all(const GrowthInput& input, std::vector<CmPoint>& ring_nodes,
 }
 
 /// The streets of a graph without those that grew where their cut or fill would be too deep. Null if none is.
-std::optional<std::vector<StreetPiece>> without_deep(const GrowthInput& input, const StreetGraph& graph, Job& job) {
+std::optional<std::vector<StreetPiece>> without_deep(const GrowthInput& input, const StreetGraph& graph,
+                                                     Job& job) {
   constexpr double deepest = 7.5;  // m: corners of junctions, which are not known yet, add some
   CityPlan plan;
   plan.graph = graph;
@@ -203,7 +204,8 @@ void drop_deep(const GrowthInput& input, StreetGraph& graph, Job& job) {
     if (!kept) return;
     Route route;
     route.pieces = *std::move(kept);
-    for (const Bridge& bridge : graph.bridges) route.bridges.push_back({bridge.line, bridge.tag, bridge.level});
+    for (const Bridge& bridge : graph.bridges)
+      route.bridges.push_back({bridge.line, bridge.tag, bridge.level});
     graph = finished_graph(input, route, job);
   }
 }

@@ -15,7 +15,8 @@ namespace {
 using glm::dvec2;
 
 constexpr double weak = 0.05;  // weight of the grid below all fields, where they cancel or end
-constexpr double noise_spacings = 2, greatest_turn = 40;  // of an organic pattern: spacings of major streets, degrees
+constexpr double noise_spacings = 2,
+                 greatest_turn = 40;  // of an organic pattern: spacings of major streets, degrees
 
 /// Of a direction: the square of the complex number, so that opposite directions are alike.
 dvec2 doubled(const dvec2& d) {

@@ -143,7 +143,8 @@ class Streets {
       const math::SinCos by = math::sincos_degrees(turn);
       const dvec2 direction(out.x * by.cos - out.y * by.sin, out.x * by.sin + out.y * by.cos);
       const CmPoint start = cells_.corner[gate], end = rounded_cm(in_cm(start) + direction * far);
-      const Route road = route_of(input_.ground.region, {start, end}, major, input_.streets.bridge_length * 100);
+      const Route road =
+          route_of(input_.ground.region, {start, end}, major, input_.streets.bridge_length * 100);
       if (road.pieces.empty() || !is_apart(road, start) || is_steep(road)) continue;
       for (const StreetPiece& piece : road.pieces) add_pieces(piece.a, piece.b, major);
       plan_.route.bridges.insert(plan_.route.bridges.end(), road.bridges.begin(), road.bridges.end());
@@ -159,7 +160,8 @@ class Streets {
              const int count = std::max(1, math::to_int32(glm::length(along) / piece_length + 0.5));
              for (int n = 0; n < count; ++n) {
                const double from = static_cast<double>(n) / count, to = (n + 1.0) / count;
-               if (is_too_steep(*landform, a + along * from, a + along * to, input_.streets.classes.major.grade))
+               if (is_too_steep(*landform, a + along * from, a + along * to,
+                                input_.streets.classes.major.grade))
                  return true;
              }
              return false;

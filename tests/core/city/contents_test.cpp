@@ -161,7 +161,8 @@ TEST(CityHouses, AreTheSameWithRulesThatWereReadBefore) {
 }
 
 TEST(CityHouses, AreMergedWhereThousandsDiffer) {
-  const CityParams params = params_of(R"({"area": {"size": [1400, 1400]}, "lots": {"area": [120, 320], "width": 7},
+  const CityParams params =
+      params_of(R"({"area": {"size": [1400, 1400]}, "lots": {"area": [120, 320], "width": 7},
     "buildings": {"variants": 100000, "detail": 2,
       "rules": [{"blueprint": "house", "floors": [1, 3], "side": 1, "rear": 1, "depth": [6, 12]}]}})");
   const std::vector<SharedHouse> houses = shared_houses(plan_with(params, 2), params);
@@ -345,7 +346,8 @@ TEST(Landmarks, StandOnFoundationsOnASlope) {
   json["buildings"] = {
       {"rules", Json::array()},
       {"landmarks",
-       {{{"model", {{"generator", "building"}, {"parameters", {{"blueprint", "warehouse"}, {"size", {12, 0, 8}}}}}},
+       {{{"model",
+          {{"generator", "building"}, {"parameters", {{"blueprint", "warehouse"}, {"size", {12, 0, 8}}}}}},
          {"position", {20, 20}},
          {"turn", 30},
          {"plot", "free"}}}}};
@@ -367,7 +369,8 @@ TEST(Landmarks, StandOnFoundationsOnASlope) {
   for (int i = -6; i <= 6; i += 3) {
     for (int k = -4; k <= 4; k += 2) {
       const double c = std::cos(math::pi / 6), s = std::sin(math::pi / 6);
-      const double here = surface.height(plan.landmarks[0].part, dvec2(20 + i * c - k * s, 20 + i * s + k * c));
+      const double here =
+          surface.height(plan.landmarks[0].part, dvec2(20 + i * c - k * s, 20 + i * s + k * c));
       EXPECT_LE(here, floor + 1e-3);
       lowest = std::min(lowest, here);
     }
@@ -536,11 +539,13 @@ TEST(LaneLines, HaveWholeDashesOfAboutNineMetres) {
     const auto& index = each.mesh.index;
     for (std::size_t i = 0; i < each.mesh.elements() * 3; ++i) {
       const auto corner = index.at(i), next = index.at(i % 3 == 2 ? i - 2 : i + 1);
-      const double u = static_cast<double>(each.mesh.uv[0][corner].x), v = static_cast<double>(each.mesh.uv[0][next].x);
+      const double u = static_cast<double>(each.mesh.uv[0][corner].x),
+                   v = static_cast<double>(each.mesh.uv[0][next].x);
       EXPECT_NEAR(u, std::round(u), 2e-3) << "a line begins and ends in the middle of a gap";
       if (std::abs(u - v) < 0.5) continue;
       ++quads;
-      const double metres = static_cast<double>(glm::length(each.mesh.position[corner] - each.mesh.position[next]));
+      const double metres =
+          static_cast<double>(glm::length(each.mesh.position[corner] - each.mesh.position[next]));
       if (std::abs(u - v) > 1.5) {
         EXPECT_NEAR(metres / std::abs(u - v), 9, 2.3);
       }

@@ -167,7 +167,8 @@ TEST(PatternMap, RefusesOtherMethodsAndEqualPatterns) {
   Job job(1, Job::Options{});
   std::vector<std::string> pointers;
   for (const Issue& each : check(params, {job})) pointers.push_back(each.pointer);
-  EXPECT_EQ(pointers, (std::vector<std::string>{"/maps/pattern", "/maps/pattern", "/streets/second_pattern"}));
+  EXPECT_EQ(pointers,
+            (std::vector<std::string>{"/maps/pattern", "/maps/pattern", "/streets/second_pattern"}));
 }
 
 CityPlan tensor_town(const std::vector<CityTensorField>& fields, double t_junctions, std::uint64_t seed,

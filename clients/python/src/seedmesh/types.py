@@ -213,6 +213,7 @@ class CityParametersMaps(TypedDict, total=False):
     density: Union[str, "Polygons"]
     water: Union[str, "Polygons"]
     obstacles: Union[str, "Polygons"]
+    pattern: Union[str, "Polygons"]
     zones: List["CityParametersMapsZonesItem"]
     height: str
 
@@ -316,6 +317,7 @@ class CityParametersStreets(TypedDict, total=False):
     method: Literal['growth', 'tensor', 'wards', 'given']
     productions: List[str]
     pattern: Literal['organic', 'raster', 'radial', 'slope']
+    second_pattern: Literal['organic', 'raster', 'radial', 'slope']
     minor_pattern: Literal['organic', 'raster', 'radial', 'slope']
     angle: float
     centre: List[float]
