@@ -67,7 +67,8 @@ void FoliageShade::add_occlusion(const Organs& organs, const Job& job) {
   for (int axis = 0; axis < 3; ++axis)
     count_[axis] =
         std::clamp(math::to_int32(static_cast<double>(std::ceil(size[axis] / cell_))), 1, most_cells);
-  Array<float> layer(job, cell_at(0, 0, count_[2]), 0.0F);  // leaf area of a cell divided by the area of its face
+  // Leaf area of each cell divided by the area of its face.
+  Array<float> layer(job, cell_at(0, 0, count_[2]), 0.0F);
   const float by_face = options_.leaf_area / (cell_ * cell_);
   for (std::size_t i = 0; i < organs.organ.size(); ++i) {
     if (i % 65'536 == 0) job.check();
