@@ -330,12 +330,12 @@ Painting paint_leaf(std::string_view kind, int size, std::uint64_t seed, const T
 
   const Colors colors = colors_of(picture.shape);
   Finish finish;
-  finish.ramp = ramp_round(colors.main * (1 / 255.0F), 0.45F, 1.45F, colors.accent * (1 / 255.0F), tint);
+  finish.ramp = ramp_round(colors.main * (1 / 255.0F), 0.6F, 1.3F, colors.accent * (1 / 255.0F), tint);
   finish.depth = 0.05F;
   finish.rough_low = 0.75F;
   finish.rough_high = 0.55F;
   finish.rough_accent = 0.85F;
-  finish.shade = 0.25F;
+  finish.shade = 0.1F;
   return {std::move(relief), finish};
 }
 

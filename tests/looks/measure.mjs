@@ -109,12 +109,29 @@ export function mean_color(picture, cutoff = 0) {
   return sum.map((each) => each / count);
 }
 
-/** Mean luminance of a primitive: its texture times its factor and its vertex colours. */
-export function albedo_of(primitive) {
-  const base = mean_color(primitive.color, primitive.is_cut ? primitive.cutoff : 0), sum = [0, 0, 0];
-  for (let i = 0; i < primitive.vertices; ++i) primitive.at('COLOR_0', i).slice(0, 3).forEach((each, c) => { sum[c] += each / primitive.vertices; });
-  return luminance(base.map((each, c) => each * sum[c] * primitive.factor[c]));
+/** The mean of the vertex colours of a primitive, times its colour factor. */
+function factor_of(primitive) {
+  const sum = [0, 0, 0], step = Math.max(1, Math.floor(primitive.vertices / 10_000));
+  if (!primitive.has('COLOR_0')) return primitive.factor.slice(0, 3);
+  let count = 0;
+  for (let i = 0; i < primitive.vertices; i += step, ++count) primitive.at('COLOR_0', i).slice(0, 3).forEach((each, c) => { sum[c] += each; });
+  return sum.map((each, c) => (each / count) * primitive.factor[c]);
 }
+
+/** Luminance of the texels of a primitive times its factor and its mean vertex colour: mean, 2 % and 98 % quantiles; saturation of the mean. */
+export function albedo_range(primitive) {
+  const factor = factor_of(primitive), cutoff = primitive.is_cut ? primitive.cutoff : 0, { color } = primitive;
+  const values = [], mean = color ? mean_color(color, cutoff).map((each, c) => each * factor[c]) : factor;
+  for (let i = 0; color && i < color.data.length; i += 4) {
+    if (color.data[i + 3] / 255 >= cutoff) values.push(luminance(factor.map((each, c) => each * linear(color.data[i + c]))));
+  }
+  values.sort((a, b) => a - b);
+  const at = (share) => (color ? values[Math.floor(share * (values.length - 1))] : luminance(factor));
+  return { mean: luminance(mean), low: at(0.02), high: at(0.98), saturation: (Math.max(...mean) - Math.min(...mean)) / Math.max(...mean, 1e-9) };
+}
+
+/** Mean luminance of a primitive: its texture times its factor and its vertex colours. */
+export const albedo_of = (primitive) => albedo_range(primitive).mean;
 
 /** Standard deviation of the hue of the vertices, in degrees, with a base colour. */
 export function hue_deviation(primitive, base) {

@@ -1698,6 +1698,8 @@ export interface TreeParametersLeaf {
   size?: number;
   /** two_sided: one face that is visible from both sides; renderers turn its normal around at the back, and crowns seen from below are dark. outward: thin leaves with faces on both sides, whose normals turn out of the crown as far as they stay on the side of their faces. Such leaves have twice the triangles and no generated normal map. auto: two_sided in the profiles unreal and unity, whose foliage materials turn normals themselves, and outward otherwise. Leaves that share a mesh (output.instancing) are always two_sided. */
   faces?: "auto" | "two_sided" | "outward";
+  /** Largest random angle by which a leaf turns about its length. Crowns whose leaves lie at all angles are denser from the side, and lighter from below. */
+  roll?: number;
   /** 0 gives every leaf its own normals. 1 gives it the normals of the surface of the crown, so that distant crowns look smoother. */
   crown_normals?: number;
   /** Largest random difference in brightness between leaves. */

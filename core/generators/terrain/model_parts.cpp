@@ -17,7 +17,7 @@ Material ground_material(const TerrainParams& params) {
 Material water_material() {
   Material material;
   material.name = "water";
-  material.base_color = {linear_of_srgb(38), linear_of_srgb(92), linear_of_srgb(120), 0.78F};
+  material.base_color = {linear_of_srgb(38), linear_of_srgb(66), linear_of_srgb(80), 0.78F};
   material.roughness = 0.08F;
   material.alpha_mode = AlphaMode::blend;
   return material;

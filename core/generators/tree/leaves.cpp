@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/rng.h"
 #include "core/generators/tree/materials.h"
 #include "core/generators/tree/range.h"
 #include "core/geom/lod/detail.h"
 #include "core/geom/mesh/finish.h"
 #include "core/geom/plant/leaf_mesh.h"
+#include "core/geom/plant/tube_formulas.h"
 #include "core/texture/leaf.h"
 
 namespace seedmesh::tree {
@@ -19,8 +21,17 @@ static_assert(static_cast<int>(TreeBuild::bunch) - first_build == static_cast<in
 
 // Share of the area of a square that the leaf or the twig on it fills: between 0.32 for needles and 0.59.
 constexpr float filled_card = 0.5F;
+// The name of a random number.
+constexpr std::uint64_t roll_name = 0x526F;
 // Between both sides of a leaf, as a share of its length: 0.2 to 2 mm.
 constexpr float thickness = 0.003F;
+
+/// The frame of a leaf turned about its length by a random angle of up to `most` degrees to either side.
+glm::quat rolled(const Organ& organ, double most) {
+  const double share = 2 * static_cast<double>(fraction_of(key_at(organ.key, roll_name))) - 1;
+  const math::SinCos half = math::sincos_degrees(0.5 * most * share);
+  return organ.frame * glm::quat(static_cast<float>(half.cos), 0, static_cast<float>(half.sin), 0);
+}
 
 /// The area of all faces.
 float area_of(const Mesh& mesh) {
@@ -195,6 +206,7 @@ void fit_leaves(Organs& organs, const TreeParams& params, const Mesh& leaf, cons
   for (Organ& organ : organs.organ) {
     const float width = organ.scale.x * size / across, length = organ.scale.y * size;
     organ.scale = {width, length, is_round ? width : length};
+    if (params.leaf.roll > 0) organ.frame = rolled(organ, params.leaf.roll);
   }
 }
 

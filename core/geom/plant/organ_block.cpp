@@ -19,6 +19,11 @@ static_assert(sizeof(Lanes3) == 3 * lanes * sizeof(float) && sizeof(Lanes4) == 4
 // A normal that follows a crown has at least the first cosine to its faces; one with less is turned to the
 // second.
 constexpr float least_over = 0.1F, wanted_over = 0.15F;
+// The same of outward normals. They may be almost flat to their faces: the lower side of a leaf is then lit nearly as
+// its upper side. The margin is several times the error of normals of eight bits.
+constexpr float least_beside = 0.03F, wanted_beside = 0.05F;
+// Outward normals are between straight up and the surface of the crown, because leaves turn to the light.
+constexpr float up_share = 0.6F;
 constexpr int most_passes = 4;
 
 /// Of each lane: the columns of the rotation, the columns multiplied by the scale, and the inverse of the
@@ -161,13 +166,14 @@ SEEDMESH_WIDE void mix_on_own_side(float share, const Lanes3& outward, const Lan
   }
 }
 
-/// Away from the middle of an ellipsoid, at right angles to the one through the point.
+/// Between away from the middle of an ellipsoid, at right angles to the one through the point, and up.
 SEEDMESH_WIDE void ellipsoid_normal(const glm::vec3& middle, const glm::vec3& by, const Lanes3& position,
                                     Lanes3& __restrict out) {
   for (std::size_t l = 0; l < lanes; ++l) {
-    put(out, l,
-        {(position.x[l] - middle.x) * by.x, (position.y[l] - middle.y) * by.y,
-         (position.z[l] - middle.z) * by.z});
+    const glm::vec3 away{(position.x[l] - middle.x) * by.x, (position.y[l] - middle.y) * by.y,
+                         (position.z[l] - middle.z) * by.z};
+    const float share = (1 - up_share) / std::sqrt(dot_of(away, away) + 1e-30F);
+    put(out, l, {away.x * share, away.y * share + up_share, away.z * share});
   }
 }
 
@@ -185,7 +191,7 @@ SEEDMESH_WIDE void mix_outward(float share, const Lanes3& outward, const Lanes3&
 /// The cross product of a face's sides. Returns false where at each lane the normals of its corners are on
 /// its side, with a margin.
 SEEDMESH_WIDE bool face_of(const Lanes3* position, const Lanes3* normal, const std::uint32_t* corner,
-                           Lanes3& __restrict out) {
+                           float least_cosine, Lanes3& __restrict out) {
   const Lanes3 &a = position[corner[0]], &b = position[corner[1]], &c = position[corner[2]];
   const Lanes3 &n0 = normal[corner[0]], &n1 = normal[corner[1]], &n2 = normal[corner[2]];
   std::uint32_t any = 0;
@@ -193,7 +199,7 @@ SEEDMESH_WIDE bool face_of(const Lanes3* position, const Lanes3* normal, const s
     const glm::vec3 across = cross_of({b.x[l] - a.x[l], b.y[l] - a.y[l], b.z[l] - a.z[l]},
                                       {c.x[l] - a.x[l], c.y[l] - a.y[l], c.z[l] - a.z[l]});
     put(out, l, across);
-    const float square = dot_of(across, across), least = (least_over + 1e-3F) * std::sqrt(square);
+    const float square = dot_of(across, across), least = (least_cosine + 1e-3F) * std::sqrt(square);
     // Bits instead of && keep the loop free of branches.
     const auto bit = [](bool holds) { return holds ? 1U : 0U; };
     any |= 1U ^ (bit(square > 1e-30F) & bit(dot_of(at(n0, l), across) > least) &
@@ -214,7 +220,7 @@ SEEDMESH_WIDE void lean_toward(const Lanes3& face, const Lanes3& normal, Lanes3&
 /// Turns a normal where it is too flat to a face, at right angles to the face as far as possible. `turned` gets the
 /// vector before it is normalised.
 SEEDMESH_WIDE void turn_beside(const Lanes3& face, const Lanes3& normal, Lanes3& __restrict turned) {
-  constexpr float by_share = wanted_over / 0.98868600F;  // sqrt(1 - wanted_over^2)
+  constexpr float by_share = wanted_beside / 0.99874922F;  // sqrt(1 - wanted_beside^2)
   for (std::size_t l = 0; l < lanes; ++l) {
     const glm::vec3 here = at(normal, l), f = at(face, l);
     const float over = dot_of(here, f);
@@ -224,10 +230,11 @@ SEEDMESH_WIDE void turn_beside(const Lanes3& face, const Lanes3& normal, Lanes3&
   }
 }
 
-SEEDMESH_WIDE void select_flat(const Lanes3& face, const Lanes3& turned, Lanes3& __restrict normal) {
+SEEDMESH_WIDE void select_flat(const Lanes3& face, const Lanes3& turned, float least_cosine,
+                               Lanes3& __restrict normal) {
   for (std::size_t l = 0; l < lanes; ++l) {
     const glm::vec3 here = at(normal, l), other = at(turned, l);
-    const bool is_flat = dot_of(here, at(face, l)) < least_over;
+    const bool is_flat = dot_of(here, at(face, l)) < least_cosine;
     put(normal, l, {is_flat ? other.x : here.x, is_flat ? other.y : here.y, is_flat ? other.z : here.z});
   }
 }
@@ -316,17 +323,18 @@ void OrganBlock::restore_turned_off() {
   const std::uint32_t* corner = surface_.index.wide.data();
   for (const std::uint32_t* end = corner + surface_.index.wide.size(); corner != end; corner += 3) {
     Lanes3 face;
-    if (!face_of(position_.data(), normal_.data(), corner, face)) continue;
+    if (!face_of(position_.data(), normal_.data(), corner, least_beside, face)) continue;
     for (int k = 0; k < 3; ++k) select_restored(face, own_[corner[k]], normal_[corner[k]]);
   }
 }
 
 bool OrganBlock::turn_toward_faces() {
   bool has_turned = false;
+  const float least = options_.outward ? least_beside : least_over;
   const std::uint32_t* corner = surface_.index.wide.data();
   for (const std::uint32_t* end = corner + surface_.index.wide.size(); corner != end; corner += 3) {
     Lanes3 face, turned;
-    if (!face_of(position_.data(), normal_.data(), corner, face)) continue;
+    if (!face_of(position_.data(), normal_.data(), corner, least, face)) continue;
     to_units(
         face,
         [](std::size_t) {
@@ -342,7 +350,7 @@ bool OrganBlock::turn_toward_faces() {
         lean_toward(face, normal, turned);
       to_units(
           turned, [&](std::size_t l) { return at(face, l); }, turned);
-      select_flat(face, turned, normal);
+      select_flat(face, turned, least, normal);
     }
   }
   return has_turned;

@@ -36,9 +36,9 @@ struct FoliageOptions {
   /// They stay on the side of their faces, since renderers turn the normals of back faces around.
   std::optional<glm::vec3> crown;
   float crown_share = 0.75F;
-  /// With `crown`: for surfaces whose sides have vertices of their own. The normals of both sides turn outward,
-  /// away from `crown`, as far as they stay on the side of their faces. The directions are those of an ellipsoid
-  /// with these half axes.
+  /// With `crown`: for surfaces whose sides have vertices of their own. The normals of both sides turn to the light,
+  /// between straight up (0.6) and away from `crown` (0.4), as far as they stay on the side of their faces. The
+  /// directions away are those of an ellipsoid with these half axes.
   bool outward = false;
   glm::vec3 crown_axes{1};
   /// Organs differ in brightness by up to this share, by a hash of their key, as vertex colours; 0: no

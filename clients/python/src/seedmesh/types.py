@@ -1086,6 +1086,7 @@ class TreeParametersLeaf(TypedDict, total=False):
     density: float
     size: float
     faces: Literal['auto', 'two_sided', 'outward']
+    roll: float
     crown_normals: float
     tint: float
     hue: float
