@@ -285,6 +285,8 @@ test('the client source contains no parameter name', () => {
     'order', 'angle', 'length', 'distance',
     // A notation of the editor, an attribute and a class name of elements.
     'expression', 'class', 'colors',
+    // A mode of shadow roots and a cause of states, a part of a line of the editor.
+    'open', 'condition',
     // A method of elements, and a module of the page.
     'remove', 'words',
     // Members and kinds of the features of a city's plan, and a member of the derive response.

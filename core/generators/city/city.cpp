@@ -193,6 +193,21 @@ std::optional<Error> refusal(const CityParams& params, const GenerateContext& co
 
 }  // namespace
 
+/// Lays out the streets and finds their heights. On hills, removes streets with deep cuts or fills, whose removal
+/// changes the heights of others, in up to 24 rounds.
+std::vector<BlockOutline> lay_out(CityPlan& plan, const GrowthInput& input, Job& job) {
+  constexpr int most_rounds = 24;
+  for (int round = 0;; ++round) {
+    plan.parts.clear();
+    std::vector<BlockOutline> blocks = lay_out_streets(plan, job);
+    plan.heights = street_heights(plan, *plan.landform, input.least_height, job);
+    if (!input.landform || round == most_rounds || !drop_deep_streets(input, plan.heights, plan.graph, job) ||
+        !has_streets(plan.graph)) {
+      return blocks;
+    }
+  }
+}
+
 Result<CityPlan> plan_of(const CityParams& params, Job& job) {
   CityPlan plan;
   plan.area = area_rings(params);
@@ -220,18 +235,25 @@ Result<CityPlan> plan_of(const CityParams& params, Job& job) {
   const std::optional<TensorField> tensor =
       field_of(params, plan.region, maps.pattern ? &*maps.pattern : nullptr, landform, job, issues);
   if (!issues.empty()) return Error{Code::invalid, std::move(issues)};
-  plan.graph =
-      grow_streets({params.streets, *maps.density, grammar, plan.region, obstacles,
-                    lines.empty() ? nullptr : &given, has_wards ? &wards : nullptr,
-                    tensor ? &*tensor : nullptr, landform, plan.classes, least_height(*plan.landform)},
-                   job);
+  const GrowthInput input = {params.streets,
+                             *maps.density,
+                             grammar,
+                             plan.region,
+                             obstacles,
+                             lines.empty() ? nullptr : &given,
+                             has_wards ? &wards : nullptr,
+                             tensor ? &*tensor : nullptr,
+                             landform,
+                             plan.classes,
+                             least_height(*plan.landform)};
+  plan.graph = grow_streets(input, job);
   plan.wards = std::move(wards.wards);
   plan.gates = std::move(wards.gates);
   plan.charges.emplace_back(job, plan.graph.edges.size() * bytes_a_street);
   job.progress("blocks", 0);
   if (landform && !has_streets(plan.graph)) return too_steep(params);
-  const std::vector<BlockOutline> blocks = lay_out_streets(plan, job);
-  plan.heights = street_heights(plan, *plan.landform, least_height(*plan.landform), job);
+  const std::vector<BlockOutline> blocks = lay_out(plan, input, job);
+  if (landform && !has_streets(plan.graph)) return too_steep(params);
   job.progress("lots", 0);
   divide_blocks(plan, blocks, params.lots, *maps.density, job);
   plan.charges.emplace_back(job, plan.lots.size() * bytes_a_lot);

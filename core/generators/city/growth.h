@@ -73,6 +73,10 @@ std::vector<StreetPiece> links_between_networks(const GrowthInput& input, const 
 /// components are removed.
 StreetGraph grow_streets(const GrowthInput& input, Job& job);
 
+/// Removes the streets that grew where their cut or fill is deeper than 8 m, and what is loose without them. Returns
+/// false if there are none. `input` has a landform. Cost: linear.
+bool drop_deep_streets(const GrowthInput& input, const StreetHeights& heights, StreetGraph& graph, Job& job);
+
 /// Returns the directions of a pattern at a position: a unit vector; the others are its quarter turns.
 glm::dvec2 frame_at(const CityStreets& streets, bool is_radial, const glm::dvec2& cm);
 

@@ -169,16 +169,18 @@ StreetGraph grow_all(const GrowthInput& input, std::vector<CmPoint>& ring_nodes,
   return finished_graph(input, whole, job);
 }
 
-/// The streets of a graph without those that grew where their cut or fill would be too deep. Null if none is.
-std::optional<std::vector<StreetPiece>> without_deep(const GrowthInput& input, const StreetGraph& graph,
-                                                     Job& job) {
-  constexpr double deepest = 7.5;  // m: corners of junctions, which are not known yet, add some
-  CityPlan plan;
-  plan.graph = graph;
-  plan.classes = input.sections;
-  plan.holds.assign(graph.edges.size() * 2, 0);
-  const StreetHeights heights = street_heights(plan, *input.landform, input.least_height, job);
-  std::vector<StreetPiece> kept;
+}  // namespace
+
+StreetGraph grow_streets(const GrowthInput& input, Job& job) {
+  std::vector<CmPoint> ring_nodes;
+  StreetGraph graph = grow_all(input, ring_nodes, job);
+  graph.ring_nodes = std::move(ring_nodes);
+  return graph;
+}
+
+bool drop_deep_streets(const GrowthInput& input, const StreetHeights& heights, StreetGraph& graph, Job& job) {
+  constexpr double deepest = 8;  // metres
+  Route kept;
   bool is_any_deep = false;
   for (std::uint32_t edge = 0; edge < graph.edges.size(); ++edge) {
     if (!graph.is_street(edge)) continue;
@@ -190,34 +192,14 @@ std::optional<std::vector<StreetPiece>> without_deep(const GrowthInput& input, c
       is_deep |= std::abs(point.height - ground) > deepest;
     }
     is_any_deep |= is_deep;
-    if (!is_deep) kept.push_back({graph.nodes[each.from], graph.nodes[each.to], each.tag});
+    if (!is_deep) kept.pieces.push_back({graph.nodes[each.from], graph.nodes[each.to], each.tag});
   }
-  if (!is_any_deep) return std::nullopt;
-  return kept;
-}
-
-/// Removes streets with deep cuts or fills, whose removal can free others, in up to four rounds.
-void drop_deep(const GrowthInput& input, StreetGraph& graph, Job& job) {
-  constexpr int most_rounds = 4;
-  for (int round = 0; round < most_rounds; ++round) {
-    auto kept = without_deep(input, graph, job);
-    if (!kept) return;
-    Route route;
-    route.pieces = *std::move(kept);
-    for (const Bridge& bridge : graph.bridges)
-      route.bridges.push_back({bridge.line, bridge.tag, bridge.level});
-    graph = finished_graph(input, route, job);
-  }
-}
-
-}  // namespace
-
-StreetGraph grow_streets(const GrowthInput& input, Job& job) {
-  std::vector<CmPoint> ring_nodes;
-  StreetGraph graph = grow_all(input, ring_nodes, job);
-  if (input.landform) drop_deep(input, graph, job);
+  if (!is_any_deep) return false;
+  for (const Bridge& bridge : graph.bridges) kept.bridges.push_back({bridge.line, bridge.tag, bridge.level});
+  std::vector<CmPoint> ring_nodes = std::move(graph.ring_nodes);
+  graph = finished_graph(input, kept, job);
   graph.ring_nodes = std::move(ring_nodes);
-  return graph;
+  return true;
 }
 
 }  // namespace seedmesh::city

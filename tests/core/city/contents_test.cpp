@@ -552,7 +552,8 @@ TEST(LaneLines, HaveWholeDashesOfAboutNineMetres) {
     }
   }
   EXPECT_GT(quads, 50U);
-  const Model plain = model_with(params, 3);
+  demand.textures = 0;
+  const Model plain = model_with(params, 3, demand);
   EXPECT_TRUE(std::none_of(plain.nodes.begin(), plain.nodes.end(),
                            [](const Node& node) { return node.name == "lane_lines"; }));
 }
