@@ -11,6 +11,7 @@ namespace seedmesh::world {
 namespace {
 
 constexpr double deviation_share = 0.95;  ///< fitted to walks through worlds with random parameters
+constexpr double terrace_share = 0.3;     ///< of the terraces: their edges also make the sides of valleys steeper
 
 /// The deviation of an octave of noise of amplitude 1; `q` is the distance of samples by the wavelength.
 double of_noise(double q) {
@@ -124,7 +125,7 @@ double deviation_of(const World& world, double spacing, const Roughness& rough) 
   sum.add(std::min(rough.works, 0.2 * spacing));
   // parts saturate where samples are farther apart than their wavelengths
   const double far = spacing > 1024 ? 1 + 0.12 * (spacing / (spacing + 8192)) : 1;
-  return deviation_share * far * sum.value();
+  return (deviation_share + terrace_share * relief.terraces) * far * sum.value();
 }
 
 }  // namespace seedmesh::world
