@@ -11,7 +11,8 @@ namespace seedmesh::world {
 namespace {
 
 constexpr double deviation_share = 0.95;  ///< fitted to walks through worlds with random parameters
-constexpr double terrace_share = 0.3;     ///< of the terraces: their edges also make the sides of valleys steeper
+constexpr double terrace_share =
+    0.3;  ///< of the terraces: their edges also make the sides of valleys steeper
 
 /// The deviation of an octave of noise of amplitude 1; `q` is the distance of samples by the wavelength.
 double of_noise(double q) {
