@@ -6,9 +6,8 @@
 namespace seedmesh::building {
 namespace {
 
-// Shares of the largest size of the predecessor, by which a shape may leave its scope. Roofs and ornaments rarely
-// leave a volume by more than the second.
-constexpr double rounding_share = 1e-6, suspicious_factor = 2;
+// The share of the largest size of the predecessor by which a shape may leave its scope: errors of rounding.
+constexpr double rounding_share = 1e-6;
 
 struct Excess {
   double distance = 0;  ///< metres beyond the scope
@@ -53,8 +52,7 @@ void check_containment(Derivation& d, std::uint32_t predecessor, const ShapeStat
   if (!is_restricted && dimension(outer.size) < 3) return;
   const Excess excess = excess_of(d, outer, shape);
   const double largest = std::max({outer.size.x, outer.size.y, outer.size.z});
-  const double allowed = largest * (is_restricted ? rounding_share : suspicious_factor);
-  if (excess.distance <= allowed) return;
+  if (excess.distance <= largest * rounding_share) return;
   constexpr const char* names[] = {"x", "y", "z"};
   const std::string& name = d.grammar.symbols[d.out.shapes[predecessor].symbol].name;
   const std::string message = "this shape leaves the scope of `" + name + "` by " +

@@ -219,6 +219,9 @@ TEST(BuildingRestrictions, RejectShapesThatLeaveTheirPredecessor) {
   EXPECT_EQ(free["warnings"][0]["column"], 21);
   EXPECT_THAT(free["warnings"][0]["message"].get<std::string>(),
               HasSubstr("leaves the scope of `Lot` by 26 m along x, where the scope has 4 m"));
+  const BuildingParams sill = with("Lot --> [ t(0, 0, -0.2) Sill. ] Wall.", {4, 3, 5});
+  EXPECT_THAT(derived(sill)["warnings"][0]["message"].get<std::string>(),
+              HasSubstr("leaves the scope of `Lot` by 0.2 m along z"));
   params.restrict = BuildingRestrict::split;
   EXPECT_THAT(refusal(params), HasSubstr("1:21 this shape leaves the scope of `Lot` by 26 m along x"));
   // A protruding sill of 0.2 m, a turn, and a leaf without a symbol.
@@ -344,9 +347,13 @@ TEST(BuildingOperations, RunTheExamplesOfTheirRows) {
     if (row.status == Status::error) continue;
     const Json answer = derived(with(std::string(row.example), {6, 6, 6}));
     EXPECT_FALSE(active(answer).empty()) << row.name;
-    // Operations without a counterpart, and those whose purpose is a message, warn.
+    // Operations without a counterpart, and those whose purpose is a message, warn. Some examples leave the volume.
     const bool warns = row.status == Status::ignored || row.op == Op::print || row.op == Op::texture;
-    EXPECT_EQ(answer["warnings"].empty(), !warns) << row.name << ": " << answer["warnings"].dump();
+    const bool has_other_warnings =
+        std::any_of(answer["warnings"].begin(), answer["warnings"].end(), [](const Json& warning) {
+          return warning["message"].get<std::string>().find("leaves the scope of") == std::string::npos;
+        });
+    EXPECT_EQ(has_other_warnings, warns) << row.name << ": " << answer["warnings"].dump();
   }
 }
 
