@@ -177,20 +177,22 @@ class EntryReader {
       } else if (c == '\\' || c == '/') {
         const std::string degrees = text_of(number(start, at, line.to));
         const bool left = c == '\\';
-        if (has_two_headings())
+        if (has_two_headings()) {
           out.write((left ? "left_m(" : "right_m(") + degrees + ")", start);
-        else if (turns(by_degrees_, by_steps_, c, start))
+        } else if (turns(by_degrees_, by_steps_, c, start)) {
           out.write((left ? "+(" : "-(") + degrees + ")", start);
+        }
       } else if (c == 'C' || c == '<' || c == '>') {
         out.write(color(c, start, at, line.to), start);
       } else if (is_letter(c)) {
         used_[static_cast<unsigned char>(c)] = true;
         out.write(std::string(1, c), start);
       } else if (is_digit(c) || c == '[' || c == ']') {
-        if (c == ']' || !has_two_headings())
+        if (c == ']' || !has_two_headings()) {
           out.copy(text, start, at);
-        else
+        } else {
           out.write("save_m[", start);
+        }
         if (c == ']' && has_two_headings()) out.write("load_m", start);
       } else if (c == '!') {
         out.write("@-", start);
@@ -228,7 +230,10 @@ class EntryReader {
     return "-(" + text_of(odd_half_turn()) + ")";
   }
 
-  double odd_half_turn() const { return 360.0 / std::max(divisions_, 1) * (divisions_ / 2); }
+  double odd_half_turn() const {
+    const int half = divisions_ / 2;
+    return 360.0 / std::max(divisions_, 1) * half;
+  }
 
   double number(std::size_t start, std::size_t& at, std::size_t to) {
     double value = 0;

@@ -99,7 +99,7 @@ class GeoJsonReader {
   }
 
   void report(IssueKind kind, std::string pointer, std::string message) {
-    if (issues_.size() < most_errors) issues_.push_back({kind, std::move(pointer), std::move(message)});
+    if (issues_.size() < most_errors) issues_.emplace_back(kind, std::move(pointer), std::move(message));
   }
 
   const Json* member(const Json& object, const char* name, const std::string& pointer) {

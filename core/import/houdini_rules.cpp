@@ -151,7 +151,7 @@ void HoudiniPositions::put(Json& parameters) const {
     for (const std::size_t count : counts) {
       std::string module(1, symbol);
       for (std::size_t i = 0; i < count; ++i)
-        module += (i == 0 ? "(p" : ",p") + std::to_string(i) + (i + 1 == count ? ")" : "");
+        module.append(i == 0 ? "(p" : ",p").append(std::to_string(i)).append(i + 1 == count ? ")" : "");
       parameters["productions"].push_back(module + " -> ?P(0,0,0)" + module);
     }
   }

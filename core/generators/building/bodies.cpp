@@ -140,16 +140,18 @@ class Assembly {
       thin += is_thin;
       return is_thin;
     });
-    if (thin > 0)
+    if (thin > 0) {
       model_.warnings.push_back(
           {"/rules",
            std::to_string(thin) +
                " shapes are too thin to be drawn, compared with the whole, and are left out",
            0, 0});
-    for (DrawnBody& body : bodies_)
+    }
+    for (DrawnBody& body : bodies_) {
       body.material = source_.is_asset(shapes_.shapes[body.shape])
                           ? -1
                           : materials_.material_of(shapes_.shapes[body.shape]);
+    }
   }
 
   // Shared meshes
@@ -175,10 +177,11 @@ class Assembly {
                                           : materials_.symbol(shape);
       node.parent = root_;
       node.mesh = mesh;
-      if (transforms.size() == 1)
+      if (transforms.size() == 1) {
         node.transform = transforms[0];
-      else
+      } else {
         node.instances.transforms = std::move(transforms);
+      }
       model_.nodes.push_back(std::move(node));
     }
   }
@@ -262,8 +265,8 @@ void add_bodies(Model& model, const Shapes& shapes, MaterialTable& materials, st
 }
 
 std::vector<int> add_level(Model& model, const Shapes& shapes, MaterialTable& materials,
-                           std::span<Asset> assets, Sharing sharing, std::size_t least, Job& job) {
-  return Assembly(model, shapes, materials, assets, job).level(sharing, least);
+                           std::span<Asset> assets, const LevelLayers& layers, Job& job) {
+  return Assembly(model, shapes, materials, assets, job).level(layers.sharing, layers.least);
 }
 
 }  // namespace seedmesh::building

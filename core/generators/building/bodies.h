@@ -43,10 +43,17 @@ enum class Sharing {
 void add_bodies(Model& model, const Shapes& shapes, MaterialTable& materials, std::span<Asset> assets,
                 Sharing sharing, Job& job);
 
+/// How add_level() divides a level of detail.
+struct LevelLayers {
+  Sharing sharing = Sharing::merged;
+  std::size_t least = 0;  ///< number of layers
+};
+
 /// Adds all active shapes merged, for a level of detail, and returns the meshes: one for each layer. Unless
-/// `sharing` is `merged`, a node "building" is added too, with the assets of the request below it. Returns at
-/// least `least` layers, or one for each body if there are fewer bodies. Levels of detail need equal numbers of layers.
+/// `layers.sharing` is `merged`, a node "building" is added too, with the assets of the request below it. Returns at
+/// least `layers.least` layers, or one for each body if there are fewer bodies. Levels of detail need equal numbers
+/// of layers.
 std::vector<int> add_level(Model& model, const Shapes& shapes, MaterialTable& materials,
-                           std::span<Asset> assets, Sharing sharing, std::size_t least, Job& job);
+                           std::span<Asset> assets, const LevelLayers& layers, Job& job);
 
 }  // namespace seedmesh::building

@@ -200,16 +200,16 @@ std::uint64_t triangles_of(const Model& model, std::span<const int> meshes) {
 /// Adds nodes with levels of detail. The derivation runs again for each value of `lod`; a level without fewer
 /// triangles than the level before is left out.
 void add_levels(Model& model, Work& work, const BuildingParams& params, const Shapes& finest,
-                std::span<const double> lods, MaterialTable& materials, const GenerateContext& context) {
+                MaterialTable& materials, const GenerateContext& context) {
   Job& job = context.job;
+  const std::vector<double> lods = lods_of(work.rules->grammar, params, context.demand.lods);
   std::vector<std::vector<int>> levels;
-  levels.push_back(add_level(model, finest, materials, work.assets, Sharing::paying, 0, job));
+  levels.push_back(add_level(model, finest, materials, work.assets, {.sharing = Sharing::paying}, job));
   for (const double lod : lods) {
     const Shapes shapes = shapes_of(work, params, context, {.lod = lod});
     materials.use(shapes);
     const std::size_t meshes = model.meshes.size();
-    levels.push_back(
-        add_level(model, shapes, materials, work.assets, Sharing::merged, levels[0].size(), job));
+    levels.push_back(add_level(model, shapes, materials, work.assets, {.least = levels[0].size()}, job));
     if (triangles_of(model, levels.back()) < triangles_of(model, *(levels.end() - 2))) continue;
     model.meshes.resize(meshes);  // the rules make no coarser model for this value
     levels.pop_back();
@@ -326,11 +326,11 @@ Result<Model> generate(const BuildingParams& params, const GenerateContext& cont
     model.warnings.push_back(*std::move(warning));
   MaterialTable materials(model, params, shapes, context);
   materials.set_symbols(work.rules->grammar.symbols);
-  const std::vector<double> lods = lods_of(work.rules->grammar, params, context.demand.lods);
-  if (lods.empty())
+  if (lods_of(work.rules->grammar, params, context.demand.lods).empty()) {
     add_bodies(model, shapes, materials, work.assets, sharing_of(context.demand), job);
-  else
-    add_levels(model, work, params, shapes, lods, materials, context);
+  } else {
+    add_levels(model, work, params, shapes, materials, context);
+  }
   if (auto warning = materials.unused_facade_image()) model.warnings.push_back(*std::move(warning));
   add_collision(model, shapes, context);
   point_at_blueprint(params, model.warnings);

@@ -23,12 +23,13 @@ namespace {
 std::string escaped(const std::string& name) {
   std::string out;
   for (const char c : name) {
-    if (c == '~')
+    if (c == '~') {
       out += "~0";
-    else if (c == '/')
+    } else if (c == '/') {
       out += "~1";
-    else
+    } else {
       out += c;
+    }
   }
   return out;
 }
@@ -70,20 +71,21 @@ void check_attribute(const Attribute& attribute, const std::string& pointer, con
                      const Texts& texts, std::vector<Issue>& issues) {
   const std::string found = "found " + text_of(value, texts);
   if (attribute.is_constant) {
-    issues.push_back({IssueKind::not_available, pointer,
-                      "the rules declare this name as a constant, which a request cannot set"});
+    issues.emplace_back(IssueKind::not_available, pointer,
+                        "the rules declare this name as a constant, which a request cannot set");
     return;
   }
   if (attribute.has_range && attribute.is_restricted &&
       (value.is_text() || value.number < attribute.low || value.number > attribute.high)) {
-    issues.push_back({IssueKind::out_of_range, pointer,
-                      found + ", expected a number from " + number_text(attribute.low) + " to " +
-                          number_text(attribute.high)});
+    issues.emplace_back(IssueKind::out_of_range, pointer,
+                        found + ", expected a number from " + number_text(attribute.low) + " to " +
+                            number_text(attribute.high));
   }
   if (!attribute.choices.empty() && attribute.is_restricted &&
-      std::ranges::find(attribute.choices, value) == attribute.choices.end())
-    issues.push_back(
-        {IssueKind::invalid_value, pointer, found + ", expected " + choices_of(attribute, texts)});
+      std::ranges::find(attribute.choices, value) == attribute.choices.end()) {
+    issues.emplace_back(IssueKind::invalid_value, pointer,
+                        found + ", expected " + choices_of(attribute, texts));
+  }
 }
 
 /// Every name is a valid material, so that names one letter away from a known one get a warning.
@@ -122,9 +124,9 @@ void add_refused(const BuildingParams& params, const RuleText& rules, const char
       issues.push_back(issue_at(error.kind, rules, error.offset, error.message));
       continue;
     }
-    issues.push_back({IssueKind::invalid_value, pointer,
-                      "the rules of the blueprint are not of this kind: " + error.message + " (line " +
-                          std::to_string(text_position(rules.text, error.offset).line) + " of them)"});
+    issues.emplace_back(IssueKind::invalid_value, pointer,
+                        "the rules of the blueprint are not of this kind: " + error.message + " (line " +
+                            std::to_string(text_position(rules.text, error.offset).line) + " of them)");
     return;
   }
 }
@@ -133,14 +135,14 @@ void add_refused(const BuildingParams& params, const RuleText& rules, const char
 void check_start(const BuildingParams& params, const RuleText& rules, Grammar& grammar,
                  std::vector<Issue>& issues) {
   if (grammar.start == none) {
-    issues.push_back({IssueKind::unknown_name, "/start",
-                      "there is no symbol \"" + params.start.value_or("") + "\" in the rules"});
+    issues.emplace_back(IssueKind::unknown_name, "/start",
+                        "there is no symbol \"" + params.start.value_or("") + "\" in the rules");
     return;
   }
   const Symbol& start = grammar.symbols[grammar.start];
   if (start.rules.empty()) {
-    issues.push_back(
-        {IssueKind::unknown_name, "/start", "there is no rule for the symbol \"" + start.name + "\""});
+    issues.emplace_back(IssueKind::unknown_name, "/start",
+                        "there is no rule for the symbol \"" + start.name + "\"");
     return;
   }
   const std::uint32_t least = least_parameters(grammar, grammar.start);
@@ -154,10 +156,10 @@ void check_start(const BuildingParams& params, const RuleText& rules, Grammar& g
   } else if (least > 1 && grammar.is_cityengine) {
     warn(" has parameters, for which the first shape has no values; they are 0");
   } else if (least > 1) {
-    issues.push_back({IssueKind::invalid_value, params.start ? "/start" : "/rules",
-                      "the rules of \"" + start.name +
-                          "\" have parameters, for which the first shape has no "
-                          "values; begin with a rule that gives them"});
+    issues.emplace_back(IssueKind::invalid_value, params.start ? "/start" : "/rules",
+                        "the rules of \"" + start.name +
+                            "\" have parameters, for which the first shape has no "
+                            "values; begin with a rule that gives them");
   }
 }
 
@@ -178,9 +180,10 @@ std::pair<int, int> restrictions_of(const BuildingParams& params) {
 /// Reads the rules and adds the issues of rules and start. Null if the rules have syntax errors.
 std::shared_ptr<const RuleSet> read(const BuildingParams& params, std::vector<Issue>& issues) {
   std::vector<lang::TextError> faults;
-  if (params.rules && params.blueprint)
-    issues.push_back(
-        {IssueKind::conflict, "/blueprint", "found rules and a blueprint, expected one of them"});
+  if (params.rules && params.blueprint) {
+    issues.emplace_back(IssueKind::conflict, "/blueprint",
+                        "found rules and a blueprint, expected one of them");
+  }
   const std::size_t before = issues.size();
   auto set = std::make_shared<RuleSet>();
   set->text = rule_text_of(params, issues);
@@ -197,9 +200,10 @@ std::shared_ptr<const RuleSet> read(const BuildingParams& params, std::vector<Is
   }
   const bool has_text_restriction =
       params.restrict == BuildingRestrict::non_erasing || params.restrict == BuildingRestrict::unimarker;
-  if (faults.empty() && has_text_restriction)
+  if (faults.empty() && has_text_restriction) {
     add_refused(params, rules, "/restrict",
                 errors_of_restriction(grammar, params.restrict == BuildingRestrict::unimarker), issues);
+  }
   if (faults.empty() && params.weights == BuildingWeights::strict)
     add_refused(params, rules, "/weights", errors_of_weights(grammar), issues);
   if (!faults.empty()) return nullptr;
@@ -226,10 +230,11 @@ void check_values(const BuildingParams& params, const Grammar& grammar, std::vec
 void check_alone(const BuildingParams& params, std::vector<Issue>& issues) {
   const BuildingParams plain;
   const auto refuse = [&](bool is_given, const char* name) {
-    if (is_given)
-      issues.push_back({IssueKind::conflict, std::string("/") + name,
-                        "has no meaning for a shape grammar, which begins with its "
-                        "initial shape"});
+    if (is_given) {
+      issues.emplace_back(IssueKind::conflict, std::string("/") + name,
+                          "has no meaning for a shape grammar, which begins with its "
+                          "initial shape");
+    }
   };
   refuse(params.rules.has_value(), "rules");
   refuse(params.blueprint.has_value(), "blueprint");
@@ -241,10 +246,11 @@ void check_alone(const BuildingParams& params, std::vector<Issue>& issues) {
   refuse(params.repeat.has_value(), "repeat");
   refuse(!params.assets.empty(), "assets");
   refuse(params.derivation.order != plain.derivation.order, "derivation/order");
-  if (params.restrict == BuildingRestrict::split)
-    issues.push_back({IssueKind::conflict, "/restrict",
-                      "found split, which restricts rules; expected none, non_erasing or unimarker for a "
-                      "shape grammar"});
+  if (params.restrict == BuildingRestrict::split) {
+    issues.emplace_back(IssueKind::conflict, "/restrict",
+                        "found split, which restricts rules; expected none, non_erasing or unimarker for a "
+                        "shape grammar");
+  }
 }
 
 PictureRestriction restriction_of(BuildingRestrict restrict) {
@@ -256,13 +262,14 @@ PictureRestriction restriction_of(BuildingRestrict restrict) {
 }  // namespace
 
 RuleText rule_text_of(const BuildingParams& params, std::vector<Issue>& issues) {
-  if (!params.rules)
+  if (!params.rules) {
     return rule_text(params.blueprint ? blueprint_named(text_of(*params.blueprint))->rules
                                       : std::string_view());
+  }
   if (const auto* const text = std::get_if<std::string>(&*params.rules)) return rule_text(*text);
   const auto& files = std::get<std::map<std::string, std::string>>(*params.rules);
   if (files.empty()) {
-    issues.push_back({IssueKind::missing, "/rules", "found no rule file, expected at least one"});
+    issues.emplace_back(IssueKind::missing, "/rules", "found no rule file, expected at least one");
     return rule_text("");
   }
   std::string_view start = params.start ? std::string_view(*params.start) : std::string_view();
@@ -296,8 +303,8 @@ void check_attribute_value(const Grammar& grammar, Texts& texts,
   const std::string& name = given.first;
   const auto found = std::ranges::find(grammar.attributes, name, &Attribute::name);
   if (found == grammar.attributes.end()) {
-    issues.push_back({IssueKind::unknown_name, base + escaped(name),
-                      "the rules declare no attribute of this name" + help_with(name, grammar)});
+    issues.emplace_back(IssueKind::unknown_name, base + escaped(name),
+                        "the rules declare no attribute of this name" + help_with(name, grammar));
     return;
   }
   check_attribute(*found, base + escaped(name), value_of(texts, given.second), texts, issues);
@@ -326,8 +333,8 @@ std::vector<Issue> check_all(const BuildingParams& params, const Bounds& bounds,
     check_alone(params, issues);
     pictures = read_pictures(*params.shape_grammar, restriction_of(params.restrict), issues);
   } else if (!params.rules && !params.blueprint) {
-    issues.push_back({IssueKind::missing, "",
-                      "found none of \"rules\", \"blueprint\" and \"shape_grammar\", expected one of them"});
+    issues.emplace_back(IssueKind::missing, "",
+                        "found none of \"rules\", \"blueprint\" and \"shape_grammar\", expected one of them");
   } else {
     if (!rules) rules = read(params, issues);
     if (rules) check_values(params, rules->grammar, issues);
@@ -336,23 +343,24 @@ std::vector<Issue> check_all(const BuildingParams& params, const Bounds& bounds,
     const std::vector<Issue> more = check_footprint(params.footprint, bounds.job);
     issues.insert(issues.end(), more.begin(), more.end());
   } else if (dimension({params.size[0], params.size[1], params.size[2]}) < 2) {
-    issues.push_back(
-        {IssueKind::out_of_range, "/size", "found fewer than two sizes above 0, expected at least two"});
+    issues.emplace_back(IssueKind::out_of_range, "/size",
+                        "found fewer than two sizes above 0, expected at least two");
   } else if (params.blueprint && !(params.size[0] > 0 && params.size[2] > 0)) {
-    issues.push_back({IssueKind::out_of_range, "/size",
-                      "a blueprint stands on the ground: expected sizes above 0 in x and z"});
+    issues.emplace_back(IssueKind::out_of_range, "/size",
+                        "a blueprint stands on the ground: expected sizes above 0 in x and z");
   }
   if (params.iterations && static_cast<std::uint32_t>(*params.iterations) > bounds.limits.iterations) {
     issues.push_back(iterations_issue(static_cast<std::uint64_t>(*params.iterations), bounds.limits));
   }
   for (const auto& [name, asset] : params.assets) {
-    if (asset.model.has_value() == asset.glb.has_value())
-      issues.push_back({IssueKind::conflict, "/assets/" + name,
-                        std::string("found ") + (asset.model ? "both" : "neither") +
-                            " of \"model\" and \"glb\", expected one of them"});
-    else if (asset.glb && !is_glb_uri(*asset.glb))
-      issues.push_back({IssueKind::invalid_value, "/assets/" + name + "/glb",
-                        "expected a GLB as \"data:model/gltf-binary;base64,…\""});
+    if (asset.model.has_value() == asset.glb.has_value()) {
+      issues.emplace_back(IssueKind::conflict, "/assets/" + name,
+                          std::string("found ") + (asset.model ? "both" : "neither") +
+                              " of \"model\" and \"glb\", expected one of them");
+    } else if (asset.glb && !is_glb_uri(*asset.glb)) {
+      issues.emplace_back(IssueKind::invalid_value, "/assets/" + name + "/glb",
+                          "expected a GLB as \"data:model/gltf-binary;base64,…\"");
+    }
   }
   check_materials(params, issues);
   return issues;

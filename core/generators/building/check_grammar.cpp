@@ -78,12 +78,14 @@ void check_weights(Parser& p) {
   for (const Symbol& symbol : p.grammar.symbols) {
     const WeightSum made = sum_of_weights(p.grammar, symbol);
     if (!made.has_weight || !made.is_known) continue;
-    if (!made.has_rest && std::abs(made.sum - 1) > 1e-9)
+    if (!made.has_rest && std::abs(made.sum - 1) > 1e-9) {
       add_warning(p, p.grammar.rules[symbol.rules[0]].offset,
                   "the weights of `" + symbol.name + "` do not sum to 1; they count as shares of their sum");
-    if (made.has_rest && made.sum > 1 + 1e-9)
+    }
+    if (made.has_rest && made.sum > 1 + 1e-9) {
       add_warning(p, p.grammar.rules[symbol.rules[0]].offset,
                   "the weights of `" + symbol.name + "` sum to more than 1, so that else is never chosen");
+    }
   }
 }
 
@@ -160,12 +162,13 @@ void check_grammar(Parser& p, std::string_view start) {
       return p.grammar.rules[r].parameter_count == step.argument_count;
     };
     if (!step.is_leaf && !symbol.rules.empty() && std::ranges::none_of(symbol.rules, takes) &&
-        p.faults.size() < lang::max_errors)
+        p.faults.size() < lang::max_errors) {
       p.faults.push_back({step.offset,
                           "`" + symbol.name + "` takes " +
                               std::to_string(p.grammar.rules[symbol.rules[0]].parameter_count) +
                               " parameters, found " + std::to_string(step.argument_count),
                           IssueKind::out_of_range});
+    }
     if (!step.is_leaf && !symbol.is_in_joint && symbol.rules.empty() && symbol.first_use != none) {
       add_warning(p, symbol.first_use,
                   "there is no rule for `" + symbol.name + "`, so that it is a leaf; write `" + symbol.name +

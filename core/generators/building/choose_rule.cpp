@@ -82,7 +82,7 @@ const Choice* choose(Derivation& d, std::uint32_t index) {
         rule.parameter_count == shape.parameter_count && rule.locals.empty() && rule.fixed.empty())
       return &d.grammar.choices[branch.first_choice];
   }
-  const ShapeState state = shape;
+  const auto state = static_cast<const ShapeState&>(shape);
   look_at(d, state, index);
   return choose_in(d, symbol.rules, shape.parameter_count, shape.key);
 }

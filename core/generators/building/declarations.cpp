@@ -202,10 +202,11 @@ void read_annotations(Parser& p, Attribute& attribute, const std::vector<std::si
         });
     if (name.text == "Enum" || is_list) {
       for (const NoteArgument& each : given) {
-        if (each.name == "restricted")
+        if (each.name == "restricted") {
           attribute.is_restricted = each.value.number != 0;
-        else if (each.name.empty())
+        } else if (each.name.empty()) {
           attribute.choices.push_back(each.value);
+        }
       }
     } else if (name.text == "Range") {
       read_range(attribute, given);
@@ -246,10 +247,11 @@ void compile_needed(Parser& p, std::size_t attribute, std::size_t from, std::siz
     RuleFunction& function = called->second;
     if (function.order == Progress::in_progress) {
       // A function may call itself, but no attribute may stand between.
-      if (function.owner != attribute)
+      if (function.owner != attribute) {
         add_error(p, p.tokens.at(p.declarations[attribute].from),
                   "the value of `" + p.declarations[attribute].name + "` depends on itself",
                   IssueKind::evaluation);
+      }
       continue;
     }
     function.order = Progress::in_progress;

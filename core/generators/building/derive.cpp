@@ -95,12 +95,13 @@ void run_steps(Derivation& d, int steps) {
 
 Shapes run(Derivation& d) {
   begin(d);
-  if (!d.task.iterations)
+  if (!d.task.iterations) {
     finish_all(d);
-  else if (d.task.is_sequential)
+  } else if (d.task.is_sequential) {
     run_steps(d, *d.task.iterations);
-  else
+  } else {
     run_rounds(d, *d.task.iterations);
+  }
   d.out.found_edits = d.edits.found();
   return std::move(d.out);
 }

@@ -54,21 +54,23 @@ std::string suggestion(std::string_view name, const Grammar& grammar) {
 void check_names(const std::vector<NamedStep>& steps, const Grammar& grammar, const std::string& pointer,
                  std::vector<Issue>& issues) {
   if (steps.empty()) {
-    issues.push_back({IssueKind::syntax, pointer,
-                      "expected names of shapes between slashes, with a number in brackets, such as "
-                      "\"Lot/floor[2]/window[3]\""});
+    issues.emplace_back(IssueKind::syntax, pointer,
+                        "expected names of shapes between slashes, with a number in brackets, such as "
+                        "\"Lot/floor[2]/window[3]\"");
     return;
   }
   const std::string& first = grammar.symbols[grammar.start].name;
-  if (steps.front().name != first)
-    issues.push_back(
-        {IssueKind::unknown_name, pointer,
-         "found \"" + std::string(steps.front().name) + "\" as the first shape, expected \"" + first + "\""});
+  if (steps.front().name != first) {
+    issues.emplace_back(
+        IssueKind::unknown_name, pointer,
+        "found \"" + std::string(steps.front().name) + "\" as the first shape, expected \"" + first + "\"");
+  }
   for (std::size_t i = 1; i < steps.size(); ++i) {
-    if (grammar.symbol_named(steps[i].name) == none)
-      issues.push_back({IssueKind::unknown_name, pointer,
-                        "the rules have no symbol \"" + std::string(steps[i].name) + "\"" +
-                            suggestion(steps[i].name, grammar)});
+    if (grammar.symbol_named(steps[i].name) == none) {
+      issues.emplace_back(IssueKind::unknown_name, pointer,
+                          "the rules have no symbol \"" + std::string(steps[i].name) + "\"" +
+                              suggestion(steps[i].name, grammar));
+    }
   }
 }
 
@@ -96,21 +98,27 @@ void check_edits(const BuildingParams& params, const Grammar& grammar, std::vect
     const std::vector<NamedStep> steps = read_path(edit.shape);
     check_names(steps, grammar, pointer + "/shape", issues);
     std::vector<std::pair<std::string_view, std::uint32_t>> key;
+    key.reserve(steps.size());
     for (const NamedStep& step : steps) key.emplace_back(step.name, step.number);
     const auto [before, is_new] = known.emplace(std::move(key), i);
-    if (!is_new && !steps.empty())
-      issues.push_back(
-          {IssueKind::conflict, pointer + "/shape",
-           "edit " + std::to_string(before->second) + " changes the same shape, expected one edit for each"});
-    if (edit.remove && (edit.rule || !edit.attributes.empty()))
-      issues.push_back({IssueKind::conflict, pointer + "/remove",
-                        "a removed shape has neither a rule nor attributes, expected one of them"});
-    if (!edit.remove && !edit.rule && edit.attributes.empty())
-      issues.push_back(
-          {IssueKind::missing, pointer, "found no change, expected \"attributes\", \"rule\" or \"remove\""});
-    if (edit.rule && grammar.symbol_named(*edit.rule) == none)
-      issues.push_back({IssueKind::unknown_name, pointer + "/rule",
-                        "the rules have no symbol \"" + *edit.rule + "\"" + suggestion(*edit.rule, grammar)});
+    if (!is_new && !steps.empty()) {
+      issues.emplace_back(
+          IssueKind::conflict, pointer + "/shape",
+          "edit " + std::to_string(before->second) + " changes the same shape, expected one edit for each");
+    }
+    if (edit.remove && (edit.rule || !edit.attributes.empty())) {
+      issues.emplace_back(IssueKind::conflict, pointer + "/remove",
+                          "a removed shape has neither a rule nor attributes, expected one of them");
+    }
+    if (!edit.remove && !edit.rule && edit.attributes.empty()) {
+      issues.emplace_back(IssueKind::missing, pointer,
+                          "found no change, expected \"attributes\", \"rule\" or \"remove\"");
+    }
+    if (edit.rule && grammar.symbol_named(*edit.rule) == none) {
+      issues.emplace_back(
+          IssueKind::unknown_name, pointer + "/rule",
+          "the rules have no symbol \"" + *edit.rule + "\"" + suggestion(*edit.rule, grammar));
+    }
     for (const auto& given : edit.attributes)
       check_attribute_value(grammar, texts, given, pointer + "/attributes/", issues);
   }
@@ -160,10 +168,11 @@ const ShapeEdit* EditSearch::visit(std::uint32_t shape, std::uint32_t parent, st
 std::vector<Warning> missing_edits(const BuildingParams& params, const Shapes& shapes) {
   std::vector<Warning> warnings;
   for (std::size_t i = 0; i < shapes.found_edits.size(); ++i) {
-    if (!shapes.found_edits[i])
+    if (!shapes.found_edits[i]) {
       warnings.push_back(
           {"/edits/" + std::to_string(i) + "/shape",
            "no shape has the path \"" + params.edits[i].shape + "\", so this edit has no effect", 0, 0});
+    }
   }
   return warnings;
 }
@@ -187,7 +196,7 @@ std::vector<std::string> paths_of(const Shapes& shapes, const Grammar& grammar, 
     const std::string own = name + "[" + std::to_string(++numbers[{shape.parent, symbol}]) + "]";
     const std::string& above = paths[shape.parent];
     bytes += above.size() + own.size() + 1;
-    if (!above.empty() && bytes <= most_bytes) paths[i] = above + "/" + own;
+    if (!above.empty() && bytes <= most_bytes) paths[i].append(above).append("/").append(own);
   }
   return paths;
 }

@@ -91,9 +91,10 @@ void combine(Derivation& d, const Step& step, ShapeState& state, const Site& sit
     const std::vector<Shape> leaves = leaves_of(d, d.grammar.parts[step.first_part + i].body, given, site, i);
     operands[i] = united_solid(d, step.offset, given, leaves, Joining::unify);
     if (i == 0) first = leaves;
-    if (!operands[i].faces.empty() && !operands[i].is_closed)
+    if (!operands[i].faces.empty() && !operands[i].is_closed) {
       warn(d, step.offset,
            "an operand of a Boolean operation is no closed solid, so that the result may be wrong");
+    }
     const std::uint32_t tag = with_tag(d, 0, i == 0 ? "bool.A" : "bool.B");
     for (Face& face : operands[i].faces) face.tags = joined_tags(d, face.tags, tag);
   }
@@ -139,9 +140,10 @@ void modify(Derivation& d, const Step& step, ShapeState& state, const Site& site
       const std::vector<Shape> leaves = leaves_of(d, part.body, before, site, key_at(p, i));
       if (leaves.empty() && step.axis == component_faces && i < is_removed.size()) is_removed[i] = 1;
       if (leaves.size() != 1 || (leaves[0].geometry != before.geometry && step.axis == component_faces)) {
-        if (!leaves.empty())
+        if (!leaves.empty()) {
           warn(d, step.offset,
                "modify moves components; operations that make other geometry of them have no effect");
+        }
         continue;
       }
       const glm::dmat3 from = glm::transpose(d.out.axes[before.axes]), to = d.out.axes[leaves[0].axes];

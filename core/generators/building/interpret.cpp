@@ -288,7 +288,7 @@ bool expand(Derivation& d, std::uint32_t index) {
   }
   const Shape shape = d.out.shapes[index];
   d.out.shapes[index].is_active = false;
-  run_choice(d, *choice, shape, {index, shape.key, shape, shape.is_carried});
+  run_choice(d, *choice, shape, {index, shape.key, static_cast<const ShapeState&>(shape), shape.is_carried});
   d.locals.erase(index);
   return true;
 }

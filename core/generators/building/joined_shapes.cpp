@@ -212,10 +212,11 @@ class Join {
       }
       made.parameter_count = static_cast<std::uint8_t>(made.parameter_count + part.parameter_count);
     }
-    if (made.depth >= deepest_shape)
+    if (made.depth >= deepest_shape) {
       reject(d_, offset,
              "`" + d_.grammar.symbols[joint.symbol].name +
                  "` is nested 1,000 shapes deep: its rules call each other without an end");
+    }
     d_.meter.spend();
     d_.out.shapes.push_back(made);
     const auto index = static_cast<std::uint32_t>(d_.out.shapes.size()) - 1;

@@ -150,11 +150,12 @@ class Loader {
     Names names;
     names.prefix = prefix;
     for (const Statement& each : all) {
-      if (each.kind == Statement::Kind::import)
+      if (each.kind == Statement::Kind::import) {
         names.aliases.emplace(file.at(each.name).text);
-      else if ((each.kind == Statement::Kind::definition || each.kind == Statement::Kind::rule) &&
-               !each.is_foreign())
+      } else if ((each.kind == Statement::Kind::definition || each.kind == Statement::Kind::rule) &&
+                 !each.is_foreign()) {
         names.own.emplace(file.at(each.name).text);
+      }
       if (each.is_start) names.start = file.at(each.name).text;
     }
     if (prefix.empty()) out.start = names.start;

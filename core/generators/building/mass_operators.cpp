@@ -86,9 +86,10 @@ Solid cut_by_slope(Solid solid, int up, const glm::dvec3& at, const glm::dvec3& 
 }
 
 double cut_angle(Derivation& d, const Step& step, double degrees) {
-  if (!(degrees > 0 && degrees <= 90))
+  if (!(degrees > 0 && degrees <= 90)) {
     reject(d, step.offset,
            "found a slope of " + text_of_number(degrees) + " degrees, expected one above 0 and up to 90");
+  }
   return degrees;
 }
 
@@ -222,9 +223,10 @@ void envelope(Derivation& d, const Step& step, ShapeState& state, const Site&) {
                        b = ring[(i + 2) % ring.size()] - ring[(i + 1) % ring.size()];
       is_convex &= a.x * b.y - a.y * b.x > -1e-9 * glm::length(a) * glm::length(b);
     }
-    if (!is_convex)
+    if (!is_convex) {
       warn(d, step.offset,
            "the outline is not convex: slopes from its edges cut all of the volume that lies inside of them");
+    }
     for (std::uint32_t e = 0; e < edge_count(plan); ++e, ++edge_number) {
       const auto [from, to] = edge_of(plan, e);
       const glm::dvec2 along = (to - from) / glm::length(to - from), inwards(-along.y, along.x);
@@ -232,9 +234,10 @@ void envelope(Derivation& d, const Step& step, ShapeState& state, const Site&) {
       // front, back, right (or side), left
       std::uint32_t side =
           std::abs(outward.z) >= std::abs(outward.x) ? (outward.z > 0 ? 0U : 1U) : (outward.x > 0 ? 2U : 3U);
-      if (plane.w == 2)
+      if (plane.w == 2) {
         side = std::abs(outward.y) >= std::abs(outward.x) ? (outward.y < 0 ? 0U : 1U)
                                                           : (outward.x > 0 ? 2U : 3U);
+      }
       double base = height, angle = 90;
       if (is_array(first)) {
         if (edge_number < bases.values.size()) base = number_in(at, bases.values[edge_number]);

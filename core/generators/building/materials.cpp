@@ -105,9 +105,10 @@ void check_materials(const BuildingParams& params, std::vector<Issue>& issues) {
     const auto check = [&](const std::string& uri, const char* member) {
       if (uri.empty()) return;
       std::string error = texture::fault_of_image_uri(uri);
-      if (!error.empty())
-        issues.push_back(
-            {IssueKind::invalid_value, "/materials/" + name + "/images/" + member, std::move(error)});
+      if (!error.empty()) {
+        issues.emplace_back(IssueKind::invalid_value, "/materials/" + name + "/images/" + member,
+                            std::move(error));
+      }
     };
     check(given.images->color, "color");
     check(given.images->normal, "normal");
@@ -115,7 +116,7 @@ void check_materials(const BuildingParams& params, std::vector<Issue>& issues) {
   }
   if (params.facade_image.empty()) return;
   if (std::string error = texture::fault_of_image_uri(params.facade_image); !error.empty())
-    issues.push_back({IssueKind::invalid_value, "/facade_image", std::move(error)});
+    issues.emplace_back(IssueKind::invalid_value, "/facade_image", std::move(error));
 }
 
 MaterialTable::MaterialTable(Model& model, const BuildingParams& params, const Shapes& shapes,
@@ -157,12 +158,13 @@ int MaterialTable::material_of(const Shape& shape) {
     name = name_of_color(*color);
   } else {
     const std::string& symbol = this->symbol(shape);
-    if (params_.materials.contains(symbol))
+    if (params_.materials.contains(symbol)) {
       name = symbol;
-    else
+    } else {
       name = find_preset(lower(symbol)) != nullptr || params_.materials.contains(lower(symbol))
                  ? lower(symbol)
                  : "building";
+    }
   }
   const bool has_image = may_have_image && is_wall(name);
   found->second = has_image ? facade_material() : make({name, color, false});
@@ -238,9 +240,10 @@ int MaterialTable::make(const MaterialRequest& request) {
   MaterialPreset preset = known != nullptr ? *known : presets[0];
   for (const PartMaterial& part : part_materials()) {
     const bool is_painted = is_role && name.starts_with(std::string(part.role) + "_");
-    if (known == nullptr && (part.role == name || is_painted))
+    if (known == nullptr && (part.role == name || is_painted)) {
       preset = {part.role, *color_of(part.color), static_cast<double>(part.roughness),
                 static_cast<double>(part.metallic), 1};
+    }
   }
   // "#rrggbbaa" has an opacity.
   Color main = takes_color ? *color_of(color->substr(0, 7)) : preset.color;
@@ -280,10 +283,11 @@ int MaterialTable::make(const MaterialRequest& request) {
     material.recipe.kind = surface->name;
     if (given != params_.materials.end())
       material.recipe.seed = static_cast<std::uint64_t>(given->second.texture_seed);
-    if (surface->is_grey)
+    if (surface->is_grey) {
       material.recipe.factor = glm::min(glm::vec3(material.base_color) / texture::wall_grey(), glm::vec3(1));
-    else
+    } else {
       material.recipe.color = {{main.red, main.green, main.blue}};
+    }
     tiles_[found->second] = surface->tile;
   }
   model_.materials.push_back(std::move(material));

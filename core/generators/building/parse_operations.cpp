@@ -154,10 +154,11 @@ void parse_arguments(Parser& p, const OperationRow& row, std::vector<Argument>& 
       parse_cells(p, cells, false);
       break;
     }
-    if (out.size() < kinds.size())
+    if (out.size() < kinds.size()) {
       out.push_back(parse_argument(p, kinds[out.size()]));
-    else
+    } else {
       ++p.at;
+    }
     if (p.at == before) break;
     if (!take(p, ",")) break;
     if (p.at >= close && has_sizes) break;
@@ -172,10 +173,9 @@ void parse_arguments(Parser& p, const OperationRow& row, std::vector<Argument>& 
   p.at = std::min(close + 1, p.tokens.end());
 }
 
-/// Gives the bodies in the braces of an operation of 2006 to its parts.
-void give_bodies(Parser& p, const OperationRow& row, const Token& token, Step& step,
-                 const std::vector<Argument>& list, const std::vector<std::uint32_t>& bodies,
-                 std::vector<Part>& parts) {
+/// Gives the bodies in the braces of an operation of 2006 to its parts. Returns what is wrong with them, or nothing.
+std::string give_bodies(Parser& p, const OperationRow& row, Step& step, const std::vector<Argument>& list,
+                        const std::vector<std::uint32_t>& bodies, std::vector<Part>& parts) {
   if (row.op == Op::comp) {
     parse_selectors_2006(p, step, list, parts);
     if (parts.size() == 1) {
@@ -192,19 +192,20 @@ void give_bodies(Parser& p, const OperationRow& row, const Token& token, Step& s
   } else if (row.op == Op::repeat || row.op == Op::roof || row.op == Op::scatter) {
     Part part;
     part.body = bodies.front();
-    if (bodies.size() > 1)
-      add_error(p, token,
-                "found " + std::to_string(bodies.size()) + " successors, expected one for " +
-                    lang::in_quotes(row.name));
     parts.assign(1, part);
+    if (bodies.size() > 1) {
+      return "found " + std::to_string(bodies.size()) + " successors, expected one for " +
+             lang::in_quotes(row.name);
+    }
   } else {
     std::size_t next = 0;
     assign_bodies(p, parts, bodies, next);
-    if (next != bodies.size() || next == 0)
-      add_error(p, token,
-                "found " + std::to_string(next) + " sizes and " + std::to_string(bodies.size()) +
-                    " successors, expected equal numbers");
+    if (next != bodies.size() || next == 0) {
+      return "found " + std::to_string(next) + " sizes and " + std::to_string(bodies.size()) +
+             " successors, expected equal numbers";
+    }
   }
+  return {};
 }
 
 /// The step behind `inline` as a body of its own.
@@ -216,10 +217,11 @@ void parse_next(Parser& p, std::vector<Part>& out) {
     choice = parse_successor(p);
     expect(p, "}", "the operations of `inline`");
   } else {
-    if (here(p).kind == TokenKind::name)
+    if (here(p).kind == TokenKind::name) {
       parse_step(p, steps);
-    else
+    } else {
       add_unexpected(p, "an operation, a symbol or `{` after `inline`");
+    }
     append_rows(p.grammar.steps, steps, choice.first_step, choice.step_count);
   }
   --p.depth;
@@ -263,10 +265,11 @@ void parse_operands(Parser& p, const OperationRow& row, std::vector<Part>& out) 
     part.body = parse_body(p);
     out.push_back(part);
   } while (take(p, "|"));
-  if (out.size() != 2)
+  if (out.size() != 2) {
     add_error(
         p, here(p),
         "found " + std::to_string(out.size()) + " operands, expected two for " + lang::in_quotes(row.name));
+  }
 }
 
 }  // namespace
@@ -278,10 +281,11 @@ void parse_operation(Parser& p, const OperationRow& row, std::vector<Step>& out)
   step.offset = static_cast<std::uint32_t>(token.offset);
   if (row.status != Status::done) {
     const std::string reason = row.text.empty() ? std::string() : " (" + std::string(row.text) + ")";
-    if (row.status == Status::error)
+    if (row.status == Status::error) {
       add_error(p, token, in_quotes(token) + " is not supported" + reason);
-    else
+    } else {
       add_warning(p, step.offset, in_quotes(token) + " has no effect here" + reason);
+    }
     step.op = Op::ignored;
   }
   ++p.at;
@@ -314,7 +318,8 @@ void parse_operation(Parser& p, const OperationRow& row, std::vector<Step>& out)
       std::vector<std::uint32_t> bodies;
       do bodies.push_back(parse_body(p));
       while (take(p, "|"));
-      give_bodies(p, row, token, step, list, bodies, parts);
+      const std::string wrong = give_bodies(p, row, step, list, bodies, parts);
+      if (!wrong.empty()) add_error(p, token, wrong);
     }
     --p.depth;
     if (!is_here(p, "}")) {
@@ -371,10 +376,11 @@ Argument parse_argument(Parser& p, char kind) {
   if (kind == 'w' || kind == 'i') return parse_word(p);
   if (kind == 'h') return parse_slope(p);
   Argument argument;
-  if (take(p, "'"))
+  if (take(p, "'")) {
     argument.measure = Measure::relative;
-  else if (take(p, "~"))
+  } else if (take(p, "~")) {
     argument.measure = Measure::floating;
+  }
   argument.value = parse_value(p);
   const Token& behind = here(p);
   const Token& last = p.tokens.at(p.at > 0 ? p.at - 1 : 0);

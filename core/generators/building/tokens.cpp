@@ -98,14 +98,16 @@ Tokens::Tokens(const RuleText& text, std::string_view style, std::vector<lang::T
       open.push_back(i);
     } else if (closes(tokens_[i])) {
       if (open.empty()) {
-        if (faults.size() < lang::max_errors)
+        if (faults.size() < lang::max_errors) {
           faults.push_back({tokens_[i].offset,
                             "found " + in_quotes(tokens_[i]) + ", expected an opening bracket before it"});
+        }
       } else {
-        if (!fit(tokens_[open.back()].text, tokens_[i].text) && faults.size() < lang::max_errors)
+        if (!fit(tokens_[open.back()].text, tokens_[i].text) && faults.size() < lang::max_errors) {
           faults.push_back({tokens_[i].offset, "found " + in_quotes(tokens_[i]) +
                                                    ", expected the partner of " +
                                                    in_quotes(tokens_[open.back()])});
+        }
         partner_[open.back()] = i;
         open.pop_back();
       }

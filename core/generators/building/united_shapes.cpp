@@ -51,10 +51,11 @@ Solid united_solid(Derivation& d, std::uint32_t offset, const ShapeState& state,
     if (joining == Joining::unify && own.is_closed) {
       if (all.faces.size() + own.faces.size() > most_faces)
         reject(d, offset, "the Boolean operation has more than 20,000 faces");
-      if (all.faces.empty())
+      if (all.faces.empty()) {
         append(all, own);
-      else
+      } else {
         all = boolean(all, own, BooleanKind::unite, d.job);
+      }
     } else if (joining == Joining::unify) {
       append(open, own);
     } else {

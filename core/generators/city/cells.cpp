@@ -69,9 +69,11 @@ class Cell final : public RoadRules {
       network_.add_edge(from, to, kind, is_street_class(kind));
     }
     std::vector<std::uint32_t> ring;
+    ring.reserve(loop.size());
     for (const std::uint32_t half : loop) ring.push_back(node_of(majors.nodes[start_of(majors.edges, half)]));
     rings_.push_back(std::move(ring));
     std::vector<std::uint8_t> borders;
+    borders.reserve(loop.size());
     for (const std::uint32_t half : loop)
       borders.push_back(is_street_tag(majors.edges[half / 2].tag) ? 0 : 1);
     borders_.push_back(std::move(borders));
@@ -84,6 +86,7 @@ class Cell final : public RoadRules {
       const std::vector<std::uint32_t>& ring = rings_[r];
       const std::size_t count = ring.size();
       std::vector<double> draw;
+      draw.reserve(count);
       for (const std::uint32_t node : ring) draw.push_back(draw_of(node));
       for (std::size_t i = 0; i < count; ++i) {
         const std::size_t before = (i + count - 1) % count;
@@ -164,9 +167,10 @@ class Cell final : public RoadRules {
   std::vector<StreetPiece> pieces() const {
     std::vector<StreetPiece> all;
     for (const NetworkEdge& edge : network_.edges()) {
-      if (!edge.is_removed && edge.kind == EdgeClass::minor && !edge.is_fixed)
+      if (!edge.is_removed && edge.kind == EdgeClass::minor && !edge.is_fixed) {
         all.push_back(
             {network_.nodes()[edge.from], network_.nodes()[edge.to], static_cast<std::uint32_t>(edge.kind)});
+      }
     }
     return all;
   }
@@ -302,9 +306,10 @@ std::vector<StreetPiece> grow_cell(const GrowthInput& input, const StreetGraph& 
     lowest = std::min(lowest, majors.nodes[start_of(majors.edges, half)]);
   cell.set_key(point_key(lowest));
   for (const std::vector<std::uint32_t>& loop : loops) cell.add_loop(majors, loop);
-  if (!input.grammar.grow(cell.starts(), cell, most_steps_of_a_cell, job))
+  if (!input.grammar.grow(cell.starts(), cell, most_steps_of_a_cell, job)) {
     job.refuse(limit_issue({Resource::steps, most_steps_of_a_cell, most_steps_of_a_cell + 1},
                            "the streets of a cell do not stop growing", "/streets/productions"));
+  }
   cell.settle_dead_ends();
   return cell.pieces();
 }

@@ -21,9 +21,9 @@ constexpr std::size_t most_points = 5000;
 
 void check_range(const std::array<double, 2>& range, const std::string& pointer, std::vector<Issue>& issues) {
   if (range[0] <= range[1]) return;
-  issues.push_back({IssueKind::conflict, pointer,
-                    "found " + number_text(range[0]) + " to " + number_text(range[1]) +
-                        ", expected the least value first"});
+  issues.emplace_back(
+      IssueKind::conflict, pointer,
+      "found " + number_text(range[0]) + " to " + number_text(range[1]) + ", expected the least value first");
 }
 
 void check_area(const CityParams& params, const Job& job, std::vector<Issue>& issues) {
@@ -37,35 +37,36 @@ void check_area(const CityParams& params, const Job& job, std::vector<Issue>& is
     rings.push_back(std::move(plan));
   }
   if (points > most_points) {
-    issues.push_back(
-        {IssueKind::out_of_range, "/area/polygon",
-         "found " + std::to_string(points) + " points, expected at most " + std::to_string(most_points)});
+    issues.emplace_back(
+        IssueKind::out_of_range, "/area/polygon",
+        "found " + std::to_string(points) + " points, expected at most " + std::to_string(most_points));
     return;
   }
   for (const PlanFault& each : faults_of(read_plan(std::move(rings)), &job)) {
-    issues.push_back({IssueKind::invalid_value,
-                      "/area/polygon/" + std::to_string(each.ring) + "/" + std::to_string(each.vertex),
-                      each.message});
+    issues.emplace_back(IssueKind::invalid_value,
+                        "/area/polygon/" + std::to_string(each.ring) + "/" + std::to_string(each.vertex),
+                        each.message);
   }
 }
 
 void check_lots(const CityLots& lots, std::vector<Issue>& issues) {
   check_range(lots.area, "/lots/area", issues);
   // A lot is at most six times as long as it is wide, so that it has at least this area.
-  if (lots.width * lots.width > lots.area[1])
-    issues.push_back({IssueKind::conflict, "/lots/width",
-                      "found a least width of " + number_text(lots.width) +
-                          " m; a square of this width has more than the greatest area of " +
-                          number_text(lots.area[1]) + " m²"});
+  if (lots.width * lots.width > lots.area[1]) {
+    issues.emplace_back(IssueKind::conflict, "/lots/width",
+                        "found a least width of " + number_text(lots.width) +
+                            " m; a square of this width has more than the greatest area of " +
+                            number_text(lots.area[1]) + " m²");
+  }
 }
 
 void check_surfaces(const CityParams& params, std::vector<Issue>& issues) {
   for (std::size_t i = 0; i < params.surfaces.size(); ++i) {
     for (std::size_t before = 0; before < i; ++before) {
       if (params.surfaces[i].material != params.surfaces[before].material) continue;
-      issues.push_back({IssueKind::duplicate_key, "/surfaces/" + std::to_string(i) + "/name",
-                        "found \"" + std::string(text_of(params.surfaces[i].material)) +
-                            "\", which /surfaces/" + std::to_string(before) + " has already"});
+      issues.emplace_back(IssueKind::duplicate_key, "/surfaces/" + std::to_string(i) + "/name",
+                          "found \"" + std::string(text_of(params.surfaces[i].material)) +
+                              "\", which /surfaces/" + std::to_string(before) + " has already");
       break;
     }
   }
@@ -86,11 +87,12 @@ void check_rules(const CityParams& params, std::vector<Issue>& issues) {
                 issues);
     const std::array<int, 2> taken = floors_of(text_of(rule.blueprint));
     if (rule.building) continue;
-    if (taken[1] > 0 && (floors[0] < taken[0] || floors[1] > taken[1]))
-      issues.push_back({IssueKind::conflict, pointer + "/floors",
-                        "found " + std::to_string(floors[0]) + " to " + std::to_string(floors[1]) +
-                            " floors; the blueprint " + std::string(text_of(rule.blueprint)) + " has " +
-                            std::to_string(taken[0]) + " to " + std::to_string(taken[1])});
+    if (taken[1] > 0 && (floors[0] < taken[0] || floors[1] > taken[1])) {
+      issues.emplace_back(IssueKind::conflict, pointer + "/floors",
+                          "found " + std::to_string(floors[0]) + " to " + std::to_string(floors[1]) +
+                              " floors; the blueprint " + std::string(text_of(rule.blueprint)) + " has " +
+                              std::to_string(taken[0]) + " to " + std::to_string(taken[1]));
+    }
   }
 }
 
@@ -98,14 +100,16 @@ void check_patterns(const CityParams& params, const Job& job, std::vector<Issue>
   if (!params.maps.pattern) return;
   FieldMap::read(*params.maps.pattern, "/maps/pattern", {-1, -1}, {1, 1}, job, issues);
   const CityStreets& streets = params.streets;
-  if (streets.method != CityMethod::growth)
-    issues.push_back({IssueKind::conflict, "/maps/pattern",
-                      "found the method " + std::string(text_of(streets.method)) +
-                          ", which has no patterns; expected the method growth"});
-  if (second_pattern_of(streets) == streets.pattern)
-    issues.push_back(
-        {IssueKind::conflict, "/streets/second_pattern",
-         "found " + std::string(text_of(streets.pattern)) + ", which is the pattern; expected another one"});
+  if (streets.method != CityMethod::growth) {
+    issues.emplace_back(IssueKind::conflict, "/maps/pattern",
+                        "found the method " + std::string(text_of(streets.method)) +
+                            ", which has no patterns; expected the method growth");
+  }
+  if (second_pattern_of(streets) == streets.pattern) {
+    issues.emplace_back(
+        IssueKind::conflict, "/streets/second_pattern",
+        "found " + std::string(text_of(streets.pattern)) + ", which is the pattern; expected another one");
+  }
 }
 
 }  // namespace
@@ -134,10 +138,11 @@ std::vector<Issue> check(const CityParams& params, const CheckContext& context) 
   given_lines(params, sections, of_streets);
   issues.insert(issues.end(), of_streets.begin(), of_streets.end());
   if (params.streets.method == CityMethod::given && !params.given.given_streets)
-    issues.push_back({IssueKind::missing, "/given/streets", "the method given needs streets"});
-  if (params.streets.method == CityMethod::wards && params.given.given_streets)
-    issues.push_back({IssueKind::conflict, "/given/streets",
-                      "found given streets; the method wards lays out all streets"});
+    issues.emplace_back(IssueKind::missing, "/given/streets", "the method given needs streets");
+  if (params.streets.method == CityMethod::wards && params.given.given_streets) {
+    issues.emplace_back(IssueKind::conflict, "/given/streets",
+                        "found given streets; the method wards lays out all streets");
+  }
   return issues;
 }
 

@@ -103,9 +103,10 @@ Region region_of_request(const CityParams& params, const Maps& maps, const CityP
     const Box box = box_of(area);
     const std::vector<Rings>& polygons = maps.water->polygons();
     water.insert(water.end(), polygons.begin(), polygons.end());
-    if (polygons.empty())
+    if (polygons.empty()) {
       water.push_back(
           contour_of([&](const glm::dvec2& p) { return maps.water->at(p); }, box.low, box.high, job));
+    }
   }
   return region_of(area, water, job);
 }
@@ -166,10 +167,11 @@ Error too_steep(const CityParams& params) {
 std::vector<Warning> remarks_on(const CityParams& params, const CityPlan& plan) {
   std::vector<Warning> warnings = warnings_of(unused_parameters(params));
   const Box box = box_of(plan.area);
-  if (!plan.landform->covers(box.low, box.high))
+  if (!plan.landform->covers(box.low, box.high)) {
     warnings.push_back(
         {"/terrain",
          "the terrain is smaller than the area; beyond its border the ground has the height of the border"});
+  }
   for (Warning& each : landmark_warnings(plan)) warnings.push_back(std::move(each));
   return warnings;
 }
@@ -229,9 +231,10 @@ Result<CityPlan> plan_of(const CityParams& params, Job& job) {
   const Landform* landform = plan.landform->is_level() ? nullptr : plan.landform.get();
   WardPlan wards;
   const bool has_wards = params.streets.method == CityMethod::wards;
-  if (has_wards)
+  if (has_wards) {
     wards =
         lay_out_wards(params, {plan.region, *maps.density, obstacles, landform}, plan.classes, job, issues);
+  }
   const std::optional<TensorField> tensor =
       field_of(params, plan.region, maps.pattern ? &*maps.pattern : nullptr, landform, job, issues);
   if (!issues.empty()) return Error{Code::invalid, std::move(issues)};

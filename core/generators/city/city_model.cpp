@@ -123,6 +123,7 @@ std::vector<GroundPiece> ground_pieces(const CityPlan& plan, const Chunks& chunk
     if (!part.is_wall) sorted[{chunks.of(part), part.kind}].push_back(i);
   }
   std::vector<GroundPiece> pieces;
+  pieces.reserve(sorted.size());
   for (auto& [key, parts] : sorted) pieces.push_back({key.first, key.second, std::move(parts)});
   return pieces;
 }

@@ -259,9 +259,10 @@ void GroundMesh::add_walls(std::uint32_t number) {
       double high = surface_.height(number, before), low = low_at(before);
       for (const dvec2& p : between_) {
         const double next_high = surface_.height(number, p), next_low = low_at(p);
-        if (high - low > same_height || next_high - next_low > same_height)
+        if (high - low > same_height || next_high - next_low > same_height) {
           add_wall({before.x, std::min(low, high), before.y}, {p.x, std::min(next_low, next_high), p.y}, high,
                    next_high, along);
+        }
         along += glm::length(p - before);
         before = p;
         high = next_high;

@@ -86,9 +86,10 @@ void check_house_requests(const CityParams& params, const CheckContext& context,
     const CityBuildingRule& rule = rules[i];
     const std::string pointer = "/buildings/rules/" + std::to_string(i);
     if (rule.building && rule.building->generator != "building") {
-      if (!rule.building->generator.empty())
-        issues.push_back({IssueKind::invalid_value, pointer + "/building/generator",
-                          "found " + rule.building->generator + ", expected building"});
+      if (!rule.building->generator.empty()) {
+        issues.emplace_back(IssueKind::invalid_value, pointer + "/building/generator",
+                            "found " + rule.building->generator + ", expected building");
+      }
       continue;
     }
     if (!generator || (rule.attributes.empty() && !rule.floors_as)) continue;
@@ -102,7 +103,11 @@ void check_house_requests(const CityParams& params, const CheckContext& context,
       for (Issue& issue : found.take()) {
         const std::string name(after(issue.pointer, "/attributes/"));
         if (name.empty()) continue;
-        issue.pointer = pointer + (rule.floors_as == name ? "/floors_as" : "/attributes/" + name);
+        issue.pointer = pointer;
+        if (rule.floors_as == name)
+          issue.pointer += "/floors_as";
+        else
+          issue.pointer.append("/attributes/").append(name);
         issues.push_back(std::move(issue));
       }
       if (!issues.empty()) break;

@@ -90,23 +90,26 @@ bool is_too_steep(const Landform& landform, const glm::dvec2& a, const glm::dvec
 void check_landform(const CityParams& params, const Job& job, std::vector<Issue>& issues) {
   if (params.maps.height) {
     FieldMap::read(*params.maps.height, "/maps/height", {-1, -1}, {1, 1}, job, issues);
-    if (params.terrain)
-      issues.push_back(
-          {IssueKind::conflict, "/maps/height", "found both `terrain` and `height`; expected one of them"});
+    if (params.terrain) {
+      issues.emplace_back(IssueKind::conflict, "/maps/height",
+                          "found both `terrain` and `height`; expected one of them");
+    }
   }
   if (!params.terrain || params.terrain->generator.empty()) return;
   if (params.terrain->generator != "terrain") {
-    issues.push_back({IssueKind::invalid_value, "/terrain/generator",
-                      "found " + params.terrain->generator + "; expected terrain"});
+    issues.emplace_back(IssueKind::invalid_value, "/terrain/generator",
+                        "found " + params.terrain->generator + "; expected terrain");
     return;
   }
   const Json parameters = Json::parse(params.terrain->parameters);
-  if (parameters.value("shape", "plane") != "plane")
-    issues.push_back({IssueKind::not_available, "/terrain/parameters/shape",
-                      "found a sphere; the ground of a city is a plane"});
-  if (parameters.contains("onto"))
-    issues.push_back(
-        {IssueKind::not_available, "/terrain/parameters/onto", "the ground of a city cannot follow a model"});
+  if (parameters.value("shape", "plane") != "plane") {
+    issues.emplace_back(IssueKind::not_available, "/terrain/parameters/shape",
+                        "found a sphere; the ground of a city is a plane");
+  }
+  if (parameters.contains("onto")) {
+    issues.emplace_back(IssueKind::not_available, "/terrain/parameters/onto",
+                        "the ground of a city cannot follow a model");
+  }
 }
 
 }  // namespace seedmesh::city

@@ -113,9 +113,10 @@ std::optional<Footing> footing_of(const Landmark& landmark) {
 std::vector<Warning> landmark_warnings(const CityPlan& plan) {
   std::vector<Warning> warnings;
   for (const Landmark& landmark : plan.landmarks) {
-    if (landmark.is_too_large)
+    if (landmark.is_too_large) {
       warnings.push_back(
           {landmark.pointer + "/model", "the building is larger than the lot on which it stands", 0, 0});
+    }
     if (landmark.lot != no_index) continue;
     std::string place = "outside of the area";
     if (landmark.part != no_index) {

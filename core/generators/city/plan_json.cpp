@@ -154,9 +154,10 @@ class Writer {
     if (!surface_) return geometry;
     const std::vector<CmRing>& rings = plan_.parts[number].rings;
     for (std::size_t r = 0; r < rings.size(); ++r) {
-      for (std::size_t i = 0; i <= rings[r].size(); ++i)
+      for (std::size_t i = 0; i <= rings[r].size(); ++i) {
         geometry["coordinates"][r][i].push_back(
             millimetres(surface_->height(number, in_metres(rings[r][i % rings[r].size()]))));
+      }
     }
     return geometry;
   }

@@ -300,10 +300,10 @@ double Surface::floor_height(const Footing& footing, double& lowest) const {
   if (is_level()) return lowest;
   double highest = lowest;
   const math::SinCos turn = math::sincos_degrees(footing.turn);
-  constexpr int steps = 4;
+  constexpr int steps = 4, middle = steps / 2;
   for (int i = 0; i <= steps; ++i) {
     for (int k = 0; k <= steps; ++k) {
-      const double x = footing.width * (i - steps / 2) / steps, y = footing.depth * (k - steps / 2) / steps;
+      const double x = footing.width * (i - middle) / steps, y = footing.depth * (k - middle) / steps;
       const dvec2 at = footing.position + dvec2(x * turn.cos - y * turn.sin, x * turn.sin + y * turn.cos);
       const double here = height(footing.part, at);
       highest = std::max(highest, here);

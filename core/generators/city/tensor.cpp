@@ -78,9 +78,10 @@ TensorField::TensorField(const CityStreets& streets, const Region& region, const
       CmRing line;
       for (const auto& p : field.points) line.push_back(rounded_cm({p[0] * 100, p[1] * 100}));
       base.lines = {line};
-      if (line.size() < 2)
-        issues.push_back({IssueKind::missing, "/streets/tensor/fields/" + std::to_string(i) + "/points",
-                          "found " + std::to_string(line.size()) + " points, expected at least 2"});
+      if (line.size() < 2) {
+        issues.emplace_back(IssueKind::missing, "/streets/tensor/fields/" + std::to_string(i) + "/points",
+                            "found " + std::to_string(line.size()) + " points, expected at least 2");
+      }
     }
     if (field.field_type == CityFieldType::boundary) {
       base.shape = Shape::line;

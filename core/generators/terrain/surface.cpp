@@ -293,9 +293,10 @@ Mesh grid_mesh(const Field& field, const Window& part, const Array<glm::u8vec4>&
   std::vector<float> steepest(chunk_count(deep, rows_a_chunk), 0.0F);
   parallel_for(job, deep, rows_a_chunk, [&](std::size_t begin, std::size_t end, std::size_t chunk) {
     job.check();
-    for (std::size_t j = begin; j < end; ++j)
+    for (std::size_t j = begin; j < end; ++j) {
       steepest[chunk] =
           std::max(steepest[chunk], fill_row(ground, part, static_cast<std::int32_t>(j), colors, mesh));
+    }
   });
   if (wide * deep <= most_narrow) {
     fill_triangles(field, part, mesh.index.small, job);

@@ -126,8 +126,11 @@ Block make_block(const World& world, const TileKey& root, Job& job) {
   for (int d = block.depth; d >= 0; --d) {
     const int count = 1 << d;
     auto& tiles = block.tiles[static_cast<std::size_t>(d)];
-    const std::vector<Area> finer = d < block.depth ? std::move(areas) : std::vector<Area>();
-    if (d < block.depth) areas.assign(static_cast<std::size_t>(count) * static_cast<std::size_t>(count), {});
+    std::vector<Area> finer;
+    if (d < block.depth) {
+      finer.swap(areas);
+      areas.assign(static_cast<std::size_t>(count) * static_cast<std::size_t>(count), {});
+    }
     for (int y = 0; y < count; ++y) {
       for (int x = 0; x < count; ++x) {
         const TileKey key{root.level + d, (root.x << d) + x, (root.y << d) + y};

@@ -148,11 +148,12 @@ Biome biome_of(const Climate& climate) {
   if (temperature < -8) return Biome::ice;
   if (temperature < -1) return Biome::tundra;
   if (temperature < 5) return moisture < 0.25 ? Biome::steppe : Biome::taiga;
-  if (temperature < 20)
+  if (temperature < 20) {
     return moisture < 0.2    ? Biome::desert
            : moisture < 0.35 ? Biome::steppe
            : moisture < 0.48 ? Biome::grassland
                              : Biome::forest;
+  }
   return moisture < 0.25 ? Biome::desert : moisture < 0.6 ? Biome::savanna : Biome::rainforest;
 }
 

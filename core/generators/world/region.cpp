@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/glm.hpp>
 #include <queue>
+#include <ranges>
 
 #include "core/base/math.h"
 
@@ -93,7 +94,7 @@ class Drainage {
     add_flow();
     choose_main_rivers();
     add_hollows();
-    for (auto n = order_.rbegin(); n != order_.rend(); ++n) follow(*n);
+    for (int& n : std::ranges::reverse_view(order_)) follow(n);
     join_rivers();
     made_.size = 256 + 200 * made_.lakes.size();
     for (River& river : made_.rivers) {
@@ -201,8 +202,8 @@ class Drainage {
   }
 
   void add_flow() {
-    for (auto n = order_.rbegin(); n != order_.rend(); ++n) {
-      if (at(*n).down >= 0) at(at(*n).down).flow += at(*n).flow;
+    for (int& n : std::ranges::reverse_view(order_)) {
+      if (at(n).down >= 0) at(at(n).down).flow += at(n).flow;
     }
   }
 

@@ -84,7 +84,10 @@ class PathFinder {
     return math::to_int32((north - box_.south) / grid) * columns_ + math::to_int32((east - box_.west) / grid);
   }
   double east_of(int n) const { return box_.west + grid * (n % columns_); }
-  double north_of(int n) const { return box_.south + grid * (n / columns_); }
+  double north_of(int n) const {
+    const int row = n / columns_;
+    return box_.south + grid * row;
+  }
   double ahead(int n) const { return distance(east_of(n), north_of(n), b_.east, b_.north); }
 
   void visit(int n) {

@@ -8,6 +8,7 @@ std::vector<std::uint16_t> border_of_grid(int count) {
   std::vector<std::uint16_t> border;
   const auto at = [&](int column, int row) { return static_cast<std::uint16_t>(row * count + column); };
   const int last = count - 1;
+  border.reserve(4 * static_cast<std::size_t>(last));
   for (int k = 0; k < last; ++k) border.push_back(at(k, 0));
   for (int k = 0; k < last; ++k) border.push_back(at(last, k));
   for (int k = last; k > 0; --k) border.push_back(at(k, last));

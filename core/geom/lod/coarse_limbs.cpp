@@ -63,7 +63,7 @@ void Coarsening::read_limb(std::uint32_t head) {
   for (std::size_t i = begin + 1; i + 1 < end; ++i) {
     if (must_stay(stations_[i].joint, stations_[i + 1].joint)) stations_[i].error = forever;
   }
-  for (std::size_t i = begin, next; i + 1 < end; i = next) {
+  for (std::size_t i = begin, next = 0; i + 1 < end; i = next) {
     for (next = i + 1; stations_[next].error != forever;) ++next;
     simplify(i, next);
   }

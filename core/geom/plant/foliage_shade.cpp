@@ -64,9 +64,10 @@ void FoliageShade::add_occlusion(const Organs& organs, const Job& job) {
   }
   const glm::vec3 size = high - low_;
   cell_ = std::max({size.x, size.y, size.z, 1e-6F}) / most_cells;
-  for (int axis = 0; axis < 3; ++axis)
+  for (int axis = 0; axis < 3; ++axis) {
     count_[axis] =
         std::clamp(math::to_int32(static_cast<double>(std::ceil(size[axis] / cell_))), 1, most_cells);
+  }
   // Leaf area of each cell divided by the area of its face.
   Array<float> layer(job, cell_at(0, 0, count_[2]), 0.0F);
   const float by_face = options_.leaf_area / (cell_ * cell_);
@@ -150,8 +151,10 @@ std::uint32_t FoliageShade::color_of(const Organ& organ) const {
     if (fraction_of(key_at(organ.key, withered_name)) < withered_share) color *= withered_color;
   }
   std::uint32_t word = 0xFF000000U;
-  for (int i = 0; i < 3; ++i)
-    word |= static_cast<std::uint32_t>(255.0F * color[i] * shade + 0.5F) << (8U * static_cast<unsigned>(i));
+  for (int i = 0; i < 3; ++i) {
+    const float rounded = 255.0F * color[i] * shade + 0.5F;
+    word |= static_cast<std::uint32_t>(rounded) << (8U * static_cast<unsigned>(i));
+  }
   return word;
 }
 

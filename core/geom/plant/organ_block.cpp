@@ -298,10 +298,11 @@ void OrganBlock::place(const Array<Organ>& organs, std::span<const std::uint32_t
       away_from(*options_.crown, position_[i], vector);
     }
     to_units(vector, its_own, vector);
-    if (options_.outward)
+    if (options_.outward) {
       mix_outward(options_.crown_share, vector, own, normal_[i]);
-    else
+    } else {
       mix_on_own_side(options_.crown_share, vector, own, normal_[i]);
+    }
     to_units(normal_[i], its_own, normal_[i]);
   }
   if (options_.crown && options_.outward) {
@@ -344,10 +345,11 @@ bool OrganBlock::turn_toward_faces() {
     has_turned = true;
     for (int k = 0; k < 3; ++k) {
       Lanes3& normal = normal_[corner[k]];
-      if (options_.outward)
+      if (options_.outward) {
         turn_beside(face, normal, turned);
-      else
+      } else {
         lean_toward(face, normal, turned);
+      }
       to_units(
           turned, [&](std::size_t l) { return at(face, l); }, turned);
       select_flat(face, turned, least, normal);

@@ -179,7 +179,7 @@ class RoofMaker {
       is_fan_ = true;
       return body;
     }
-    roof_.warnings.push_back("no point sees the whole plan, so the pyramid is a hip roof");
+    roof_.warnings.emplace_back("no point sees the whole plan, so the pyramid is a hip roof");
     is_end_.assign(count_, false);
     return slopes();
   }
@@ -237,7 +237,7 @@ class RoofMaker {
       surface = sloped_surface(wide, stages, attempt_.jitter, job_);
     }
     if (!surface) {
-      roof_.warnings.push_back("the roof cannot have an overhang, so it ends at the walls");
+      roof_.warnings.emplace_back("the roof cannot have an overhang, so it ends at the walls");
       return;
     }
     weld(*surface, attempt_.weld * diagonal_of(plan_), job_);

@@ -149,7 +149,7 @@ class Separation {
     std::stable_sort(faces.begin(), faces.end(),
                      [](const Face& a, const Face& b) { return a.sorted < b.sorted; });
     std::vector<std::pair<Word, Word>> edges;
-    for (std::size_t i = 0, end; i < faces.size(); i = end) {
+    for (std::size_t i = 0, end = 0; i < faces.size(); i = end) {
       std::size_t turned = 0;
       for (end = i; end < faces.size() && faces[end].sorted == faces[i].sorted; ++end)
         turned += faces[end].turned ? 1 : 0;
@@ -161,7 +161,7 @@ class Separation {
     }
     std::sort(edges.begin(), edges.end());
     std::vector<Word> pinched;
-    for (std::size_t i = 0, end; i < edges.size(); i = end) {
+    for (std::size_t i = 0, end = 0; i < edges.size(); i = end) {
       for (end = i; end < edges.size() && edges[end] == edges[i];) ++end;
       if (end - i <= 2) continue;
       for (const Word at : {edges[i].first, edges[i].second}) {

@@ -50,11 +50,12 @@ class PictureRun {
   DerivedPicture run(std::optional<int> steps, bool is_parallel) {
     const Rng random = job_.rng().at("shape grammar");
     for (std::uint64_t step = 0; !steps || step < static_cast<std::uint64_t>(*steps); ++step) {
-      if (step >= most_steps)
+      if (step >= most_steps) {
         job_.refuse(
             limit_issue({Resource::steps, most_steps, most_steps + 1},
                         "the rules match more than 100,000 times; set iterations, or add a rule that ends it",
                         "/shape_grammar/rules"));
+      }
       find_matches();
       const Rng here = random.at(step);
       out_.fits_nowhere = step == 0 && matches_.empty();
@@ -267,10 +268,11 @@ class PictureRun {
     // Only the latest matches can be equal: they come from the same points.
     const std::size_t from = matches_.size() > 64 ? matches_.size() - 64 : 0;
     if (std::any_of(matches_.begin() + static_cast<std::ptrdiff_t>(from), matches_.end(), is_same)) return;
-    if (matches_.size() == most_matches)
+    if (matches_.size() == most_matches) {
       job_.refuse(limit_issue({Resource::steps, most_matches, most_matches + 1},
                               "the rules have more than 1,000,000 matches at a time",
                               "/shape_grammar/rules"));
+    }
     matches_.push_back(std::move(match));
   }
 
@@ -350,9 +352,10 @@ class PictureRun {
       for (const PictureMarker& marker : right.markers) made.markers.push_back(match.place.of(marker));
       for (const PictureSolid& solid : right.solids) made.solids.push_back(match.place.of(solid));
       meter_.spend(made.lines.size() + made.markers.size() + made.solids.size());
-      if (!(reach_of(made) <= farthest))
+      if (!(reach_of(made) <= farthest)) {
         job_.refuse({IssueKind::evaluation, "/shape_grammar/rules/" + std::to_string(match.pair),
                      "this rule makes the picture larger than 1,000 km"});
+      }
       add(picture, made, near_);
       if ((++added_ & 15U) == 0) job_.check();
     }

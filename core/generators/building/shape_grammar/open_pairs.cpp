@@ -69,16 +69,19 @@ void check_open_variables(const BuildingPair& given, const std::string& pointer,
     const BuildingOpenVariable& each = given.open[k];
     const std::string at = pointer + "/open/" + std::to_string(k);
     if (!names.insert(each.name).second)
-      issues.push_back({IssueKind::conflict, at + "/name", "found two variables of this name, expected one"});
+      issues.emplace_back(IssueKind::conflict, at + "/name",
+                          "found two variables of this name, expected one");
     for (std::size_t side = 0; side < 2; ++side) {
-      if (given.pair[side].parameters.contains(each.name))
-        issues.push_back({IssueKind::conflict,
-                          pointer + "/pair/" + std::to_string(side) + "/parameters/" + each.name,
-                          "found a value for an open variable, expected none: a match determines it"});
+      if (given.pair[side].parameters.contains(each.name)) {
+        issues.emplace_back(IssueKind::conflict,
+                            pointer + "/pair/" + std::to_string(side) + "/parameters/" + each.name,
+                            "found a value for an open variable, expected none: a match determines it");
+      }
     }
-    if (!(each.low < each.high))
-      issues.push_back(
-          {IssueKind::out_of_range, at, "found a range without an extent, expected `low` below `high`"});
+    if (!(each.low < each.high)) {
+      issues.emplace_back(IssueKind::out_of_range, at,
+                          "found a range without an extent, expected `low` below `high`");
+    }
   }
 }
 
@@ -119,17 +122,18 @@ void check_open_left(const PicturePair& pair, const ShapePicture& other, const s
       is_linear = is_linear && glm::length(found[i].at - expected[i].at) <= near;
   }
   if (!is_linear) {
-    issues.push_back(
-        {IssueKind::invalid_value, pointer,
-         "the points of this shape are not linear in its open variables, or its solids turn with them"});
+    issues.emplace_back(
+        IssueKind::invalid_value, pointer,
+        "the points of this shape are not linear in its open variables, or its solids turn with them");
     return;
   }
   const std::vector<OpenAnchor> anchors = open_anchors(pair);
-  if (anchors.empty() || search_order(anchors, is_flat, {}, 1).empty())
-    issues.push_back(
-        {IssueKind::invalid_value, pointer,
-         "the points of this shape do not determine its position, direction and size and the open variables: "
-         "expected more points, or fewer open variables (one length stays a number)"});
+  if (anchors.empty() || search_order(anchors, is_flat, {}, 1).empty()) {
+    issues.emplace_back(
+        IssueKind::invalid_value, pointer,
+        "the points of this shape do not determine its position, direction and size and the open variables: "
+        "expected more points, or fewer open variables (one length stays a number)");
+  }
 }
 
 std::vector<OpenAnchor> open_anchors(const PicturePair& pair) {
@@ -207,9 +211,10 @@ std::optional<OpenPlace> solve_place(const std::vector<OpenAnchor>& anchors,
   OpenPlace found;
   found.values.assign(x.begin() + 4, x.end());
   double reach = 0;
-  for (const std::uint32_t each : order)
+  for (const std::uint32_t each : order) {
     reach = std::max(reach, glm::length(point_of(anchors[each], found.values) -
                                         point_of(anchors[order[0]], found.values)));
+  }
   for (const std::vector<double>& row : rows) {
     double rest = -row[count];
     for (std::size_t c = 0; c < count; ++c) rest += row[c] * x[c];

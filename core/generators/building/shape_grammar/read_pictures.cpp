@@ -6,9 +6,9 @@
 #include "core/base/math.h"
 #include "core/generators/building/shape_grammar/anchors.h"
 #include "core/generators/building/shape_grammar/open_pairs.h"
+#include "core/generators/building/shape_grammar/picture_value.h"
 #include "core/generators/building/shape_grammar/rotation.h"
 #include "core/generators/building/shape_grammar/shape_grammar.h"
-#include "core/lang/expression.h"
 #include "generated/params/building.h"
 
 namespace seedmesh::building {
@@ -52,28 +52,9 @@ class PictureReader {
   }
 
   double number(const Number& given, const Values& values, const std::string& pointer) {
-    double result = 0;
-    if (const auto* text = std::get_if<std::string>(&given)) {
-      lang::Names names;
-      for (const auto& [name, value] : values) names.bind_constant(name, value);
-      std::vector<lang::TextError> faults;
-      const std::vector<lang::Token> tokens = lang::tokenize(*text, 0, text->size(), faults);
-      lang::Program program;
-      std::size_t at = 0;
-      const lang::Expression expression = program.parse(tokens, at, names, faults);
-      if (faults.empty() && at + 1 < tokens.size())
-        faults.push_back(
-            {tokens[at].offset, "found " + in_quotes(tokens[at]) + ", expected the end of the expression"});
-      if (faults.empty() && !expression.is_constant)
-        faults.push_back({0, "found a random function, expected a value that is not random"});
-      for (const lang::TextError& each : faults) {
-        if (issues_.size() < 100)
-          issues_.push_back(issue_at(each.kind, pointer, *text, each.offset, each.message));
-      }
-      if (faults.empty()) result = expression.value;
-    } else {
-      result = std::get<double>(given);
-    }
+    const auto* text = std::get_if<std::string>(&given);
+    const double result =
+        text == nullptr ? std::get<double>(given) : picture_value(*text, values, pointer, issues_);
     if (std::isfinite(result) && std::abs(result) <= farthest) return result;
     add_error(IssueKind::out_of_range, pointer,
               std::isfinite(result) ? "the value is beyond 1,000 km" : "the value is not a finite number");
@@ -82,7 +63,7 @@ class PictureReader {
 
  private:
   void add_error(IssueKind kind, const std::string& pointer, std::string message) {
-    if (issues_.size() < 100) issues_.push_back({kind, pointer, std::move(message)});
+    if (issues_.size() < 100) issues_.emplace_back(kind, pointer, std::move(message));
   }
 
   /// A point of two or three coordinates; without coordinates it is the origin.
@@ -127,9 +108,10 @@ class PictureReader {
     }
     for (std::size_t i = 0; i < body.size.size(); ++i) {
       const double each = number(body.size[i], values, pointer + "/" + std::to_string(i));
-      if (!(each > 0))
+      if (!(each > 0)) {
         add_error(IssueKind::out_of_range, pointer + "/" + std::to_string(i),
                   "found a size of 0 or less, expected a size above 0");
+      }
       size[is_flat_ && i == 1 ? 2 : static_cast<int>(i)] = each;
     }
     if (body.size.size() == 1) size = glm::dvec3(size.x);
@@ -147,15 +129,18 @@ class PictureReader {
     solid.size = size(body, values, pointer + "/size");
     const bool is_round =
         solid.kind == SolidKind::cylinder || solid.kind == SolidKind::cone || solid.kind == SolidKind::sphere;
-    if (is_flat_ && solid.kind != SolidKind::box && solid.kind != SolidKind::cylinder)
+    if (is_flat_ && solid.kind != SolidKind::box && solid.kind != SolidKind::cylinder) {
       add_error(IssueKind::not_available, pointer + "/solid",
                 "found another kind of solid, expected box or cylinder in a picture of two dimensions");
-    if (is_round && solid.size.x != solid.size.z)
+    }
+    if (is_round && solid.size.x != solid.size.z) {
       add_error(IssueKind::invalid_value, pointer + "/size",
                 "found a round solid with different sizes along x and z, expected equal sizes");
-    if (solid.kind == SolidKind::sphere && solid.size.x != solid.size.y)
+    }
+    if (solid.kind == SolidKind::sphere && solid.size.x != solid.size.y) {
       add_error(IssueKind::invalid_value, pointer + "/size",
                 "found a sphere with different sizes, expected equal sizes");
+    }
     out.solids.push_back(place.of(solid));
   }
 
@@ -197,21 +182,25 @@ class PictureReader {
   void read_member(const BuildingMember& member, const Values& values, const std::string& pointer,
                    const Similarity& place, ShapePicture& out) {
     const auto found = given_.shapes.find(member.shape);
-    if (found == given_.shapes.end())
+    if (found == given_.shapes.end()) {
       return add_error(IssueKind::unknown_name, pointer + "/shape",
                        "there is no family \"" + member.shape + "\" in \"shapes\"");
+    }
     Values own = found->second.parameters;
+    const std::string above = pointer + "/values/";
     for (const auto& [name, value] : member.values) {
-      const std::string at = pointer + "/values/" + name;
-      if (!own.contains(name))
+      const std::string at = above + name;
+      if (!own.contains(name)) {
         add_error(IssueKind::unknown_key, at,
                   "the family \"" + member.shape + "\" has no parameter of this name");
+      }
       own[name] = number(value, values, at);
     }
     const double scale = number(member.scale, values, pointer + "/scale");
-    if (!(scale > 0))
+    if (!(scale > 0)) {
       return add_error(IssueKind::out_of_range, pointer + "/scale",
                        "found a scale of 0 or less, expected a scale above 0");
+    }
     const glm::dmat3 rotation = turn(member.turn, values, pointer + "/turn");
     const glm::dvec3 at = point(member.at, values, pointer + "/at");
     glm::dmat3 flip(1);
@@ -227,9 +216,10 @@ class PictureReader {
   }
 
   bool count(const std::string& pointer) {
-    if (++elements_ == most_elements + 1)
+    if (++elements_ == most_elements + 1) {
       add_error(IssueKind::out_of_range, pointer,
                 "more than " + std::to_string(most_elements) + " elements, counted up to this one");
+    }
     return elements_ <= most_elements;
   }
 
@@ -258,31 +248,36 @@ void check_restriction(const PicturePair& pair, const std::string& pointer, bool
                        PictureRestriction restriction, std::vector<Issue>& issues) {
   const double near = 1e-6 * std::max(reach_of(pair.left), 1e-9);
   for (const PictureLine& line : pair.left.lines) {
-    if (!contains(pair.right.lines, line, near))
-      issues.push_back({IssueKind::invalid_value, pointer + "/pair/1",
-                        "the line from " + text_of(line.from, is_flat) + " to " + text_of(line.to, is_flat) +
-                            " of the left shape is not in the right shape, which a "
-                            "non-erasing grammar does not allow"});
+    if (!contains(pair.right.lines, line, near)) {
+      issues.emplace_back(IssueKind::invalid_value, pointer + "/pair/1",
+                          "the line from " + text_of(line.from, is_flat) + " to " +
+                              text_of(line.to, is_flat) +
+                              " of the left shape is not in the right shape, which a "
+                              "non-erasing grammar does not allow");
+    }
   }
   for (const PictureSolid& solid : pair.left.solids) {
     if (std::ranges::none_of(pair.right.solids,
-                             [&](const PictureSolid& each) { return are_equal(each, solid, near); }))
-      issues.push_back({IssueKind::invalid_value, pointer + "/pair/1",
-                        "the solid at " + text_of(solid.base, is_flat) +
-                            " of the left shape is not in the right shape, which a "
-                            "non-erasing grammar does not allow"});
+                             [&](const PictureSolid& each) { return are_equal(each, solid, near); })) {
+      issues.emplace_back(IssueKind::invalid_value, pointer + "/pair/1",
+                          "the solid at " + text_of(solid.base, is_flat) +
+                              " of the left shape is not in the right shape, which a "
+                              "non-erasing grammar does not allow");
+    }
   }
   if (restriction != PictureRestriction::unimarker) return;
   const auto markers = [](const ShapePicture& picture) { return std::to_string(picture.markers.size()); };
-  if (pair.left.markers.size() != 1)
-    issues.push_back(
-        {IssueKind::invalid_value, pointer + "/pair/0",
-         "found " + markers(pair.left) + " markers, expected one in the left shape of a unimarker grammar"});
-  if (pair.right.markers.size() > 1)
-    issues.push_back({IssueKind::invalid_value, pointer + "/pair/1",
-                      "found " + markers(pair.right) +
-                          " markers, expected at most one in the right shape of a "
-                          "unimarker grammar"});
+  if (pair.left.markers.size() != 1) {
+    issues.emplace_back(
+        IssueKind::invalid_value, pointer + "/pair/0",
+        "found " + markers(pair.left) + " markers, expected one in the left shape of a unimarker grammar");
+  }
+  if (pair.right.markers.size() > 1) {
+    issues.emplace_back(IssueKind::invalid_value, pointer + "/pair/1",
+                        "found " + markers(pair.right) +
+                            " markers, expected at most one in the right shape of a "
+                            "unimarker grammar");
+  }
 }
 
 }  // namespace
@@ -322,11 +317,13 @@ void check_pair(const PicturePair& pair, const std::string& pointer, bool is_fla
                 PictureRestriction restriction, std::vector<Issue>& issues) {
   bool is_determined = !pair.open.empty();  // has been checked
   if (!is_determined) anchors_of_left(pair.left, is_flat, is_determined);
-  if (!is_determined)
-    issues.push_back({IssueKind::invalid_value, pointer + "/pair/0",
-                      std::string("this shape does not determine a position, direction and size: expected ") +
-                          (is_flat ? "two points" : "three points that are not on a line") +
-                          " of markers, corners of solids, or crossings or ends of lines"});
+  if (!is_determined) {
+    issues.emplace_back(
+        IssueKind::invalid_value, pointer + "/pair/0",
+        std::string("this shape does not determine a position, direction and size: expected ") +
+            (is_flat ? "two points" : "three points that are not on a line") +
+            " of markers, corners of solids, or crossings or ends of lines");
+  }
   if (restriction != PictureRestriction::any) check_restriction(pair, pointer, is_flat, restriction, issues);
 }
 
@@ -366,22 +363,25 @@ PictureGrammar read_pictures(const BuildingShapeGrammar& given, PictureRestricti
     if (!given.rules[i].open.empty()) {
       read_open_pair(given, i, grammar, pair, issues);
     } else {
-      if (!given.rules[i].condition.empty())
-        issues.push_back({IssueKind::conflict, pointer + "/condition",
-                          "found a condition without open variables, expected `open` as well"});
+      if (!given.rules[i].condition.empty()) {
+        issues.emplace_back(IssueKind::conflict, pointer + "/condition",
+                            "found a condition without open variables, expected `open` as well");
+      }
       reader.read(given.rules[i].pair[0], pointer + "/pair/0", pair.left);
       reader.read(given.rules[i].pair[1], pointer + "/pair/1", pair.right);
     }
     grammar.pairs.push_back(std::move(pair));
   }
   if (issues.size() > before) return grammar;
-  for (std::size_t i = 0; i < grammar.pairs.size(); ++i)
+  for (std::size_t i = 0; i < grammar.pairs.size(); ++i) {
     check_pair(grammar.pairs[i], "/shape_grammar/rules/" + std::to_string(i), grammar.is_flat, restriction,
                issues);
-  if (restriction == PictureRestriction::unimarker && grammar.initial.markers.size() != 1)
-    issues.push_back({IssueKind::invalid_value, "/shape_grammar/initial",
-                      "found " + std::to_string(grammar.initial.markers.size()) +
-                          " markers, expected one in a unimarker grammar"});
+  }
+  if (restriction == PictureRestriction::unimarker && grammar.initial.markers.size() != 1) {
+    issues.emplace_back(IssueKind::invalid_value, "/shape_grammar/initial",
+                        "found " + std::to_string(grammar.initial.markers.size()) +
+                            " markers, expected one in a unimarker grammar");
+  }
   return grammar;
 }
 
