@@ -187,6 +187,26 @@ void stand_up(Derivation& d, const Step& step, const ShapeState& before, ShapeSt
   if (is_roof) state.roof_up = 1;
 }
 
+namespace {
+
+bool is_convex(const PlanRing& ring) {
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    const glm::dvec2 a = ring[(i + 1) % ring.size()] - ring[i],
+                     b = ring[(i + 2) % ring.size()] - ring[(i + 1) % ring.size()];
+    if (a.x * b.y - a.y * b.x <= -1e-9 * glm::length(a) * glm::length(b)) return false;
+  }
+  return true;
+}
+
+/// 0 front, 1 back, 2 right (or side), 3 left: where an edge of a face across axis `w` faces.
+std::uint32_t side_of(const glm::dvec3& outward, int w) {
+  const double forward = w == 2 ? -outward.y : outward.z;
+  if (std::abs(forward) >= std::abs(outward.x)) return forward > 0 ? 0 : 1;
+  return outward.x > 0 ? 2 : 3;
+}
+
+}  // namespace
+
 namespace operators {
 
 /// envelope(direction, height, base and angle of the front, back, right and left edges), or arrays of them by edge.
@@ -216,28 +236,14 @@ void envelope(Derivation& d, const Step& step, ShapeState& state, const Site&) {
     glm::dvec3 up(0);
     up[plane.w] = height;
     Solid mass = extruded_by(welded(flat, 0), std::vector<glm::dvec3>(welded(flat, 0).points.size(), up));
-    bool is_convex = plan.rings.size() == 1;
-    const PlanRing& ring = plan.rings[0];
-    for (std::size_t i = 0; i < ring.size(); ++i) {
-      const glm::dvec2 a = ring[(i + 1) % ring.size()] - ring[i],
-                       b = ring[(i + 2) % ring.size()] - ring[(i + 1) % ring.size()];
-      is_convex &= a.x * b.y - a.y * b.x > -1e-9 * glm::length(a) * glm::length(b);
-    }
-    if (!is_convex) {
+    if (plan.rings.size() != 1 || !is_convex(plan.rings[0])) {
       warn(d, step.offset,
            "the outline is not convex: slopes from its edges cut all of the volume that lies inside of them");
     }
     for (std::uint32_t e = 0; e < edge_count(plan); ++e, ++edge_number) {
       const auto [from, to] = edge_of(plan, e);
       const glm::dvec2 along = (to - from) / glm::length(to - from), inwards(-along.y, along.x);
-      const glm::dvec3 outward = plane.raised(-inwards, 0);
-      // front, back, right (or side), left
-      std::uint32_t side =
-          std::abs(outward.z) >= std::abs(outward.x) ? (outward.z > 0 ? 0U : 1U) : (outward.x > 0 ? 2U : 3U);
-      if (plane.w == 2) {
-        side = std::abs(outward.y) >= std::abs(outward.x) ? (outward.y < 0 ? 0U : 1U)
-                                                          : (outward.x > 0 ? 2U : 3U);
-      }
+      const std::uint32_t side = side_of(plane.raised(-inwards, 0), plane.w);
       double base = height, angle = 90;
       if (is_array(first)) {
         if (edge_number < bases.values.size()) base = number_in(at, bases.values[edge_number]);
@@ -257,18 +263,7 @@ void envelope(Derivation& d, const Step& step, ShapeState& state, const Site&) {
       if (mass.faces.empty()) break;
       d.job.check();
     }
-    const auto offset = static_cast<std::uint32_t>(all.points.size());
-    all.points.insert(all.points.end(), mass.points.begin(), mass.points.end());
-    for (const Face& face : mass.faces) {
-      Face copy = face;
-      copy.first_loop = static_cast<std::uint32_t>(all.loops.size());
-      for (const Loop& loop : loops_of(mass, face)) {
-        std::vector<std::uint32_t> corners;
-        for (const std::uint32_t point : points_of(mass, loop)) corners.push_back(offset + point);
-        add_loop(all, corners);
-      }
-      all.faces.push_back(copy);
-    }
+    append(all, mass);
   }
   if (all.faces.empty()) return;
   take_solid(d, state, std::move(all));

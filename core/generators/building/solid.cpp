@@ -14,6 +14,21 @@ void add_loop(Solid& solid, std::span<const std::uint32_t> corners) {
   solid.corners.insert(solid.corners.end(), corners.begin(), corners.end());
 }
 
+void append(Solid& to, const Solid& from) {
+  const auto base = static_cast<std::uint32_t>(to.points.size());
+  to.points.insert(to.points.end(), from.points.begin(), from.points.end());
+  for (const Face& face : from.faces) {
+    Face copy = face;
+    copy.first_loop = static_cast<std::uint32_t>(to.loops.size());
+    for (const Loop& loop : loops_of(from, face)) {
+      std::vector<std::uint32_t> corners;
+      for (const std::uint32_t point : points_of(from, loop)) corners.push_back(point + base);
+      add_loop(to, corners);
+    }
+    to.faces.push_back(copy);
+  }
+}
+
 void add_face(Solid& solid, std::span<const std::uint32_t> corners, bool is_round) {
   solid.faces.push_back({static_cast<std::uint32_t>(solid.loops.size()), 1, is_round});
   add_loop(solid, corners);

@@ -44,6 +44,9 @@ inline std::span<const std::uint32_t> points_of(const Solid& solid, const Loop& 
 
 /// Adds a loop of these corners; the caller adds the face.
 void add_loop(Solid& solid, std::span<const std::uint32_t> corners);
+
+/// Adds the points and faces of `from`.
+void append(Solid& to, const Solid& from);
 /// Adds a face of one loop by its points.
 void add_face(Solid& solid, std::span<const std::uint32_t> corners, bool is_round = false);
 

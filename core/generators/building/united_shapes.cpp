@@ -24,21 +24,6 @@ Solid in_scope(Derivation& d, std::uint32_t offset, const ShapeState& state, con
   return solid;
 }
 
-void append(Solid& to, const Solid& from) {
-  const auto base = static_cast<std::uint32_t>(to.points.size());
-  to.points.insert(to.points.end(), from.points.begin(), from.points.end());
-  for (const Face& face : from.faces) {
-    Face copy = face;
-    copy.first_loop = static_cast<std::uint32_t>(to.loops.size());
-    for (const Loop& loop : loops_of(from, face)) {
-      std::vector<std::uint32_t> corners;
-      for (const std::uint32_t point : points_of(from, loop)) corners.push_back(point + base);
-      add_loop(to, corners);
-    }
-    to.faces.push_back(copy);
-  }
-}
-
 }  // namespace
 
 Solid united_solid(Derivation& d, std::uint32_t offset, const ShapeState& state,

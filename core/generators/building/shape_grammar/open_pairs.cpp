@@ -68,9 +68,10 @@ void check_open_variables(const BuildingPair& given, const std::string& pointer,
   for (std::size_t k = 0; k < given.open.size(); ++k) {
     const BuildingOpenVariable& each = given.open[k];
     const std::string at = pointer + "/open/" + std::to_string(k);
-    if (!names.insert(each.name).second)
+    if (!names.insert(each.name).second) {
       issues.emplace_back(IssueKind::conflict, at + "/name",
                           "found two variables of this name, expected one");
+    }
     for (std::size_t side = 0; side < 2; ++side) {
       if (given.pair[side].parameters.contains(each.name)) {
         issues.emplace_back(IssueKind::conflict,
