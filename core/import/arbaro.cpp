@@ -160,6 +160,10 @@ class ArbaroReader {
     const bool is_number = !text.empty() && read.ec == std::errc() && read.ptr == text.data() + text.size();
     if (name == "LeafShape") return set_leaf(text, is_number ? number : 0, value.from);
     if (name == "Species") return;
+    if (name == "BarkTexture" || name.starts_with("LeafTexture")) {
+      source_.warn(value.from, "`" + name + "` belongs to an image that does not exist here");
+      return;
+    }
     if (!is_number || !std::isfinite(number)) {
       source_.report(value.from, "found " + lang::in_quotes(text) + ", expected a number");
       return;

@@ -23,6 +23,12 @@ namespace {
 // Rules are applied to their own results at most this number of times: while drawing, and while deriving.
 constexpr double deepest_homomorphism = 1'000, deepest_decomposition = 1'000'000;
 
+/// The depth of braces behind a text, from that before it.
+std::ptrdiff_t depth_of_braces(std::ptrdiff_t depth, std::string_view text) {
+  for (const char c : text) depth += c == '{' ? 1 : c == '}' && depth > 0 ? -1 : 0;
+  return depth;
+}
+
 constexpr const char* blocks[] = {"start each", "starteach", "end each", "endeach", "start", "end", "define"};
 
 }  // namespace
@@ -40,9 +46,23 @@ Imported CpfgReader::read() {
       while (i + 1 < lines.size() && (lines[i].to <= open || lines[i].to <= close)) ++i;
       whole.to = trimmed(text_, {whole.from, lines[i].to}).to;
     }
+    // Braces of words and of lists of symbols need no partner.
+    Line behind;
+    const bool has_word = begins(whole, "axiom", behind) || begins(whole, "ignore", behind) ||
+                          begins(whole, "consider", behind);
+    std::ptrdiff_t depth = depth_of_braces(0, text(whole));
     for (bool arrow = has_cpfg_arrow(text(whole)); i + 1 < lines.size(); ++i) {
+      // Statements before the arrow can have empty lines.
+      if (!arrow && !has_word && depth > 0) {
+        const std::string_view next = text(lines[i + 1]);
+        depth = depth_of_braces(depth, next);
+        arrow = has_cpfg_arrow(next);
+        whole.to = std::max(whole.to, trimmed(text_, lines[i + 1]).to);
+        continue;
+      }
       if (!goes_on(lines[i + 1]) || (arrow && has_cpfg_arrow(text(lines[i + 1])))) break;
       arrow = arrow || has_cpfg_arrow(text(lines[i + 1]));
+      depth = depth_of_braces(depth, text(lines[i + 1]));
       whole.to = trimmed(text_, lines[i + 1]).to;
     }
     if (!keyword(whole)) production(whole);

@@ -8,7 +8,7 @@
 #include "core/import/city_plan.h"
 #include "core/import/foreign_text.h"
 #include "core/import/formats.h"
-#include "core/import/geojson_features.h"
+#include "core/import/listed_objects.h"
 #include "core/import/map_names.h"
 #include "core/import/map_scene.h"
 
@@ -20,8 +20,6 @@ constexpr std::string_view blanks = " \t\r\n";
 constexpr char record_separator = '\x1e';
 // Greatest depth of geometry collections.
 constexpr int deepest = 8;
-// Larger files are parsed feature by feature.
-constexpr std::size_t whole_file = 1024 * 1024;
 
 /// The text of a property; empty for null and for lists and objects.
 std::string text_of(const Json& value) {
@@ -35,12 +33,12 @@ class GeoJsonReader {
   explicit GeoJsonReader(const ImportOptions& options) : options_(options) {}
 
   /// Reads a file whose features are still texts.
-  Result<Imported> read_in_parts(std::string_view text, const FeatureTexts& features) {
+  Result<Imported> read_in_parts(std::string_view text, const ListedObjects& features) {
     Result<Json> file = parse_json(features.shell, {.job = options_.job});
     if (!file) return std::move(file).error();
     Json& list = (*file)["features"];
     if (!features.texts.empty()) {
-      Result<Json> first = parse_feature(text, features, 0, options_.job);
+      Result<Json> first = parse_listed(text, features, 0, options_.job);
       if (!first) return std::move(first).error();
       list.push_back(*std::move(first));
     }
@@ -48,7 +46,7 @@ class GeoJsonReader {
     if (type_of(*file) != "FeatureCollection") return read(*file);
     for (std::size_t i = 0; i < features.texts.size() && issues_.size() < most_errors; ++i) {
       if (i > 0) {
-        Result<Json> one = parse_feature(text, features, i, options_.job);
+        Result<Json> one = parse_listed(text, features, i, options_.job);
         if (!one) return std::move(one).error();
         list[0] = *std::move(one);
       }
@@ -371,8 +369,8 @@ int marks_of_geojson(std::string_view text) {
 Result<Imported> import_geojson(std::string_view text, const ImportOptions& options) {
   if (std::optional<Error> error = entry_error(options, "a file of GeoJSON is one map"))
     return *std::move(error);
-  if (text.size() > whole_file && !has_features_as_lines(text)) {
-    const std::optional<FeatureTexts> features = feature_texts(text);
+  if (text.size() > largest_whole_file && !has_features_as_lines(text)) {
+    const std::optional<ListedObjects> features = listed_objects(text, "features");
     // Errors outside of the features are found in the whole text, for their position.
     if (features && parse_json(features->shell, {.job = options.job}))
       return GeoJsonReader(options).read_in_parts(text, *features);

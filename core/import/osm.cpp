@@ -8,6 +8,7 @@
 
 #include "core/import/foreign_text.h"
 #include "core/import/formats.h"
+#include "core/import/listed_objects.h"
 #include "core/import/map_scene.h"
 #include "core/import/osm_data.h"
 
@@ -71,9 +72,10 @@ class OsmXmlReader {
   }
 
   void report(const pugi::xml_node& element, std::string message) {
-    if (issues_.size() < most_errors)
+    if (issues_.size() < most_errors) {
       issues_.push_back(
           issue_at(IssueKind::invalid_value, "", text_, place_of(element).offset, std::move(message)));
+    }
   }
 
   template <class Number>
@@ -175,31 +177,48 @@ class OsmJsonReader {
 
   Result<Imported> read(const Json& file) {
     const auto elements = file.find("elements");
-    if (elements == file.end() || !elements->is_array())
+    if (elements == file.end() || !elements->is_array()) {
       return Error{Code::invalid,
                    {{IssueKind::missing, "", "expected an array \"elements\", as Overpass writes it"}}};
-    read_bounds(file);
-    for (std::size_t i = 0; i < elements->size() && issues_.size() < most_errors; ++i) {
-      if (i % 256 == 0) options_.check();
-      const std::string pointer = "/elements/" + std::to_string(i);
-      const Json& element = (*elements)[i];
-      if (!element.is_object()) {
-        report(pointer, "expected an object");
-        continue;
-      }
-      const std::string type = element.value("type", Json("")).is_string() ? element.value("type", "") : "";
-      if (type == "node") read_node(element, pointer);
-      if (type == "way") read_way(element, pointer);
-      if (type == "relation") read_relation(element, pointer);
     }
+    read_bounds(file);
+    for (std::size_t i = 0; i < elements->size() && issues_.size() < most_errors; ++i)
+      read_element((*elements)[i], i);
+    return made();
+  }
+
+  /// Reads a file whose elements are still texts.
+  Result<Imported> read_in_parts(std::string_view text, const ListedObjects& elements) {
+    Result<Json> file = parse_json(elements.shell, {.job = options_.job});
+    if (!file) return std::move(file).error();
+    read_bounds(*file);
+    for (std::size_t i = 0; i < elements.texts.size() && issues_.size() < most_errors; ++i) {
+      const Result<Json> element = parse_listed(text, elements, i, options_.job);
+      if (!element) return element.error();
+      read_element(*element, i);
+    }
+    return made();
+  }
+
+ private:
+  void read_element(const Json& element, std::size_t index) {
+    if (index % 256 == 0) options_.check();
+    const std::string pointer = "/elements/" + std::to_string(index);
+    if (!element.is_object()) return report(pointer, "expected an object");
+    const std::string type = element.value("type", Json("")).is_string() ? element.value("type", "") : "";
+    if (type == "node") read_node(element, pointer);
+    if (type == "way") read_way(element, pointer);
+    if (type == "relation") read_relation(element, pointer);
+  }
+
+  Result<Imported> made() {
     if (!issues_.empty()) return Error{Code::invalid, std::move(issues_)};
     return scene_of_map(map_of(std::move(file_), options_), "", options_);
   }
 
- private:
   void report(std::string pointer, std::string message) {
     if (issues_.size() < most_errors)
-      issues_.push_back({IssueKind::invalid_value, std::move(pointer), std::move(message)});
+      issues_.emplace_back(IssueKind::invalid_value, std::move(pointer), std::move(message));
   }
 
   bool identity(const Json& json, const char* name, const std::string& pointer, std::int64_t& id) {
@@ -347,6 +366,12 @@ Result<Imported> import_osm(std::string_view text, const ImportOptions& options)
   if (std::optional<Error> error = entry_error(options, "a file of OpenStreetMap is one map"))
     return *std::move(error);
   if (!begins_json(text)) return OsmXmlReader(text, options).read();
+  if (text.size() > largest_whole_file) {
+    const std::optional<ListedObjects> elements = listed_objects(text, "elements");
+    // Errors outside of the elements are found in the whole text, for their position.
+    if (elements && parse_json(elements->shell, {.job = options.job}))
+      return OsmJsonReader(options).read_in_parts(text, *elements);
+  }
   Result<Json> file = parse_json(text, {.job = options.job});
   if (!file) return std::move(file).error();
   return OsmJsonReader(options).read(*file);

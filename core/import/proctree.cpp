@@ -5,40 +5,50 @@
 #include <array>
 #include <map>
 
+#include "core/base/math.h"
 #include "core/generators/tree/tree.h"
 #include "core/import/foreign_text.h"
 #include "core/import/formats.h"
+#include "core/schema/color.h"
 #include "core/schema/nearest.h"
 #include "generated/params/tree.h"
 
 namespace seedmesh {
 namespace {
 
-constexpr std::array<std::string_view, 22> parameters = {
-    "mSeed",
-    "mSegments",
-    "mLevels",
-    "mVMultiplier",
-    "mTwigScale",
-    "mInitialBranchLength",
-    "mLengthFalloffFactor",
-    "mLengthFalloffPower",
-    "mClumpMax",
-    "mClumpMin",
-    "mBranchFactor",
-    "mDropAmount",
-    "mGrowAmount",
-    "mSweepAmount",
-    "mMaxRadius",
-    "mClimbRate",
-    "mTrunkKink",
-    "mTreeSteps",
-    "mTaperRate",
-    "mRadiusFalloffRate",
-    "mTwistRate",
-    "mTrunkLength",
+struct Parameter {
+  std::string_view name;
+  double value;  ///< in proctree.js and its translation, where a file lacks the parameter
 };
+constexpr std::array<Parameter, 22> parameters{{
+    {"mSeed", 10},
+    {"mSegments", 6},
+    {"mLevels", 3},
+    {"mVMultiplier", 0.2},
+    {"mTwigScale", 2},
+    {"mInitialBranchLength", 0.85},
+    {"mLengthFalloffFactor", 0.85},
+    {"mLengthFalloffPower", 1},
+    {"mClumpMax", 0.8},
+    {"mClumpMin", 0.5},
+    {"mBranchFactor", 2},
+    {"mDropAmount", 0},
+    {"mGrowAmount", 0},
+    {"mSweepAmount", 0},
+    {"mMaxRadius", 0.25},
+    {"mClimbRate", 1.5},
+    {"mTrunkKink", 0},
+    {"mTreeSteps", 2},
+    {"mTaperRate", 0.95},
+    {"mRadiusFalloffRate", 0.6},
+    {"mTwistRate", 13},
+    {"mTrunkLength", 2.5},
+}};
 constexpr std::array<std::string_view, 2> materials = {"trunkMaterial", "twigMaterial"};
+// Colours of pages that show such trees with three.js: 0x9d7362 as a number, or a text.
+constexpr std::array<std::string_view, 2> colors = {"treeColor", "twigColor"};
+// The state of the random sequence, which proctree.js sets to the seed.
+constexpr std::string_view state = "rseed";
 
 /// "levels" for "mLevels". proctree.js misspells one of them.
 std::string name_in_js(std::string_view parameter) {
@@ -51,12 +61,27 @@ std::string name_in_js(std::string_view parameter) {
 /// The names of the schema by all names in files.
 std::map<std::string, std::string_view, std::less<>> known_names() {
   std::map<std::string, std::string_view, std::less<>> names;
-  for (const std::string_view parameter : parameters) {
-    names.emplace(parameter, parameter);
-    names.emplace(name_in_js(parameter), parameter);
+  for (const Parameter& parameter : parameters) {
+    names.emplace(parameter.name, parameter.name);
+    names.emplace(name_in_js(parameter.name), parameter.name);
   }
   names.emplace("initialBranchLength", "mInitialBranchLength");
   return names;
+}
+
+/// The text of a colour; empty if the value is none.
+std::string color_text(const Json& value) {
+  if (value.is_string()) return color_of(value.get<std::string>()) ? value.get<std::string>() : std::string();
+  if (!value.is_number_unsigned() || value.get<std::uint64_t>() > 0xffffff) return {};
+  const auto number = value.get<std::uint32_t>();
+  const auto channel = [&](unsigned shift) { return static_cast<std::uint8_t>(number >> shift & 255U); };
+  return text_of(Color{channel(16), channel(8), channel(0)});
+}
+
+/// Whole numbers stay whole numbers.
+Json number_of(double value) {
+  const auto whole = math::to_int32(value);
+  return whole == value ? Json(whole) : Json(value);
 }
 
 /// The message for an unknown name, with a hint.
@@ -92,14 +117,24 @@ Result<Imported> import_proctree(std::string_view text, const ImportOptions& opt
   std::vector<Issue> issues;
   Imported imported;
   Json known = Json::object();
+  std::string bark, leaf;
   std::map<std::string, std::string> theirs;  // pointers into the file by pointers into the parameters
   for (const auto& [name, value] : file->items()) {
     const auto found = names.find(name);
     if (found != names.end()) {
       const std::string ours(found->second);
       if (!theirs.emplace("/" + ours, pointer_token(name)).second)
-        issues.push_back({IssueKind::duplicate_key, pointer_token(name), "found a second value of " + ours});
+        issues.emplace_back(IssueKind::duplicate_key, pointer_token(name), "found a second value of " + ours);
       known[ours] = value;
+    } else if (std::find(colors.begin(), colors.end(), name) != colors.end()) {
+      const std::string color = color_text(value);
+      if (color.empty()) {
+        issues.emplace_back(IssueKind::invalid_value, pointer_token(name),
+                            "expected a colour as a number or \"#rrggbb\"");
+      }
+      (name == colors[0] ? bark : leaf) = color;
+    } else if (name == state) {
+      continue;
     } else if (std::find(materials.begin(), materials.end(), name) != materials.end()) {
       imported.warnings.push_back({"",
                                    "\"" + name +
@@ -107,11 +142,15 @@ Result<Imported> import_proctree(std::string_view text, const ImportOptions& opt
                                        "choose the materials",
                                    0, 0});
     } else {
-      issues.push_back({IssueKind::unknown_key, pointer_token(name), unknown_name(name)});
+      issues.emplace_back(IssueKind::unknown_key, pointer_token(name), unknown_name(name));
     }
   }
   if (known.empty())
-    issues.push_back({IssueKind::missing, "", "found none of proctree's parameters (seed, levels, ...)"});
+    issues.emplace_back(IssueKind::missing, "", "found none of proctree's parameters (seed, levels, ...)");
+  for (const Parameter& parameter : parameters) {
+    const std::string ours(parameter.name);
+    if (!known.contains(ours)) known[ours] = number_of(parameter.value);
+  }
   IssueList issue_list;
   const TreeParams read = read_tree(known, "", issue_list);
   std::vector<Issue> found = issue_list.take();
@@ -126,6 +165,8 @@ Result<Imported> import_proctree(std::string_view text, const ImportOptions& opt
   known["sequence"] = "original";
   // One square with an image of a twig for each square of proctree, and of its size.
   known["leaf"] = {{"build", "twig"}};
+  if (!leaf.empty()) known["leaf"]["color"] = leaf;
+  if (!bark.empty()) known["bark_color"] = bark;
   imported.request = {{"generator", "tree"}, {"seed", read.mSeed}, {"parameters", std::move(known)}};
   return imported;
 }

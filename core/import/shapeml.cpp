@@ -127,7 +127,7 @@ class ShapemlReader : private ShapemlText {
   /// All rules of a name as cases, and those of one condition as percentages.
   void write_rule(const std::string& name) {
     const std::vector<ShapemlRule>& all = by_name_[name];
-    rules_.write(name == "Axiom" ? "@StartRule\n" : "", at(all[0].name).offset);
+    rules_.write(name == "Axiom" ? "@StartRule @KeepScopes\n" : "", at(all[0].name).offset);
     rules_.write(name, at(all[0].name).offset);
     if (all[0].parameters != 0) {
       for (std::size_t k = all[0].parameters; k <= partner_[all[0].parameters]; ++k)
@@ -219,9 +219,10 @@ class ShapemlReader : private ShapemlText {
     const auto found = std::ranges::find(rows, name, &ShapemlOperation::name);
     if (found != rows.end()) {
       const int count = static_cast<int>(given.size());
-      if (count < found->least || count > found->most)
+      if (count < found->least || count > found->most) {
         return error(i, in_quotes(at(i)) + " has " + std::to_string(count) +
                             " arguments, for which there is no counterpart");
+      }
       if (found->is_left_out) {
         if (warned_.insert(std::string(name)).second)
           source_.warn(at(i).offset, in_quotes(at(i)) + " has no counterpart, and is left out");

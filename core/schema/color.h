@@ -16,6 +16,9 @@ struct Color {
 /// "#rrggbb" in hexadecimal digits of either case; anything else is nullopt.
 std::optional<Color> color_of(std::string_view text);
 
+/// The colour of a name of CSS in lower case, such as "darkorange"; anything else is nullopt.
+std::optional<Color> color_named(std::string_view name);
+
 /// "#rrggbb" in lower case.
 std::string text_of(const Color& color);
 

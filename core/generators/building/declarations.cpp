@@ -189,8 +189,8 @@ void read_range(Attribute& attribute, const std::vector<NoteArgument>& given) {
 void read_annotations(Parser& p, Attribute& attribute, const std::vector<std::size_t>& notes) {
   constexpr std::string_view widgets[] = {"Color",     "Angle",  "Distance", "Percent", "File",
                                           "Directory", "Length", "Area",     "Volume"};
-  constexpr std::string_view others[] = {"StartRule", "Handle", "Out",     "InPath",
-                                         "OutPath",   "Hidden", "Private", "Error"};
+  constexpr std::string_view others[] = {"StartRule", "Handle",  "Out",   "InPath",    "OutPath",
+                                         "Hidden",    "Private", "Error", "KeepScopes"};
   for (const std::size_t note : notes) {
     const Token& name = p.tokens.at(note);
     const std::vector<NoteArgument> given = arguments_of(p, note);

@@ -5,6 +5,7 @@
 #include "core/generators/building/choose_rule.h"
 #include "core/generators/building/containment.h"
 #include "core/generators/building/evaluate.h"
+#include "core/generators/building/lifted_faces.h"
 #include "core/generators/building/operators.h"
 #include "core/generators/building/raised_solids.h"
 #include "core/generators/building/slabs.h"
@@ -39,13 +40,19 @@ bool has_own_rule(const Derivation& d, std::uint32_t index) {
   return d.out.symbols_before_edits.contains(index);
 }
 
+/// No rule is applied to the shape any more. Its scope has the depth of its geometry.
+void make_leaf(Derivation& d, std::uint32_t index) {
+  Shape& shape = d.out.shapes[index];
+  if (d.grammar.turns_scopes) lower_face(d, shape);
+  shape.is_leaf = true;
+}
+
 /// Adds a shape of the step's symbol, with the values of its arguments.
 void call_symbol(Derivation& d, const Step& step, ShapeState& state, const Site& site) {
   check_containment(d, site.frame.shape, state, step.offset);
   const std::uint32_t index = add_shape(d, state, site.frame, site.key, step.symbol);
   const bool is_edited = has_own_rule(d, index);
-  if (!is_edited && (step.is_leaf || (step.stays_whole && d.is_finishing)))
-    d.out.shapes[index].is_leaf = true;
+  if (!is_edited && (step.is_leaf || (step.stays_whole && d.is_finishing))) make_leaf(d, index);
   if (step.argument_count == 0) return;
   if (is_edited && least_parameters(d.grammar, d.out.shapes[index].symbol) != step.argument_count) return;
   const auto first = static_cast<std::uint32_t>(d.out.parameters.size());
@@ -183,6 +190,14 @@ constexpr bool is_in_order() {
 }
 static_assert(is_in_order());
 
+/// Whether an operation uses the geometry of a shape, and not only the scope around it.
+bool needs_face(const OperatorRow& row) {
+  constexpr Op filling[] = {Op::symbol,           Op::insert,         Op::place,
+                            Op::primitive_quad,   Op::primitive_disk, Op::primitive_cube,
+                            Op::primitive_sphere, Op::primitive_cone, Op::primitive_cylinder};
+  return row.rest != Rest::same && std::ranges::find(filling, row.op) == std::end(filling);
+}
+
 /// Runs one step. In a rule file of CityEngine a step that cannot be done is left out with a warning, as there.
 void run_step(Derivation& d, const OperatorRow& row, const Step& step, ShapeState& state, const Site& site) {
   if (!d.grammar.is_cityengine) return row.run(d, step, state, site);
@@ -191,10 +206,12 @@ void run_step(Derivation& d, const OperatorRow& row, const Step& step, ShapeStat
   const Component* const component = d.component;
   ++d.guarded_steps;
   try {
-    if (d.grammar.turns_scopes) face_forward(d, step, state);
+    const bool is_theirs = d.grammar.turns_scopes;
+    if (is_theirs && needs_face(row)) lower_face(d, state);
+    if (is_theirs) face_forward(d, step, state);
     const ShapeState face = state;
     row.run(d, step, state, site);
-    if (d.grammar.turns_scopes) stand_up(d, step, face, state);
+    if (is_theirs) stand_up(d, step, face, state);
   } catch (const StepFault& fault) {
     state = before;
     d.depth_of_inline = depth;
@@ -279,7 +296,7 @@ bool expand(Derivation& d, std::uint32_t index) {
   }
   if (d.grammar.is_cityengine) --d.guarded_steps;
   if (choice == nullptr) {
-    d.out.shapes[index].is_leaf = true;
+    make_leaf(d, index);
     return false;
   }
   if (d.task.keeps_choices) {
@@ -321,7 +338,7 @@ void run_body(Derivation& d, std::uint32_t index, const ShapeState& state, const
 void add_leaf(Derivation& d, const ShapeState& state, const Frame& frame, std::uint64_t key,
               std::uint32_t symbol) {
   const std::uint32_t index = add_shape(d, state, frame, key, symbol);
-  if (!has_own_rule(d, index)) d.out.shapes[index].is_leaf = true;
+  if (!has_own_rule(d, index)) make_leaf(d, index);
 }
 
 }  // namespace seedmesh::building

@@ -164,17 +164,19 @@ void parse_rule(Parser& p, std::int32_t priority) {
 void parse_all(Parser& p, std::string_view start) {
   collect_declarations(p);
   compile_attributes(p);
-  p.grammar.is_cityengine = p.grammar.turns_scopes = p.tokens.has_imports();
+  p.grammar.is_cityengine = p.tokens.has_imports();
+  bool keeps_scopes = false;
   std::int32_t priority = 0;
   while (!p.tokens.is_end(p.at)) {
     const std::size_t before = p.at;
     const Token& token = here(p);
     if (take(p, "@")) {
       p.grammar.is_cityengine |= here(p).text == "StartRule";
+      keeps_scopes |= here(p).text == "KeepScopes";
       ++p.at;
       if (is_here(p, "(")) p.at = p.tokens.partner(p.at) + 1;
     } else if (token.kind == TokenKind::name && token.text == "version") {
-      p.grammar.is_cityengine = p.grammar.turns_scopes = true;
+      p.grammar.is_cityengine = true;
       p.at += 2;
     } else if (token.kind == TokenKind::name && token.text == "PRIORITY" &&
                p.tokens.at(p.at + 1).kind == TokenKind::number) {
@@ -194,6 +196,7 @@ void parse_all(Parser& p, std::string_view start) {
     }
     if (p.at == before) ++p.at;
   }
+  p.grammar.turns_scopes = p.grammar.is_cityengine && !keeps_scopes;
   check_grammar(p, start);
 }
 

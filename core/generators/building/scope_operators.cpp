@@ -4,6 +4,7 @@
 
 #include "core/base/math.h"
 #include "core/generators/building/evaluate.h"
+#include "core/generators/building/lifted_faces.h"
 #include "core/generators/building/operator_arguments.h"
 #include "core/generators/building/operators.h"
 #include "core/generators/building/raised_solids.h"
@@ -49,9 +50,10 @@ std::size_t component_of(const Derivation& d, const Step& step, const std::strin
   if (text == "any") return 0;
   std::size_t value = 0;
   for (const char c : text) {
-    if (c < '0' || c > '9' || value > 1'000'000)
+    if (c < '0' || c > '9' || value > 1'000'000) {
       reject(d, step.offset,
              "found " + lang::in_quotes(text) + ", expected a number, any, largest, longest or world.lowest");
+    }
     value = value * 10 + static_cast<std::size_t>(c - '0');
   }
   return std::min(value, count - 1);
@@ -78,6 +80,16 @@ std::size_t edge_of_smallest_box(const std::vector<glm::dvec3>& corners, const g
   return best;
 }
 
+/// The mean height of the corners of a face, above the origin of its scope.
+double height_of(const Solid& solid, const Face& face, const glm::dmat3& axes, const glm::dvec3& size) {
+  double sum = 0, count = 0;
+  for (const std::uint32_t corner : points_of(solid, solid.loops[face.first_loop])) {
+    sum += (axes * (solid.points[corner] * size)).y;
+    ++count;
+  }
+  return sum / std::max(count, 1.0);
+}
+
 }  // namespace
 
 void translate(Derivation& d, const Step& step, ShapeState& state, const Site&) {
@@ -98,9 +110,15 @@ void resize(Derivation& d, const Step& step, ShapeState& state, const Site&) {
     size[axis] = -size[axis];
     mirror |= 1U << static_cast<unsigned>(axis);
   }
-  // A polygon with a height is a prism, as a rectangle with a height is a box.
   const int flat = flat_axis(state.size);
-  if (state.has_solid() && dimension(state.size) == 2 && size[flat] != 0) make_prism_of(d, state, flat);
+  if (dimension(state.size) == 2 && size[flat] != 0 && !state.has_asset()) {
+    if (d.grammar.turns_scopes && dimension(size) == 3) {
+      lift_face(d, state, flat);
+    } else if (
+        state.has_solid()) {  // a polygon with a height is a prism, as a rectangle with a height is a box
+      make_prism_of(d, state, flat);
+    }
+  }
   if (mirror != 0 && state.has_solid())
     state.geometry = add_solid(d, mirrored(d.out.solid_of(state.geometry), mirror));
   state.size = size;
@@ -113,10 +131,11 @@ void rotate(Derivation& d, const Step& step, ShapeState& state, const Site&) {
   glm::dvec3 angles(0);
   int axis = 0;
   for (std::uint32_t i = 0; i < step.argument_count; ++i) {
-    if (a[i].word != none)
+    if (a[i].word != none) {
       centre = &d.grammar.words[a[i].word];
-    else if (axis < 3)
+    } else if (axis < 3) {
       angles[axis++] = number_of(d, a[i].value);
+    }
   }
   if (axis < 3 || (step.argument_count == 4 && centre == nullptr))
     reject(d, step.offset, "expected three angles, and perhaps scopeCenter or scopeOrigin");
@@ -125,11 +144,12 @@ void rotate(Derivation& d, const Step& step, ShapeState& state, const Site&) {
   glm::dvec3 pivot(0);
   if (centre != nullptr) {
     const std::string& word = *centre;
-    if (word == "scopeCenter")
+    if (word == "scopeCenter") {
       pivot = 0.5 * state.size;
-    else if (word != "scopeOrigin")
+    } else if (word != "scopeOrigin") {
       reject(d, step.offset,
              "found the centre " + lang::in_quotes(word) + ", expected scopeOrigin or scopeCenter");
+    }
   }
   const glm::dmat3 after = before * m;
   state.origin += before * pivot - after * pivot;
@@ -205,6 +225,14 @@ void align_to_geometry(Derivation& d, const Step& step, ShapeState& state, const
         most = area;
         chosen = i;
       }
+    }
+  } else if (word(1) == "world.lowest" || word(1) == "object.lowest") {
+    double least = 1e300;
+    for (std::size_t i = 0; i < solid.faces.size(); ++i) {
+      const double height = height_of(solid, solid.faces[i], d.out.axes[state.axes], state.size);
+      if (height >= least - 1e-9) continue;
+      least = height;
+      chosen = i;
     }
   } else {
     chosen = component_of(d, step, word(1), solid.faces.size());

@@ -21,13 +21,20 @@ std::string channel(double value) {
   return {digits[byte >> 4], digits[byte & 15]};
 }
 
-/// The text of a colour such as "#aa8866".
-std::uint32_t color_id_of(Derivation& d, std::uint32_t offset, std::uint32_t id) {
-  const std::string& code = *d.out.texts.find(id);
+bool is_code(const std::string& code) {
   const bool has_opacity = code.size() == 9 && color_of("#0000" + code.substr(7));
-  if (!color_of(has_opacity ? code.substr(0, 7) : code))
-    reject(d, offset, "found " + lang::in_quotes(code) + ", expected a colour as \"#rrggbb\"");
-  return id;
+  return color_of(has_opacity ? code.substr(0, 7) : code).has_value();
+}
+
+/// The text of a colour such as "#aa8866". Names of CSS and codes without the sign become such texts.
+std::uint32_t color_id_of(Derivation& d, std::uint32_t offset, std::uint32_t id) {
+  const std::string code = *d.out.texts.find(id);
+  if (is_code(code)) return id;
+  if (is_code("#" + code)) return d.out.texts.id_of("#" + code);
+  std::string name = code;
+  for (char& c : name) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  if (const std::optional<Color> named = color_named(name)) return d.out.texts.id_of(text_of(*named));
+  reject(d, offset, "found " + lang::in_quotes(code) + ", expected a colour as \"#rrggbb\" or a name of CSS");
 }
 std::uint32_t color_id_of(Derivation& d, const Argument& argument) {
   return color_id_of(d, argument.value.offset, text_id_of(d, argument));
@@ -51,12 +58,13 @@ void set_channel(Derivation& d, std::size_t at, double value, Style& style) {
 /// set(material.colormap, "brick.jpg"): the image of a material. Other maps have no counterpart.
 void set_map(Derivation& d, const Step& step, ShapeState& state, const std::string& name,
              const std::string& path) {
-  if (name == "colormap" || name == "map")
+  if (name == "colormap" || name == "map") {
     use_image(d, step, state, path);
-  else
+  } else {
     warn(d, step.offset,
          "setting " + lang::in_quotes("material." + name) +
              " has no effect here: materials of the request have the other images");
+  }
 }
 
 /// An attribute of the material by its name without `material.`, whose value is a text.
@@ -101,9 +109,9 @@ int scope_member(std::string_view name) {
 
 void set_scope(Derivation& d, ShapeState& state, int member, double value) {
   const int axis = member % 3;
-  if (member < 3)
+  if (member < 3) {
     state.origin[axis] = value;
-  else if (member < 6) {
+  } else if (member < 6) {
     glm::dvec3 angles(0);
     angles[axis] = value;
     state.axes = add_axes(d, rotation_xyz(angles));
@@ -152,9 +160,10 @@ void set(Derivation& d, const Step& step, ShapeState& state, const Site&) {
   } else {
     Style style = d.out.styles[state.style];
     const auto found = std::ranges::find(d.grammar.attributes, name, &Attribute::name);
-    if (d.grammar.attributes.end() == found || found->is_constant)
+    if (d.grammar.attributes.end() == found || found->is_constant) {
       reject(d, step.offset,
              "found " + lang::in_quotes(name) + " in set, expected an attribute of the rules");
+    }
     std::vector<lang::TaggedValue> values = d.out.attribute_sets[style.attributes];
     values[found->slot - d.grammar.first_attribute_slot] = number_or_text(d, a[1].value);
     const auto [set, is_new] =
@@ -179,9 +188,10 @@ void setup_projection(Derivation& d, const Step& step, ShapeState& state, const 
   const bool is_valid = (frame == "scope" || frame == "world") && letters.size() == 2 &&
                         letters[0] != letters[1] && letters[0] >= 'x' && letters[0] <= 'z' &&
                         letters[1] >= 'x' && letters[1] <= 'z';
-  if (!is_valid)
+  if (!is_valid) {
     reject(d, step.offset,
            "found " + lang::in_quotes(word) + ", expected scope or world with two axes, as in scope.xy");
+  }
   const glm::dmat3 axes = frame == "scope" ? d.out.axes[state.axes] : glm::dmat3(1);
   const glm::dvec3 origin = frame == "scope" ? state.origin : glm::dvec3(0);
   Projection made;

@@ -365,8 +365,9 @@ struct Grammar {
   std::vector<FunctionTree> functions;
   std::vector<ComponentValue> component_values;
   bool uses_selectors = false;  ///< comp.sel is read somewhere
-  bool turns_scopes = false;    ///< of faces that are raised: a file with `version` or `import`; see stand_up
-  bool is_cityengine = false;   ///< has `version`, `import`, `@StartRule`: faults of steps are warnings
+  bool turns_scopes =
+      false;  ///< scopes behave as in CityEngine; see stand_up and lift_face. Not after @KeepScopes
+  bool is_cityengine = false;  ///< has `version`, `import`, `@StartRule`: faults of steps are warnings
   std::vector<Warning> warnings;
 
   std::uint32_t symbol_named(std::string_view name) const;  ///< none if there is no such symbol

@@ -48,6 +48,9 @@ constexpr WordRow words[] = {
     {"annotation", "@Enum", "The values that an attribute can have.",
      "@Enum(\"old\", \"new\") attr style = \"old\"  A --> B."},
     {"annotation", "@StartRule", "The rule behind it is the start rule.", "B --> C.  @StartRule A --> B"},
+    {"annotation", "@KeepScopes",
+     "Scopes of raised faces keep the axes of the face, as in rules without version.",
+     "@StartRule @KeepScopes A --> extrude(3) B."},
     {"annotation", "@Group", "The group of an attribute in a form.", "@Group(\"Size\") attr w = 1  A --> B."},
     {"annotation", "@Order", "The position of an attribute in a form.", "@Order(2) attr w = 1  A --> B."},
     {"annotation", "@Hidden", "A form does not show the attribute.", "@Hidden attr w = 1  A --> B."},
@@ -172,12 +175,13 @@ Json vocabulary() {
                               {"example", row.example}});
   }
   Json word_rows = Json::array();
-  for (const WordRow& row : words)
+  for (const WordRow& row : words) {
     word_rows.push_back({{"kind", row.kind},
                          {"name", row.name},
                          {"text", row.text},
                          {"example", row.example},
                          {"status", "done"}});
+  }
   for (std::uint32_t i = 0; i < value_function_count(); ++i) {
     const ValueFunctionRow& row = value_function(i);
     const bool is_error = row.example.empty();
@@ -190,17 +194,19 @@ Json vocabulary() {
          {"status", text_of(is_error ? Status::error : Status::done)}});
   }
   Json parts = Json::array();
-  for (const PartRow& row : part_rows())
+  for (const PartRow& row : part_rows()) {
     parts.push_back({{"kind", "part"},
                      {"name", row.name},
                      {"text", row.text},
                      {"example", "A --> i(\"" + std::string(row.name) + "\")"}});
+  }
   Json materials = Json::array();
   for (const std::string_view name : built_in_materials()) materials.push_back(name);
   Json blueprint_rows = Json::array();
-  for (const Blueprint& blueprint : blueprints())
+  for (const Blueprint& blueprint : blueprints()) {
     blueprint_rows.push_back(
         {{"kind", "blueprint"}, {"name", blueprint.name}, {"attributes", attributes_of(blueprint)}});
+  }
   return {{"building_blueprints", std::move(blueprint_rows)},
           {"building_operations", std::move(operation_rows)},
           {"building_words", std::move(word_rows)},

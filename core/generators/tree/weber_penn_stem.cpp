@@ -9,8 +9,9 @@ namespace {
 
 // Pruning tries a stem at this share of its length again and again, and removes it below the least share.
 constexpr double prune_step = 0.9, prune_least = 0.15;
-// Arbaro keeps all limbs, however short.
-constexpr double prune_least_arbaro = 0.001;
+// Arbaro shortens limbs to this share of the height of the tree, and leaves out those of less than half a millimetre.
+constexpr double prune_least_arbaro = 0.001, least_stem_arbaro = 0.0005;
+constexpr int most_prune_steps = 100'000;
 constexpr int most_split_steps = 10'000;
 
 /// Degrees between one segment and the next, without random variation.
@@ -23,6 +24,16 @@ double curve_before(const WeberPennLevel& level, int segment) {
 double attraction_angle(const Frame& frame, double attraction, int segments) {
   const double declination = approximate_acos(std::clamp(frame.heading.y, -1.0, 1.0));
   return math::degrees(attraction * declination * std::clamp(frame.up.y, -1.0, 1.0)) / segments;
+}
+
+/// Arbaro turns a segment to the sky, about the horizontal line at right angles to it.
+Frame attracted(const Frame& frame, double attraction) {
+  const double y = std::clamp(frame.heading.y, -1.0, 1.0);
+  const double across = std::sqrt(1 - y * y);
+  if (across < 1e-9) return frame;
+  const double angle = std::clamp(math::degrees(attraction * approximate_acos(y) * across), -170.0, 170.0);
+  const glm::dvec3 axis = glm::dvec3(-frame.heading.z, 0, frame.heading.x) / across;
+  return rotated(frame, axis, math::quick_sincos_degrees(angle));
 }
 
 /// Does the stem stay within the envelope at this length? Its bends are the same at any length: `frames` has
@@ -96,8 +107,10 @@ Frame next_frame(const WeberPennTree& tree, const WeberPennStem& stem, const Fra
     curve += spread(random, level.curve_v) / level.curve_res;
   }
   curve -= stem.uncurve;
-  if (stem.level >= 2 && attraction != 0) curve -= attraction_angle(frame, attraction, level.curve_res);
-  return pitch(frame, math::quick_sincos_degrees(std::clamp(curve, -170.0, 170.0)));
+  const bool is_attracted = stem.level >= 2 && attraction != 0;
+  if (is_attracted && !tree.counts_as_arbaro()) curve -= attraction_angle(frame, attraction, level.curve_res);
+  const Frame bent = pitch(frame, math::quick_sincos_degrees(std::clamp(curve, -170.0, 170.0)));
+  return is_attracted && tree.counts_as_arbaro() ? attracted(bent, attraction / level.curve_res) : bent;
 }
 
 Frame swayed_frame(const WeberPennTree& tree, const WeberPennStem& stem, const Frame& frame, int segment) {
@@ -153,13 +166,55 @@ double child_radius(const WeberPennTree& tree, const WeberPennStem& stem, double
                   stem.radius * power(ratio, tree.params.RatioPower));
 }
 
+namespace {
+
+/// The first segment at whose end a stem or one of its clones is outside of the envelope, each clone before the rest of
+/// its stem; -1: there is none.
+int segment_outside(const WeberPennTree& tree, WeberPennStem stem, int& steps) {
+  const WeberPennLevel& level = tree.level(stem.level);
+  const double length = segment_length(tree, stem);
+  std::vector<WeberPennStem> clones;
+  Frame frame = stem.frame;
+  glm::dvec3 at = stem.position;
+  for (int segment = stem.segment; segment < level.curve_res && steps > 0; ++segment, --steps) {
+    if (segment > stem.segment) frame = next_frame(tree, stem, frame, segment);
+    at += frame.heading * length;
+    if (!is_in_envelope(tree.params, tree.scale, std::sqrt(at.x * at.x + at.z * at.z), at.y)) return segment;
+    if (!(level.seg_splits > 0) || segment + 1 >= level.curve_res) continue;
+    clones.clear();
+    split(tree, stem, frame, at, segment, Limbs::none, clones);
+    for (std::size_t i = clones.size(); i-- > 0;) {
+      const int outside = segment_outside(tree, clones[i], steps);
+      if (outside >= 0) return outside;
+    }
+  }
+  return -1;
+}
+
+/// Arbaro shortens a stem to the segment that is outside, by a half of its length at most and by a fifteenth of the whole
+/// length at least, until it and its clones are inside.
+bool prune_as_arbaro(const WeberPennTree& tree, WeberPennStem& stem) {
+  const double whole = stem.length;
+  int steps = most_prune_steps;
+  for (int outside = segment_outside(tree, stem, steps);
+       outside >= 0 && stem.length > prune_least_arbaro * tree.scale;
+       outside = segment_outside(tree, stem, steps)) {
+    const double to_there = std::max(segment_length(tree, stem) * outside, stem.length / 2);
+    stem.length = std::max(0.0, std::min(to_there, stem.length - whole / 15));
+  }
+  stem.length = whole - (whole - stem.length) * tree.params.PruneRatio;
+  return stem.length > least_stem_arbaro;
+}
+
+}  // namespace
+
 bool prune(const WeberPennTree& tree, WeberPennStem& stem, std::vector<Frame>& frames) {
-  const double whole = stem.length,
-               least = (tree.counts_as_arbaro() ? prune_least_arbaro : prune_least) * whole;
+  if (tree.counts_as_arbaro()) return prune_as_arbaro(tree, stem);
+  const double whole = stem.length, least = prune_least * whole;
   double fitted = whole;
   frames.clear();
   while (fitted > least && !fits_envelope(tree, stem, fitted, frames)) fitted *= prune_step;
-  if (!(fitted > least)) fitted = tree.counts_as_arbaro() ? least : 0;
+  if (!(fitted > least)) fitted = 0;
   stem.length = whole - (whole - fitted) * tree.params.PruneRatio;
   return stem.length > 1e-6 * whole;
 }
@@ -186,6 +241,28 @@ double carried_behind(const WeberPennLevel& level, double carried, int segment) 
   return carried_behind_part(level, carried, segment, steps);
 }
 
+namespace {
+
+/// Divides the children of a stem among it and its clones. Returns the rounding errors of the clones' splits.
+std::vector<double> share_among_clones(const WeberPennTree& tree, WeberPennStem& stem, int count, int segment,
+                                       bool at_base) {
+  std::vector<double> carried(static_cast<std::size_t>(count), 0.0);
+  if (tree.counts_as_arbaro()) {
+    for (double& each : carried) {
+      each = stem.carried_splits;
+      stem.carried_splits = carried_behind(tree.level(stem.level), each, segment + 1);
+    }
+    // Arbaro divides the branches among the clones, but not the leaves.
+    if (!is_last(tree, stem)) stem.share /= count + 1;
+  } else {
+    stem.share /= count + 1;
+    stem.readiness = at_base ? stem.readiness : 0.5;
+  }
+  return carried;
+}
+
+}  // namespace
+
 void split(const WeberPennTree& tree, WeberPennStem& stem, Frame& frame, const glm::dvec3& position,
            int segment, std::uint32_t joint, std::vector<WeberPennStem>& clones) {
   const WeberPennLevel& level = tree.level(stem.level);
@@ -195,16 +272,7 @@ void split(const WeberPennTree& tree, WeberPennStem& stem, Frame& frame, const g
   const Rng rng = stem.rng.at("split").at(static_cast<std::uint64_t>(segment));
   const int segments_left = std::max(1, level.curve_res - segment - 1);
   const double declination = declination_of(frame);
-  std::vector<double> carried(static_cast<std::size_t>(count), 0.0);  // of the clones
-  if (tree.counts_as_arbaro()) {
-    for (double& each : carried) {
-      each = stem.carried_splits;
-      stem.carried_splits = carried_behind(level, each, segment + 1);
-    }
-  } else {
-    stem.share /= count + 1;
-    stem.readiness = at_base ? stem.readiness : 0.5;
-  }
+  const std::vector<double> carried = share_among_clones(tree, stem, count, segment, at_base);
   // The frame of one of the stems of a split, and its turn back in each later segment. Number 0 is the stem.
   const auto turned = [&](int number) {
     const Rng own = rng.at(static_cast<std::uint64_t>(number));

@@ -43,14 +43,14 @@ constexpr Counted counted[] = {
     {"Shape=2 Levels=3 Scale=25 ScaleV=3 BaseSize=.2 Ratio=.02 RatioPower=1.5 Leaves=6 0SegSplits=.3 "
      "0SplitAngle=20 0CurveRes=8 1Branches=15 1Length=.5 1LengthV=.1 1SegSplits=.3 1SplitAngle=25 "
      "1CurveRes=6 2Branches=12 2Length=.4 2CurveRes=4",
-     1104.2, 4324.5},
+     198.6, 588.0},
     {"Shape=0 Levels=3 Scale=18 BaseSize=.1 Ratio=.015 RatioPower=1.2 Leaves=9 LeafDistrib=3 0CurveRes=10 "
      "1Branches=40 1BranchDist=.2 1Length=.25 1CurveRes=6 2Branches=14 2Length=.3 2CurveRes=3",
      404.5, 3271.5},
     {"Shape=1 Levels=3 Scale=2 ScaleV=.3 BaseSize=.02 Ratio=.03 RatioPower=1.3 Leaves=4 LeafDistrib=6 "
      "0Branches=3 0BaseSplits=2 0SegSplits=.4 0SplitAngle=25 0CurveRes=5 1Branches=10 1Length=.4 1CurveRes=4 "
      "1SegSplits=.3 1SplitAngle=20 2Branches=6 2Length=.4 2CurveRes=2",
-     1192.2, 1848.7},
+     212.3, 305.9},
     {"Shape=1 Levels=2 Scale=3 BaseSize=.2 Ratio=.03 Leaves=9 0CurveRes=4 1Branches=9 1Length=.5 1CurveRes=4",
      10.0, 65.0},
     {"Shape=7 Levels=4 Scale=12 BaseSize=.15 Ratio=.02 RatioPower=1.4 Leaves=4 0CurveRes=8 1Branches=30 "
@@ -60,22 +60,22 @@ constexpr Counted counted[] = {
      "PruneRatio=1 PrunePowerLow=.001 PrunePowerHigh=.5 PruneWidth=.4 PruneWidthPeak=.6 0BaseSplits=2 "
      "0Length=.8 0CurveRes=8 0SplitAngle=3 1Branches=20 1Length=.5 1LengthV=.1 1CurveRes=8 1Curve=40 "
      "1CurveBack=80 1DownAngle=20 2Branches=10 2Length=.8 2CurveRes=4",
-     590.8, 4246.7},
+     210.2, 1497.6},
     {"Shape=5 Levels=3 Scale=9 BaseSize=.3 Ratio=.02 Leaves=20 LeafDistrib=5 0CurveRes=6 1Branches=24 "
      "1Length=.4 1CurveRes=5 2Branches=8 2Length=.5 2CurveRes=1",
      128.2, 1091.3},
     {"Shape=6 Levels=3 Scale=7 BaseSize=.15 Ratio=.02 Leaves=7 LeafDistrib=1 0CurveRes=5 0BaseSplits=1 "
      "0SplitAngle=30 1Branches=16 1Length=.6 1CurveRes=6 2Branches=20 2Length=.25 2CurveRes=2",
-     444.3, 2062.3},
+     222.6, 1027.4},
     {"Shape=4 Levels=3 Scale=20 BaseSize=.1 Ratio=.02 Leaves=2 LeafDistrib=2 0CurveRes=12 1Branches=90 "
      "1Length=.15 1CurveRes=3 2Branches=5 2Length=.4 2CurveRes=2",
      406.0, 461.3},
     {"Shape=7 Levels=3 Scale=14 BaseSize=.35 Ratio=.02 Leaves=11 0CurveRes=5 0SegSplits=.2 0SplitAngle=15 "
      "1Branches=20 1Length=.35 1CurveRes=5 2Branches=15 2Length=.4 2CurveRes=3 2SegSplits=.2 2SplitAngle=20",
-     580.2, 4012.2},
+     366.9, 2533.9},
     {"Shape=2 Levels=2 Scale=6 BaseSize=.25 Ratio=.03 Leaves=40 LeafDistrib=7 0CurveRes=6 0BaseSplits=3 "
      "0SplitAngle=20 1Branches=25 1Length=.3 1CurveRes=5 1SegSplits=.5 1SplitAngle=15",
-     406.0, 6428.5},
+     106.0, 1637.7},
     {"Shape=3 Levels=3 Scale=30 ScaleV=4 BaseSize=.5 Ratio=.012 Leaves=15 0CurveRes=8 1Branches=22 "
      "1Length=.2 1LengthV=.05 1CurveRes=4 2Branches=18 2Length=.5 2CurveRes=3",
      419.0, 4419.8},
@@ -91,10 +91,10 @@ constexpr Counted counted[] = {
     {"Shape=7 Levels=3 Scale=16 BaseSize=.4 Ratio=.02 Leaves=12 0CurveRes=4 0BaseSplits=1 0SegSplits=.5 "
      "0SplitAngle=12 1Branches=18 1Length=.4 1CurveRes=4 1BranchDist=.5 2Branches=9 2Length=.4 2CurveRes=2 "
      "2BranchDist=.3",
-     520.0, 3764.3},
+     147.6, 1047.3},
     {"Shape=4 Levels=3 Scale=8 BaseSize=.2 Ratio=.025 Leaves=3 0CurveRes=5 1Branches=35 1Length=.45 "
      "1CurveRes=10 1SegSplits=.1 1SplitAngle=30 2Branches=25 2Length=.2 2CurveRes=3",
-     1658.8, 3701.2},
+     788.6, 1540.0},
 };
 
 TEST(Arbaro, HasAsManyLimbsAndLeavesAsArbaro) {

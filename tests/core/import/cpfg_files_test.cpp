@@ -87,5 +87,25 @@ TEST(CpfgStatements, ReportAnIndexWithoutItsEnd) {
               Contains(StartsWith("2:10 found `[` without its `]`")));
 }
 
+TEST(CpfgFiles, HaveEmptyLinesInStatements) {
+  const auto result = imported("cpfg",
+                               "Lsystem: 1\nderivation length: 3\nAxiom: A(0)\n"
+                               "A(x) : x < 9\n"
+                               "  {/* first */\n"
+                               "   y = x;\n"
+                               "\t\n"
+                               "\n"
+                               "   /* second */\n"
+                               "   if (y > 0) {\n"
+                               "\n"
+                               "     y = y + 1;\n"
+                               "   }\n"
+                               "  }\n"
+                               "  --> F(y)A(y + 1)\n"
+                               "\nendlsystem\n");
+  ASSERT_TRUE(result) << reports(result)[0];
+  EXPECT_EQ(derived(result), "F(0)F(2)F(4)A(5)");
+}
+
 }  // namespace
 }  // namespace seedmesh

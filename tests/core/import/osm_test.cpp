@@ -314,5 +314,55 @@ TEST(MapValues, ReadsLengthsDirectionsAndColours) {
   EXPECT_FALSE(map_color("#12345"));
 }
 
+std::string overpass_file(const std::string& between, const std::string& second) {
+  return R"({"version": 0.6, "osm3s": {"copyright": "\"elements\": ["}, "elements": [)" + between +
+         R"({"type": "way", "id": 1, "tags": {"building": "yes", "height": "4"}, "geometry": [{"lon": 0, "lat": 0},)"
+         R"({"lon": 0.001, "lat": 0}, {"lon": 0.001, "lat": 0.001}, {"lon": 0, "lat": 0}]},)"
+         "\n  " +
+         second + R"(], "bounds": {"minlon": 0, "minlat": 0, "maxlon": 0.004, "maxlat": 0.004}})";
+}
+
+TEST(Osm, ReadsTheElementsOfLargeOverpassFilesOneByOne) {
+  const std::string second =
+      R"({"type": "node", "id": 2, "lon": 0.002, "lat": 0.001, "tags": {"natural": "tree", "note": "]}\"{"}})";
+  const std::string blanks(1'200'000, ' ');
+  const auto small = imported("osm", overpass_file("", second)),
+             large = imported("osm", overpass_file(blanks, second));
+  ASSERT_TRUE(small) << reports(small)[0];
+  ASSERT_TRUE(large) << reports(large)[0];
+  EXPECT_EQ(parameters_of(large), parameters_of(small));
+  EXPECT_EQ(reports(large), reports(small));
+  for (const std::string wrong :
+       {R"({"type": "node", "a": 1, "a": 2})", R"({"type": "node", "id": 3, "lon": 200, "lat": 1})",
+        R"({"type": "way", "id": 1e999})", R"({"type": "way"})", "7", "{", "{}]"}) {
+    const auto one = imported("osm", overpass_file("", wrong)),
+               other = imported("osm", overpass_file(blanks, wrong));
+    ASSERT_FALSE(one) << wrong;
+    ASSERT_FALSE(other) << wrong;
+    EXPECT_EQ(reports(other), reports(one)) << wrong;
+    EXPECT_EQ(other.error().issues[0].pointer, one.error().issues[0].pointer) << wrong;
+  }
+}
+
+TEST(Osm, ReadsMoreValuesOfOverpassThanARequestMayHave) {
+  // 440,000 nodes of 5 values, whose ways are four houses.
+  std::string text = R"({"elements": [)";
+  for (int id = 1; id <= 440'000; ++id) {
+    const Value p = degrees_at(id % 4 == 2 || id % 4 == 3 ? 8 : 0, id % 4 == 3 || id % 4 == 0 ? 6 : 0);
+    text += R"({"type":"node","id":)" + std::to_string(id) + R"(,"lon":)" + p[0].dump() + R"(,"lat":)" +
+            p[1].dump() + "},";
+  }
+  for (int way = 0; way < 4; ++way) {
+    const int first = 4 * way + 1;
+    text +=
+        std::string(way == 0 ? "" : ",") + R"({"type":"way","id":)" + std::to_string(way) + R"(,"nodes":[)";
+    for (const int node : {first, first + 1, first + 2, first + 3}) text += std::to_string(node) + ",";
+    text += std::to_string(first) + R"(],"tags":{"building":"yes"}})";
+  }
+  const auto result = imported("osm", text + "]}");
+  ASSERT_TRUE(result) << reports(result)[0];
+  EXPECT_EQ(parameters_of(result)["buildings"].size(), 4U);
+}
+
 }  // namespace
 }  // namespace seedmesh

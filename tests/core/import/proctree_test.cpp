@@ -5,13 +5,48 @@
 namespace seedmesh {
 namespace {
 
+/// The parameters of a file that is `{}` in all but what `given` has: the values of `new Tree({})` of proctree.js.
+nlohmann::json with_defaults(const std::string& given) {
+  nlohmann::json out =
+      nlohmann::json::parse(R"({"model": "proctree", "sequence": "original", "leaf": {"build": "twig"},
+    "mSeed": 10, "mLevels": 3, "mVMultiplier": 0.2, "mTwigScale": 2, "mInitialBranchLength": 0.85,
+    "mLengthFalloffPower": 1, "mClumpMax": 0.8, "mClumpMin": 0.5, "mBranchFactor": 2, "mDropAmount": 0,
+    "mGrowAmount": 0, "mSweepAmount": 0, "mMaxRadius": 0.25, "mClimbRate": 1.5, "mTrunkKink": 0, "mTreeSteps": 2,
+    "mTaperRate": 0.95, "mRadiusFalloffRate": 0.6, "mTwistRate": 13, "mTrunkLength": 2.5})");
+  out.update(nlohmann::json::parse(given));
+  return out;
+}
+
 TEST(ProctreeFile, BecomesATreeOfTheSameParameters) {
   const auto result = imported("proctree", R"({"mSeed": 262, "mLevels": 4, "mTwistRate": 3.019})");
-  EXPECT_EQ(parameters_of(result),
-            nlohmann::json::parse(
-                R"({"model": "proctree", "sequence": "original", "mLevels": 4, "mTwistRate": 3.019,
-                    "leaf": {"build": "twig"}})"));
+  ASSERT_TRUE(result) << reports(result)[0];
+  nlohmann::json wanted = with_defaults(R"({"mLevels": 4, "mTwistRate": 3.019})");
+  wanted.erase("mSeed");  // 262 is the value of the schema
+  EXPECT_EQ(parameters_of(result), wanted);
   EXPECT_EQ(result->warnings.size(), 0U);
+}
+
+TEST(ProctreeFile, HasTheValuesOfProctreeJsWhereItLacksThem) {
+  // From the formulas of proctree.js, in node: joints of the file {"seed": 152, "segments": 8, "levels": 4}.
+  const auto result = imported("proctree", R"({"seed": 152, "segments": 8, "levels": 4})");
+  ASSERT_TRUE(result) << reports(result)[0];
+  const Result<std::string> answer = derive(result->request, {});
+  ASSERT_TRUE(answer);
+  const nlohmann::json tree = nlohmann::json::parse(*answer);
+  EXPECT_EQ(tree["leaves"], 64);
+  EXPECT_NEAR(tree["bounds"]["max"][1].get<double>(), 8.1474, 1e-4);
+}
+
+TEST(ProctreeFile, CanHaveColorsAndTheStateOfTheSequence) {
+  const auto result = imported(
+      "proctree", R"({"seed": 10, "rseed": 31, "levels": 3, "treeColor": 10318690, "twigColor": "#f16950"})");
+  ASSERT_TRUE(result) << reports(result)[0];
+  EXPECT_EQ(parameters_of(result),
+            with_defaults(R"({"bark_color": "#9d7362", "leaf": {"build": "twig", "color": "#f16950"}})"));
+  EXPECT_EQ(result->warnings.size(), 0U);
+  const auto wrong = imported("proctree", R"({"seed": 10, "treeColor": 16777216, "twigColor": "leaf"})");
+  ASSERT_FALSE(wrong);
+  EXPECT_EQ(wrong.error().issues.size(), 2U);
 }
 
 // Listing 2.1 of Hutsko's thesis (2022).
@@ -51,10 +86,11 @@ TEST(ProctreeFile, MayHaveTheNamesOfProctreeJs) {
       imported("proctree", R"({"seed": 152, "segments": 8, "levels": 4, "initalBranchLength": 0.6,
     "vMultiplier": 1.16, "maxRadius": 0.105, "trunkMaterial": "TrunkType1", "twigMaterial": "BranchType2"})");
   ASSERT_TRUE(result) << reports(result)[0];
-  EXPECT_EQ(parameters_of(result),
-            nlohmann::json::parse(R"({"model": "proctree", "mSeed": 152, "mSegments": 8,
-    "mLevels": 4, "mInitialBranchLength": 0.6, "mVMultiplier": 1.16, "mMaxRadius": 0.105,
-    "sequence": "original", "leaf": {"build": "twig"}})"));
+  EXPECT_EQ(
+      parameters_of(result),
+      with_defaults(
+          R"({"mSeed": 152, "mSegments": 8, "mLevels": 4, "mInitialBranchLength": 0.6, "mVMultiplier": 1.16,
+    "mMaxRadius": 0.105})"));
   EXPECT_EQ(result->warnings.size(), 2U) << "two images";
 }
 

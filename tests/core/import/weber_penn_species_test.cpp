@@ -87,6 +87,19 @@ params = {
 }
 )";
 
+TEST(Arbaro, LeavesTheImagesOfOtherProgramsOut) {
+  const auto result = imported("arbaro",
+                               "<arbaro><species name='oak'>\n<param name='Levels' value='2'/>\n"
+                               "<param name='BarkTexture' value='bark7.jpg'/>\n"
+                               "<param name='LeafTexture' value='leaf2.png'/>\n"
+                               "<param name='LeafTextureRotation' value='135.0'/>\n</species></arbaro>");
+  ASSERT_TRUE(result) << reports(result)[0];
+  EXPECT_THAT(
+      reports(result),
+      testing::IsSupersetOf({"3:34 `BarkTexture` belongs to an image that does not exist here",
+                             "5:42 `LeafTextureRotation` belongs to an image that does not exist here"}));
+}
+
 TEST(TreeGen, BecomesATreeWithItsParameters) {
   const auto result = imported("", fir);
   ASSERT_TRUE(result) << reports(result)[0];
@@ -101,6 +114,13 @@ TEST(TreeGen, BecomesATreeWithItsParameters) {
     EXPECT_EQ(parameters[name].get<double>(), value.get<double>()) << name;
   }
   EXPECT_EQ(parameters.at("leaf").at("shape"), "willow");
+}
+
+TEST(TreeGen, HasAsManyTrunksAsAClumpOfBamboo) {
+  const auto result = imported(
+      "tree_gen", R"(params = {'shape': 0, 'levels': 2, 'floor_splits': 50, 'branches': [0, 25, 0, 10]})");
+  ASSERT_TRUE(result) << reports(result)[0];
+  EXPECT_EQ(parameters_of(result)["0Branches"], 51);
 }
 
 TEST(TreeGen, ReadsPresetsOfSapling) {

@@ -1,4 +1,4 @@
-#include "core/import/geojson_features.h"
+#include "core/import/listed_objects.h"
 
 #include <nlohmann/json.hpp>
 #include <utility>
@@ -58,7 +58,7 @@ class Scanner {
 };
 
 /// The objects of a list, from behind its bracket. False: it has other members or an error.
-bool take_features(std::string_view text, Scanner& scanner, std::vector<std::string_view>& out) {
+bool take_objects(std::string_view text, Scanner& scanner, std::vector<std::string_view>& out) {
   if (scanner.take(']')) return true;
   do {
     scanner.skip_blanks();
@@ -72,40 +72,42 @@ bool take_features(std::string_view text, Scanner& scanner, std::vector<std::str
 
 }  // namespace
 
-std::optional<FeatureTexts> feature_texts(std::string_view text) {
-  FeatureTexts out;
+std::optional<ListedObjects> listed_objects(std::string_view text, std::string_view name) {
+  ListedObjects out;
+  out.name = name;
   Scanner scanner(text);
-  bool has_features = false;
+  bool has_list = false;
   if (!scanner.take('{')) return std::nullopt;
   do {
     scanner.skip_blanks();
     if (scanner.is_end() || text[scanner.at] != '"') return std::nullopt;
     const std::string_view key = scanner.string();
     if (!scanner.take(':')) return std::nullopt;
-    if (key != "features") {
+    if (key != name) {
       scanner.value();
       continue;
     }
-    if (std::exchange(has_features, true) || !scanner.take('[')) return std::nullopt;
+    if (std::exchange(has_list, true) || !scanner.take('[')) return std::nullopt;
     out.shell = text.substr(0, scanner.at);
-    if (!take_features(text, scanner, out.texts)) return std::nullopt;
+    if (!take_objects(text, scanner, out.texts)) return std::nullopt;
     out.shell += text.substr(scanner.at - 1);
   } while (scanner.take(','));
-  if (!has_features) return std::nullopt;
+  if (!has_list) return std::nullopt;
   return out;
 }
 
-Result<Json> parse_feature(std::string_view text, const FeatureTexts& features, std::size_t index,
-                           const Job* job) {
-  const std::string_view one = features.texts[index];
-  Result<Json> feature = parse_json(one, {.job = job});
-  if (feature) return feature;
-  Error error = std::move(feature).error();
+Result<Json> parse_listed(std::string_view text, const ListedObjects& objects, std::size_t index,
+                          const Job* job) {
+  const std::string_view one = objects.texts[index];
+  Result<Json> object = parse_json(one, {.job = job});
+  if (object) return object;
+  Error error = std::move(object).error();
   const TextPosition start = text_position(text, static_cast<std::size_t>(one.data() - text.data()));
   for (Issue& issue : error.issues) {
     if (issue.line == 1) issue.column += start.column - 1;
     if (issue.line > 0) issue.line += start.line - 1;
-    if (issue.pointer.starts_with('/')) issue.pointer.insert(0, "/features/" + std::to_string(index));
+    if (issue.pointer.starts_with('/'))
+      issue.pointer.insert(0, "/" + std::string(objects.name) + "/" + std::to_string(index));
   }
   return error;
 }

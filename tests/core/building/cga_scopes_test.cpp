@@ -1,0 +1,122 @@
+/// Scopes in files of CityEngine: of raised faces, and of faces whose scope has a depth.
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "tests/core/building/rules.h"
+
+namespace seedmesh::building {
+namespace {
+
+using testing::DoubleNear;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+std::vector<double> vector_of(const Json& shape, const char* name) {
+  std::vector<double> out;
+  for (const Json& each : shape["scope"][name]) out.push_back(each.get<double>());
+  return out;
+}
+
+/// The active shapes of a symbol.
+std::vector<Json> shapes_of(const Json& answer, const std::string& symbol) {
+  std::vector<Json> out;
+  for (const Json& shape : answer["shapes"]) {
+    if (shape["active"] && shape["symbol"] == symbol) out.push_back(shape);
+  }
+  return out;
+}
+
+testing::Matcher<std::vector<double>> near(double x, double y, double z) {
+  return ElementsAre(DoubleNear(x, 1e-9), DoubleNear(y, 1e-9), DoubleNear(z, 1e-9));
+}
+
+/// On a flat lot of 10 x 10 m.
+BuildingParams on_lot(std::string rules) { return with(std::move(rules), {10, 0, 10}); }
+
+constexpr const char* headers[] = {"version \"2024.0\"\n", "@StartRule\n"};
+
+TEST(CgaScopes, TurnWithRaisedFacesAfterStartRule) {
+  // On a facade of 10 x 4 m, y of the extruded slab is its depth.
+  const std::string rules = "Lot --> extrude(4) comp(f){ front: extrude(0.5) Slab. | all: NIL }";
+  for (const char* header : headers)
+    EXPECT_THAT(vector_of(shapes_of(derived(on_lot(header + rules)), "Slab")[0], "size"), near(10, 0.5, 4))
+        << header;
+  EXPECT_THAT(vector_of(shapes_of(derived(on_lot(rules)), "Slab")[0], "size"), near(10, 4, 0.5));
+  EXPECT_THAT(vector_of(shapes_of(derived(on_lot("@StartRule @KeepScopes\n" + rules)), "Slab")[0], "size"),
+              near(10, 4, 0.5));
+}
+
+TEST(CgaScopes, OfFacesHaveADepthAndTheFacesStayFlat) {
+  const auto front = [](const std::string& header, const std::string& successor) {
+    return derived(on_lot(header + "Lot --> extrude(4) comp(f){ front: " + successor + " | all: NIL }\n" +
+                          "Panel --> primitiveCube() Body."));
+  };
+  for (const std::string header : headers) {
+    // A leaf is the face itself, at the low side of the scope.
+    EXPECT_THAT(vector_of(shapes_of(front(header, "s('0.5, '1, 0.3) Leaf."), "Leaf")[0], "size"),
+                near(5, 4, 0));
+    EXPECT_THAT(vector_of(shapes_of(front(header, "s('0.5, '1, -0.3) Leaf."), "Leaf")[0], "size"),
+                near(5, 4, 0));
+    // Primitives fill the scope, in another rule, too, and behind the face where the depth is negative.
+    const Json body = shapes_of(front(header, "s('1, '1, -0.3) Panel"), "Body")[0];
+    EXPECT_THAT(vector_of(body, "size"), near(10, 4, 0.3));
+    EXPECT_NEAR(body["scope"]["origin"][2].get<double>(), 5 - 0.3, 1e-9);
+    EXPECT_THAT(
+        vector_of(shapes_of(front(header, "s('1, '1, 0.3) t(0, 0, '-1) i(\"cube\") A."), "A")[0], "size"),
+        near(10, 4, 0.3));
+    // Operations on faces find a face.
+    EXPECT_THAT(vector_of(shapes_of(front(header, "s('1, '1, 0.3) extrude(0.1) Ledge."), "Ledge")[0], "size"),
+                near(10, 0.1, 4));
+    EXPECT_EQ(active(front(header, "s('1, '1, 0.3) offset(-0.5) comp(f){ border: B. | inside: I. }")), "B I");
+    EXPECT_EQ(active(front(header, "s('1, '1, 0.3) split(x){ 4: A. | ~1: B. }")), "A B");
+    EXPECT_THAT(
+        vector_of(shapes_of(front(header, "s('1, '1, 0.3) split(x){ 4: A. | ~1: B. }"), "B")[0], "size"),
+        near(6, 4, 0));
+  }
+  EXPECT_THAT(vector_of(shapes_of(front("", "s('0.5, '1, 0.3) Leaf."), "Leaf")[0], "size"), near(5, 4, 0.3));
+}
+
+TEST(CgaScopes, CanBecomeALine) {
+  // A post stands at a corner of the lot; the two sizes of 0 follow from the part.
+  const Json answer = derived(on_lot("version \"2024.0\"\nLot --> s(0, 5, 0) i(\"cube\") Post."));
+  EXPECT_THAT(vector_of(shapes_of(answer, "Post")[0], "size"), near(5, 5, 5));
+}
+
+TEST(CgaScopes, OfPolygonsHaveADepthToo) {
+  BuildingParams params = on_lot(
+      "version \"2024.0\"\nLot --> s('1, 3, '1) report(\"area\", geometry.area) Ground\n"
+      "Ground --> extrude(2) report(\"volume\", geometry.volume) Mass.");
+  params.footprint = {{{0, 0}, {8, 0}, {8, 4}, {4, 4}, {4, 8}, {0, 8}}};
+  const Json answer = derived(params);
+  EXPECT_NEAR(answer["reports"]["area"]["sum"].get<double>(), 48, 1e-9);
+  EXPECT_NEAR(answer["reports"]["volume"]["sum"].get<double>(), 96, 1e-9);
+  EXPECT_THAT(vector_of(shapes_of(answer, "Mass")[0], "size"), near(8, 2, 8));
+}
+
+TEST(CgaScopes, AlignToTheLowestFace) {
+  // The lowest face is the underside.
+  const Json answer =
+      derived(on_lot("version \"2024.0\"\nLot --> extrude(3) r(5, 0, 0) alignScopeToGeometry(zUp, "
+                     "world.lowest, longest) Mass."));
+  EXPECT_THAT(answer["warnings"], testing::IsEmpty());
+  const Json mass = shapes_of(answer, "Mass")[0];
+  // z is the normal of the underside, turned by 5 degrees about x.
+  EXPECT_THAT(vector_of(mass, "size"), near(10, 10, 3));
+}
+
+TEST(CgaColors, CanBeNamesOfCss) {
+  const auto red_of = [](const std::string& value) {
+    const Json answer =
+        derived(on_lot("Lot --> color(" + value + ") report(\"red\", material.color.r) Leaf."));
+    return std::lround(answer["reports"]["red"]["sum"].get<double>() * 255);
+  };
+  EXPECT_EQ(red_of("\"white\""), 0xff);
+  EXPECT_EQ(red_of("\"MidnightBlue\""), 0x19);
+  EXPECT_EQ(red_of("\"DAFAF3\""), 0xda);
+  EXPECT_EQ(red_of("\"#123456\""), 0x12);
+  EXPECT_THAT(refusal(with("Lot --> color(\"whitish\") Leaf.")), HasSubstr("a name of CSS"));
+}
+
+}  // namespace
+}  // namespace seedmesh::building
