@@ -84,7 +84,7 @@ const hostile = {
   ],
   world: [
     (random) => ({ extent: pick(random, [32768, 1048576]) }),
-    (random) => ({ extent: 65536, towns: { spacing: 2000 + 20000 * random() } }),
+    (random) => ({ extent: 65536, settlements: { density: 1, radius: 60 + Math.floor(340 * random()) } }),
   ],
   scene: [
     (random) => ({ buildings: Array.from({ length: pick(random, [100, 3000]) }, (_, i) => ({ footprint: [star(random, pick(random, [8, 60])).map(([x, z]) => [x + 50 * (i % 60), z + 50 * Math.floor(i / 60)])], height: 9, roof: { shape: pick(random, ['hipped', 'gabled', 'mansard', 'dome']), height: 3 } })) }),

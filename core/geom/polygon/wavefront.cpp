@@ -141,7 +141,8 @@ bool Wavefront::is_current(const Event& event) const {
 bool Wavefront::is_in_reach(const Event& event) const {
   const Edge& edge = edges_[event.edge];
   double fastest = 0;
-  for (const std::uint32_t corner : {edge.start, edge.end, event.corner == none ? edge.start : event.corner}) {
+  for (const std::uint32_t corner :
+       {edge.start, edge.end, event.corner == none ? edge.start : event.corner}) {
     fastest = std::max(fastest, corners_[corner].speed);
   }
   return fastest * (event.time - now_) <= 0.5 * near_;
