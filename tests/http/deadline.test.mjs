@@ -82,6 +82,10 @@ const hostile = {
     (random) => ({ area: { size: [pick(random, [1000, 8000, 40000]), pick(random, [1000, 40000])] } }),
     (random) => ({ area: { polygon: [star(random, 2000).map(([x, z]) => [20 * x, 20 * z])] } }),
   ],
+  world: [
+    (random) => ({ extent: pick(random, [32768, 1048576]) }),
+    (random) => ({ extent: 65536, settlements: { density: 1, radius: 60 + Math.floor(340 * random()) } }),
+  ],
   scene: [
     (random) => ({ buildings: Array.from({ length: pick(random, [100, 3000]) }, (_, i) => ({ footprint: [star(random, pick(random, [8, 60])).map(([x, z]) => [x + 50 * (i % 60), z + 50 * Math.floor(i / 60)])], height: 9, roof: { shape: pick(random, ['hipped', 'gabled', 'mansard', 'dome']), height: 3 } })) }),
     (random) => ({ areas: [{ outline: plate(pick(random, [100, 900])), color: '#405060' }] }),
@@ -142,9 +146,22 @@ before(async () => {
 });
 after(() => server.stop());
 
+/** A tile, a tileset, a subtree or a map of a world by its parameters. */
+function world_file(random, seed) {
+  const parameters = pick(random, hostile.world)(random), level = Math.floor(9 * random()), side = 2 ** level;
+  const [x, z] = [Math.floor(side * random()), Math.floor(side * random())], corner = Math.floor(4000 * random());
+  const token = zlib.deflateRawSync(JSON.stringify({ engine, generator: 'world', seed, parameters })).toString('base64url');
+  return `/v1/worlds/${token}/${pick(random, ['tileset.json', `c/${level}/${x}/${z}.glb`, `c/${level}/${x}/${z}.glb`, `e/4/${x % 16}/${z % 16}.json`, 's/0/0/0.subtree',
+    `world.json?box=${corner},${corner},${corner + 2048},${corner + 2048}`])}`;
+}
+
 /** A random request to a random route: {method, target, body, text}. */
 async function random_request(random) {
   const seed = Math.floor(random() * 1e9);
+  if (random() < 0.15) {
+    const target = world_file(random, seed);
+    return { method: 'GET', target, text: target };
+  }
   if (random() < 0.25) {
     const options = Object.entries(pick(random, outputs)).map(([name, value]) => `output.${name}=${value}`);
     const target = `/v1/presets/${pick(random, presets).name}.glb?${[`seed=${seed}`, ...options.filter((each) => !each.startsWith('output.format'))].join('&')}`;
@@ -199,11 +216,11 @@ test('every answer comes within the time limit and 100 ms of CPU time', { timeou
     const [, route] = /^\S*?(\/v1\/[a-z]+)/.exec(request.target);
     const counts = (statuses[route] ??= {});
     counts[status] = (counts[status] ?? 0) + 1;
-    assert.ok([200, 307, 400, 413, 414, 422, 503, 504].includes(status), `${status} for ${request.text}`);
+    assert.ok([200, 307, 400, 404, 413, 414, 422, 503, 504].includes(status), `${status} for ${request.text}`);
     if (least > limit * 1000 + most_late) late.push(`${least} ms, status ${status}: ${i} ${request.text}`);
   }
   console.log(JSON.stringify(statuses));
-  for (const route of ['generate', 'validate', 'derive', 'import', 'models', 'presets', 'textures'])
+  for (const route of ['generate', 'validate', 'derive', 'import', 'models', 'presets', 'textures', 'worlds'])
     assert.ok(statuses[`/v1/${route}`]?.[200] > 0 || rounds < 240, `no answer of /v1/${route}`);
   assert.deepEqual(late, []);
 });

@@ -87,7 +87,7 @@ bool Wavefront::run() {
   if (!(fastest_ > 0)) {
     if (!std::isfinite(end_time_)) return false;
   }
-  const std::uint64_t most_steps = 64 + 16 * static_cast<std::uint64_t>(sources.size());
+  const std::uint64_t most_steps = 64 + 4 * static_cast<std::uint64_t>(sources.size());
   if (!settle()) return false;
   expect();
   std::vector<Event> batch;
@@ -104,7 +104,10 @@ bool Wavefront::run() {
       const Event& event = events_.top();
       const bool is_repeated =
           !batch.empty() && batch.back().edge == event.edge && batch.back().corner == event.corner;
-      if (is_current(event) && !is_repeated) batch.push_back(event);
+      if (is_current(event) && !is_repeated) {
+        if (!batch.empty() && !is_in_reach(event)) break;
+        batch.push_back(event);
+      }
       events_.pop();
     }
     if (batch.empty()) {
@@ -134,6 +137,17 @@ bool Wavefront::is_current(const Event& event) const {
          (event.corner == none || corners_[event.corner].is_alive);
 }
 
+/// Whether the corners of an event move by less than the tolerance until its time.
+bool Wavefront::is_in_reach(const Event& event) const {
+  const Edge& edge = edges_[event.edge];
+  double fastest = 0;
+  for (const std::uint32_t corner :
+       {edge.start, edge.end, event.corner == none ? edge.start : event.corner}) {
+    fastest = std::max(fastest, corners_[corner].speed);
+  }
+  return fastest * (event.time - now_) <= 0.5 * near_;
+}
+
 /// Adds the corner between two edges that meet at a node.
 void Wavefront::add_corner(std::uint32_t in, std::uint32_t out, std::uint32_t node) {
   const Source &a = source(in), &b = source(out);
@@ -150,6 +164,7 @@ void Wavefront::add_corner(std::uint32_t in, std::uint32_t out, std::uint32_t no
   corner.velocity = squared > 0 ? sum * (2 * mean / squared) : dvec2(0);
   if (half != 0 && glm::dot(apart, apart) > same_line * same_line)
     corner.velocity += apart * (2 * half / glm::dot(apart, apart));
+  corner.speed = length(corner.velocity);
   corner.can_hit = cross(a.direction, b.direction) < flat_turn;
   const auto number = static_cast<std::uint32_t>(corners_.size());
   corners_.push_back(corner);

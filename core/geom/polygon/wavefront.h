@@ -50,6 +50,7 @@ class Wavefront {
   struct Corner {
     glm::dvec2 place{0}, velocity{0};
     double time = 0;
+    double speed = 0;               ///< the length of `velocity`
     std::uint32_t node = 0;         ///< node where it began
     std::uint32_t in = 0, out = 0;  ///< the edges before and after it
     bool is_alive = true, can_hit = false;
@@ -91,6 +92,7 @@ class Wavefront {
 
   void add_ring(const PlanRing& ring, std::uint32_t first);
   bool is_current(const Event& event) const;
+  bool is_in_reach(const Event& event) const;
   void expect_collapse(std::uint32_t edge);
   void expect_hit(std::uint32_t corner, std::uint32_t edge);
   /// Predicts the events of changed edges and new corners, and puts them into the queue.
@@ -166,6 +168,8 @@ class Wavefront {
   double effort_ = 1;        ///< multiplies the limit of candidate pairs in a grid
   CellGrid edge_grid_, corner_grid_;
   std::size_t most_entries_ = 0;  ///< with more the grid is made anew
+  /// Comparisons after events since the grid was made, and their limit.
+  std::size_t comparisons_nearby_ = 0, most_nearby_ = 0;
   std::vector<std::uint32_t> seen_;
   std::vector<std::uint32_t> edge_mark_, corner_mark_;  ///< equal to mark_: is in seen_
   std::uint32_t mark_ = 0;

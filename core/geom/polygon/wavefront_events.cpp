@@ -62,6 +62,21 @@ std::vector<Wavefront::Touch> Wavefront::touches_of(const std::vector<Event>& ba
     }
     if (!is_at_end) unite(parent, hit, add({place, none, event.edge, 0}));
   }
+  // Shrinking edges shorter than the tolerance beside an event end with it. Otherwise a front that shrinks to one
+  // point would take thousands of events there, whose times differ by rounding errors alone.
+  const std::size_t seeds = touches.size();
+  for (std::uint32_t seed = 0; seed < seeds; ++seed) {
+    if (touches[seed].corner == none) continue;
+    const dvec2 place = touches[seed].place;
+    for (const bool forward : {true, false}) {
+      for (std::uint32_t at = touches[seed].corner;;) {
+        const Edge& edge = edges_[forward ? corners_[at].out : corners_[at].in];
+        at = forward ? edge.end : edge.start;
+        if (!std::isfinite(edge.until) || distance(place, place_of(at)) > near_ || number.contains(at)) break;
+        unite(parent, seed, add_corner(at));
+      }
+    }
+  }
   std::vector<glm::dvec3> places;
   for (const Touch& touch : touches) places.emplace_back(touch.place, 0.0);
   const std::vector<std::uint32_t> group = near_groups(places, near_, job_);

@@ -17,6 +17,8 @@ constexpr std::size_t few_edges = 512, few_pairs = 4096;
 // corner that share a cell, for each edge and corner.
 constexpr std::size_t entries_each = 128;
 constexpr double pairs_each = 32;
+// Comparisons after events, for each edge and corner, after which the grid is made anew with a nearer horizon.
+constexpr std::size_t nearby_each = 512;
 // Cells of the grid for each edge, at most.
 constexpr double cells_each = 4;
 // The farthest horizon, in diagonals of the plan that the fastest edge could cross.
@@ -63,9 +65,11 @@ void Wavefront::expect_hit(std::uint32_t corner, std::uint32_t edge) {
   if (time > std::min(horizon_, end_time_ + soon_) || time > e.until + soon_ || time <= horizon_before_)
     return;
   if (uses_grid_) {
-    // Later the corner has ended; where both end without this event, it adds nothing.
+    // Later the corner has ended. Where both end before one of them moves by the tolerance, the hit adds nothing.
     const double last = std::min(edges_[c.in].until, edges_[c.out].until);
-    if (time > last + soon_ || time + 0.01 * soon_ >= std::max(last, e.until)) return;
+    const double fastest = std::max({c.speed, corners_[e.start].speed, corners_[e.end].speed});
+    const double still = std::min(0.5 * soon_, 0.1 * near_ / fastest);
+    if (time > last + soon_ || time + still >= std::max(last, e.until)) return;
   }
   // Elements that have just separated here do not meet.
   if (time <= since + 2 * soon_ && (corners_[e.start].node == c.node || corners_[e.end].node == c.node)) {
@@ -135,6 +139,8 @@ void Wavefront::move_horizon() {
     edge_grid_.pack();
     corner_grid_.pack();
     for (const std::uint32_t corner : hitting_corners_) find_hits_of_corner(corner, from);
+    comparisons_nearby_ = 0;
+    most_nearby_ = nearby_each * (front_.size() + hitting_corners_.size());
   } else {
     horizon_ = std::numeric_limits<double>::infinity();
     for (const std::uint32_t edge : front_) {
@@ -222,7 +228,9 @@ void Wavefront::find_hits_of_corner(std::uint32_t corner, double from) {
     });
   });
   for (const std::uint32_t edge : seen_) expect_hit(corner, edge);
-  count_comparisons(comparisons + 4 * seen_.size());
+  comparisons += 4 * seen_.size();
+  comparisons_nearby_ += comparisons;
+  count_comparisons(comparisons);
 }
 
 /// The same for an edge and the corners near it.
@@ -240,7 +248,9 @@ void Wavefront::find_hits_on_edge(std::uint32_t edge) {
     });
   });
   for (const std::uint32_t corner : seen_) expect_hit(corner, edge);
-  count_comparisons(comparisons + seen_.size());
+  comparisons += seen_.size();
+  comparisons_nearby_ += comparisons;
+  count_comparisons(comparisons);
 }
 
 /// Compares all changed edges and corners with all others.
@@ -282,7 +292,13 @@ void Wavefront::expect_nearby() {
     each_cell_of_corner(corner, now_, horizon_, [&](std::size_t cell) { corner_grid_.add(cell, corner); });
     find_hits_of_corner(corner, now_);
   }
-  if (edge_grid_.entries() + corner_grid_.entries() > most_entries_) move_horizon();
+  const bool is_crowded = comparisons_nearby_ > most_nearby_ && ahead_ > least_ahead_;
+  if (is_crowded) {
+    // Each event compares with too many; a nearer horizon needs fewer.
+    ahead_ /= 32;
+    effort_ = 1;
+  }
+  if (is_crowded || edge_grid_.entries() + corner_grid_.entries() > most_entries_) move_horizon();
 }
 
 /// Finds the next events of all changed edges and corners.

@@ -29,40 +29,44 @@ void add_rows(Rows& rows, const OpenAnchor& anchor, const glm::dvec3& q, bool is
 }
 
 std::size_t solve(const Rows& rows, std::vector<double>& x) {
-  const std::size_t count = rows.empty() ? 0 : rows[0].size() - 1;
-  std::vector<std::vector<double>> basis;         // orthonormal columns
-  std::vector<std::vector<double>> upper(count);  // of each column: its parts along the basis
-  const auto dot = [](const std::vector<double>& a, const std::vector<double>& b) {
+  const std::size_t count = rows.empty() ? 0 : rows[0].size() - 1, height = rows.size();
+  // One allocation, because searches solve millions of small systems: the orthonormal columns, of each column its
+  // parts along them, and the right side.
+  std::vector<double> memory(count * height + count * count + height, 0.0);
+  double* const basis = memory.data();
+  double* const upper = basis + count * height;
+  double* const right = upper + count * count;
+  std::size_t rank = 0;
+  const auto dot = [&](const double* a, const double* b) {
     double sum = 0;
-    for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
+    for (std::size_t i = 0; i < height; ++i) sum += a[i] * b[i];
     return sum;
   };
   for (std::size_t c = 0; c < count; ++c) {
-    std::vector<double> column;
-    for (const std::vector<double>& row : rows) column.push_back(row[c]);
+    double* const column = basis + rank * height;
+    for (std::size_t i = 0; i < height; ++i) column[i] = rows[i][c];
     const double length = std::sqrt(dot(column, column));
-    upper[c].assign(basis.size() + 1, 0.0);
     for (int pass = 0; pass < 2; ++pass) {  // the second pass removes rounding
-      for (std::size_t k = 0; k < basis.size(); ++k) {
-        const double part = dot(basis[k], column);
-        upper[c][k] += part;
-        for (std::size_t i = 0; i < column.size(); ++i) column[i] -= part * basis[k][i];
+      for (std::size_t k = 0; k < rank; ++k) {
+        const double* const other = basis + k * height;
+        const double part = dot(other, column);
+        upper[c * count + k] += part;
+        for (std::size_t i = 0; i < height; ++i) column[i] -= part * other[i];
       }
     }
     const double rest = std::sqrt(dot(column, column));
     if (!(rest > no_pivot * length)) continue;
-    upper[c][basis.size()] = rest;
-    for (double& each : column) each /= rest;
-    basis.push_back(std::move(column));
+    upper[c * count + rank] = rest;
+    for (std::size_t i = 0; i < height; ++i) column[i] /= rest;
+    ++rank;
   }
-  if (basis.size() < count) return basis.size();
-  std::vector<double> right;
-  for (const std::vector<double>& row : rows) right.push_back(row[count]);
+  if (rank < count) return rank;
+  for (std::size_t i = 0; i < height; ++i) right[i] = rows[i][count];
   x.assign(count, 0.0);
   for (std::size_t c = count; c-- > 0;) {
-    double value = dot(basis[c], right);
-    for (std::size_t k = c + 1; k < count; ++k) value -= upper[k][c] * x[k];
-    x[c] = value / upper[c][c];
+    double value = dot(basis + c * height, right);
+    for (std::size_t k = c + 1; k < count; ++k) value -= upper[k * count + c] * x[k];
+    x[c] = value / upper[c * count + c];
   }
   return count;
 }

@@ -202,11 +202,23 @@ double cpu_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC
 
 TEST(StraightSkeleton, OfThousandsOfPointsCoversThePlanInAFewSteps) {
   const Job job = job_of();
-  for (const auto& [inner, share] : {std::pair{10.0, 0.0}, {10.0, 0.1}, {19.0, 0.01}, {20.0, 0.0}}) {
+  // All events of a regular star are in its centre, at times that differ by rounding errors alone.
+  for (const auto& [inner, share] : {std::pair{1.0, 0.0},
+                                     {10.0, 0.0},
+                                     {19.9, 0.0},
+                                     {19.95, 0.0},
+                                     {19.99, 0.0},
+                                     {19.999, 0.0},
+                                     {20.0, 0.0},
+                                     {10.0, 0.1},
+                                     {19.0, 0.01},
+                                     {19.99, 1e-9},
+                                     {19.99, 1e-7}}) {
     const Plan plan = long_star(5000, inner, share);
     const double begun = cpu_seconds();
     const StraightSkeleton skeleton = straight_skeleton(plan, {}, job);
-    EXPECT_LT(cpu_seconds() - begun, 4) << inner << " " << share;  // 20 s where each event looks at all edges
+    // 26 s for 19.99 where all pairs of an edge and a corner are events.
+    EXPECT_LT(cpu_seconds() - begun, 2) << inner << " " << share;
     ASSERT_TRUE(skeleton.is_sound) << inner << " " << share;
     double covered = 0;
     for (const SkeletonFace& face : skeleton.faces) {
