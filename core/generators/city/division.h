@@ -20,8 +20,8 @@ struct SharedEdge {
   std::uint32_t street = no_index, sidewalk = no_index;
   std::vector<CmPoint> added;
 
-  /// Returns the added corners strictly between two points of the edge, in the order from `from` to `to`.
-  std::vector<CmPoint> between(const CmPoint& from, const CmPoint& to) const;
+  /// Appends the added corners strictly between two points of the edge to a ring, in the order from `from` to `to`.
+  void append_between(const CmPoint& from, const CmPoint& to, CmRing& ring) const;
 };
 
 /// A piece of a block: corner i, and the edge from it to the next.
@@ -58,21 +58,33 @@ class Division {
 
  private:
   friend class Strips;
-  struct Meeting;
-  void cut(const Piece& piece, int depth);
+  /// Where a line meets a piece: at a corner, or within the edge behind it.
+  struct Meeting {
+    std::size_t corner = 0;
+    bool is_corner = false;
+    CmPoint at{};
+  };
+  /// A piece with its box.
+  struct Cut {
+    Piece piece;
+    LeastBox box;
+  };
+  void cut(Cut whole, int depth);
   void reset();
   bool has_size(const Piece& piece) const;  ///< its least area and frontage
   double least_width() const;               ///< centimetres, with a margin for rounding
   bool is_partition() const;
   std::size_t long_pieces() const;
   bool is_large(const Piece& piece, const LeastBox& box, Rng& draw) const;
-  bool find_cut(const Piece& piece, const LeastBox& box, Rng& draw, Piece& left, Piece& right);
-  bool find_cut_across_front(const Piece& piece, Rng& draw, Piece& left, Piece& right);
-  bool try_cut(const Piece& piece, const glm::dvec2& origin, const glm::dvec2& direction, Piece& left,
-               Piece& right);
+  bool find_cut(const Cut& whole, Rng& draw, Cut& left, Cut& right);
+  bool find_cut_across_front(const Piece& piece, Rng& draw, Cut& left, Cut& right);
+  bool try_cut(const Piece& piece, const glm::dvec2& origin, const glm::dvec2& direction, Cut& left,
+               Cut& right);
   static bool keep_chord(std::vector<Meeting>& meetings, const glm::dvec2& origin,
                          const glm::dvec2& direction);
-  Piece side_of(const Piece& piece, const Meeting& from, const Meeting& to);
+  void find_meetings(const Piece& piece, const glm::dvec2& origin, const glm::dvec2& direction);
+  void set_side(const Piece& piece, const Meeting& from, const Meeting& to, Piece& side);
+  bool has_shape(const Piece& piece, double most_cosine, double aspect, LeastBox& box) const;
   std::uint32_t inner_edge();
 
   const CityLots& lots_;
@@ -82,7 +94,9 @@ class Division {
   std::vector<Piece> pieces_;
   std::uint32_t inner_ = no_index;
   double cut_aspect_ = 0;        ///< the greatest aspect of the pieces of the cut that is sought
-  std::vector<double> offsets_;  ///< offsets of the corners from a cut; kept for its memory
+  // Kept for their memory: offsets of the corners from a cut, and where it meets the outline.
+  std::vector<double> offsets_;
+  std::vector<Meeting> meetings_;
 };
 
 /// Returns the pieces along the streets of a block by its straight skeleton (Vanegas et al. 2012), and, where `depth`

@@ -113,92 +113,105 @@ void GroundMesh::add_carriageway(std::uint32_t number, StreetLayer layer) {
     return;
   }
   const CrossSection& section = plan_.class_of(part.street);
-  const auto shares_of = [](const std::vector<StripPiece>& pieces, std::vector<double>& shares) {
-    for (const StripPiece& piece : pieces) {
-      if (piece.from > 0) shares.push_back(piece.from);
-    }
+  const auto may_have_layer = [&](StripKind kind) {
+    return layer == StreetLayer::asphalt || layer_of(kind, {0, 1, true}) == layer;
   };
-  std::vector<StripPiece> before, here = pieces_of(strips.kinds[0], section, has_textures_), after;
+  if (std::none_of(strips.kinds.begin(), strips.kinds.end(), may_have_layer)) return;
   const Dashes dashes = dashes_of(strips);
+  pieces_before_.clear();
+  set_pieces(strips.kinds[0], section, has_textures_, pieces_);
   double station = 0;
   for (std::size_t i = 0; i < strips.kinds.size(); ++i) {
-    after = i + 1 < strips.kinds.size() ? pieces_of(strips.kinds[i + 1], section, has_textures_)
-                                        : std::vector<StripPiece>{};
-    StripSides sides;
-    sides.start = strips.lines[i];
-    sides.end = strips.lines[i + 1];
-    sides.station = station;
-    sides.length = length_of(sides.start, sides.end);
-    if (has_textures_ && layer == StreetLayer::crossings) sides.periods_across = bars_of(section) + 0.5;
-    if (has_textures_ && layer == StreetLayer::lane_lines) {
-      sides.first_dash = dashes.begin;
-      sides.dashes_a_metre = dashes.a_metre;
+    pieces_after_.clear();
+    if (i + 1 < strips.kinds.size())
+      set_pieces(strips.kinds[i + 1], section, has_textures_, pieces_after_);
+    set_sides(part, i, station);
+    sides_.periods_across = has_textures_ && layer == StreetLayer::crossings ? bars_of(section) + 0.5 : 0;
+    const bool has_dashes = has_textures_ && layer == StreetLayer::lane_lines;
+    sides_.first_dash = has_dashes ? dashes.begin : 0;
+    sides_.dashes_a_metre = has_dashes ? dashes.a_metre : 1;
+    for (const StripPiece& piece : pieces_) {
+      if (layer_of(strips.kinds[i], piece) == layer) add_strip(number, piece);
     }
-    shares_of(before, sides.start_shares);
-    shares_of(here, sides.start_shares);
-    shares_of(here, sides.end_shares);
-    shares_of(after, sides.end_shares);
-    const PlanarEdge& edge = plan_.graph.edges[part.street];
-    const auto add_corner = [&](std::uint32_t node, std::vector<dvec2>& corner) {
-      const CmPoint& at = plan_.graph.nodes[node];
-      const CmRing& ring = part.rings[0];
-      if (std::find(ring.begin(), ring.end(), at) != ring.end()) corner.push_back(in_metres(at));
-    };
-    if (i == 0) add_corner(edge.from, sides.start_corner);
-    if (i + 1 == strips.kinds.size()) add_corner(edge.to, sides.end_corner);
-    for (std::vector<double>* shares : {&sides.start_shares, &sides.end_shares}) {
-      std::sort(shares->begin(), shares->end());
-      shares->erase(std::unique(shares->begin(), shares->end()), shares->end());
-    }
-    for (const StripPiece& piece : here) {
-      if (layer_of(strips.kinds[i], piece) == layer) add_strip(number, sides, piece);
-    }
-    station += sides.length;
-    before = std::move(here);
-    here = std::move(after);
+    station += sides_.length;
+    std::swap(pieces_before_, pieces_);
+    std::swap(pieces_, pieces_after_);
   }
 }
 
+/// The ends of a strip, with the corners of its own pieces and of those of its neighbours.
+void GroundMesh::set_sides(const Part& part, std::size_t strip, double station) {
+  const StreetStrips& strips = surface_.strips(part.street);
+  sides_.start = strips.lines[strip];
+  sides_.end = strips.lines[strip + 1];
+  sides_.station = station;
+  sides_.length = length_of(sides_.start, sides_.end);
+  const auto set_shares = [this](const std::vector<StripPiece>& neighbours, std::vector<double>& shares) {
+    shares.clear();
+    const auto add = [&shares](const std::vector<StripPiece>& pieces) {
+      for (const StripPiece& piece : pieces) {
+        if (piece.from > 0) shares.push_back(piece.from);
+      }
+    };
+    add(pieces_);
+    add(neighbours);
+    std::sort(shares.begin(), shares.end());
+    shares.erase(std::unique(shares.begin(), shares.end()), shares.end());
+  };
+  set_shares(pieces_before_, sides_.start_shares);
+  set_shares(pieces_after_, sides_.end_shares);
+  const PlanarEdge& edge = plan_.graph.edges[part.street];
+  const auto set_corner = [&](bool is_at_end, std::uint32_t node, std::vector<dvec2>& corner) {
+    corner.clear();
+    if (!is_at_end) return;
+    const CmPoint& at = plan_.graph.nodes[node];
+    const CmRing& ring = part.rings[0];
+    if (std::find(ring.begin(), ring.end(), at) != ring.end()) corner.push_back(in_metres(at));
+  };
+  set_corner(strip == 0, edge.from, sides_.start_corner);
+  set_corner(strip + 1 == strips.kinds.size(), edge.to, sides_.end_corner);
+}
+
 /// One piece of a strip. Its corners at the ends of the strip include those of the neighbours.
-void GroundMesh::add_strip(std::uint32_t number, const StripSides& sides, const StripPiece& piece) {
+void GroundMesh::add_strip(std::uint32_t number, const StripPiece& piece) {
   points_.clear();
-  std::vector<glm::vec2> uv;
-  const double width = glm::length(sides.start.right - sides.start.left);
+  uv_.clear();
+  const double width = glm::length(sides_.start.right - sides_.start.left);
   const auto add = [&](const CrossLine& line, double share, double station) {
     points_.push_back(point_across(line, share));
-    uv.emplace_back(static_cast<float>((station - sides.first_dash) * sides.dashes_a_metre),
+    uv_.emplace_back(static_cast<float>((station - sides_.first_dash) * sides_.dashes_a_metre),
                     static_cast<float>(share * width));
-    if (sides.periods_across > 0)
-      uv.back() = {static_cast<float>(share * sides.periods_across), static_cast<float>(station)};
+    if (sides_.periods_across > 0)
+      uv_.back() = {static_cast<float>(share * sides_.periods_across), static_cast<float>(station)};
   };
   // Counter-clockwise: along the right side, across the end, back along the left side, across the start.
-  const double end = sides.station + sides.length;
-  add(sides.start, piece.to, sides.station);
-  add(sides.end, piece.to, end);
+  const double end = sides_.station + sides_.length;
+  add(sides_.start, piece.to, sides_.station);
+  add(sides_.end, piece.to, end);
   const auto add_corner = [&](const std::vector<dvec2>& corner, double at) {
     for (const dvec2& p : corner) {
       points_.push_back(p);
-      uv.emplace_back(static_cast<float>(at), static_cast<float>(width / 2));
+      uv_.emplace_back(static_cast<float>(at), static_cast<float>(width / 2));
     }
   };
-  add_corner(sides.end_corner, end);
-  for (std::size_t k = sides.end_shares.size(); k-- > 0;) {
-    const double share = sides.end_shares[k];
-    if (share > piece.from && share < piece.to) add(sides.end, share, end);
+  add_corner(sides_.end_corner, end);
+  for (std::size_t k = sides_.end_shares.size(); k-- > 0;) {
+    const double share = sides_.end_shares[k];
+    if (share > piece.from && share < piece.to) add(sides_.end, share, end);
   }
-  add(sides.end, piece.from, end);
-  add(sides.start, piece.from, sides.station);
-  for (const double share : sides.start_shares) {
-    if (share > piece.from && share < piece.to) add(sides.start, share, sides.station);
+  add(sides_.end, piece.from, end);
+  add(sides_.start, piece.from, sides_.station);
+  for (const double share : sides_.start_shares) {
+    if (share > piece.from && share < piece.to) add(sides_.start, share, sides_.station);
   }
-  add_corner(sides.start_corner, sides.station);
+  add_corner(sides_.start_corner, sides_.station);
   sizes_ = {static_cast<std::uint32_t>(points_.size())};
   const auto& corners = triangulator_.run(points_, sizes_, 0);
   corners_.assign(corners.begin(), corners.end());
   if (points_.size() > 4) refine_triangles(points_, corners_, {}, &job_);
   const auto first = static_cast<std::uint32_t>(mesh_.position.size());
   for (std::size_t i = 0; i < points_.size(); ++i)
-    add_vertex(points_[i], surface_.height(number, points_[i]), {0, 1, 0}, uv[i]);
+    add_vertex(points_[i], surface_.height(number, points_[i]), {0, 1, 0}, uv_[i]);
   add_triangles(first);
 }
 
@@ -221,7 +234,8 @@ void GroundMesh::add_inner_points(const Part& part) {
 
 /// Adds the triangles of the last part, and the normals of its vertices where it is not level.
 void GroundMesh::add_triangles(std::uint32_t first) {
-  std::vector<glm::vec3> normals(points_.size(), glm::vec3(0));
+  const bool has_normals = !surface_.is_level();
+  if (has_normals) normals_.assign(points_.size(), glm::vec3(0));
   for (std::size_t i = 0; i + 2 < corners_.size(); i += 3) {
     const std::array<std::uint32_t, 3> at = {corners_[i], corners_[i + 1], corners_[i + 2]};
     const glm::vec3 &p = mesh_.position[first + at[0]], &q = mesh_.position[first + at[1]],
@@ -229,14 +243,14 @@ void GroundMesh::add_triangles(std::uint32_t first) {
     const glm::vec3 normal = glm::cross(q - p, r - p);
     if (normal.y <= least_) continue;
     for (const std::uint32_t corner : at) {
-      normals[corner] += normal;
+      if (has_normals) normals_[corner] += normal;
       mesh_.index.wide.push_back(first + corner);
     }
   }
-  if (surface_.is_level()) return;
-  for (std::size_t i = 0; i < normals.size(); ++i) {
-    const float length = std::sqrt(glm::dot(normals[i], normals[i]));
-    if (length > 0) mesh_.normal[first + i] = normals[i] / length;
+  if (!has_normals) return;
+  for (std::size_t i = 0; i < normals_.size(); ++i) {
+    const float length = std::sqrt(glm::dot(normals_[i], normals_[i]));
+    if (length > 0) mesh_.normal[first + i] = normals_[i] / length;
   }
 }
 

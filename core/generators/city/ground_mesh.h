@@ -46,7 +46,8 @@ class GroundMesh {
     double first_dash = 0, dashes_a_metre = 1;         ///< of texture coordinates along the street
     double periods_across = 0;                         ///< of a crossing; 0: metres
   };
-  void add_strip(std::uint32_t part, const StripSides& sides, const StripPiece& piece);
+  void set_sides(const Part& part, std::size_t strip, double station);
+  void add_strip(std::uint32_t part, const StripPiece& piece);
   void add_inner_points(const Part& part);
   void add_wall(const glm::dvec3& a_low, const glm::dvec3& b_low, double a_high, double b_high, double along);
   std::uint32_t add_vertex(const glm::dvec2& p, double height, const glm::vec3& normal, const glm::vec2& uv);
@@ -61,8 +62,13 @@ class GroundMesh {
   float least_ = 0;
   Mesh mesh_;
   Triangulator triangulator_;
+  // Memory that is kept from one part to the next.
   std::vector<glm::dvec2> points_, between_, inner_;
   std::vector<std::uint32_t> sizes_, corners_;
+  StripSides sides_;
+  std::vector<StripPiece> pieces_before_, pieces_, pieces_after_;
+  std::vector<glm::vec2> uv_;
+  std::vector<glm::vec3> normals_;
 };
 
 }  // namespace seedmesh::city

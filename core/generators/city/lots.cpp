@@ -133,7 +133,8 @@ bool keeps_whole(const std::vector<Landmark>& landmarks, const BlockOutline& out
 
 /// Adds the corners that cuts have added to the outline of a block to the part on its other side.
 void add_to_part(Part& part, const SharedEdge& edge) {
-  const std::vector<CmPoint> added = edge.between(edge.b, edge.a);
+  CmRing added;
+  edge.append_between(edge.b, edge.a, added);
   if (added.empty()) return;
   for (CmRing& ring : part.rings) {
     for (std::size_t i = 0; i < ring.size(); ++i) {

@@ -5,6 +5,7 @@
 /// much for that, its border lies above or below the sidewalk, and a wall stands there.
 #include <span>
 
+#include "core/generators/city/edge_table.h"
 #include "core/generators/city/markings.h"
 #include "core/generators/city/plan.h"
 
@@ -40,10 +41,6 @@ class Surface {
   double floor_height(const Footing& footing, double& lowest) const;
 
  private:
-  struct DirectedEdge {
-    CmPoint a, b;
-    std::uint32_t part = 0;
-  };
   /// A point of the border of a ground, and its height.
   struct BorderPoint {
     glm::dvec2 at{0};
@@ -57,7 +54,6 @@ class Surface {
 
   /// The further vertices of an edge of a carriageway, from the lesser of its ends to the greater.
   struct DividedEdge {
-    CmPoint a, b;
     std::uint32_t first = 0, count = 0;  ///< into `edge_points_`
   };
 
@@ -73,9 +69,10 @@ class Surface {
 
   const CityPlan& plan_;
   double wall_height_;
-  std::vector<DirectedEdge> edges_;   ///< of all parts, sorted
+  EdgeTable part_of_edge_;            ///< the edges of all parts
   std::vector<StreetStrips> strips_;  ///< by edge
-  std::vector<DividedEdge> divided_;  ///< sorted
+  EdgeTable divided_at_;              ///< indices into `divided_`, from the lesser end to the greater
+  std::vector<DividedEdge> divided_;
   std::vector<glm::dvec2> edge_points_;
   std::vector<Ground> grounds_;
   std::vector<std::uint32_t> ground_of_;  ///< by part
