@@ -624,7 +624,7 @@ export interface CityParametersBuildings {
 /** Surface */
 export interface CityParametersSurfacesItem {
   /** The name of the material in the model. */
-  name: "asphalt" | "junction" | "sidewalk" | "verge" | "park" | "square" | "lot" | "water" | "marking" | "wall" | "foundation" | "bridge";
+  name: "asphalt" | "junction" | "sidewalk" | "verge" | "park" | "square" | "lot" | "water" | "marking" | "wall" | "foundation" | "bridge" | "tunnel";
   color?: string;
   /** 0 reflects like still water, 1 is matt. */
   roughness?: number;

@@ -4,6 +4,7 @@
 #include <glm/common.hpp>
 #include <nlohmann/json.hpp>
 
+#include "core/generators/city/bridge_mesh.h"
 #include "core/generators/city/city_model.h"
 #include "core/generators/city/contents.h"
 #include "core/generators/city/given.h"
@@ -173,6 +174,12 @@ std::vector<Warning> remarks_on(const CityParams& params, const CityPlan& plan) 
          "the terrain is smaller than the area; beyond its border the ground has the height of the border"});
   }
   for (Warning& each : landmark_warnings(plan)) warnings.push_back(std::move(each));
+  const std::vector<Bridge>& bridges = plan.graph.bridges;
+  const bool has_tunnel =
+      std::any_of(bridges.begin(), bridges.end(), [](const Bridge& each) { return each.level < 0; });
+  if (has_tunnel && plan.heights.is_level())
+    warnings.push_back(
+        {"/given/streets", "tunnels below level ground have no mesh; expected a terrain or maps.height"});
   return warnings;
 }
 
@@ -300,7 +307,9 @@ Result<Appraisal> appraise(const CityParams& params, const GenerateContext& cont
   appraisal.warnings = remarks_on(params, *plan);
   Estimate estimate;
   const Surface surface(*plan, params.streets.wards.wall_height, job);
-  estimate.triangles = ground_triangles(*plan, surface, context.demand.textures > 0, job);
+  estimate.triangles = ground_triangles(*plan, surface, context.demand.textures > 0, job) +
+                       bridge_mesh(*plan, job).elements() + tunnel_mesh(surface, job).elements();
+  if (auto warning = tunnel_warning(surface)) appraisal.warnings.push_back(*std::move(warning));
   estimate.bytes = estimate.triangles * 48;
   if (auto error = estimate_contents(estimate, surface, params, context)) return std::move(*error);
   appraisal.estimate = estimate;

@@ -14,11 +14,7 @@ class EdgeTable {
 
   EdgeTable() = default;
   /// At most `most` edges can be added.
-  explicit EdgeTable(std::size_t most) {
-    std::size_t size = 16;
-    while (size < most + most / 2) size *= 2;
-    slots_.resize(size);
-  }
+  explicit EdgeTable(std::size_t most) : slots_(most + most / 2 + 1) {}
 
   /// Adds an edge with a value other than `absent`. Of edges with the same ends the first one is found.
   void add(const CmPoint& a, const CmPoint& b, std::uint32_t value) {
@@ -45,9 +41,9 @@ class EdgeTable {
     const auto word = [](const CmPoint& p) {
       return std::uint64_t{static_cast<std::uint32_t>(p.x)} << 32U | static_cast<std::uint32_t>(p.y);
     };
-    return static_cast<std::size_t>(key_at(word(a), word(b))) & (slots_.size() - 1);
+    return static_cast<std::size_t>((key_at(word(a), word(b)) >> 32U) * slots_.size() >> 32U);
   }
-  std::size_t next(std::size_t at) const { return (at + 1) & (slots_.size() - 1); }
+  std::size_t next(std::size_t at) const { return at + 1 < slots_.size() ? at + 1 : 0; }
 
   std::vector<Slot> slots_ = std::vector<Slot>(1);
 };

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <optional>
 
 #include "core/base/math.h"
 #include "core/geom/mesh/weld.h"
@@ -46,18 +47,24 @@ GroundMesh::StreetLayer layer_of(StripKind kind, const StripPiece& piece) {
   return kind == StripKind::zebra ? GroundMesh::StreetLayer::crossings : GroundMesh::StreetLayer::stop_lines;
 }
 
+/// The direction to the right of an edge, seen from above; north is -Z.
+glm::vec3 right_side(const dvec2& from, const dvec2& to) {
+  const dvec2 edge = (to - from) / glm::length(to - from);
+  return {static_cast<float>(edge.y), 0, static_cast<float>(edge.x)};
+}
+
 bool is_inside_part(const Part& part, const dvec2& metres) {
   bool is_in = false;
   for (const CmRing& ring : part.rings) is_in ^= is_inside(ring, metres * 100.0);
   return is_in;
 }
 
-bool is_near_border(const Part& part, const dvec2& metres) {
+bool is_near_border(const Part& part, const dvec2& metres, double distance) {
   for (const CmRing& ring : part.rings) {
     for (std::size_t i = 0; i < ring.size(); ++i) {
       const double off =
           distance_to_segment(metres * 100.0, in_cm(ring[i]), in_cm(ring[(i + 1) % ring.size()]));
-      if (off < border_distance * 100) return true;
+      if (off < distance * 100) return true;
     }
   }
   return false;
@@ -123,8 +130,7 @@ void GroundMesh::add_carriageway(std::uint32_t number, StreetLayer layer) {
   double station = 0;
   for (std::size_t i = 0; i < strips.kinds.size(); ++i) {
     pieces_after_.clear();
-    if (i + 1 < strips.kinds.size())
-      set_pieces(strips.kinds[i + 1], section, has_textures_, pieces_after_);
+    if (i + 1 < strips.kinds.size()) set_pieces(strips.kinds[i + 1], section, has_textures_, pieces_after_);
     set_sides(part, i, station);
     sides_.periods_across = has_textures_ && layer == StreetLayer::crossings ? bars_of(section) + 0.5 : 0;
     const bool has_dashes = has_textures_ && layer == StreetLayer::lane_lines;
@@ -180,7 +186,7 @@ void GroundMesh::add_strip(std::uint32_t number, const StripPiece& piece) {
   const auto add = [&](const CrossLine& line, double share, double station) {
     points_.push_back(point_across(line, share));
     uv_.emplace_back(static_cast<float>((station - sides_.first_dash) * sides_.dashes_a_metre),
-                    static_cast<float>(share * width));
+                     static_cast<float>(share * width));
     if (sides_.periods_across > 0)
       uv_.back() = {static_cast<float>(share * sides_.periods_across), static_cast<float>(station)};
   };
@@ -227,8 +233,14 @@ void GroundMesh::add_inner_points(const Part& part) {
     job_.check();
     for (double x = std::ceil(low.x / inner_spacing) * inner_spacing; x < high.x; x += inner_spacing) {
       const dvec2 p(x, y);
-      if (is_inside_part(part, p) && !is_near_border(part, p)) inner_.push_back(p);
+      if (is_inside_part(part, p) && !is_near_border(part, p, border_distance)) inner_.push_back(p);
     }
+  }
+  constexpr double tunnel_distance = 0.5;  // m
+  for (const dvec2& p : surface_.tunnels().ground_points()) {
+    const bool is_in_box = p.x > low.x && p.y > low.y && p.x < high.x && p.y < high.y;
+    if (is_in_box && is_inside_part(part, p) && !is_near_border(part, p, tunnel_distance))
+      inner_.push_back(p);
   }
 }
 
@@ -257,56 +269,82 @@ void GroundMesh::add_triangles(std::uint32_t first) {
 void GroundMesh::add_walls(std::uint32_t number) {
   const Part& part = plan_.parts[number];
   if (part.kind == PartKind::water) return;
-  for (const CmRing& ring : part.rings) {
-    for (std::size_t i = 0; i < ring.size(); ++i) {
-      const CmPoint &a = ring[i], &b = ring[(i + 1) % ring.size()];
-      const std::uint32_t beyond = surface_.part_beyond(a, b);
-      if (beyond == no_index && !part.is_wall) continue;
-      surface_.points_between(a, b, between_);
-      between_.push_back(in_metres(b));
-      dvec2 before = in_metres(a);
-      double along = 0;
-      const auto low_at = [&](const dvec2& p) {
-        return beyond != no_index ? surface_.height(beyond, p)
-                                  : surface_.height(number, p) - surface_.wall_height();
-      };
-      double high = surface_.height(number, before), low = low_at(before);
-      for (const dvec2& p : between_) {
-        const double next_high = surface_.height(number, p), next_low = low_at(p);
-        if (high - low > same_height || next_high - next_low > same_height) {
-          add_wall({before.x, std::min(low, high), before.y}, {p.x, std::min(next_low, next_high), p.y}, high,
-                   next_high, along);
-        }
-        along += glm::length(p - before);
-        before = p;
-        high = next_high;
-        low = next_low;
-      }
+  for (const CmRing& ring : part.rings) add_walls_of(number, ring);
+}
+
+/// The walls along a ring. Rounded corners are smooth: their short edges have common normals.
+void GroundMesh::add_walls_of(std::uint32_t number, const CmRing& ring) {
+  constexpr double short_edge = 3, least_cosine = 0.76;  // m
+  const std::size_t count = ring.size();
+  wall_edges_.clear();
+  for (std::size_t i = 0; i < count; ++i) {
+    const CmPoint &a = ring[i], &b = ring[i + 1 < count ? i + 1 : 0];
+    const dvec2 from = in_metres(a), to = in_metres(b);
+    const std::uint32_t beyond = surface_.part_beyond(a, b);
+    const bool is_left_out =
+        (beyond == no_index && !plan_.parts[number].is_wall) ||
+        (surface_.is_level() &&
+         surface_.height(number, from) - low_height(number, beyond, from) <= same_height);
+    wall_edges_.push_back({beyond, is_left_out, glm::length(to - from) < short_edge, right_side(from, to)});
+  }
+  const auto normal_between = [this](std::size_t i, std::size_t k, std::size_t own) {
+    const WallEdge &before = wall_edges_[i], &after = wall_edges_[k];
+    const bool is_smooth = !before.is_left_out && !after.is_left_out && before.is_short && after.is_short &&
+                           glm::dot(before.normal, after.normal) > static_cast<float>(least_cosine);
+    if (!is_smooth) return wall_edges_[own].normal;
+    return glm::vec3(math::unit(glm::dvec3(before.normal + after.normal), {0, 1, 0}));
+  };
+  double along = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const WallEdge& edge = wall_edges_[i];
+    if (edge.is_left_out) {
+      along = 0;
+      continue;
+    }
+    const std::size_t next = i + 1 < count ? i + 1 : 0;
+    surface_.points_between(ring[i], ring[next], between_);
+    between_.push_back(in_metres(ring[next]));
+    const auto point_at = [&](const dvec2& at, const glm::vec3& normal) {
+      return WallPoint{at, low_height(number, edge.beyond, at), surface_.height(number, at), along, normal};
+    };
+    WallPoint before = point_at(in_metres(ring[i]), normal_between(i > 0 ? i - 1 : count - 1, i, i));
+    for (std::size_t k = 0; k < between_.size(); ++k) {
+      along += glm::length(between_[k] - before.at);
+      const bool is_last = k + 1 == between_.size();
+      const WallPoint here = point_at(between_[k], is_last ? normal_between(i, next, i) : edge.normal);
+      add_wall(before, here);
+      before = here;
     }
   }
 }
 
-/// The upright face along an edge whose left side is higher; a triangle where one end has no height.
-void GroundMesh::add_wall(const glm::dvec3& a_low, const glm::dvec3& b_low, double a_high, double b_high,
-                          double along) {
-  const dvec2 a(a_low.x, a_low.z), b(b_low.x, b_low.z), edge = b - a;
-  const double length = std::sqrt(glm::dot(edge, edge));
-  // The right side of the edge, seen from above; north is -Z.
-  const glm::vec3 normal(static_cast<float>(edge.y / length), 0, static_cast<float>(edge.x / length));
-  const auto start = static_cast<float>(along), end = static_cast<float>(along + length);
-  const auto rise = [](double high, double low) { return static_cast<float>(high - low); };
-  const std::uint32_t first = add_vertex(a, a_low.y, normal, {start, 0});
-  const std::uint32_t second = add_vertex(b, b_low.y, normal, {end, 0});
-  const bool has_start = a_high - a_low.y > same_height, has_end = b_high - b_low.y > same_height;
+/// The height of what is beyond an edge of a part.
+double GroundMesh::low_height(std::uint32_t part, std::uint32_t beyond, const dvec2& at) const {
+  return beyond != no_index ? surface_.height(beyond, at)
+                            : surface_.height(part, at) - surface_.wall_height();
+}
+
+/// The upright face between two points of an edge whose left side is higher: a triangle where one end has no height, and
+/// the part above the opening of a tunnel.
+void GroundMesh::add_wall(WallPoint a, WallPoint b) {
+  if (const auto lintel = surface_.tunnels().lintel((a.at + b.at) / 2.0)) a.low = b.low = *lintel;
+  const bool has_start = a.high - a.low > same_height, has_end = b.high - b.low > same_height;
+  if (!has_start && !has_end) return;
+  const auto add = [this](const WallPoint& p, double height) {
+    return add_vertex(p.at, height, p.normal,
+                      {static_cast<float>(p.along), static_cast<float>(height - std::min(p.low, p.high))});
+  };
+  const std::uint32_t first = add(a, std::min(a.low, a.high)), second = add(b, std::min(b.low, b.high));
+  std::uint32_t third = 0;
   if (has_end) {
-    const std::uint32_t third = add_vertex(b, b_high, normal, {end, rise(b_high, b_low.y)});
+    third = add(b, b.high);
     for (const std::uint32_t corner : {first, second, third}) mesh_.index.wide.push_back(corner);
     if (!has_start) return;
-    const std::uint32_t fourth = add_vertex(a, a_high, normal, {start, rise(a_high, a_low.y)});
+    const std::uint32_t fourth = add(a, a.high);
     for (const std::uint32_t corner : {first, third, fourth}) mesh_.index.wide.push_back(corner);
     return;
   }
-  const std::uint32_t third = add_vertex(a, a_high, normal, {start, rise(a_high, a_low.y)});
+  third = add(a, a.high);
   for (const std::uint32_t corner : {first, second, third}) mesh_.index.wide.push_back(corner);
 }
 
@@ -323,7 +361,8 @@ void GroundMesh::add_foundation(const Footing& footing) {
   std::array<std::uint32_t, 4> top{};
   for (std::size_t k = 0; k < 4; ++k) {
     const dvec2 &a = ring[k], &b = ring[(k + 1) % 4];
-    add_wall({a.x, low, a.y}, {b.x, low, b.y}, top_height, top_height, 0);
+    const glm::vec3 normal = right_side(a, b);
+    add_wall({a, low, top_height, 0, normal}, {b, low, top_height, glm::length(b - a), normal});
   }
   for (std::size_t k = 0; k < 4; ++k) top[k] = add_vertex(ring[k], top_height, {0, 1, 0}, glm::vec2(ring[k]));
   for (const std::size_t k : {0U, 1U, 2U, 0U, 2U, 3U}) mesh_.index.wide.push_back(top[k]);

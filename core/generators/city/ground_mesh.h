@@ -49,7 +49,21 @@ class GroundMesh {
   void set_sides(const Part& part, std::size_t strip, double station);
   void add_strip(std::uint32_t part, const StripPiece& piece);
   void add_inner_points(const Part& part);
-  void add_wall(const glm::dvec3& a_low, const glm::dvec3& b_low, double a_high, double b_high, double along);
+  /// An edge of a part with its right side.
+  struct WallEdge {
+    std::uint32_t beyond = 0;  ///< part on the other side; no_index: none
+    bool is_left_out = false, is_short = false;
+    glm::vec3 normal{0};
+  };
+  /// The lower and the upper end of a wall at one position.
+  struct WallPoint {
+    glm::dvec2 at{0};
+    double low = 0, high = 0, along = 0;
+    glm::vec3 normal{0};
+  };
+  void add_walls_of(std::uint32_t part, const CmRing& ring);
+  void add_wall(WallPoint a, WallPoint b);
+  double low_height(std::uint32_t part, std::uint32_t beyond, const glm::dvec2& at) const;
   std::uint32_t add_vertex(const glm::dvec2& p, double height, const glm::vec3& normal, const glm::vec2& uv);
   void add_triangles(std::uint32_t first);
 
@@ -69,6 +83,7 @@ class GroundMesh {
   std::vector<StripPiece> pieces_before_, pieces_, pieces_after_;
   std::vector<glm::vec2> uv_;
   std::vector<glm::vec3> normals_;
+  std::vector<WallEdge> wall_edges_;
 };
 
 }  // namespace seedmesh::city

@@ -102,6 +102,12 @@ struct Part {
   bool is_wall = false;  ///< a verge that a town wall fills
 };
 
+/// Carriageways, junctions and sidewalks, and town walls in their place.
+inline bool is_street_space(const Part& part) {
+  return part.kind == PartKind::carriageway || part.kind == PartKind::junction ||
+         part.kind == PartKind::sidewalk || part.is_wall;
+}
+
 /// A quarter of a town of wards. Its outline runs along the middle of the streets around it.
 struct Ward {
   CmRing ring;

@@ -74,6 +74,7 @@ Surface::Surface(const CityPlan& plan, double wall_height, Job& job)
   }
   divide_carriageways();
   if (is_level()) return;
+  tunnels_ = Tunnels(plan, part_of_edge_);
   limit_natural_ground(job);
   grounds_.resize(plan.blocks.size());
   ground_of_.assign(plan.parts.size(), no_index);
@@ -133,11 +134,6 @@ void Surface::divide_carriageways() {
   }
 }
 
-/// Carriageways, junctions and sidewalks, and town walls in their place.
-bool Surface::is_street_space(const Part& part) const {
-  return is_low(part.kind) || part.kind == PartKind::sidewalk || part.is_wall;
-}
-
 double Surface::street_height(const Part& part, const dvec2& metres) const {
   if (part.kind == PartKind::junction) return plan_.heights.node[part.node];
   const StreetGraph& graph = plan_.graph;
@@ -169,6 +165,13 @@ void Surface::points_between(const CmPoint& a, const CmPoint& b, std::vector<dve
   const int count = math::to_int32(std::ceil(distance(a, b) / (edge_spacing * 100)));
   const dvec2 low = in_metres(std::min(a, b)), along = in_metres(std::max(a, b)) - low;
   for (int k = 1; k < count; ++k) points.push_back(low + along * (static_cast<double>(k) / count));
+  if (!tunnels_.all().empty()) {
+    std::erase_if(points, [this](const dvec2& p) { return tunnels_.lintel(p).has_value(); });
+    tunnels_.append_corners(a, b, points);
+    std::sort(points.begin(), points.end(), [&](const dvec2& p, const dvec2& q) {
+      return glm::dot(p - low, along) < glm::dot(q - low, along);
+    });
+  }
   if (b < a) std::reverse(points.begin(), points.end());
 }
 
@@ -207,7 +210,8 @@ void Surface::collect_border(Ground& ground) const {
       low = std::max(low, q.height - rise);
       high = std::min(high, q.height + rise);
     }
-    limited.push_back(low == p.height && high == p.height ? p.height : (low + high) / 2);
+    const double here = low == p.height && high == p.height ? p.height : (low + high) / 2;
+    limited.push_back(std::max(here, tunnels_.cover(p.at)));
   }
   // A wall stands on one side of an edge only.
   for (std::size_t i = 0; i + 1 < border.size(); ++i) {
@@ -231,7 +235,7 @@ double Surface::ground_height(const Ground& ground, const dvec2& metres) const {
     low = std::max(low, p.height - rise);
     high = std::min(high, p.height + rise);
   }
-  return std::clamp(natural_height(metres), std::min(low, high), high);
+  return std::max(std::clamp(natural_height(metres), std::min(low, high), high), tunnels_.cover(metres));
 }
 
 void Surface::limit_natural_ground(const Job& job) {

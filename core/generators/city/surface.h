@@ -8,6 +8,7 @@
 #include "core/generators/city/edge_table.h"
 #include "core/generators/city/markings.h"
 #include "core/generators/city/plan.h"
+#include "core/generators/city/tunnels.h"
 
 namespace seedmesh::city {
 
@@ -30,6 +31,9 @@ class Surface {
   /// vertices; the same for both parts that have the edge. Kerbs have those of the strips of their street; other edges
   /// have some on a terrain only.
   void points_between(const CmPoint& a, const CmPoint& b, std::vector<glm::dvec2>& points) const;
+
+  /// Returns the tunnels; there are none on level ground.
+  const Tunnels& tunnels() const { return tunnels_; }
 
   /// Returns the strips of an edge's carriageway.
   const StreetStrips& strips(std::uint32_t edge) const { return strips_[edge]; }
@@ -59,7 +63,6 @@ class Surface {
 
   void divide_carriageways();
   void divide_edge(const CmPoint& from, const CmPoint& to, std::span<const glm::dvec2> points);
-  bool is_street_space(const Part& part) const;
   double street_height(const Part& part, const glm::dvec2& metres) const;
   void collect_border(Ground& ground) const;
   double ground_height(const Ground& ground, const glm::dvec2& metres) const;
@@ -69,7 +72,8 @@ class Surface {
 
   const CityPlan& plan_;
   double wall_height_;
-  EdgeTable part_of_edge_;            ///< the edges of all parts
+  EdgeTable part_of_edge_;  ///< the edges of all parts
+  Tunnels tunnels_;
   std::vector<StreetStrips> strips_;  ///< by edge
   EdgeTable divided_at_;              ///< indices into `divided_`, from the lesser end to the greater
   std::vector<DividedEdge> divided_;

@@ -394,7 +394,7 @@ class CityParametersBuildings(TypedDict, total=False):
 
 
 class _CityParametersSurfacesItemRequired(TypedDict):
-    name: Literal['asphalt', 'junction', 'sidewalk', 'verge', 'park', 'square', 'lot', 'water', 'marking', 'wall', 'foundation', 'bridge']
+    name: Literal['asphalt', 'junction', 'sidewalk', 'verge', 'park', 'square', 'lot', 'water', 'marking', 'wall', 'foundation', 'bridge', 'tunnel']
 
 
 class CityParametersSurfacesItem(_CityParametersSurfacesItemRequired, total=False):
