@@ -90,6 +90,7 @@ void Division::cut(const Job& job) {
     pieces_ = std::move(strips);
     edges_ = std::move(edges);
     inner_ = inner;
+    outlines_.clear();
     return;
   }
   reset();
@@ -106,7 +107,7 @@ std::size_t Division::long_pieces() const {
 }
 
 /// Simple outlines whose edges cancel, except those of the block, cover each point of it once.
-bool Division::is_partition() const {
+bool Division::is_partition() {
   struct Side {
     CmPoint low, high;
     int count = 0;
@@ -124,8 +125,9 @@ bool Division::is_partition() const {
     }
   };
   add(outline(whole_), -1);
+  outlines_.clear();
   for (const Piece& piece : pieces_) {
-    const CmRing ring = outline(piece);
+    const CmRing& ring = outlines_.emplace_back(outline(piece));
     if (!is_simple(ring) || doubled_area(ring) <= 0) return false;
     add(ring, 1);
   }
@@ -144,6 +146,7 @@ bool Division::is_partition() const {
 /// Undoes all cuts.
 void Division::reset() {
   pieces_.clear();
+  outlines_.clear();
   edges_.resize(whole_.ring.size());
   for (SharedEdge& edge : edges_) edge.added.clear();
   inner_ = no_index;
@@ -158,6 +161,10 @@ CmRing Division::outline(const Piece& piece) const {
     edges_[piece.edges[i]].append_between(from, to, ring);
   }
   return ring;
+}
+
+CmRing Division::take_outline(std::size_t piece) {
+  return piece < outlines_.size() ? std::move(outlines_[piece]) : outline(pieces_[piece]);
 }
 
 double Division::frontage(const Piece& piece) const {

@@ -50,6 +50,8 @@ class Division {
 
   /// Returns the outline of a piece with the corners of all neighbours.
   CmRing outline(const Piece& piece) const;
+  /// The same for a piece by its number, when all cuts are made. It can be taken once.
+  CmRing take_outline(std::size_t piece);
 
   /// Metres along streets times 100.
   double frontage(const Piece& piece) const;
@@ -73,7 +75,7 @@ class Division {
   void reset();
   bool has_size(const Piece& piece) const;  ///< its least area and frontage
   double least_width() const;               ///< centimetres, with a margin for rounding
-  bool is_partition() const;
+  bool is_partition();
   std::size_t long_pieces() const;
   bool is_large(const Piece& piece, const LeastBox& box, Rng& draw) const;
   bool find_cut(const Cut& whole, Rng& draw, Cut& left, Cut& right);
@@ -92,8 +94,9 @@ class Division {
   Piece whole_;
   std::vector<SharedEdge> edges_;
   std::vector<Piece> pieces_;
+  std::vector<CmRing> outlines_;  ///< of the pieces, if they were checked last
   std::uint32_t inner_ = no_index;
-  double cut_aspect_ = 0;        ///< the greatest aspect of the pieces of the cut that is sought
+  double cut_aspect_ = 0;  ///< the greatest aspect of the pieces of the cut that is sought
   // Kept for their memory: offsets of the corners from a cut, and where it meets the outline.
   std::vector<double> offsets_;
   std::vector<Meeting> meetings_;
