@@ -127,9 +127,10 @@ void set_pieces(StripKind kind, const CrossSection& section, bool has_textures,
     pieces.push_back({0.5, 1, !is_left});
   } else if (kind == StripKind::zebra) {
     const int count = has_textures ? 1 : 2 * bars_of(section) + 1;
-    for (int k = 0; k < count; ++k)
+    for (int k = 0; k < count; ++k) {
       pieces.push_back(
           {static_cast<double>(k) / count, static_cast<double>(k + 1) / count, has_textures || k % 2 == 1});
+    }
   } else {
     double before = 0;
     for (int lane = 1; lane < section.lanes; ++lane) {

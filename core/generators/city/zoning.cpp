@@ -7,6 +7,7 @@
 
 #include "core/base/math.h"
 #include "core/base/parallel.h"
+#include "core/generators/city/footprints.h"
 #include "generated/params/city.h"
 
 namespace seedmesh::city {
@@ -184,6 +185,17 @@ bool is_on_obstacle(const House& house, const FieldMap& obstacles) {
   return false;
 }
 
+std::array<CmPoint, 4> corners_of(const House& house) {
+  const math::SinCos turn = math::sincos_degrees(house.turn);
+  std::array<CmPoint, 4> corners;
+  for (std::size_t k = 0; k < 4; ++k) {
+    const dvec2 p((k == 0 || k == 3 ? -0.5 : 0.5) * house.width, (k < 2 ? -0.5 : 0.5) * house.depth);
+    const dvec2 at = house.position + dvec2(p.x * turn.cos - p.y * turn.sin, p.x * turn.sin + p.y * turn.cos);
+    corners[k] = rounded_cm(at * 100.0);
+  }
+  return corners;
+}
+
 }  // namespace
 
 const std::vector<CityBuildingRule>& rules_of(const CityParams& params) {
@@ -201,7 +213,8 @@ std::array<int, 2> floors_of(std::string_view blueprint) {
   return {0, 0};
 }
 
-void place_houses(CityPlan& plan, const CityParams& params, const FieldMap* obstacles, Job& job) {
+void place_houses(CityPlan& plan, const CityParams& params, const FieldMap* obstacles,
+                  const FootprintIndex& footprints, Job& job) {
   const Rng rng = job.rng().at("houses");
   const std::vector<CityBuildingRule>& rules = rules_of(params);
   const dvec2 centre(params.streets.centre[0], params.streets.centre[1]);
@@ -220,6 +233,8 @@ void place_houses(CityPlan& plan, const CityParams& params, const FieldMap* obst
       for (const auto& [draw_of_rule, number] : order) {
         lot.house = fit(lot, frame, rules[number]);
         if (lot.house && obstacles && is_on_obstacle(*lot.house, *obstacles)) lot.house.reset();
+        if (lot.house && !footprints.is_empty() && footprints.meets(corners_of(*lot.house)))
+          lot.house.reset();
         if (!lot.house) continue;
         lot.house->rule = number;
         Rng draw = key.at("house");

@@ -95,9 +95,10 @@ TEST(Tunnels, AreCoveredByTheGroundAlongTheirWholeLength) {
       };
       for (std::size_t k = 1; k + 1 < tunnel.stations.size(); ++k) {
         const TunnelStation& here = tunnel.stations[k];
-        for (const dvec2& p : {here.left, here.middle, here.right})
+        for (const dvec2& p : {here.left, here.middle, here.right}) {
           EXPECT_GE(ground_at(p), here.height + Tunnels::clear_height + Tunnels::slab)
               << ridge << " at " << p.x;
+        }
       }
     }
   }
