@@ -371,12 +371,32 @@ export interface CityParametersGivenWater {
   features: CityParametersGivenWaterFeaturesItem[];
 }
 
+/** A feature of GeoJSON. */
+export interface CityParametersGivenFootprintsFeaturesItem {
+  /** Feature. */
+  type: "Feature";
+  /** `height` is that of the walls in metres; without it, `floors` of 3 m, or 9 m. Others have no effect. */
+  properties?: { [key: string]: number | string | boolean | number[] };
+  /** The polygons of the feature. */
+  geometry: Polygons;
+}
+
+/** Existing buildings. Streets that grow keep clear of them, and no house is built on them. */
+export interface CityParametersGivenFootprints {
+  /** FeatureCollection. */
+  type: "FeatureCollection";
+  /** The features. */
+  features: CityParametersGivenFootprintsFeaturesItem[];
+}
+
 /** Existing parts of the city as GeoJSON in local metres. They stay as they are, and the rest grows from them. */
 export interface CityParametersGiven {
   /** Existing streets. Where two of them meet or cross on one level, an end or corner of one lies within 3 m of the other. */
   streets?: CityParametersGivenStreets;
   /** Existing water. */
   water?: CityParametersGivenWater;
+  /** Existing buildings. Streets that grow keep clear of them, and no house is built on them. */
+  footprints?: CityParametersGivenFootprints;
 }
 
 /** The cross section of highways, which given streets can be, and lines of the net with highway_spacing. */
@@ -624,7 +644,7 @@ export interface CityParametersBuildings {
 /** Surface */
 export interface CityParametersSurfacesItem {
   /** The name of the material in the model. */
-  name: "asphalt" | "junction" | "sidewalk" | "verge" | "park" | "square" | "lot" | "water" | "marking" | "wall" | "foundation" | "bridge";
+  name: "asphalt" | "junction" | "sidewalk" | "verge" | "park" | "square" | "lot" | "water" | "marking" | "wall" | "foundation" | "bridge" | "tunnel";
   color?: string;
   /** 0 reflects like still water, 1 is matt. */
   roughness?: number;

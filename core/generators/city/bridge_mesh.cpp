@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <optional>
+#include <string>
 
 #include "core/base/math.h"
 
@@ -35,6 +36,18 @@ class BridgeBuilder {
     const std::vector<Station> stations = stations_of(bridge);
     for (std::size_t k = 1; k < stations.size(); ++k) add_piece(stations[k - 1], stations[k]);
     add_piers(stations);
+  }
+
+  /// The inside of a tube: floor, ceiling and walls.
+  void add(const Tunnel& tunnel) {
+    for (std::size_t k = 1; k < tunnel.stations.size(); ++k) {
+      const TunnelStation &s = tunnel.stations[k - 1], &t = tunnel.stations[k];
+      const double s_top = s.height + Tunnels::clear_height, t_top = t.height + Tunnels::clear_height;
+      quad({Corner{s.right, s.height}, {t.right, t.height}, {t.left, t.height}, {s.left, s.height}});
+      quad({Corner{s.left, s_top}, {t.left, t_top}, {t.right, t_top}, {s.right, s_top}});
+      quad({Corner{s.left, s.height}, {t.left, t.height}, {t.left, t_top}, {s.left, s_top}});
+      quad({Corner{t.right, t.height}, {s.right, s.height}, {s.right, s_top}, {t.right, t_top}});
+    }
   }
 
   Mesh take() { return std::move(mesh_); }
@@ -156,6 +169,25 @@ Mesh bridge_mesh(const CityPlan& plan, const Job& job) {
     if (bridge.level > 0) builder.add(bridge);
   }
   return builder.take();
+}
+
+Mesh tunnel_mesh(const Surface& surface, const Job& job) {
+  BridgeBuilder builder(surface.plan(), job);
+  for (const Tunnel& tunnel : surface.tunnels().all()) {
+    job.check();
+    builder.add(tunnel);
+  }
+  return builder.take();
+}
+
+std::optional<Warning> tunnel_warning(const Surface& surface) {
+  const std::size_t count = surface.tunnels().left_out();
+  if (count == 0) return std::nullopt;
+  return Warning{
+      "/given/streets",
+      std::to_string(count) +
+          " tunnels have no mesh; expected 5.6 m below every street that they pass, and ends that meet a "
+          "straight border of a block at more than 53 degrees"};
 }
 
 }  // namespace seedmesh::city

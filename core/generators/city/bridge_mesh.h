@@ -1,12 +1,20 @@
 #pragma once
-/// Decks, parapets and piers of bridges.
+/// Decks, parapets and piers of bridges, and the tubes of tunnels.
+#include <optional>
+
 #include "core/base/job.h"
-#include "core/generators/city/plan.h"
+#include "core/generators/city/surface.h"
 #include "core/model/mesh.h"
 
 namespace seedmesh::city {
 
-/// Returns all bridges as one mesh. Tunnels have no surface above the ground and are left out.
+/// Returns all bridges as one mesh.
 Mesh bridge_mesh(const CityPlan& plan, const Job& job);
+
+/// Returns the insides of all tunnels as one mesh. They join the openings of the walls at their mouths.
+Mesh tunnel_mesh(const Surface& surface, const Job& job);
+
+/// Returns a warning about tunnels that are left out.
+std::optional<Warning> tunnel_warning(const Surface& surface);
 
 }  // namespace seedmesh::city

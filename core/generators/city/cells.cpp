@@ -260,6 +260,9 @@ class Cell final : public RoadRules {
     const dvec2 ahead = back / length_of(back);
     for (const double turn : {0.0, 20.0, -20.0, 40.0, -40.0, 65.0, -65.0, 90.0, -90.0}) {
       const dvec2 direction = rotated(ahead, turn);
+      const dvec2 from = in_cm(network_.nodes()[node]);
+      if (input_.footprints && input_.is_blocked(from, from + direction * (streets_.length * 150), 1e9))
+        continue;
       if (network_.build_to_road(node, direction, streets_.length * 150, EdgeClass::minor).state ==
           PieceState::joined)
         return true;

@@ -4,6 +4,7 @@
 
 #include "core/generators/city/city.h"
 #include "core/generators/city/density.h"
+#include "core/generators/city/footprints.h"
 #include "core/generators/city/given.h"
 #include "core/generators/city/house_requests.h"
 #include "core/generators/city/landform.h"
@@ -133,6 +134,7 @@ std::vector<Issue> check(const CityParams& params, const CheckContext& context) 
   check_patterns(params, context.job, issues);
   check_landform(params, context.job, issues);
   given_water(params, issues);
+  given_footprints(params, issues);
   std::vector<CrossSection> sections = classes_of(params);
   std::vector<Issue> of_streets;
   given_lines(params, sections, of_streets);

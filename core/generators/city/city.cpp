@@ -4,8 +4,10 @@
 #include <glm/common.hpp>
 #include <nlohmann/json.hpp>
 
+#include "core/generators/city/bridge_mesh.h"
 #include "core/generators/city/city_model.h"
 #include "core/generators/city/contents.h"
+#include "core/generators/city/footprints.h"
 #include "core/generators/city/given.h"
 #include "core/generators/city/growth.h"
 #include "core/generators/city/landmarks.h"
@@ -173,6 +175,13 @@ std::vector<Warning> remarks_on(const CityParams& params, const CityPlan& plan) 
          "the terrain is smaller than the area; beyond its border the ground has the height of the border"});
   }
   for (Warning& each : landmark_warnings(plan)) warnings.push_back(std::move(each));
+  const std::vector<Bridge>& bridges = plan.graph.bridges;
+  const bool has_tunnel =
+      std::any_of(bridges.begin(), bridges.end(), [](const Bridge& each) { return each.level < 0; });
+  if (has_tunnel && plan.heights.is_level()) {
+    warnings.push_back(
+        {"/given/streets", "tunnels below level ground have no mesh; expected a terrain or maps.height"});
+  }
   return warnings;
 }
 
@@ -219,6 +228,9 @@ Result<CityPlan> plan_of(const CityParams& params, Job& job) {
   plan.zones = zones_of(params, issues);
   const StreetGrammar grammar(params.streets.productions, "/streets/productions", issues);
   const Maps maps = read_maps(params, box_of(plan.area), job, issues);
+  const std::vector<GivenFootprint> given_buildings = given_footprints(params, issues);
+  for (Landmark& each : landmarks_of(given_buildings)) plan.landmarks.push_back(std::move(each));
+  const FootprintIndex footprints(given_buildings);
   const std::vector<GivenLine> lines = given_lines(params, plan.classes, issues);
   if (!issues.empty() || !maps.density) return Error{Code::invalid, std::move(issues)};
   Result<Landform> ground = Landform::make(params, job);
@@ -247,6 +259,7 @@ Result<CityPlan> plan_of(const CityParams& params, Job& job) {
                              has_wards ? &wards : nullptr,
                              tensor ? &*tensor : nullptr,
                              landform,
+                             footprints.is_empty() ? nullptr : &footprints,
                              plan.classes,
                              least_height(*plan.landform)};
   plan.graph = grow_streets(input, job);
@@ -260,7 +273,7 @@ Result<CityPlan> plan_of(const CityParams& params, Job& job) {
   job.progress("lots", 0);
   divide_blocks(plan, blocks, params.lots, *maps.density, job);
   plan.charges.emplace_back(job, plan.lots.size() * bytes_a_lot);
-  place_houses(plan, params, obstacles, job);
+  place_houses(plan, params, obstacles, footprints, job);
   place_landmarks(plan);
   return plan;
 }
@@ -300,7 +313,9 @@ Result<Appraisal> appraise(const CityParams& params, const GenerateContext& cont
   appraisal.warnings = remarks_on(params, *plan);
   Estimate estimate;
   const Surface surface(*plan, params.streets.wards.wall_height, job);
-  estimate.triangles = ground_triangles(*plan, surface, context.demand.textures > 0, job);
+  estimate.triangles = ground_triangles(*plan, surface, context.demand.textures > 0, job) +
+                       bridge_mesh(*plan, job).elements() + tunnel_mesh(surface, job).elements();
+  if (auto warning = tunnel_warning(surface)) appraisal.warnings.push_back(*std::move(warning));
   estimate.bytes = estimate.triangles * 48;
   if (auto error = estimate_contents(estimate, surface, params, context)) return std::move(*error);
   appraisal.estimate = estimate;

@@ -220,11 +220,14 @@ void add_foundations(Model& model, const CityPlan& plan, const Surface& surface,
            mesh.take(job), 0);
 }
 
-void add_bridges(Model& model, const CityPlan& plan, const CityParams& params, Job& job) {
-  Mesh mesh = bridge_mesh(plan, job);
-  if (mesh.elements() == 0) return;
-  job.spend(Resource::triangles, mesh.elements());
-  add_mesh(model, "bridges", material_of({"bridge", {0x8a, 0x88, 0x84}, 0.9F}, params), std::move(mesh), 0);
+void add_bridges_and_tunnels(Model& model, const Surface& surface, const CityParams& params, Job& job) {
+  const auto add = [&](Mesh mesh, const char* name, const Look& look) {
+    if (mesh.elements() == 0) return;
+    job.spend(Resource::triangles, mesh.elements());
+    add_mesh(model, name, material_of(look, params), std::move(mesh), 0);
+  };
+  add(bridge_mesh(surface.plan(), job), "bridges", {"bridge", {0x8a, 0x88, 0x84}, 0.9F});
+  add(tunnel_mesh(surface, job), "tunnels", {"tunnel", {0x7d, 0x7b, 0x77}, 0.95F});
 }
 
 }  // namespace
@@ -257,7 +260,8 @@ Result<Model> city_model(const CityPlan& plan, const CityParams& params, const G
   add_ground(model, surface, params, chunks, nodes, context);
   add_town_wall(model, plan, surface, params, job);
   add_foundations(model, plan, surface, params, job);
-  add_bridges(model, plan, params, job);
+  add_bridges_and_tunnels(model, surface, params, job);
+  if (auto warning = tunnel_warning(surface)) model.warnings.push_back(*std::move(warning));
   if (auto error = add_contents(model, nodes, chunks, surface, params, context)) return std::move(*error);
   return model;
 }

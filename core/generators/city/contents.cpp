@@ -330,10 +330,9 @@ std::optional<Error> estimate_contents(Estimate& estimate, const Surface& surfac
     const ModelCounts counts = count(*made);
     return std::pair<LevelInfo, std::uint64_t>(level_info_of(*std::move(made), job), counts.bytes);
   };
-  // With a camera, the levels of houses depend on their sizes.
-  const auto width_class = [&view](const House& house) {
-    return view.is_given() ? math::to_int32(house.width / 4) : 0;
-  };
+  // Windows are a whole number, and with a camera the levels of houses depend on their sizes.
+  constexpr double width_of_class = 4;
+  const auto width_class = [](const House& house) { return math::to_int32(house.width / width_of_class); };
   std::map<std::array<int, 3>, HouseSample> samples;
   for (const SharedHouse& shared : shared_houses(plan, params)) {
     const House& house = *plan.lots[shared.lots[0]].house;

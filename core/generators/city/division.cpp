@@ -25,8 +25,8 @@ constexpr double least_space = 100;  // between two sides of a block, cm
 
 }  // namespace
 
-std::vector<CmPoint> SharedEdge::between(const CmPoint& from, const CmPoint& to) const {
-  if (added.empty()) return {};
+void SharedEdge::append_between(const CmPoint& from, const CmPoint& to, CmRing& ring) const {
+  if (added.empty()) return;
   const dvec2 origin = in_cm(from), along = in_cm(to) - origin;
   const double length2 = glm::dot(along, along);
   std::vector<std::pair<double, CmPoint>> found;
@@ -35,11 +35,9 @@ std::vector<CmPoint> SharedEdge::between(const CmPoint& from, const CmPoint& to)
     if (share > 0 && share < 1 && p != from && p != to) found.emplace_back(share, p);
   }
   std::sort(found.begin(), found.end());
-  std::vector<CmPoint> points;
-  for (const auto& [share, p] : found) {
-    if (points.empty() || points.back() != p) points.push_back(p);
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    if (i == 0 || found[i].second != found[i - 1].second) ring.push_back(found[i].second);
   }
-  return points;
 }
 
 Division::Division(const BlockOutline& outline, const CityLots& lots, std::uint64_t key, Rng rng)
@@ -68,30 +66,33 @@ void Division::cut(const Job& job) {
     pieces_.push_back(whole_);
     return;
   }
-  for (const Piece& piece : first) {
+  for (Piece& piece : first) {
     if (piece.is_inner) {
-      pieces_.push_back(piece);
+      pieces_.push_back(std::move(piece));
     } else {
-      cut(piece, 0);
+      const LeastBox box = least_box(piece.ring);
+      cut({std::move(piece), box}, 0);
     }
   }
-  const std::size_t long_strips = first.empty() || !is_partition() ? pieces_.size() + 1 : long_pieces();
+  const bool has_strips = !first.empty() && is_partition();
+  const std::size_t long_strips = has_strips ? long_pieces() : pieces_.size() + 1;
   if (long_strips == 0) return;
   // Without strips, where rounding has folded one of them, and where no cut shortens one of them.
   std::vector<Piece> strips = std::move(pieces_);
-  std::vector<SharedEdge> edges = edges_;
+  std::vector<SharedEdge> edges;
+  if (has_strips) edges = edges_;
   const std::uint32_t inner = inner_;
   reset();
-  cut(whole_, 0);
+  cut({whole_, least_box(whole_.ring)}, 0);
   const bool is_sound = is_partition();
-  if (is_sound && long_pieces() < long_strips) return;
-  if (long_strips <= strips.size()) {
+  if (is_sound && (!has_strips || long_pieces() < long_strips)) return;
+  if (has_strips) {
     pieces_ = std::move(strips);
     edges_ = std::move(edges);
     inner_ = inner;
+    outlines_.clear();
     return;
   }
-  if (is_sound) return;
   reset();
   pieces_.push_back(whole_);
 }
@@ -106,7 +107,7 @@ std::size_t Division::long_pieces() const {
 }
 
 /// Simple outlines whose edges cancel, except those of the block, cover each point of it once.
-bool Division::is_partition() const {
+bool Division::is_partition() {
   struct Side {
     CmPoint low, high;
     int count = 0;
@@ -124,8 +125,9 @@ bool Division::is_partition() const {
     }
   };
   add(outline(whole_), -1);
+  outlines_.clear();
   for (const Piece& piece : pieces_) {
-    const CmRing ring = outline(piece);
+    const CmRing& ring = outlines_.emplace_back(outline(piece));
     if (!is_simple(ring) || doubled_area(ring) <= 0) return false;
     add(ring, 1);
   }
@@ -144,6 +146,7 @@ bool Division::is_partition() const {
 /// Undoes all cuts.
 void Division::reset() {
   pieces_.clear();
+  outlines_.clear();
   edges_.resize(whole_.ring.size());
   for (SharedEdge& edge : edges_) edge.added.clear();
   inner_ = no_index;
@@ -151,13 +154,17 @@ void Division::reset() {
 
 CmRing Division::outline(const Piece& piece) const {
   CmRing ring;
+  ring.reserve(piece.ring.size() + 2);
   for (std::size_t i = 0; i < piece.ring.size(); ++i) {
     const CmPoint &from = piece.ring[i], &to = piece.ring[(i + 1) % piece.ring.size()];
     ring.push_back(from);
-    const std::vector<CmPoint> added = edges_[piece.edges[i]].between(from, to);
-    ring.insert(ring.end(), added.begin(), added.end());
+    edges_[piece.edges[i]].append_between(from, to, ring);
   }
   return ring;
+}
+
+CmRing Division::take_outline(std::size_t piece) {
+  return piece < outlines_.size() ? std::move(outlines_[piece]) : outline(pieces_[piece]);
 }
 
 double Division::frontage(const Piece& piece) const {
@@ -177,9 +184,15 @@ bool Division::has_size(const Piece& piece) const {
 double Division::least_width() const { return lots_.width * 100 + 3; }
 
 bool Division::is_fit(const Piece& piece, double angle, double aspect) const {
-  if (!has_size(piece)) return false;
-  if (sharpest_cosine(piece.ring) > math::cos(math::radians(angle))) return false;
-  const LeastBox box = least_box(piece.ring);
+  LeastBox box;
+  return has_size(piece) && has_shape(piece, math::cos(math::radians(angle)), aspect, box);
+}
+
+/// Whether a piece has its least side, no sharper corner than this cosine, and at most this aspect. Sets its box if
+/// its corners are wide enough.
+bool Division::has_shape(const Piece& piece, double most_cosine, double aspect, LeastBox& box) const {
+  if (sharpest_cosine(piece.ring) > most_cosine) return false;
+  box = least_box(piece.ring);
   return box.narrowest >= least_width() && box.long_side <= aspect * box.short_side;
 }
 
@@ -195,29 +208,29 @@ bool Division::is_large(const Piece& piece, const LeastBox& box, Rng& draw) cons
   return box.long_side > aspect * box.short_side;
 }
 
-void Division::cut(const Piece& piece, int depth) {
-  Rng draw = rng_.at(piece.key);
-  Piece left, right;
-  const LeastBox box = least_box(piece.ring);
+void Division::cut(Cut whole, int depth) {
+  Rng draw = rng_.at(whole.piece.key);
   const double usual = lots_.division == CityDivision::burgage ? burgage_aspect : greatest_aspect;
   // A piece of a strip may be long while it is shorter than the strip.
-  cut_aspect_ = std::max(usual, 0.8 * box.long_side / box.short_side);
+  cut_aspect_ = std::max(usual, 0.8 * whole.box.long_side / whole.box.short_side);
   const bool is_across = lots_.division == CityDivision::skeleton || lots_.division == CityDivision::burgage;
-  if (depth < deepest && is_large(piece, box, draw) &&
-      ((is_across && find_cut_across_front(piece, draw, left, right)) ||
-       find_cut(piece, box, draw, left, right) ||
-       (!is_across && find_cut_across_front(piece, draw, left, right)))) {
-    left.key = key_at(piece.key, 0);
-    right.key = key_at(piece.key, 1);
-    cut(left, depth + 1);
-    cut(right, depth + 1);
-    return;
+  if (depth < deepest && is_large(whole.piece, whole.box, draw)) {
+    Cut left, right;
+    if ((is_across && find_cut_across_front(whole.piece, draw, left, right)) ||
+        find_cut(whole, draw, left, right) ||
+        (!is_across && find_cut_across_front(whole.piece, draw, left, right))) {
+      left.piece.key = key_at(whole.piece.key, 0);
+      right.piece.key = key_at(whole.piece.key, 1);
+      cut(std::move(left), depth + 1);
+      cut(std::move(right), depth + 1);
+      return;
+    }
   }
-  pieces_.push_back(piece);
+  pieces_.push_back(std::move(whole.piece));
 }
 
 /// Cuts at right angles to the street, near the middle of the frontage.
-bool Division::find_cut_across_front(const Piece& piece, Rng& draw, Piece& left, Piece& right) {
+bool Division::find_cut_across_front(const Piece& piece, Rng& draw, Cut& left, Cut& right) {
   const double whole = frontage(piece);
   const double shift = lots_.irregularity * 0.5 * (draw.unit() - 0.5);
   for (const double share : {0.5 + shift, 0.5, 0.45, 0.55, 0.4, 0.6, 1 / 3.0, 2 / 3.0, 0.25, 0.75}) {
@@ -238,7 +251,8 @@ bool Division::find_cut_across_front(const Piece& piece, Rng& draw, Piece& left,
   return false;
 }
 
-bool Division::find_cut(const Piece& piece, const LeastBox& box, Rng& draw, Piece& left, Piece& right) {
+bool Division::find_cut(const Cut& whole, Rng& draw, Cut& left, Cut& right) {
+  const LeastBox& box = whole.box;
   const dvec2 along = box.long_direction, across(-along.y, along.x);
   const std::array<double, 8> shares = {
       0.5 + lots_.irregularity * 0.5 * (draw.unit() - 0.5), 0.5, 0.4, 0.6, 1 / 3.0, 2 / 3.0, 0.25, 0.75};
@@ -246,23 +260,16 @@ bool Division::find_cut(const Piece& piece, const LeastBox& box, Rng& draw, Piec
     const dvec2 direction = is_across ? across : along;
     const dvec2 step = is_across ? along * box.long_side : across * box.short_side;
     for (const double share : shares) {
-      if (try_cut(piece, box.centre + step * (share - 0.5), direction, left, right)) return true;
+      if (try_cut(whole.piece, box.centre + step * (share - 0.5), direction, left, right)) return true;
     }
   }
   if (box.long_side <= greatest_aspect * box.short_side) return false;
   for (const double share : {0.2, 0.8, 0.3, 0.7, 0.15, 0.85, 0.45, 0.55, 0.35, 0.65}) {
-    if (try_cut(piece, box.centre + along * (box.long_side * (share - 0.5)), across, left, right))
+    if (try_cut(whole.piece, box.centre + along * (box.long_side * (share - 0.5)), across, left, right))
       return true;
   }
   return false;
 }
-
-/// Where a line meets a piece: at a corner, or within the edge behind it.
-struct Division::Meeting {
-  std::size_t corner = 0;
-  bool is_corner = false;
-  CmPoint at{};
-};
 
 /// Keeps the two meetings on both sides of a position 20 cm behind the origin of the line, if there are such.
 bool Division::keep_chord(std::vector<Meeting>& meetings, const dvec2& origin, const dvec2& direction) {
@@ -282,74 +289,85 @@ bool Division::keep_chord(std::vector<Meeting>& meetings, const dvec2& origin, c
   return false;
 }
 
-/// Cuts along a line that meets the outline twice, or along its chord at the origin.
-bool Division::try_cut(const Piece& piece, const dvec2& origin, const dvec2& direction, Piece& left,
-                       Piece& right) {
+/// Finds where a line meets the outline of a piece. Nothing where it runs along an edge.
+void Division::find_meetings(const Piece& piece, const dvec2& origin, const dvec2& direction) {
   const std::size_t count = piece.ring.size();
   const dvec2 normal(-direction.y, direction.x);
   std::vector<double>& off = offsets_;
   off.clear();
+  meetings_.clear();
   for (const CmPoint& p : piece.ring) off.push_back(glm::dot(in_cm(p) - origin, normal));
-  std::vector<Meeting> meetings;
   for (std::size_t i = 0; i < count; ++i) {
-    const double here = off[i], next = off[(i + 1) % count];
+    const std::size_t after = i + 1 < count ? i + 1 : 0;
+    const double here = off[i], next = off[after];
     if (std::abs(here) <= near_line) {
-      const double before = off[(i + count - 1) % count];
-      if (std::abs(before) <= near_line || std::abs(next) <= near_line) return false;  // along the line
-      if ((before > 0) != (next > 0)) meetings.push_back({i, true, piece.ring[i]});
+      const double before = off[i > 0 ? i - 1 : count - 1];
+      if (std::abs(before) <= near_line || std::abs(next) <= near_line) {
+        meetings_.clear();
+        return;
+      }
+      if ((before > 0) != (next > 0)) meetings_.push_back({i, true, piece.ring[i]});
       continue;
     }
     if (std::abs(next) <= near_line || (here > 0) == (next > 0)) continue;
-    const CmPoint &a = piece.ring[i], &b = piece.ring[(i + 1) % count];
+    const CmPoint &a = piece.ring[i], &b = piece.ring[after];
     const dvec2 at = in_cm(a) + (in_cm(b) - in_cm(a)) * (here / (here - next));
     const CmPoint p = rounded_cm(at);
     if (distance(p, a) < near_corner) {
-      meetings.push_back({i, true, a});
+      meetings_.push_back({i, true, a});
     } else if (distance(p, b) < near_corner) {
-      meetings.push_back({(i + 1) % count, true, b});
+      meetings_.push_back({after, true, b});
     } else {
-      meetings.push_back({i, false, p});
+      meetings_.push_back({i, false, p});
     }
   }
-  if (meetings.size() != 2 && !keep_chord(meetings, origin, direction)) return false;
-  left = side_of(piece, meetings[0], meetings[1]);
-  right = side_of(piece, meetings[1], meetings[0]);
-  if (left.ring.size() < 3 || right.ring.size() < 3) return false;
+}
+
+/// Cuts along a line that meets the outline twice, or along its chord at the origin.
+bool Division::try_cut(const Piece& piece, const dvec2& origin, const dvec2& direction, Cut& left,
+                       Cut& right) {
+  static const double most_cosine = math::cos(math::radians(least_angle));
+  find_meetings(piece, origin, direction);
+  if (meetings_.size() != 2 && !keep_chord(meetings_, origin, direction)) return false;
   // The cheapest conditions come first, since most cuts fail by area or frontage.
-  if (!has_size(left) || !has_size(right)) return false;
-  if (!is_fit(left, least_angle, cut_aspect_) || !is_fit(right, least_angle, cut_aspect_) ||
-      !is_simple(left.ring) || !is_simple(right.ring))
+  set_side(piece, meetings_[0], meetings_[1], left.piece);
+  if (left.piece.ring.size() < 3 || !has_size(left.piece)) return false;
+  set_side(piece, meetings_[1], meetings_[0], right.piece);
+  if (right.piece.ring.size() < 3 || !has_size(right.piece)) return false;
+  if (!has_shape(left.piece, most_cosine, cut_aspect_, left.box) ||
+      !has_shape(right.piece, most_cosine, cut_aspect_, right.box) || !is_simple(left.piece.ring) ||
+      !is_simple(right.piece.ring))
     return false;
   const auto edge = static_cast<std::uint32_t>(edges_.size());
-  edges_.push_back({meetings[0].at, meetings[1].at, no_index, no_index, {}});
-  left.edges.back() = right.edges.back() = edge;
-  for (const Meeting& meeting : meetings) {
+  edges_.push_back({meetings_[0].at, meetings_[1].at, no_index, no_index, {}});
+  left.piece.edges.back() = right.piece.edges.back() = edge;
+  for (const Meeting& meeting : meetings_) {
     if (!meeting.is_corner) edges_[piece.edges[meeting.corner]].added.push_back(meeting.at);
   }
   return true;
 }
 
-/// The part of the outline from one meeting to the other, closed by an edge that is not numbered yet. Until
-/// then the closing edge counts as one without a street.
-Piece Division::side_of(const Piece& piece, const Meeting& from, const Meeting& to) {
+/// Makes `side` the part of the outline from one meeting to the other, closed by an edge that is not numbered yet.
+/// Until then the closing edge counts as one without a street.
+void Division::set_side(const Piece& piece, const Meeting& from, const Meeting& to, Piece& side) {
   const std::size_t count = piece.ring.size();
-  Piece part;
-  part.ring.reserve(count + 2);
-  part.edges.reserve(count + 2);
-  part.ring.push_back(from.at);
-  part.edges.push_back(piece.edges[from.corner]);
-  std::size_t i = (from.corner + 1) % count;
-  const std::size_t last = to.is_corner ? (to.corner + count - 1) % count : to.corner;
+  side.ring.clear();
+  side.edges.clear();
+  side.ring.reserve(count + 2);
+  side.edges.reserve(count + 2);
+  side.ring.push_back(from.at);
+  side.edges.push_back(piece.edges[from.corner]);
+  std::size_t i = from.corner + 1 < count ? from.corner + 1 : 0;
+  const std::size_t last = to.is_corner ? (to.corner > 0 ? to.corner - 1 : count - 1) : to.corner;
   if (from.corner != last) {
-    for (;; i = (i + 1) % count) {
-      part.ring.push_back(piece.ring[i]);
-      part.edges.push_back(piece.edges[i]);
-      if (i == last || part.ring.size() > count + 1) break;
+    for (;; i = i + 1 < count ? i + 1 : 0) {
+      side.ring.push_back(piece.ring[i]);
+      side.edges.push_back(piece.edges[i]);
+      if (i == last || side.ring.size() > count + 1) break;
     }
   }
-  part.ring.push_back(to.at);
-  part.edges.push_back(inner_edge());
-  return part;
+  side.ring.push_back(to.at);
+  side.edges.push_back(inner_edge());
 }
 
 /// An edge without a street, for pieces whose cut is not decided yet.

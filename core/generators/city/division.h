@@ -20,8 +20,8 @@ struct SharedEdge {
   std::uint32_t street = no_index, sidewalk = no_index;
   std::vector<CmPoint> added;
 
-  /// Returns the added corners strictly between two points of the edge, in the order from `from` to `to`.
-  std::vector<CmPoint> between(const CmPoint& from, const CmPoint& to) const;
+  /// Appends the added corners strictly between two points of the edge to a ring, in the order from `from` to `to`.
+  void append_between(const CmPoint& from, const CmPoint& to, CmRing& ring) const;
 };
 
 /// A piece of a block: corner i, and the edge from it to the next.
@@ -50,6 +50,8 @@ class Division {
 
   /// Returns the outline of a piece with the corners of all neighbours.
   CmRing outline(const Piece& piece) const;
+  /// The same for a piece by its number, when all cuts are made. It can be taken once.
+  CmRing take_outline(std::size_t piece);
 
   /// Metres along streets times 100.
   double frontage(const Piece& piece) const;
@@ -58,21 +60,33 @@ class Division {
 
  private:
   friend class Strips;
-  struct Meeting;
-  void cut(const Piece& piece, int depth);
+  /// Where a line meets a piece: at a corner, or within the edge behind it.
+  struct Meeting {
+    std::size_t corner = 0;
+    bool is_corner = false;
+    CmPoint at{};
+  };
+  /// A piece with its box.
+  struct Cut {
+    Piece piece;
+    LeastBox box;
+  };
+  void cut(Cut whole, int depth);
   void reset();
   bool has_size(const Piece& piece) const;  ///< its least area and frontage
   double least_width() const;               ///< centimetres, with a margin for rounding
-  bool is_partition() const;
+  bool is_partition();
   std::size_t long_pieces() const;
   bool is_large(const Piece& piece, const LeastBox& box, Rng& draw) const;
-  bool find_cut(const Piece& piece, const LeastBox& box, Rng& draw, Piece& left, Piece& right);
-  bool find_cut_across_front(const Piece& piece, Rng& draw, Piece& left, Piece& right);
-  bool try_cut(const Piece& piece, const glm::dvec2& origin, const glm::dvec2& direction, Piece& left,
-               Piece& right);
+  bool find_cut(const Cut& whole, Rng& draw, Cut& left, Cut& right);
+  bool find_cut_across_front(const Piece& piece, Rng& draw, Cut& left, Cut& right);
+  bool try_cut(const Piece& piece, const glm::dvec2& origin, const glm::dvec2& direction, Cut& left,
+               Cut& right);
   static bool keep_chord(std::vector<Meeting>& meetings, const glm::dvec2& origin,
                          const glm::dvec2& direction);
-  Piece side_of(const Piece& piece, const Meeting& from, const Meeting& to);
+  void find_meetings(const Piece& piece, const glm::dvec2& origin, const glm::dvec2& direction);
+  void set_side(const Piece& piece, const Meeting& from, const Meeting& to, Piece& side);
+  bool has_shape(const Piece& piece, double most_cosine, double aspect, LeastBox& box) const;
   std::uint32_t inner_edge();
 
   const CityLots& lots_;
@@ -80,9 +94,12 @@ class Division {
   Piece whole_;
   std::vector<SharedEdge> edges_;
   std::vector<Piece> pieces_;
+  std::vector<CmRing> outlines_;  ///< of the pieces, if they were checked last
   std::uint32_t inner_ = no_index;
-  double cut_aspect_ = 0;        ///< the greatest aspect of the pieces of the cut that is sought
-  std::vector<double> offsets_;  ///< offsets of the corners from a cut; kept for its memory
+  double cut_aspect_ = 0;  ///< the greatest aspect of the pieces of the cut that is sought
+  // Kept for their memory: offsets of the corners from a cut, and where it meets the outline.
+  std::vector<double> offsets_;
+  std::vector<Meeting> meetings_;
 };
 
 /// Returns the pieces along the streets of a block by its straight skeleton (Vanegas et al. 2012), and, where `depth`

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <optional>
 
 #include "core/base/math.h"
 #include "core/geom/mesh/weld.h"
@@ -46,18 +47,24 @@ GroundMesh::StreetLayer layer_of(StripKind kind, const StripPiece& piece) {
   return kind == StripKind::zebra ? GroundMesh::StreetLayer::crossings : GroundMesh::StreetLayer::stop_lines;
 }
 
+/// The direction to the right of an edge, seen from above; north is -Z.
+glm::vec3 right_side(const dvec2& from, const dvec2& to) {
+  const dvec2 edge = (to - from) / glm::length(to - from);
+  return {static_cast<float>(edge.y), 0, static_cast<float>(edge.x)};
+}
+
 bool is_inside_part(const Part& part, const dvec2& metres) {
   bool is_in = false;
   for (const CmRing& ring : part.rings) is_in ^= is_inside(ring, metres * 100.0);
   return is_in;
 }
 
-bool is_near_border(const Part& part, const dvec2& metres) {
+bool is_near_border(const Part& part, const dvec2& metres, double distance) {
   for (const CmRing& ring : part.rings) {
     for (std::size_t i = 0; i < ring.size(); ++i) {
       const double off =
           distance_to_segment(metres * 100.0, in_cm(ring[i]), in_cm(ring[(i + 1) % ring.size()]));
-      if (off < border_distance * 100) return true;
+      if (off < distance * 100) return true;
     }
   }
   return false;
@@ -113,92 +120,104 @@ void GroundMesh::add_carriageway(std::uint32_t number, StreetLayer layer) {
     return;
   }
   const CrossSection& section = plan_.class_of(part.street);
-  const auto shares_of = [](const std::vector<StripPiece>& pieces, std::vector<double>& shares) {
-    for (const StripPiece& piece : pieces) {
-      if (piece.from > 0) shares.push_back(piece.from);
-    }
+  const auto may_have_layer = [&](StripKind kind) {
+    return layer == StreetLayer::asphalt || layer_of(kind, {0, 1, true}) == layer;
   };
-  std::vector<StripPiece> before, here = pieces_of(strips.kinds[0], section, has_textures_), after;
+  if (std::none_of(strips.kinds.begin(), strips.kinds.end(), may_have_layer)) return;
   const Dashes dashes = dashes_of(strips);
+  pieces_before_.clear();
+  set_pieces(strips.kinds[0], section, has_textures_, pieces_);
   double station = 0;
   for (std::size_t i = 0; i < strips.kinds.size(); ++i) {
-    after = i + 1 < strips.kinds.size() ? pieces_of(strips.kinds[i + 1], section, has_textures_)
-                                        : std::vector<StripPiece>{};
-    StripSides sides;
-    sides.start = strips.lines[i];
-    sides.end = strips.lines[i + 1];
-    sides.station = station;
-    sides.length = length_of(sides.start, sides.end);
-    if (has_textures_ && layer == StreetLayer::crossings) sides.periods_across = bars_of(section) + 0.5;
-    if (has_textures_ && layer == StreetLayer::lane_lines) {
-      sides.first_dash = dashes.begin;
-      sides.dashes_a_metre = dashes.a_metre;
+    pieces_after_.clear();
+    if (i + 1 < strips.kinds.size()) set_pieces(strips.kinds[i + 1], section, has_textures_, pieces_after_);
+    set_sides(part, i, station);
+    sides_.periods_across = has_textures_ && layer == StreetLayer::crossings ? bars_of(section) + 0.5 : 0;
+    const bool has_dashes = has_textures_ && layer == StreetLayer::lane_lines;
+    sides_.first_dash = has_dashes ? dashes.begin : 0;
+    sides_.dashes_a_metre = has_dashes ? dashes.a_metre : 1;
+    for (const StripPiece& piece : pieces_) {
+      if (layer_of(strips.kinds[i], piece) == layer) add_strip(number, piece);
     }
-    shares_of(before, sides.start_shares);
-    shares_of(here, sides.start_shares);
-    shares_of(here, sides.end_shares);
-    shares_of(after, sides.end_shares);
-    const PlanarEdge& edge = plan_.graph.edges[part.street];
-    const auto add_corner = [&](std::uint32_t node, std::vector<dvec2>& corner) {
-      const CmPoint& at = plan_.graph.nodes[node];
-      const CmRing& ring = part.rings[0];
-      if (std::find(ring.begin(), ring.end(), at) != ring.end()) corner.push_back(in_metres(at));
-    };
-    if (i == 0) add_corner(edge.from, sides.start_corner);
-    if (i + 1 == strips.kinds.size()) add_corner(edge.to, sides.end_corner);
-    for (std::vector<double>* shares : {&sides.start_shares, &sides.end_shares}) {
-      std::sort(shares->begin(), shares->end());
-      shares->erase(std::unique(shares->begin(), shares->end()), shares->end());
-    }
-    for (const StripPiece& piece : here) {
-      if (layer_of(strips.kinds[i], piece) == layer) add_strip(number, sides, piece);
-    }
-    station += sides.length;
-    before = std::move(here);
-    here = std::move(after);
+    station += sides_.length;
+    std::swap(pieces_before_, pieces_);
+    std::swap(pieces_, pieces_after_);
   }
 }
 
+/// The ends of a strip, with the corners of its own pieces and of those of its neighbours.
+void GroundMesh::set_sides(const Part& part, std::size_t strip, double station) {
+  const StreetStrips& strips = surface_.strips(part.street);
+  sides_.start = strips.lines[strip];
+  sides_.end = strips.lines[strip + 1];
+  sides_.station = station;
+  sides_.length = length_of(sides_.start, sides_.end);
+  const auto set_shares = [this](const std::vector<StripPiece>& neighbours, std::vector<double>& shares) {
+    shares.clear();
+    const auto add = [&shares](const std::vector<StripPiece>& pieces) {
+      for (const StripPiece& piece : pieces) {
+        if (piece.from > 0) shares.push_back(piece.from);
+      }
+    };
+    add(pieces_);
+    add(neighbours);
+    std::sort(shares.begin(), shares.end());
+    shares.erase(std::unique(shares.begin(), shares.end()), shares.end());
+  };
+  set_shares(pieces_before_, sides_.start_shares);
+  set_shares(pieces_after_, sides_.end_shares);
+  const PlanarEdge& edge = plan_.graph.edges[part.street];
+  const auto set_corner = [&](bool is_at_end, std::uint32_t node, std::vector<dvec2>& corner) {
+    corner.clear();
+    if (!is_at_end) return;
+    const CmPoint& at = plan_.graph.nodes[node];
+    const CmRing& ring = part.rings[0];
+    if (std::find(ring.begin(), ring.end(), at) != ring.end()) corner.push_back(in_metres(at));
+  };
+  set_corner(strip == 0, edge.from, sides_.start_corner);
+  set_corner(strip + 1 == strips.kinds.size(), edge.to, sides_.end_corner);
+}
+
 /// One piece of a strip. Its corners at the ends of the strip include those of the neighbours.
-void GroundMesh::add_strip(std::uint32_t number, const StripSides& sides, const StripPiece& piece) {
+void GroundMesh::add_strip(std::uint32_t number, const StripPiece& piece) {
   points_.clear();
-  std::vector<glm::vec2> uv;
-  const double width = glm::length(sides.start.right - sides.start.left);
+  uv_.clear();
+  const double width = glm::length(sides_.start.right - sides_.start.left);
   const auto add = [&](const CrossLine& line, double share, double station) {
     points_.push_back(point_across(line, share));
-    uv.emplace_back(static_cast<float>((station - sides.first_dash) * sides.dashes_a_metre),
-                    static_cast<float>(share * width));
-    if (sides.periods_across > 0)
-      uv.back() = {static_cast<float>(share * sides.periods_across), static_cast<float>(station)};
+    uv_.emplace_back(static_cast<float>((station - sides_.first_dash) * sides_.dashes_a_metre),
+                     static_cast<float>(share * width));
+    if (sides_.periods_across > 0)
+      uv_.back() = {static_cast<float>(share * sides_.periods_across), static_cast<float>(station)};
   };
   // Counter-clockwise: along the right side, across the end, back along the left side, across the start.
-  const double end = sides.station + sides.length;
-  add(sides.start, piece.to, sides.station);
-  add(sides.end, piece.to, end);
+  const double end = sides_.station + sides_.length;
+  add(sides_.start, piece.to, sides_.station);
+  add(sides_.end, piece.to, end);
   const auto add_corner = [&](const std::vector<dvec2>& corner, double at) {
     for (const dvec2& p : corner) {
       points_.push_back(p);
-      uv.emplace_back(static_cast<float>(at), static_cast<float>(width / 2));
+      uv_.emplace_back(static_cast<float>(at), static_cast<float>(width / 2));
     }
   };
-  add_corner(sides.end_corner, end);
-  for (std::size_t k = sides.end_shares.size(); k-- > 0;) {
-    const double share = sides.end_shares[k];
-    if (share > piece.from && share < piece.to) add(sides.end, share, end);
+  add_corner(sides_.end_corner, end);
+  for (std::size_t k = sides_.end_shares.size(); k-- > 0;) {
+    const double share = sides_.end_shares[k];
+    if (share > piece.from && share < piece.to) add(sides_.end, share, end);
   }
-  add(sides.end, piece.from, end);
-  add(sides.start, piece.from, sides.station);
-  for (const double share : sides.start_shares) {
-    if (share > piece.from && share < piece.to) add(sides.start, share, sides.station);
+  add(sides_.end, piece.from, end);
+  add(sides_.start, piece.from, sides_.station);
+  for (const double share : sides_.start_shares) {
+    if (share > piece.from && share < piece.to) add(sides_.start, share, sides_.station);
   }
-  add_corner(sides.start_corner, sides.station);
+  add_corner(sides_.start_corner, sides_.station);
   sizes_ = {static_cast<std::uint32_t>(points_.size())};
   const auto& corners = triangulator_.run(points_, sizes_, 0);
   corners_.assign(corners.begin(), corners.end());
   if (points_.size() > 4) refine_triangles(points_, corners_, {}, &job_);
   const auto first = static_cast<std::uint32_t>(mesh_.position.size());
   for (std::size_t i = 0; i < points_.size(); ++i)
-    add_vertex(points_[i], surface_.height(number, points_[i]), {0, 1, 0}, uv[i]);
+    add_vertex(points_[i], surface_.height(number, points_[i]), {0, 1, 0}, uv_[i]);
   add_triangles(first);
 }
 
@@ -214,14 +233,21 @@ void GroundMesh::add_inner_points(const Part& part) {
     job_.check();
     for (double x = std::ceil(low.x / inner_spacing) * inner_spacing; x < high.x; x += inner_spacing) {
       const dvec2 p(x, y);
-      if (is_inside_part(part, p) && !is_near_border(part, p)) inner_.push_back(p);
+      if (is_inside_part(part, p) && !is_near_border(part, p, border_distance)) inner_.push_back(p);
     }
+  }
+  constexpr double tunnel_distance = 0.5;  // m
+  for (const dvec2& p : surface_.tunnels().ground_points()) {
+    const bool is_in_box = p.x > low.x && p.y > low.y && p.x < high.x && p.y < high.y;
+    if (is_in_box && is_inside_part(part, p) && !is_near_border(part, p, tunnel_distance))
+      inner_.push_back(p);
   }
 }
 
 /// Adds the triangles of the last part, and the normals of its vertices where it is not level.
 void GroundMesh::add_triangles(std::uint32_t first) {
-  std::vector<glm::vec3> normals(points_.size(), glm::vec3(0));
+  const bool has_normals = !surface_.is_level();
+  if (has_normals) normals_.assign(points_.size(), glm::vec3(0));
   for (std::size_t i = 0; i + 2 < corners_.size(); i += 3) {
     const std::array<std::uint32_t, 3> at = {corners_[i], corners_[i + 1], corners_[i + 2]};
     const glm::vec3 &p = mesh_.position[first + at[0]], &q = mesh_.position[first + at[1]],
@@ -229,70 +255,96 @@ void GroundMesh::add_triangles(std::uint32_t first) {
     const glm::vec3 normal = glm::cross(q - p, r - p);
     if (normal.y <= least_) continue;
     for (const std::uint32_t corner : at) {
-      normals[corner] += normal;
+      if (has_normals) normals_[corner] += normal;
       mesh_.index.wide.push_back(first + corner);
     }
   }
-  if (surface_.is_level()) return;
-  for (std::size_t i = 0; i < normals.size(); ++i) {
-    const float length = std::sqrt(glm::dot(normals[i], normals[i]));
-    if (length > 0) mesh_.normal[first + i] = normals[i] / length;
+  if (!has_normals) return;
+  for (std::size_t i = 0; i < normals_.size(); ++i) {
+    const float length = std::sqrt(glm::dot(normals_[i], normals_[i]));
+    if (length > 0) mesh_.normal[first + i] = normals_[i] / length;
   }
 }
 
 void GroundMesh::add_walls(std::uint32_t number) {
   const Part& part = plan_.parts[number];
   if (part.kind == PartKind::water) return;
-  for (const CmRing& ring : part.rings) {
-    for (std::size_t i = 0; i < ring.size(); ++i) {
-      const CmPoint &a = ring[i], &b = ring[(i + 1) % ring.size()];
-      const std::uint32_t beyond = surface_.part_beyond(a, b);
-      if (beyond == no_index && !part.is_wall) continue;
-      surface_.points_between(a, b, between_);
-      between_.push_back(in_metres(b));
-      dvec2 before = in_metres(a);
-      double along = 0;
-      const auto low_at = [&](const dvec2& p) {
-        return beyond != no_index ? surface_.height(beyond, p)
-                                  : surface_.height(number, p) - surface_.wall_height();
-      };
-      double high = surface_.height(number, before), low = low_at(before);
-      for (const dvec2& p : between_) {
-        const double next_high = surface_.height(number, p), next_low = low_at(p);
-        if (high - low > same_height || next_high - next_low > same_height) {
-          add_wall({before.x, std::min(low, high), before.y}, {p.x, std::min(next_low, next_high), p.y}, high,
-                   next_high, along);
-        }
-        along += glm::length(p - before);
-        before = p;
-        high = next_high;
-        low = next_low;
-      }
+  for (const CmRing& ring : part.rings) add_walls_of(number, ring);
+}
+
+/// The walls along a ring. Rounded corners are smooth: their short edges have common normals.
+void GroundMesh::add_walls_of(std::uint32_t number, const CmRing& ring) {
+  constexpr double short_edge = 3, least_cosine = 0.76;  // m
+  const std::size_t count = ring.size();
+  wall_edges_.clear();
+  for (std::size_t i = 0; i < count; ++i) {
+    const CmPoint &a = ring[i], &b = ring[i + 1 < count ? i + 1 : 0];
+    const dvec2 from = in_metres(a), to = in_metres(b);
+    const std::uint32_t beyond = surface_.part_beyond(a, b);
+    const bool is_left_out =
+        (beyond == no_index && !plan_.parts[number].is_wall) ||
+        (surface_.is_level() &&
+         surface_.height(number, from) - low_height(number, beyond, from) <= same_height);
+    wall_edges_.push_back({beyond, is_left_out, glm::length(to - from) < short_edge, right_side(from, to)});
+  }
+  const auto normal_between = [this](std::size_t i, std::size_t k, std::size_t own) {
+    const WallEdge &before = wall_edges_[i], &after = wall_edges_[k];
+    const bool is_smooth = !before.is_left_out && !after.is_left_out && before.is_short && after.is_short &&
+                           glm::dot(before.normal, after.normal) > static_cast<float>(least_cosine);
+    if (!is_smooth) return wall_edges_[own].normal;
+    return glm::vec3(math::unit(glm::dvec3(before.normal + after.normal), {0, 1, 0}));
+  };
+  double along = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const WallEdge& edge = wall_edges_[i];
+    if (edge.is_left_out) {
+      along = 0;
+      continue;
+    }
+    const std::size_t next = i + 1 < count ? i + 1 : 0;
+    surface_.points_between(ring[i], ring[next], between_);
+    between_.push_back(in_metres(ring[next]));
+    const auto point_at = [&](const dvec2& at, const glm::vec3& normal) {
+      return WallPoint{at, low_height(number, edge.beyond, at), surface_.height(number, at), along, normal};
+    };
+    WallPoint before = point_at(in_metres(ring[i]), normal_between(i > 0 ? i - 1 : count - 1, i, i));
+    for (std::size_t k = 0; k < between_.size(); ++k) {
+      along += glm::length(between_[k] - before.at);
+      const bool is_last = k + 1 == between_.size();
+      const WallPoint here = point_at(between_[k], is_last ? normal_between(i, next, i) : edge.normal);
+      add_wall(before, here);
+      before = here;
     }
   }
 }
 
-/// The upright face along an edge whose left side is higher; a triangle where one end has no height.
-void GroundMesh::add_wall(const glm::dvec3& a_low, const glm::dvec3& b_low, double a_high, double b_high,
-                          double along) {
-  const dvec2 a(a_low.x, a_low.z), b(b_low.x, b_low.z), edge = b - a;
-  const double length = std::sqrt(glm::dot(edge, edge));
-  // The right side of the edge, seen from above; north is -Z.
-  const glm::vec3 normal(static_cast<float>(edge.y / length), 0, static_cast<float>(edge.x / length));
-  const auto start = static_cast<float>(along), end = static_cast<float>(along + length);
-  const auto rise = [](double high, double low) { return static_cast<float>(high - low); };
-  const std::uint32_t first = add_vertex(a, a_low.y, normal, {start, 0});
-  const std::uint32_t second = add_vertex(b, b_low.y, normal, {end, 0});
-  const bool has_start = a_high - a_low.y > same_height, has_end = b_high - b_low.y > same_height;
+/// The height of what is beyond an edge of a part.
+double GroundMesh::low_height(std::uint32_t part, std::uint32_t beyond, const dvec2& at) const {
+  return beyond != no_index ? surface_.height(beyond, at)
+                            : surface_.height(part, at) - surface_.wall_height();
+}
+
+/// The upright face between two points of an edge whose left side is higher: a triangle where one end has no height, and
+/// the part above the opening of a tunnel.
+void GroundMesh::add_wall(WallPoint a, WallPoint b) {
+  if (const auto lintel = surface_.tunnels().lintel((a.at + b.at) / 2.0)) a.low = b.low = *lintel;
+  const bool has_start = a.high - a.low > same_height, has_end = b.high - b.low > same_height;
+  if (!has_start && !has_end) return;
+  const auto add = [this](const WallPoint& p, double height) {
+    return add_vertex(p.at, height, p.normal,
+                      {static_cast<float>(p.along), static_cast<float>(height - std::min(p.low, p.high))});
+  };
+  const std::uint32_t first = add(a, std::min(a.low, a.high)), second = add(b, std::min(b.low, b.high));
+  std::uint32_t third = 0;
   if (has_end) {
-    const std::uint32_t third = add_vertex(b, b_high, normal, {end, rise(b_high, b_low.y)});
+    third = add(b, b.high);
     for (const std::uint32_t corner : {first, second, third}) mesh_.index.wide.push_back(corner);
     if (!has_start) return;
-    const std::uint32_t fourth = add_vertex(a, a_high, normal, {start, rise(a_high, a_low.y)});
+    const std::uint32_t fourth = add(a, a.high);
     for (const std::uint32_t corner : {first, third, fourth}) mesh_.index.wide.push_back(corner);
     return;
   }
-  const std::uint32_t third = add_vertex(a, a_high, normal, {start, rise(a_high, a_low.y)});
+  third = add(a, a.high);
   for (const std::uint32_t corner : {first, second, third}) mesh_.index.wide.push_back(corner);
 }
 
@@ -309,7 +361,8 @@ void GroundMesh::add_foundation(const Footing& footing) {
   std::array<std::uint32_t, 4> top{};
   for (std::size_t k = 0; k < 4; ++k) {
     const dvec2 &a = ring[k], &b = ring[(k + 1) % 4];
-    add_wall({a.x, low, a.y}, {b.x, low, b.y}, top_height, top_height, 0);
+    const glm::vec3 normal = right_side(a, b);
+    add_wall({a, low, top_height, 0, normal}, {b, low, top_height, glm::length(b - a), normal});
   }
   for (std::size_t k = 0; k < 4; ++k) top[k] = add_vertex(ring[k], top_height, {0, 1, 0}, glm::vec2(ring[k]));
   for (const std::size_t k : {0U, 1U, 2U, 0U, 2U, 3U}) mesh_.index.wide.push_back(top[k]);

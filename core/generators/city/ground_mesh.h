@@ -46,9 +46,24 @@ class GroundMesh {
     double first_dash = 0, dashes_a_metre = 1;         ///< of texture coordinates along the street
     double periods_across = 0;                         ///< of a crossing; 0: metres
   };
-  void add_strip(std::uint32_t part, const StripSides& sides, const StripPiece& piece);
+  void set_sides(const Part& part, std::size_t strip, double station);
+  void add_strip(std::uint32_t part, const StripPiece& piece);
   void add_inner_points(const Part& part);
-  void add_wall(const glm::dvec3& a_low, const glm::dvec3& b_low, double a_high, double b_high, double along);
+  /// An edge of a part with its right side.
+  struct WallEdge {
+    std::uint32_t beyond = 0;  ///< part on the other side; no_index: none
+    bool is_left_out = false, is_short = false;
+    glm::vec3 normal{0};
+  };
+  /// The lower and the upper end of a wall at one position.
+  struct WallPoint {
+    glm::dvec2 at{0};
+    double low = 0, high = 0, along = 0;
+    glm::vec3 normal{0};
+  };
+  void add_walls_of(std::uint32_t part, const CmRing& ring);
+  void add_wall(WallPoint a, WallPoint b);
+  double low_height(std::uint32_t part, std::uint32_t beyond, const glm::dvec2& at) const;
   std::uint32_t add_vertex(const glm::dvec2& p, double height, const glm::vec3& normal, const glm::vec2& uv);
   void add_triangles(std::uint32_t first);
 
@@ -61,8 +76,14 @@ class GroundMesh {
   float least_ = 0;
   Mesh mesh_;
   Triangulator triangulator_;
+  // Memory that is kept from one part to the next.
   std::vector<glm::dvec2> points_, between_, inner_;
   std::vector<std::uint32_t> sizes_, corners_;
+  StripSides sides_;
+  std::vector<StripPiece> pieces_before_, pieces_, pieces_after_;
+  std::vector<glm::vec2> uv_;
+  std::vector<glm::vec3> normals_;
+  std::vector<WallEdge> wall_edges_;
 };
 
 }  // namespace seedmesh::city

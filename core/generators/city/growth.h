@@ -19,6 +19,7 @@ namespace seedmesh::city {
 struct WardPlan;
 class Landform;
 class TensorField;
+class FootprintIndex;
 
 /// What the growth reads.
 struct GrowthInput {
@@ -26,16 +27,19 @@ struct GrowthInput {
   const FieldMap& density;
   const StreetGrammar& grammar;
   const Region& region;
-  const FieldMap* obstacles = nullptr;      ///< null: none
-  const Route* given = nullptr;             ///< null: none
-  const WardPlan* wards = nullptr;          ///< null: major streets grow
-  const TensorField* tensor = nullptr;      ///< null: streets follow patterns
-  const Landform* landform = nullptr;       ///< null: level ground
-  std::vector<CrossSection> sections = {};  ///< by tag
-  double least_height = -1e9;               ///< of streets, m
+  const FieldMap* obstacles = nullptr;         ///< null: none
+  const Route* given = nullptr;                ///< null: none
+  const WardPlan* wards = nullptr;             ///< null: major streets grow
+  const TensorField* tensor = nullptr;         ///< null: streets follow patterns
+  const Landform* landform = nullptr;          ///< null: level ground
+  const FootprintIndex* footprints = nullptr;  ///< null: none
+  std::vector<CrossSection> sections = {};     ///< by tag
+  double least_height = -1e9;                  ///< of streets, m
 
-  /// Whether an obstacle is at a position in metres.
-  bool is_blocked(const glm::dvec2& metres) const { return obstacles && obstacles->at(metres) >= 0.5; }
+  /// Whether an obstacle is at a position in metres, or a given building beside it within the space of a street.
+  bool is_blocked(const glm::dvec2& metres) const;
+  /// Whether the space of a street would reach a given building, sampled every metre.
+  bool is_on_footprint(const StreetPiece& piece) const;
   /// Whether an obstacle is on the segment between two positions in centimetres, sampled every 4 m, or the ground
   /// along it is too steep for a street of this grade limit.
   bool is_blocked(const glm::dvec2& a, const glm::dvec2& b, double grade_limit) const;

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/base/math.h"
+#include "core/generators/city/footprints.h"
 #include "core/generators/city/growth.h"
 #include "core/generators/city/landform.h"
 #include "generated/params/city.h"
@@ -17,13 +18,35 @@ double GrowthInput::limit_of(std::uint32_t kind) const {
   return kind == static_cast<std::uint32_t>(EdgeClass::minor) ? classes.minor.grade : classes.major.grade;
 }
 
+bool GrowthInput::is_blocked(const dvec2& metres) const {
+  if (obstacles && obstacles->at(metres) >= 0.5) return true;
+  if (!footprints) return false;
+  constexpr double margin = 1;
+  double widest = 0;
+  for (std::size_t kind = static_cast<std::size_t>(EdgeClass::highway); kind < first_given; ++kind)
+    widest = std::max(widest, sections[kind].width / 2 + sections[kind].sidewalk[0]);
+  return footprints->is_near(metres, std::min(widest + margin, FootprintIndex::most_reach));
+}
+
+bool GrowthInput::is_on_footprint(const StreetPiece& piece) const {
+  if (!footprints) return false;
+  const CrossSection& section = sections[piece.kind];
+  const double reach = std::min(section.width / 2 + section.sidewalk[0], FootprintIndex::most_reach);
+  const dvec2 a = in_metres(piece.a), along = in_metres(piece.b) - a;
+  const std::int32_t count = math::to_int32(std::sqrt(along.x * along.x + along.y * along.y)) + 1;
+  for (std::int32_t n = 0; n <= count; ++n) {
+    if (footprints->is_near(a + along * (static_cast<double>(n) / count), reach)) return true;
+  }
+  return false;
+}
+
 bool GrowthInput::is_too_steep(const dvec2& a, const dvec2& b, double grade_limit) const {
   return landform && city::is_too_steep(*landform, a, b, grade_limit);
 }
 
 bool GrowthInput::is_blocked(const dvec2& a, const dvec2& b, double grade_limit) const {
   if (is_too_steep(a, b, grade_limit)) return true;
-  if (!obstacles) return false;
+  if (!obstacles && !footprints) return false;
   const dvec2 along = b - a;
   const std::int32_t count = math::to_int32(std::sqrt(along.x * along.x + along.y * along.y) / 400) + 1;
   for (std::int32_t n = 0; n <= count; ++n) {

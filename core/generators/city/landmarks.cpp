@@ -17,6 +17,22 @@ bool is_in(const std::vector<CmRing>& rings, const glm::dvec2& metres) {
   return inside;
 }
 
+/// The box around a ring, in centimetres.
+struct Box {
+  glm::dvec2 low, high;
+  bool holds(const glm::dvec2& p) const {
+    return p.x >= low.x && p.y >= low.y && p.x <= high.x && p.y <= high.y;
+  }
+};
+Box box_of(const CmRing& ring) {
+  Box box{in_cm(ring[0]), in_cm(ring[0])};
+  for (const CmPoint& p : ring) {
+    box.low = glm::min(box.low, in_cm(p));
+    box.high = glm::max(box.high, in_cm(p));
+  }
+  return box;
+}
+
 /// The corners of a building's ground plan in its own frame, x and z; empty for other generators.
 std::vector<glm::dvec2> plan_of_building(const Child& request) {
   if (request.generator != "building") return {};
@@ -82,16 +98,20 @@ std::vector<Landmark> landmarks_of(const CityParams& params, const Job& job) {
 }
 
 void place_landmarks(CityPlan& plan) {
+  if (plan.landmarks.empty()) return;
+  std::vector<std::uint32_t> lot_of_part(plan.parts.size(), no_index);
+  for (std::uint32_t n = 0; n < plan.lots.size(); ++n) lot_of_part[plan.lots[n].part] = n;
+  std::vector<Box> boxes;
+  for (const Part& part : plan.parts) boxes.push_back(box_of(part.rings[0]));
   for (std::uint32_t i = 0; i < plan.landmarks.size(); ++i) {
     Landmark& landmark = plan.landmarks[i];
     for (std::uint32_t n = 0; n < plan.parts.size() && landmark.part == no_index; ++n) {
-      if (is_in(plan.parts[n].rings, landmark.position)) landmark.part = n;
+      if (boxes[n].holds(landmark.position * 100.0) && is_in(plan.parts[n].rings, landmark.position))
+        landmark.part = n;
     }
-    const auto lot = std::find_if(plan.lots.begin(), plan.lots.end(),
-                                  [&](const Lot& each) { return each.part == landmark.part; });
-    if (lot == plan.lots.end()) continue;
-    landmark.lot = static_cast<std::uint32_t>(lot - plan.lots.begin());
-    if (!landmark.replaces_house) continue;
+    landmark.lot = landmark.part != no_index ? lot_of_part[landmark.part] : no_index;
+    if (landmark.lot == no_index || !landmark.replaces_house) continue;
+    Lot* lot = &plan.lots[landmark.lot];
     lot->house.reset();
     landmark.is_too_large = !fits(landmark, plan.parts[landmark.part].rings);
     if (!landmark.is_too_large && lot->landmark == no_index) lot->landmark = i;
@@ -113,6 +133,7 @@ std::optional<Footing> footing_of(const Landmark& landmark) {
 std::vector<Warning> landmark_warnings(const CityPlan& plan) {
   std::vector<Warning> warnings;
   for (const Landmark& landmark : plan.landmarks) {
+    if (landmark.is_given) continue;  // they stay as they are
     if (landmark.is_too_large) {
       warnings.push_back(
           {landmark.pointer + "/model", "the building is larger than the lot on which it stands", 0, 0});

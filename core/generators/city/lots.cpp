@@ -133,7 +133,8 @@ bool keeps_whole(const std::vector<Landmark>& landmarks, const BlockOutline& out
 
 /// Adds the corners that cuts have added to the outline of a block to the part on its other side.
 void add_to_part(Part& part, const SharedEdge& edge) {
-  const std::vector<CmPoint> added = edge.between(edge.b, edge.a);
+  CmRing added;
+  edge.append_between(edge.b, edge.a, added);
   if (added.empty()) return;
   for (CmRing& ring : part.rings) {
     for (std::size_t i = 0; i < ring.size(); ++i) {
@@ -157,9 +158,9 @@ Shores shores_of(const CityPlan& plan) {
   return shores;
 }
 
-void add_block(CityPlan& plan, const BlockOutline& outline, const Divided& divided, const FieldMap& density,
+void add_block(CityPlan& plan, const BlockOutline& outline, Divided& divided, const FieldMap& density,
                const Shores& shores) {
-  const Division& division = *divided.division;
+  Division& division = *divided.division;
   const auto number = static_cast<std::uint32_t>(plan.blocks.size());
   Block block;
   block.key = division.whole().key;
@@ -189,7 +190,8 @@ void add_block(CityPlan& plan, const BlockOutline& outline, const Divided& divid
       add_to_part(plan.parts[shore->second], edge);
     }
   }
-  for (const Piece& piece : division.pieces()) {
+  for (std::size_t n = 0; n < division.pieces().size(); ++n) {
+    const Piece& piece = division.pieces()[n];
     Lot lot = lot_of(plan, division, piece);
     lot.part = static_cast<std::uint32_t>(plan.parts.size());
     lot.density = density.at(middle_of(piece.ring));
@@ -198,7 +200,7 @@ void add_block(CityPlan& plan, const BlockOutline& outline, const Divided& divid
     part.kind = PartKind::lot;
     part.block = number;
     part.street = lot.street;
-    part.rings.push_back(division.outline(piece));
+    part.rings.push_back(division.take_outline(n));
     lot.area = area_of(part.rings);
     plan.parts.push_back(std::move(part));
     plan.lots.push_back(std::move(lot));

@@ -116,27 +116,31 @@ int bars_of(const CrossSection& section) {
   return std::max(1, math::to_int32(section.width / bar_width / 2));
 }
 
-std::vector<StripPiece> pieces_of(StripKind kind, const CrossSection& section, bool has_textures) {
-  if (kind == StripKind::plain) return {{0, 1, false}};
-  if (kind == StripKind::stop_at_start) return {{0, 0.5, true}, {0.5, 1, false}};
-  if (kind == StripKind::stop_at_end) return {{0, 0.5, false}, {0.5, 1, true}};
-  std::vector<StripPiece> pieces;
-  if (kind == StripKind::zebra && has_textures) return {{0, 1, true}};
-  if (kind == StripKind::zebra) {
-    const int count = 2 * bars_of(section) + 1;
-    for (int k = 0; k < count; ++k)
-      pieces.push_back({static_cast<double>(k) / count, static_cast<double>(k + 1) / count, k % 2 == 1});
-    return pieces;
+void set_pieces(StripKind kind, const CrossSection& section, bool has_textures,
+                std::vector<StripPiece>& pieces) {
+  pieces.clear();
+  if (kind == StripKind::plain) {
+    pieces.push_back({0, 1, false});
+  } else if (kind == StripKind::stop_at_start || kind == StripKind::stop_at_end) {
+    const bool is_left = kind == StripKind::stop_at_start;
+    pieces.push_back({0, 0.5, is_left});
+    pieces.push_back({0.5, 1, !is_left});
+  } else if (kind == StripKind::zebra) {
+    const int count = has_textures ? 1 : 2 * bars_of(section) + 1;
+    for (int k = 0; k < count; ++k) {
+      pieces.push_back(
+          {static_cast<double>(k) / count, static_cast<double>(k + 1) / count, has_textures || k % 2 == 1});
+    }
+  } else {
+    double before = 0;
+    for (int lane = 1; lane < section.lanes; ++lane) {
+      const double middle = static_cast<double>(lane) / section.lanes, half = line_width / 2 / section.width;
+      pieces.push_back({before, middle - half, false});
+      pieces.push_back({middle - half, middle + half, true});
+      before = middle + half;
+    }
+    pieces.push_back({before, 1, false});
   }
-  double before = 0;
-  for (int lane = 1; lane < section.lanes; ++lane) {
-    const double middle = static_cast<double>(lane) / section.lanes, half = line_width / 2 / section.width;
-    pieces.push_back({before, middle - half, false});
-    pieces.push_back({middle - half, middle + half, true});
-    before = middle + half;
-  }
-  pieces.push_back({before, 1, false});
-  return pieces;
 }
 
 }  // namespace seedmesh::city

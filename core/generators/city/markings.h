@@ -43,7 +43,8 @@ struct StripPiece {
 /// Returns the number of bars of a pedestrian crossing. Gaps are as wide as bars, and lie at both kerbs.
 int bars_of(const CrossSection& section);
 
-/// Returns the pieces of a strip from left to right. With textures, a pedestrian crossing is one piece.
-std::vector<StripPiece> pieces_of(StripKind kind, const CrossSection& section, bool has_textures);
+/// Replaces `pieces` by those of a strip from left to right. With textures, a pedestrian crossing is one piece.
+void set_pieces(StripKind kind, const CrossSection& section, bool has_textures,
+                std::vector<StripPiece>& pieces);
 
 }  // namespace seedmesh::city

@@ -102,6 +102,12 @@ struct Part {
   bool is_wall = false;  ///< a verge that a town wall fills
 };
 
+/// Carriageways, junctions and sidewalks, and town walls in their place.
+inline bool is_street_space(const Part& part) {
+  return part.kind == PartKind::carriageway || part.kind == PartKind::junction ||
+         part.kind == PartKind::sidewalk || part.is_wall;
+}
+
 /// A quarter of a town of wards. Its outline runs along the middle of the streets around it.
 struct Ward {
   CmRing ring;
@@ -132,6 +138,7 @@ struct Landmark {
   double turn = 0;         ///< degrees, counter-clockwise from above
   double radius = 15;      ///< where no tree of a park stands
   bool is_block_whole = false, replaces_house = true;
+  bool is_given = false;                          ///< a footprint of the request
   bool is_too_large = false;                      ///< for its lot, which then has no building in the plan
   std::uint32_t lot = no_index, part = no_index;  ///< on which it stands; no_index: none
 };

@@ -117,6 +117,8 @@ class StreetSpace {
     for (const Outline& outline : layout.outlines) {
       place_corners(outline, widths, layout.has_walks);
       CmRing kerb, border;
+      kerb.reserve(4 * outline.half_edges.size());
+      if (layout.has_walks) border.reserve(2 * outline.half_edges.size());
       for (std::size_t k = 0; k < outline.half_edges.size(); ++k) {
         const std::uint32_t half = outline.half_edges[k];
         const KerbSide& side = sides_[half];
@@ -183,6 +185,8 @@ class StreetSpace {
     const KerbSide& next = sides_[side.after];
     const auto middle = [](const std::vector<CmPoint>& corner) { return (corner.size() - 1) / 2; };
     CmRing ring;
+    ring.reserve(side.corner.size() + side.outer_corner.size() + next.corner.size() +
+                 next.outer_corner.size() + 2);
     for (std::size_t i = middle(side.corner); i < side.corner.size(); ++i) append_new(ring, side.corner[i]);
     append_new(ring, side.cut_from);
     append_new(ring, side.cut_to);

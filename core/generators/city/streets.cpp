@@ -87,6 +87,9 @@ std::vector<StreetPiece> grow_cells(const GrowthInput& input, const StreetGraph&
   });
   std::vector<StreetPiece> all;
   for (const std::vector<StreetPiece>& each : grown) all.insert(all.end(), each.begin(), each.end());
+  // Joining another street can move an end towards a given building.
+  if (input.footprints)
+    std::erase_if(all, [&](const StreetPiece& piece) { return input.is_on_footprint(piece); });
   return all;
 }
 

@@ -65,18 +65,16 @@ Surface::Surface(const CityPlan& plan, double wall_height, Job& job)
   for (const Part& part : plan.parts) {
     for (const CmRing& ring : part.rings) count += ring.size();
   }
-  edges_.reserve(count);
+  part_of_edge_ = EdgeTable(count);
   for (std::uint32_t n = 0; n < plan.parts.size(); ++n) {
     for (const CmRing& ring : plan.parts[n].rings) {
       for (std::size_t i = 0; i < ring.size(); ++i)
-        edges_.push_back({ring[i], ring[(i + 1) % ring.size()], n});
+        part_of_edge_.add(ring[i], ring[i + 1 < ring.size() ? i + 1 : 0], n);
     }
   }
-  std::sort(edges_.begin(), edges_.end(), [](const DirectedEdge& e, const DirectedEdge& f) {
-    return e.a != f.a ? e.a < f.a : e.b != f.b ? e.b < f.b : e.part < f.part;
-  });
   divide_carriageways();
   if (is_level()) return;
+  tunnels_ = Tunnels(plan, part_of_edge_);
   limit_natural_ground(job);
   grounds_.resize(plan.blocks.size());
   ground_of_.assign(plan.parts.size(), no_index);
@@ -98,8 +96,9 @@ Surface::Surface(const CityPlan& plan, double wall_height, Job& job)
 }
 
 void Surface::divide_edge(const CmPoint& from, const CmPoint& to, std::span<const dvec2> points) {
-  divided_.push_back({std::min(from, to), std::max(from, to), static_cast<std::uint32_t>(edge_points_.size()),
-                      static_cast<std::uint32_t>(points.size())});
+  divided_at_.add(std::min(from, to), std::max(from, to), static_cast<std::uint32_t>(divided_.size()));
+  divided_.push_back(
+      {static_cast<std::uint32_t>(edge_points_.size()), static_cast<std::uint32_t>(points.size())});
   edge_points_.insert(edge_points_.end(), points.begin(), points.end());
   if (to < from)
     std::reverse(edge_points_.end() - static_cast<std::ptrdiff_t>(points.size()), edge_points_.end());
@@ -107,7 +106,9 @@ void Surface::divide_edge(const CmPoint& from, const CmPoint& to, std::span<cons
 
 /// Kerbs have the ends of the strips, and the ends of carriageways no further vertices.
 void Surface::divide_carriageways() {
+  constexpr std::size_t divided_a_street = 8;
   strips_.resize(plan_.graph.edges.size());
+  divided_at_ = EdgeTable(divided_a_street * plan_.graph.edges.size());
   std::vector<dvec2> points;
   for (std::uint32_t edge = 0; edge < plan_.graph.edges.size(); ++edge) {
     if (!plan_.graph.is_street(edge)) continue;
@@ -131,14 +132,6 @@ void Surface::divide_carriageways() {
       divide_edge(node, right, {});
     }
   }
-  std::sort(divided_.begin(), divided_.end(), [](const DividedEdge& e, const DividedEdge& f) {
-    return std::pair{e.a, e.b} < std::pair{f.a, f.b};
-  });
-}
-
-/// Carriageways, junctions and sidewalks, and town walls in their place.
-bool Surface::is_street_space(const Part& part) const {
-  return is_low(part.kind) || part.kind == PartKind::sidewalk || part.is_wall;
 }
 
 double Surface::street_height(const Part& part, const dvec2& metres) const {
@@ -161,13 +154,10 @@ double Surface::height(std::uint32_t number, const dvec2& metres) const {
 
 void Surface::points_between(const CmPoint& a, const CmPoint& b, std::vector<dvec2>& points) const {
   points.clear();
-  const std::pair<CmPoint, CmPoint> key = std::minmax(a, b);
-  const auto found =
-      std::lower_bound(divided_.begin(), divided_.end(), key, [](const DividedEdge& edge, const auto& ends) {
-        return std::pair{edge.a, edge.b} < ends;
-      });
-  if (found != divided_.end() && found->a == key.first && found->b == key.second) {
-    points.assign(edge_points_.begin() + found->first, edge_points_.begin() + found->first + found->count);
+  const std::uint32_t number = divided_at_.value_of(std::min(a, b), std::max(a, b));
+  if (number != EdgeTable::absent) {
+    const auto first = edge_points_.begin() + divided_[number].first;
+    points.assign(first, first + divided_[number].count);
     if (b < a) std::reverse(points.begin(), points.end());
     return;
   }
@@ -175,15 +165,18 @@ void Surface::points_between(const CmPoint& a, const CmPoint& b, std::vector<dve
   const int count = math::to_int32(std::ceil(distance(a, b) / (edge_spacing * 100)));
   const dvec2 low = in_metres(std::min(a, b)), along = in_metres(std::max(a, b)) - low;
   for (int k = 1; k < count; ++k) points.push_back(low + along * (static_cast<double>(k) / count));
+  if (!tunnels_.all().empty()) {
+    std::erase_if(points, [this](const dvec2& p) { return tunnels_.lintel(p).has_value(); });
+    tunnels_.append_corners(a, b, points);
+    std::sort(points.begin(), points.end(), [&](const dvec2& p, const dvec2& q) {
+      return glm::dot(p - low, along) < glm::dot(q - low, along);
+    });
+  }
   if (b < a) std::reverse(points.begin(), points.end());
 }
 
 std::uint32_t Surface::part_beyond(const CmPoint& a, const CmPoint& b) const {
-  const auto found = std::lower_bound(edges_.begin(), edges_.end(), std::pair{b, a},
-                                      [](const DirectedEdge& edge, const auto& key) {
-                                        return std::pair{edge.a, edge.b} < key;
-                                      });
-  return found != edges_.end() && found->a == b && found->b == a ? found->part : no_index;
+  return part_of_edge_.value_of(b, a);
 }
 
 /// The outer edges of the streets around a ground, raised and lowered where embankments would be too steep.
@@ -217,7 +210,8 @@ void Surface::collect_border(Ground& ground) const {
       low = std::max(low, q.height - rise);
       high = std::min(high, q.height + rise);
     }
-    limited.push_back(low == p.height && high == p.height ? p.height : (low + high) / 2);
+    const double here = low == p.height && high == p.height ? p.height : (low + high) / 2;
+    limited.push_back(std::max(here, tunnels_.cover(p.at)));
   }
   // A wall stands on one side of an edge only.
   for (std::size_t i = 0; i + 1 < border.size(); ++i) {
@@ -241,7 +235,7 @@ double Surface::ground_height(const Ground& ground, const dvec2& metres) const {
     low = std::max(low, p.height - rise);
     high = std::min(high, p.height + rise);
   }
-  return std::clamp(natural_height(metres), std::min(low, high), high);
+  return std::max(std::clamp(natural_height(metres), std::min(low, high), high), tunnels_.cover(metres));
 }
 
 void Surface::limit_natural_ground(const Job& job) {

@@ -5,8 +5,10 @@
 /// much for that, its border lies above or below the sidewalk, and a wall stands there.
 #include <span>
 
+#include "core/generators/city/edge_table.h"
 #include "core/generators/city/markings.h"
 #include "core/generators/city/plan.h"
+#include "core/generators/city/tunnels.h"
 
 namespace seedmesh::city {
 
@@ -30,6 +32,9 @@ class Surface {
   /// have some on a terrain only.
   void points_between(const CmPoint& a, const CmPoint& b, std::vector<glm::dvec2>& points) const;
 
+  /// Returns the tunnels; there are none on level ground.
+  const Tunnels& tunnels() const { return tunnels_; }
+
   /// Returns the strips of an edge's carriageway.
   const StreetStrips& strips(std::uint32_t edge) const { return strips_[edge]; }
 
@@ -40,10 +45,6 @@ class Surface {
   double floor_height(const Footing& footing, double& lowest) const;
 
  private:
-  struct DirectedEdge {
-    CmPoint a, b;
-    std::uint32_t part = 0;
-  };
   /// A point of the border of a ground, and its height.
   struct BorderPoint {
     glm::dvec2 at{0};
@@ -57,13 +58,11 @@ class Surface {
 
   /// The further vertices of an edge of a carriageway, from the lesser of its ends to the greater.
   struct DividedEdge {
-    CmPoint a, b;
     std::uint32_t first = 0, count = 0;  ///< into `edge_points_`
   };
 
   void divide_carriageways();
   void divide_edge(const CmPoint& from, const CmPoint& to, std::span<const glm::dvec2> points);
-  bool is_street_space(const Part& part) const;
   double street_height(const Part& part, const glm::dvec2& metres) const;
   void collect_border(Ground& ground) const;
   double ground_height(const Ground& ground, const glm::dvec2& metres) const;
@@ -73,9 +72,11 @@ class Surface {
 
   const CityPlan& plan_;
   double wall_height_;
-  std::vector<DirectedEdge> edges_;   ///< of all parts, sorted
+  EdgeTable part_of_edge_;  ///< the edges of all parts
+  Tunnels tunnels_;
   std::vector<StreetStrips> strips_;  ///< by edge
-  std::vector<DividedEdge> divided_;  ///< sorted
+  EdgeTable divided_at_;              ///< indices into `divided_`, from the lesser end to the greater
+  std::vector<DividedEdge> divided_;
   std::vector<glm::dvec2> edge_points_;
   std::vector<Ground> grounds_;
   std::vector<std::uint32_t> ground_of_;  ///< by part

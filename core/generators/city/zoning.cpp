@@ -7,6 +7,7 @@
 
 #include "core/base/math.h"
 #include "core/base/parallel.h"
+#include "core/generators/city/footprints.h"
 #include "generated/params/city.h"
 
 namespace seedmesh::city {
@@ -23,12 +24,13 @@ constexpr std::size_t lots_a_chunk = 256;
 /// A lot in the frame of its front: x along it, y into the lot, metres.
 struct FrontFrame {
   dvec2 origin{0}, along{1, 0}, inward{0, 1};
-  double length = 0, depth = 0;
+  double length = 0;
   std::vector<dvec2> corners;
 };
 
-FrontFrame frame_of(const Lot& lot) {
-  FrontFrame frame;
+/// Makes `frame`, whose memory is kept from one lot to the next, that of a lot.
+void set_frame(const Lot& lot, FrontFrame& frame) {
+  frame.corners.clear();
   frame.origin = in_metres(lot.front_start);
   const dvec2 front = in_metres(lot.front_end) - frame.origin;
   frame.length = std::sqrt(glm::dot(front, front));
@@ -37,9 +39,7 @@ FrontFrame frame_of(const Lot& lot) {
   for (const CmPoint& p : lot.corners) {
     const dvec2 off = in_metres(p) - frame.origin;
     frame.corners.emplace_back(glm::dot(off, frame.along), glm::dot(off, frame.inward));
-    frame.depth = std::max(frame.depth, frame.corners.back().y);
   }
-  return frame;
 }
 
 /// The widest free range of x about `middle` between two depths; empty if the middle is not free.
@@ -157,9 +157,10 @@ bool applies(const CityBuildingRule& rule, const Site& site) {
          holds(rule.lot, lot.area) && holds(rule.frontage, lot.frontage);
 }
 
-/// The rules that apply, in an order drawn by their weights (Efraimidis and Spirakis 2006).
-std::vector<std::uint32_t> order_of(const std::vector<CityBuildingRule>& rules, const Site& site, Rng rng) {
-  std::vector<std::pair<double, std::uint32_t>> drawn;
+/// Makes `drawn` the rules that apply, in an order drawn by their weights (Efraimidis and Spirakis 2006).
+void draw_order(const std::vector<CityBuildingRule>& rules, const Site& site, Rng rng,
+                std::vector<std::pair<double, std::uint32_t>>& drawn) {
+  drawn.clear();
   for (std::uint32_t i = 0; i < rules.size(); ++i) {
     if (!applies(rules[i], site)) continue;
     Rng draw = rng.at(i);
@@ -168,9 +169,6 @@ std::vector<std::uint32_t> order_of(const std::vector<CityBuildingRule>& rules, 
   std::sort(drawn.begin(), drawn.end(), [](const auto& a, const auto& b) {
     return a.first != b.first ? a.first > b.first : a.second < b.second;
   });
-  std::vector<std::uint32_t> order;
-  for (const auto& [draw, rule] : drawn) order.push_back(rule);
-  return order;
 }
 
 /// Whether an obstacle is at the middle, a corner or the middle of a side of a house.
@@ -185,6 +183,17 @@ bool is_on_obstacle(const House& house, const FieldMap& obstacles) {
     }
   }
   return false;
+}
+
+std::array<CmPoint, 4> corners_of(const House& house) {
+  const math::SinCos turn = math::sincos_degrees(house.turn);
+  std::array<CmPoint, 4> corners;
+  for (std::size_t k = 0; k < 4; ++k) {
+    const dvec2 p((k == 0 || k == 3 ? -0.5 : 0.5) * house.width, (k < 2 ? -0.5 : 0.5) * house.depth);
+    const dvec2 at = house.position + dvec2(p.x * turn.cos - p.y * turn.sin, p.x * turn.sin + p.y * turn.cos);
+    corners[k] = rounded_cm(at * 100.0);
+  }
+  return corners;
 }
 
 }  // namespace
@@ -204,22 +213,28 @@ std::array<int, 2> floors_of(std::string_view blueprint) {
   return {0, 0};
 }
 
-void place_houses(CityPlan& plan, const CityParams& params, const FieldMap* obstacles, Job& job) {
+void place_houses(CityPlan& plan, const CityParams& params, const FieldMap* obstacles,
+                  const FootprintIndex& footprints, Job& job) {
   const Rng rng = job.rng().at("houses");
   const std::vector<CityBuildingRule>& rules = rules_of(params);
   const dvec2 centre(params.streets.centre[0], params.streets.centre[1]);
   parallel_for(job, plan.lots.size(), lots_a_chunk, [&](std::size_t begin, std::size_t end, std::size_t) {
     job.check();
+    FrontFrame frame;
+    std::vector<std::pair<double, std::uint32_t>> order;
     for (std::size_t i = begin; i < end; ++i) {
       Lot& lot = plan.lots[i];
       if (lot.street == no_index) continue;
-      const FrontFrame frame = frame_of(lot);
+      set_frame(lot, frame);
       const dvec2 off = frame.origin - centre;
       const Rng key = rng.at(lot.key);
       const Site site{lot, plan.class_of(lot.street).name, std::sqrt(glm::dot(off, off))};
-      for (const std::uint32_t number : order_of(rules, site, key.at("rule"))) {
+      draw_order(rules, site, key.at("rule"), order);
+      for (const auto& [draw_of_rule, number] : order) {
         lot.house = fit(lot, frame, rules[number]);
         if (lot.house && obstacles && is_on_obstacle(*lot.house, *obstacles)) lot.house.reset();
+        if (lot.house && !footprints.is_empty() && footprints.meets(corners_of(*lot.house)))
+          lot.house.reset();
         if (!lot.house) continue;
         lot.house->rule = number;
         Rng draw = key.at("house");

@@ -14,11 +14,15 @@ struct CityParams;
 
 namespace seedmesh::city {
 
+class FootprintIndex;
+
 /// Returns the rules of the request, or the built-in ones.
 const std::vector<CityBuildingRule>& rules_of(const CityParams& params);
 
-/// Gives each lot a house where one of the rules applies and fits. `obstacles` may be null.
-void place_houses(CityPlan& plan, const CityParams& params, const FieldMap* obstacles, Job& job);
+/// Gives each lot a house where one of the rules applies and fits, beside obstacles and given footprints. `obstacles` may
+/// be null.
+void place_houses(CityPlan& plan, const CityParams& params, const FieldMap* obstacles,
+                  const FootprintIndex& footprints, Job& job);
 
 /// Returns the least and the greatest number of floors that a blueprint takes; 0, 0 for those without floors.
 std::array<int, 2> floors_of(std::string_view blueprint);

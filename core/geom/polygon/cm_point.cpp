@@ -26,11 +26,6 @@ CmPoint rounded_cm(const glm::dvec2& cm) {
   return {math::to_int32(std::floor(cm.x + 0.5)), math::to_int32(std::floor(cm.y + 0.5))};
 }
 
-double distance(const CmPoint& a, const CmPoint& b) {
-  const double x = static_cast<double>(b.x) - a.x, y = static_cast<double>(b.y) - a.y;
-  return std::sqrt(x * x + y * y);
-}
-
 double distance_to_segment(const glm::dvec2& p, const glm::dvec2& a, const glm::dvec2& b) {
   const glm::dvec2 along = b - a, from = p - a;
   const double length2 = along.x * along.x + along.y * along.y;

@@ -1,6 +1,7 @@
 #pragma once
 /// Points of the plane on whole centimetres, with exact predicates. Coordinates are at most 2^27 in magnitude
 /// (1,342 km), so that all products of differences fit into 64 bits.
+#include <cmath>
 #include <compare>
 #include <cstdint>
 #include <glm/vec2.hpp>
@@ -34,7 +35,10 @@ inline glm::dvec2 in_metres(const CmPoint& p) { return {p.x / 100.0, p.y / 100.0
 CmPoint rounded_cm(const glm::dvec2& cm);
 
 /// Returns the distance of two points in centimetres.
-double distance(const CmPoint& a, const CmPoint& b);
+inline double distance(const CmPoint& a, const CmPoint& b) {
+  const glm::dvec2 d = in_cm(b) - in_cm(a);
+  return std::sqrt(d.x * d.x + d.y * d.y);
+}
 
 /// Distance from `p` to the segment a b, in centimetres.
 double distance_to_segment(const glm::dvec2& p, const glm::dvec2& a, const glm::dvec2& b);

@@ -1,7 +1,6 @@
 #include "core/geom/polygon/delaunay.h"
 
 #include <algorithm>
-#include <array>
 
 namespace seedmesh {
 namespace {
@@ -29,6 +28,7 @@ class Triangulation {
       : points_(points), corners_(corners), job_(job) {
     link();
     flips_left_ = 64 * corners_.size() + 4096;
+    open_.reserve(2 * corners_.size());
     for (std::uint32_t half = 0; half < corners_.size(); ++half) open_.push_back(half);
     flip_open();
   }
@@ -67,21 +67,21 @@ class Triangulation {
 
   void link() {
     struct Side {
-      std::uint32_t low, high, half;
+      std::uint64_t ends;
+      std::uint32_t half;
     };
     std::vector<Side> sides;
     sides.reserve(corners_.size());
     for (std::uint32_t half = 0; half < corners_.size(); ++half) {
       const std::uint32_t a = from(half), b = from(after(half));
-      sides.push_back({std::min(a, b), std::max(a, b), half});
+      sides.push_back({std::uint64_t{std::min(a, b)} << 32U | std::max(a, b), half});
     }
     std::sort(sides.begin(), sides.end(), [](const Side& s, const Side& t) {
-      return std::array{s.low, s.high, s.half} < std::array{t.low, t.high, t.half};
+      return s.ends != t.ends ? s.ends < t.ends : s.half < t.half;
     });
     twin_.assign(corners_.size(), none);
     for (std::size_t i = 0; i + 1 < sides.size(); ++i) {
-      if (sides[i].low == sides[i + 1].low && sides[i].high == sides[i + 1].high)
-        join(sides[i].half, sides[i + 1].half);
+      if (sides[i].ends == sides[i + 1].ends) join(sides[i].half, sides[i + 1].half);
     }
   }
 
@@ -177,6 +177,7 @@ class Triangulation {
 
 void refine_triangles(std::vector<dvec2>& points, std::vector<std::uint32_t>& triangles,
                       std::span<const dvec2> inner, const Job* job) {
+  if (triangles.size() <= 3 && inner.empty()) return;
   Triangulation triangulation(points, triangles, job);
   for (const dvec2& p : inner) triangulation.insert(p);
 }

@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <map>
 #include <numeric>
+#include <optional>
 
 #include "core/geom/polygon/near_groups.h"
 #include "core/geom/polygon/wavefront.h"
@@ -234,11 +235,53 @@ bool has_edges(const Plan& plan) {
   return true;
 }
 
+/// The skeleton of a rectangle whose opposite edges have the same speed: a ridge, and a triangle or an upright end at
+/// each of its ends. Nothing for other plans, squares, and fronts that stop before they meet.
+std::optional<StraightSkeleton> skeleton_of_rectangle(const Plan& plan, const SkeletonOptions& options) {
+  constexpr double clearly_less = 1 - 1e-6;
+  if (plan.rings.size() != 1 || plan.rings[0].size() != 4) return std::nullopt;
+  const PlanRing& p = plan.rings[0];
+  const dvec2 u = p[1] - p[0], v = p[3] - p[0];
+  if (p[2] - p[1] != v || p[2] - p[3] != u || glm::dot(u, v) != 0 || !(cross(u, v) > 0)) return std::nullopt;
+  const auto speed = [&](std::size_t edge) { return options.speed.empty() ? 1.0 : options.speed[edge]; };
+  if (speed(0) != speed(2) || speed(1) != speed(3)) return std::nullopt;
+  // The times at which the edges 0 and 2, and 1 and 3, would meet.
+  const double across = glm::length(v) / (2 * speed(0)), along = glm::length(u) / (2 * speed(1));
+  const double time = std::min(across, along);
+  if (!(time < clearly_less * std::max(across, along)) || !(time < clearly_less * options.end_time))
+    return std::nullopt;
+  StraightSkeleton skeleton;
+  skeleton.is_sound = true;
+  for (const dvec2& corner : p) skeleton.node.emplace_back(corner, 0);
+  const auto add_face = [&skeleton](std::uint32_t edge, std::vector<std::uint32_t> outline) {
+    skeleton.faces.push_back({edge, false, std::move(outline), {}});
+  };
+  if (across < along) {
+    const dvec2 end = u * (speed(1) * time / glm::length(u));
+    skeleton.node.emplace_back(p[1] + v / 2.0 - end, time);
+    skeleton.node.emplace_back(p[0] + v / 2.0 + end, time);
+    add_face(0, {0, 1, 4, 5});
+    add_face(1, {1, 2, 4});
+    add_face(2, {2, 3, 5, 4});
+    add_face(3, {3, 0, 5});
+  } else {
+    const dvec2 end = v * (speed(0) * time / glm::length(v));
+    skeleton.node.emplace_back(p[0] + u / 2.0 + end, time);
+    skeleton.node.emplace_back(p[3] + u / 2.0 - end, time);
+    add_face(0, {0, 1, 4});
+    add_face(1, {1, 2, 5, 4});
+    add_face(2, {2, 3, 5});
+    add_face(3, {3, 0, 4, 5});
+  }
+  return skeleton;
+}
+
 }  // namespace
 
 StraightSkeleton straight_skeleton(const Plan& plan, const SkeletonOptions& options, const Job& job) {
   StraightSkeleton skeleton;
   if (!has_edges(plan)) return skeleton;
+  if (auto rectangle = skeleton_of_rectangle(plan, options)) return *std::move(rectangle);
   // Near the origin, where floating-point numbers are most precise.
   const dvec2 origin = plan.rings[0][0];
   Plan local = plan;

@@ -36,19 +36,24 @@ std::span<const std::uint32_t> Triangulator::run(std::span<const glm::dvec2> out
 std::span<const std::uint32_t> Triangulator::run(std::span<const glm::dvec2> points,
                                                  std::span<const std::uint32_t> ring_sizes,
                                                  double least_area) {
-  const std::vector<std::uint32_t> joined = join_holes(points, ring_sizes, job_);
-  outline_.clear();
-  for (const std::uint32_t point : joined) outline_.push_back(points[point]);
-  points_ = outline_;
   least_ = 2 * least_area;
   uses_all_points_ = true;
   slack_ = least_;
   triangles_.clear();
-  if (outline_.size() >= 3 && !fan()) {
+  std::vector<std::uint32_t> joined;
+  points_ = points;
+  if (ring_sizes.size() != 1) {
+    joined = join_holes(points, ring_sizes, job_);
+    outline_.clear();
+    for (const std::uint32_t point : joined) outline_.push_back(points[point]);
+    points_ = outline_;
+  }
+  if (points_.size() >= 3 && !fan()) {
     link();
     fill_grid();
     cut_ears();
   }
+  if (ring_sizes.size() == 1) return triangles_;
   for (std::uint32_t& corner : triangles_) corner = joined[corner];
   return triangles_;
 }
@@ -154,14 +159,14 @@ bool Triangulator::blocks(std::uint32_t other, const glm::dvec2& a, const glm::d
   count_look();
   if (is_cut_[other]) return false;
   const glm::dvec2 p = points_[other];
-  if (orientation(a, b, p) < 0 || orientation(b, c, p) < 0) return false;
+  // A corner at the same position is the outline touching itself, which blocks no ear; nor does a corner that
+  // has become convex. Exact tests of points on a line are slow, so they come last.
+  if (p == a || p == b || p == c) return false;
   const double size = corner(other);
+  if (size > least_ || orientation(a, b, p) < 0 || orientation(b, c, p) < 0) return false;
   // A corner that rounding alone keeps off the new edge blocks the ear too: no triangle could use it later.
   const bool is_on_edge = std::abs(size) <= slack_ && doubled_area(c, a, p) >= -slack_;
-  if (orientation(c, a, p) < 0 && !is_on_edge) return false;
-  // A corner at the same position is the outline touching itself, which blocks no ear; nor does a corner that
-  // has become convex.
-  return p != a && p != b && p != c && size <= least_;
+  return is_on_edge || orientation(c, a, p) >= 0;
 }
 
 bool Triangulator::is_ear(std::uint32_t i) const {

@@ -251,9 +251,24 @@ class CityParametersGivenWater(TypedDict):
     features: List["CityParametersGivenWaterFeaturesItem"]
 
 
+class _CityParametersGivenFootprintsFeaturesItemRequired(TypedDict):
+    type: Literal['Feature']
+    geometry: "Polygons"
+
+
+class CityParametersGivenFootprintsFeaturesItem(_CityParametersGivenFootprintsFeaturesItemRequired, total=False):
+    properties: Dict[str, Union[float, str, bool, List[float]]]
+
+
+class CityParametersGivenFootprints(TypedDict):
+    type: Literal['FeatureCollection']
+    features: List["CityParametersGivenFootprintsFeaturesItem"]
+
+
 class CityParametersGiven(TypedDict, total=False):
     streets: "CityParametersGivenStreets"
     water: "CityParametersGivenWater"
+    footprints: "CityParametersGivenFootprints"
 
 
 class CityParametersStreetsClassesHighway(TypedDict, total=False):
@@ -394,7 +409,7 @@ class CityParametersBuildings(TypedDict, total=False):
 
 
 class _CityParametersSurfacesItemRequired(TypedDict):
-    name: Literal['asphalt', 'junction', 'sidewalk', 'verge', 'park', 'square', 'lot', 'water', 'marking', 'wall', 'foundation', 'bridge']
+    name: Literal['asphalt', 'junction', 'sidewalk', 'verge', 'park', 'square', 'lot', 'water', 'marking', 'wall', 'foundation', 'bridge', 'tunnel']
 
 
 class CityParametersSurfacesItem(_CityParametersSurfacesItemRequired, total=False):

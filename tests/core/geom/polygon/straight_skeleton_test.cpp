@@ -2,9 +2,13 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <chrono>
 #include <ctime>
+#include <glm/geometric.hpp>
 
+#include "core/base/math.h"
+#include "core/base/rng.h"
 #include "tests/core/geom/plans.h"
 
 namespace seedmesh {
@@ -80,6 +84,33 @@ TEST(StraightSkeleton, AgreesWithKnownRoofs) {
     EXPECT_EQ(static_cast<std::size_t>(std::count(is_used.begin(), is_used.end(), true)),
               known.inner + known.ring.size())
         << known.name;
+  }
+}
+
+/// The same rectangle with a further corner in its first edge takes the general way.
+TEST(StraightSkeleton, OfARectangleIsThatOfTheGeneralMethod) {
+  const Job job = job_of();
+  Rng draw(11);
+  for (int n = 0; n < 20'000; ++n) {
+    const double width = draw.uniform(1, 40), depth = draw.uniform(1, 40), speed = draw.uniform(0.2, 3);
+    const math::SinCos turn = math::sincos_degrees(90.0 * draw.below(4));
+    const auto corner = [&](double x, double y) {
+      return glm::dvec2(x * turn.cos - y * turn.sin, x * turn.sin + y * turn.cos);
+    };
+    const glm::dvec2 a = corner(-width / 2, -depth / 2), b = corner(width / 2, -depth / 2),
+                     c = corner(width / 2, depth / 2), d = corner(-width / 2, depth / 2);
+    const double side = n % 3 == 0 ? 0 : speed, front = n % 3 == 1 ? 0 : speed * draw.uniform(0.5, 2);
+    if (side == 0 && front == 0) continue;
+    const std::vector<double> four = {front, side, front, side}, five = {front, front, side, front, side};
+    const StraightSkeleton fast = straight_skeleton(Plan{{{a, b, c, d}}}, {four}, job);
+    const StraightSkeleton full = straight_skeleton(Plan{{{a, (a + b) / 2.0, b, c, d}}}, {five}, job);
+    ASSERT_TRUE(fast.is_sound && full.is_sound) << width << " x " << depth;
+    EXPECT_NEAR(highest(fast), highest(full), 1e-9 * highest(full));
+    EXPECT_NEAR(volume(fast), volume(full), 1e-9 * volume(full));
+    for (const glm::dvec3& node : fast.node) {
+      const auto is_same = [&](const glm::dvec3& other) { return glm::length(node - other) < 1e-8; };
+      EXPECT_TRUE(std::any_of(full.node.begin(), full.node.end(), is_same)) << width << " x " << depth;
+    }
   }
 }
 
