@@ -39,6 +39,12 @@ void add_water(Glb& glb, const World& world, const TileFrame& frame, const Terra
   add_mesh(glb, "water", water.mesh, 0.15, frame, base, job);
 }
 
+/// Whether a piece of a road can have a part in a rectangle.
+bool is_near(const Rectangle& box, const RoadPoint& a, const RoadPoint& b, double width) {
+  return std::min(a.east, b.east) <= box.east + width && std::max(a.east, b.east) >= box.west - width &&
+         std::min(a.north, b.north) <= box.north + width && std::max(a.north, b.north) >= box.south - width;
+}
+
 /// Roads and houses of small tiles.
 void add_works(Glb& glb, const World& world, const TileFrame& frame, double base, Job& job,
                std::string_view folder) {
@@ -49,6 +55,7 @@ void add_works(Glb& glb, const World& world, const TileFrame& frame, double base
     const auto add = [&](const std::vector<RoadPoint>& points, double width, double above) {
       for (std::size_t k = 1; k < points.size(); ++k) {
         const RoadPoint &a = points[k - 1], &b = points[k];
+        if (!is_near(box, a, b, width)) continue;
         roads.add_ribbon({a.east, a.north, a.height + above}, width, {b.east, b.north, b.height + above},
                          width);
       }
