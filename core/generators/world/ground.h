@@ -89,6 +89,7 @@ class Ground {
     double west = 0, south = 0, cell = 1;
     int count = 0;
     std::vector<std::vector<std::uint32_t>> pieces;
+    std::size_t cell_of(double away) const;
   };
   void add_pieces(const Rectangle& box, double reach, const std::vector<RoadPoint>& points, double width);
   void sort_pieces(const Rectangle& box);

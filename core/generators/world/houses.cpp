@@ -99,6 +99,7 @@ class Planner {
     const double off = width / 2 + (shows_gable ? house.length : house.depth) + setback;
     house.x = shows_gable ? -y : x;
     house.y = shows_gable ? x : y;
+    house.front = shows_gable ? 0 : side < 0 ? 1 : -1;
     house.east = east - side * y * off;
     house.north = north + side * x * off;
     const double out = away(house);
@@ -182,13 +183,14 @@ class Planner {
       if (fit < least_fit) return;
     }
     style(house, rng);
-    const bool shows_gable = models_.empty() && depth > 1.25 * width;
     if (models_.empty()) {
-      house.length = shows_gable ? depth : width;
-      house.depth = shows_gable ? width : depth;
+      house.length = width;
+      house.depth = depth;
     }
-    house.x = shows_gable ? 0 - turn.sin : turn.cos;
-    house.y = shows_gable ? turn.cos : turn.sin;
+    house.is_on_lot = true;
+    house.front = -1;
+    house.x = turn.cos;
+    house.y = turn.sin;
     const double walls = 0.5 + town_storey * given.floors + rng.uniform(0, 0.5);
     const double roof = std::min(4.8, house.depth * rng.uniform(0.75, 1));
     if (!stand(house, walls, roof, tall, town_road)) return;

@@ -16,7 +16,6 @@ constexpr double step = 12;             ///< metres between positions that are t
 constexpr double least_shore = 24, above_sea = 3;
 constexpr double steepest = 0.22;      ///< of the ground between two positions
 constexpr double least_share = 0.4;    ///< of the mean square radius; below, the settlement is a village
-constexpr double lattice = 10;         ///< metres between samples of the ground for the plan
 constexpr double apart = 30;           ///< metres between given streets
 constexpr double pin_radius = 42;      ///< metres; earthworks keep away from samples of coarse tiles
 constexpr double green_radius = 25;    ///< metres, around the church
@@ -53,24 +52,29 @@ class TownPlanner {
         rng_(cell_key(world.key ^ 0x544F574EU, site.cell.x, site.cell.y)) {}
 
   Town make() {
-    Line outline = find_outline();
-    if (outline.empty()) return {};
+    const Result<city::CityPlan> planned = plan();
+    if (!planned) return {};
+    add_streets(*planned);
+    add_houses(*planned);
+    for (Point& p : outline_) p = {p[0] + site_.east, p[1] + site_.north};
+    town_.outline = std::move(outline_);
+    return std::move(town_);
+  }
+
+  Result<city::CityPlan> plan() {
+    outline_ = find_outline();
+    if (outline_.empty()) return Error{Code::invalid, {}};
     const std::vector<Line> roads = roads_in();
+    has_roads_ = !roads.empty();
     CityParams params = *world_.town_rules;
-    params.area.polygon = {outline};
+    params.area.polygon = {outline_};
     params.maps.density = "1-sqrt(x*x+y*y)/" + std::to_string(math::to_int32(std::ceil(1.2 * site_.radius)));
     place_church(roads);
-    params.maps.obstacles = obstacles();
-    if (!roads.empty()) params.given.given_streets = features_of(roads);
+    if (CityPolygons polygons = obstacles(); !polygons.coordinates.empty())
+      params.maps.obstacles = std::move(polygons);
+    if (has_roads_) params.given.given_streets = features_of(roads);
     Job own = job_.for_child(rng_.at("plan").key(), "/settlements/towns");
-    const Result<city::CityPlan> plan =
-        city::plan_on(params, std::make_shared<const city::Landform>(landform()), own);
-    if (!plan) return {};
-    add_streets(*plan, !roads.empty());
-    add_houses(*plan);
-    for (Point& p : outline) p = {p[0] + site_.east, p[1] + site_.north};
-    town_.outline = std::move(outline);
-    return std::move(town_);
+    return city::plan_on(params, std::make_shared<const city::Landform>(landform()), own);
   }
 
  private:
@@ -217,23 +221,23 @@ class TownPlanner {
   }
 
   city::Landform landform() const {
-    const int half = math::to_int32(std::ceil(around_ / lattice)), count = 2 * half + 1;
+    const int half = math::to_int32(std::ceil(around_ / town_lattice)), count = 2 * half + 1;
     terrain::Field field(job_, count, count, 0);
-    field.cell = lattice;
+    field.cell = town_lattice;
     for (int row = 0; row < count; ++row) {
       job_.check();
       for (int column = 0; column < count; ++column) {
-        field.at(column, row) = static_cast<float>(
-            ground_.height(site_.east + lattice * (column - half), site_.north + lattice * (half - row)));
+        field.at(column, row) = static_cast<float>(ground_.height(site_.east + town_lattice * (column - half),
+                                                                  site_.north + town_lattice * (half - row)));
       }
     }
     return city::Landform(std::move(field));
   }
 
-  void add_streets(const city::CityPlan& plan, bool has_given) {
+  void add_streets(const city::CityPlan& plan) {
     for (std::uint32_t edge = 0; edge < plan.graph.edges.size(); ++edge) {
       if (!plan.graph.is_street(edge)) continue;
-      if (has_given && plan.graph.edges[edge].tag == city::first_given) continue;  // a road of the world
+      if (has_roads_ && plan.graph.edges[edge].tag == city::first_given) continue;  // a road of the world
       Lane street;
       street.width = plan.class_of(edge).width;
       street.is_street = true;
@@ -291,6 +295,8 @@ class TownPlanner {
   Rectangle box_;
   Ground ground_;
   Rng rng_;
+  Line outline_;  ///< around the middle
+  bool has_roads_ = false;
   Town town_;
 };
 
@@ -300,6 +306,10 @@ std::uint64_t Town::bytes() const {
   std::uint64_t sum = sizeof(Town) + houses.size() * sizeof(TownHouse) + outline.size() * sizeof(Point);
   for (const Lane& street : streets) sum += sizeof(Lane) + street.points.size() * sizeof(RoadPoint);
   return sum;
+}
+
+Result<city::CityPlan> town_plan(const World& world, const Site& site, Job& job) {
+  return TownPlanner(world, site, job).plan();
 }
 
 std::shared_ptr<const Town> town_of(const World& world, const Site& site, Job& job) {

@@ -1,10 +1,15 @@
 #pragma once
 /// Towns: settlements whose streets, blocks and lots the generator city plans on the ground of the world. The plan
 /// depends on the settlement alone: on the ground and the roads within its radius.
+#include <array>
 #include <memory>
 #include <vector>
 
 #include "core/generators/world/lanes.h"
+
+namespace seedmesh::city {
+struct CityPlan;
+}
 
 namespace seedmesh::world {
 
@@ -29,6 +34,7 @@ struct Town {
 
 /// Metres around the middle of a town, beyond its radius, that its plan reads.
 constexpr double town_margin = 60;
+constexpr double town_lattice = 10;  ///< metres between samples of the ground for the plan
 
 /// The rules of towns: those of WorldTowns::city, or built-in ones.
 CityParams town_rules(const WorldParams& params);
@@ -36,6 +42,10 @@ CityParams town_rules(const WorldParams& params);
 void check_towns(const WorldParams& params, std::vector<Issue>& issues);
 /// Returns the number of floors of the highest houses of towns.
 int most_floors(const World& world);
+
+/// Returns the plan of a town, in metres around the middle of the settlement. Code::invalid without issues where the ground
+/// leaves too little area.
+Result<city::CityPlan> town_plan(const World& world, const Site& site, Job& job);
 
 /// The town of a settlement, from the store, or made in some tens of milliseconds. Empty where Site::is_town is false,
 /// and where the ground leaves too little area: such settlements are villages.

@@ -11,6 +11,7 @@ namespace {
 
 constexpr double works_reach = 56;  ///< metres from the middle of a road to untouched ground
 constexpr double least_bin = 32, most_bins = 64;
+constexpr double bin_margin = 48;  ///< metres around a rectangle in which plants compete
 
 /// How far from a position roads are read.
 double works_reach_of(const World& world) { return world.reach(Reads::works, works_reach + 16); }
@@ -106,37 +107,33 @@ void Ground::add_pieces(const Rectangle& box, double reach, const std::vector<Ro
 }
 
 void Ground::sort_pieces(const Rectangle& box) {
-  const double side = std::max(box.east - box.west, box.north - box.south);
-  bins_.west = box.west;
-  bins_.south = box.south;
+  const double side = std::max(box.east - box.west, box.north - box.south) + 2 * bin_margin;
+  bins_.west = box.west - bin_margin;
+  bins_.south = box.south - bin_margin;
   bins_.cell = std::max(least_bin, side / most_bins);
   bins_.count = math::to_int32(side / bins_.cell) + 1;
   const auto count = static_cast<std::size_t>(bins_.count);
   bins_.pieces.assign(count * count, {});
   for (std::uint32_t n = 0; n < pieces_.size(); ++n) {
     const RoadPiece& p = pieces_[n];
-    const auto cells = [&](double a, double b, double from) {
-      const auto cell = [&](double v) {
-        return math::to_int32(std::clamp(std::floor((v - from) / bins_.cell), 0.0, bins_.count - 1.0));
-      };
-      return std::pair{cell(std::min(a, b) - works_reach), cell(std::max(a, b) + works_reach)};
-    };
-    const auto [west, east] = cells(p.from_east, p.to_east, box.west);
-    const auto [south, north] = cells(p.from_north, p.to_north, box.south);
-    for (int row = south; row <= north; ++row) {
-      for (int column = west; column <= east; ++column)
-        bins_.pieces[static_cast<std::size_t>(row) * count + static_cast<std::size_t>(column)].push_back(n);
+    const std::size_t west = bins_.cell_of(std::min(p.from_east, p.to_east) - works_reach - bins_.west),
+                      east = bins_.cell_of(std::max(p.from_east, p.to_east) + works_reach - bins_.west),
+                      south = bins_.cell_of(std::min(p.from_north, p.to_north) - works_reach - bins_.south),
+                      north = bins_.cell_of(std::max(p.from_north, p.to_north) + works_reach - bins_.south);
+    for (std::size_t row = south; row <= north; ++row) {
+      for (std::size_t column = west; column <= east; ++column)
+        bins_.pieces[row * count + column].push_back(n);
     }
   }
 }
 
+std::size_t Ground::Bins::cell_of(double away) const {
+  return static_cast<std::size_t>(math::to_int32(std::clamp(std::floor(away / cell), 0.0, count - 1.0)));
+}
+
 const std::vector<std::uint32_t>& Ground::pieces_at(double east, double north) const {
-  const auto cell = [&](double v) {
-    return static_cast<std::size_t>(
-        math::to_int32(std::clamp(std::floor(v / bins_.cell), 0.0, bins_.count - 1.0)));
-  };
-  return bins_
-      .pieces[cell(north - bins_.south) * static_cast<std::size_t>(bins_.count) + cell(east - bins_.west)];
+  return bins_.pieces[bins_.cell_of(north - bins_.south) * static_cast<std::size_t>(bins_.count) +
+                      bins_.cell_of(east - bins_.west)];
 }
 
 Ground Ground::with_works(const World& world, const Rectangle& box, Job& job) {
