@@ -24,10 +24,10 @@ using Paint = std::array<std::uint8_t, 4>;
 /// How much of a house is drawn.
 enum class Finish { walls_and_roof, with_openings };
 
-constexpr double overhang = 0.45;       ///< metres that a roof reaches beyond the walls
-constexpr double proud = 0.05;          ///< metres that openings stand before a wall
-constexpr double storey = 2.7;          ///< metres between rows of windows
-constexpr double window_spacing = 3.3;  ///< metres
+constexpr double overhang = 0.45;  ///< metres that a roof reaches beyond the walls
+constexpr double proud = 0.05;     ///< metres that openings stand before a wall
+constexpr double storey = 2.7;     ///< metres between rows of windows
+constexpr double window_spacing = 3.3, lot_window_spacing = 3.8;                      ///< metres
 constexpr Paint glass{9, 12, 16, 255}, door{22, 13, 8, 255}, brick{86, 44, 34, 255};  ///< linear
 
 /// A colour made lighter, or darker, and warmer.
@@ -72,7 +72,7 @@ class HouseMesh {
     }
     if (h.kind == House::church) add_tower(h);
     if (finish != Finish::with_openings) return;
-    if (h.kind == House::dwelling)
+    if (h.kind == House::dwelling && (!h.is_on_lot || h.roof_light < 0.9F))
       add_block(h, {0.45, 0.18, 0.55 / h.length, 0.4 / h.depth}, h.eaves, h.ridge + 0.7, brick, brick);
     add_openings(h);
   }
@@ -130,7 +130,8 @@ class HouseMesh {
       const auto at = [&](double x, double z) { return position(h, (middle + x) / h.length, v, z); };
       add_face({at(-half, low), at(half, low), at(half, top), at(-half, top)}, across * side, paint);
     };
-    const int columns = std::max(1, static_cast<int>(2 * (h.length - 0.9) / window_spacing));
+    const int columns = std::max(
+        1, static_cast<int>(2 * (h.length - 0.9) / (h.is_on_lot ? lot_window_spacing : window_spacing)));
     const bool is_barn = h.kind == House::barn;
     for (const double side : {-1.0, 1.0}) {
       const double way = is_barn ? 1.5 : 0.5;
