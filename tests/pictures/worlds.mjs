@@ -25,7 +25,7 @@ export const views = {
   desert_plane: before('desert_oases.4', [-8384, 4928], 110, 800, 240, -12),
   boreal_hill: before('boreal_plain.2', [-7872, -4928], 70, 520, 95, -8),
   boreal_plane: before('boreal_plain.2', [-7872, -4928], 160, 2400, 800, -16),
-  town_ground: before('temperate_land.7', [9152, 5184], 300, 130, 3, 0),
+  town_ground: ['temperate_land.7', 9144, 5136, 2.2, 337, 1],
   town_hill: before('temperate_land.7', [-2240, -2624], 40, 520, 110, -10),
   town_plane: before('temperate_land.7', [9152, 5184], 250, 1100, 500, -22),
   town_coast: before('archipelago.5', [-1472, -7872], 200, 650, 160, -11),

@@ -31,7 +31,8 @@ struct GroundSample {
   double works = 0;       ///< metres that roads are above or below the ground
   int field = -1;         ///< of WorldFields::colors; -1 outside of fields
   bool is_hedge = false;  ///< at the border of a field
-  double settled = 0;     ///< 1 in a village, 0 beyond its cleared land
+  double settled = 0;     ///< 1 in a settlement, 0 beyond its cleared land
+  bool is_town = false;   ///< within the radius of a town
 };
 
 struct RoadPoint;

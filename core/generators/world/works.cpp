@@ -179,6 +179,7 @@ void Ground::add_field(GroundSample& sample, double east, double north) const {
     const double most = cleared_reach * farm.radius;
     if (square >= most * most) continue;
     sample.settled = std::max(sample.settled, 1 - smooth_step(std::sqrt(square), 0.4 * most, most));
+    sample.is_town |= farm.is_town && square < farm.radius * farm.radius;
   }
   const Slope& h = sample.land.height;
   if (h.east * h.east + h.north * h.north > steepest_field * steepest_field || sample.shore < 15 ||
@@ -186,11 +187,7 @@ void Ground::add_field(GroundSample& sample, double east, double north) const {
     return;
   }
   if (world_->params.relief.sea && sample.height < world_->params.relief.sea_level + 2.5) return;
-  if (fields.share <= 0 || fields.reach <= 0) return;
-  for (const Farmland& farm : farmland_) {
-    const double x = east - farm.east, y = north - farm.north;
-    if (farm.is_town && x * x + y * y < farm.radius * farm.radius) return;
-  }
+  if (fields.share <= 0 || fields.reach <= 0 || sample.is_town) return;
   for (const Farmland& farm : farmland_) {
     const double most = fields.reach * farm.radius;
     const double x = east - farm.east, y = north - farm.north, far = most + 2 * fields.size;
