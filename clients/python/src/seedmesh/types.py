@@ -1358,6 +1358,12 @@ class WorldParametersColors(TypedDict, total=False):
     water: str
 
 
+class WorldParametersSettlementsTowns(TypedDict, total=False):
+    share: float
+    radius: float
+    city: "Child"
+
+
 class _WorldParametersSettlementsHousesItemRequired(TypedDict):
     model: "Child"
 
@@ -1371,6 +1377,7 @@ class WorldParametersSettlements(TypedDict, total=False):
     radius: float
     wall: str
     roof: str
+    towns: "WorldParametersSettlementsTowns"
     houses: List["WorldParametersSettlementsHousesItem"]
 
 
