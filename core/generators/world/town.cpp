@@ -73,7 +73,8 @@ class TownPlanner {
     if (CityPolygons polygons = obstacles(); !polygons.coordinates.empty())
       params.maps.obstacles = std::move(polygons);
     if (has_roads_) params.given.given_streets = features_of(roads);
-    Job own = job_.for_child(rng_.at("plan").key(), "/settlements/towns");
+    // the plan is kept for other requests, so it spends nothing of this one
+    Job own = job_.for_estimate().for_child(rng_.at("plan").key(), "/settlements/towns");
     return city::plan_on(params, std::make_shared<const city::Landform>(landform()), own);
   }
 
