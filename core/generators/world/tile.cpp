@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 
 #include "core/generators/world/canopy.h"
 #include "core/generators/world/flat_mesh.h"
@@ -45,6 +46,21 @@ bool is_near(const Rectangle& box, const RoadPoint& a, const RoadPoint& b, doubl
          std::min(a.north, b.north) <= box.north + width && std::max(a.north, b.north) >= box.south - width;
 }
 
+/// The points of a street that passes its ends by half its width, which closes the corners between streets.
+std::vector<RoadPoint> extended(const Lane& street) {
+  std::vector<RoadPoint> points = street.points;
+  const auto move = [&street](RoadPoint& end, const RoadPoint& before, double share) {
+    const double x = end.east - before.east, y = end.north - before.north;
+    const double by = share * street.width / std::max(0.01, std::sqrt(x * x + y * y));
+    end.east += by * x;
+    end.north += by * y;
+  };
+  constexpr double start_share = 0.5, end_share = 0.3;  ///< ribbons pass their end by a fifth
+  move(points.front(), street.points[1], start_share);
+  move(points.back(), street.points[points.size() - 2], end_share);
+  return points;
+}
+
 /// Roads and houses of small tiles.
 void add_works(Glb& glb, const World& world, const TileFrame& frame, double base, Job& job,
                std::string_view folder) {
@@ -63,7 +79,8 @@ void add_works(Glb& glb, const World& world, const TileFrame& frame, double base
     for (const auto& road : roads_near(world, box, world.params.roads.width, job))
       add(road->points, road->width, lift);
     for (const auto& lanes : lanes_near(world, box, world.params.roads.width, job)) {
-      for (const Lane& lane : lanes->lanes) add(lane.points, lane.width, 0.9 * lift);
+      for (const Lane& lane : lanes->lanes)
+        add(lane.is_street ? extended(lane) : lane.points, lane.width, 0.9 * lift);
     }
     add_mesh(glb, "roads", roads.take(), 0.95, frame, base, job);
   }
