@@ -2232,6 +2232,16 @@ export interface WorldParametersColors {
   water?: string;
 }
 
+/** Settlements that the generator city plans: streets, blocks and lots on the ground of the world. */
+export interface WorldParametersSettlementsTowns {
+  /** The share of settlements that are towns. Beside rivers and coasts there are more, elsewhere fewer. */
+  share?: number;
+  /** The radius of the widest town. */
+  radius?: number;
+  /** A request of the generator city. Its streets, lots and building rules are those of towns. The world gives area, ground, density and given streets, and draws the houses. */
+  city?: Child;
+}
+
 /** House */
 export interface WorldParametersSettlementsHousesItem {
   /** A request of the generator building. */
@@ -2250,6 +2260,8 @@ export interface WorldParametersSettlements {
   wall?: string;
   /** The colour of roofs. */
   roof?: string;
+  /** Settlements that the generator city plans: streets, blocks and lots on the ground of the world. */
+  towns?: WorldParametersSettlementsTowns;
   /** Houses of villages by requests of the generator building. Without one, houses have walls and a gable roof. */
   houses?: WorldParametersSettlementsHousesItem[];
 }

@@ -219,7 +219,9 @@ std::vector<BlockOutline> lay_out(CityPlan& plan, const GrowthInput& input, Job&
   }
 }
 
-Result<CityPlan> plan_of(const CityParams& params, Job& job) {
+Result<CityPlan> plan_of(const CityParams& params, Job& job) { return plan_on(params, nullptr, job); }
+
+Result<CityPlan> plan_on(const CityParams& params, std::shared_ptr<const Landform> given_ground, Job& job) {
   CityPlan plan;
   plan.area = area_rings(params);
   plan.classes = classes_of(params);
@@ -233,9 +235,12 @@ Result<CityPlan> plan_of(const CityParams& params, Job& job) {
   const FootprintIndex footprints(given_buildings);
   const std::vector<GivenLine> lines = given_lines(params, plan.classes, issues);
   if (!issues.empty() || !maps.density) return Error{Code::invalid, std::move(issues)};
-  Result<Landform> ground = Landform::make(params, job);
-  if (!ground) return std::move(ground).error();
-  plan.landform = std::make_shared<const Landform>(std::move(*ground));
+  plan.landform = std::move(given_ground);
+  if (!plan.landform) {
+    Result<Landform> ground = Landform::make(params, job);
+    if (!ground) return std::move(ground).error();
+    plan.landform = std::make_shared<const Landform>(std::move(*ground));
+  }
   plan.region = region_of_request(params, maps, plan, job, issues);
   const Route given = given_route_of(plan.region, lines);
   job.progress("streets", 0);

@@ -26,6 +26,9 @@ std::vector<Issue> check(const CityParams& params, const CheckContext& context);
 /// Returns the plan as data; for its output forms see plan_json() and city_model(). Errors: those of check().
 Result<CityPlan> plan_of(const CityParams& params, Job& job);
 
+/// The same on ground that another generator made, in place of params.terrain and params.maps.height.
+Result<CityPlan> plan_on(const CityParams& params, std::shared_ptr<const Landform> ground, Job& job);
+
 /// Generates the model of a city. Errors: those of check(), and limits.
 Result<Model> generate(const CityParams& params, const GenerateContext& context);
 

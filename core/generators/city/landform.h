@@ -2,6 +2,7 @@
 /// The natural ground of a city: the height field of a terrain, an expression, or level ground at height 0. Positions
 /// are metres east and north.
 #include <optional>
+#include <utility>
 
 #include "core/base/job.h"
 #include "core/base/result.h"
@@ -23,6 +24,9 @@ class Landform {
   /// Returns the ground of a request. Issues: those of the terrain, below /terrain/parameters, and of the expression at
   /// /maps/height.
   static Result<Landform> make(const CityParams& params, Job& job);
+
+  /// Ground that another generator made, with its centre at the origin. It has no margin.
+  explicit Landform(terrain::Field field) : field_(std::move(field)) {}
 
   bool is_level() const { return !heights_ && field_.width == 0; }
 

@@ -212,8 +212,7 @@ class AreaFinder {
     const bool knows_sites = side_ <= widest_known_rivers;
     const HouseExtent houses = house_extent(world_);
     if (knows_sites) {
-      for (const auto& site :
-           sites_near(world_, box(), farm_reach * world_.params.settlements.radius, job_)) {
+      for (const auto& site : sites_near(world_, box(), farm_reach * greatest_radius(world_), job_)) {
         const double reach = farm_reach * site->radius;
         for_areas({site->east, site->north, site->east, site->north}, reach, [&](Area& area) {
           area.lowest = std::min(area.lowest, area.low - most_cellar);

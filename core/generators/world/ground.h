@@ -1,7 +1,9 @@
 #pragma once
 /// The ground around some positions: land, cut by rivers and lakes. A Ground holds the water within reach of a
 /// rectangle; the height of a position is the same from each Ground whose rectangle contains it.
+#include <cstdint>
 #include <limits>
+#include <vector>
 
 #include "core/generators/world/land.h"
 #include "core/generators/world/region.h"
@@ -29,8 +31,11 @@ struct GroundSample {
   double works = 0;       ///< metres that roads are above or below the ground
   int field = -1;         ///< of WorldFields::colors; -1 outside of fields
   bool is_hedge = false;  ///< at the border of a field
-  double settled = 0;     ///< 1 in a village, 0 beyond its cleared land
+  double settled = 0;     ///< 1 in a settlement, 0 beyond its cleared land
+  bool is_town = false;   ///< within the radius of a town
 };
+
+struct RoadPoint;
 
 /// A piece of a road.
 struct RoadPiece {
@@ -45,9 +50,10 @@ struct HouseMark {
   double east = 0, north = 0, radius = 0;
 };
 
-/// A village with fields around it.
+/// A settlement with fields around it.
 struct Farmland {
   double east = 0, north = 0, radius = 0;
+  bool is_town = false;  ///< no fields within its radius
 };
 
 /// A piece of a river.
@@ -67,6 +73,8 @@ class Ground {
   Ground(const World& world, const Rectangle& rectangle, Job& job, double reach);
   /// With fields and the earthworks of roads, which reach 56 m.
   static Ground with_roads(const World& world, const Rectangle& rectangle, Job& job);
+  /// With the earthworks of roads between settlements alone.
+  static Ground with_main_roads(const World& world, const Rectangle& rectangle, Job& job);
   /// With roads and houses.
   static Ground with_works(const World& world, const Rectangle& rectangle, Job& job);
   GroundSample at(double east, double north) const;
@@ -77,6 +85,16 @@ class Ground {
   const std::vector<RoadPiece>& road_pieces() const { return pieces_; }
 
  private:
+  /// The pieces that reach a square of the rectangle, by number.
+  struct Bins {
+    double west = 0, south = 0, cell = 1;
+    int count = 0;
+    std::vector<std::vector<std::uint32_t>> pieces;
+    std::size_t cell_of(double away) const;
+  };
+  void add_pieces(const Rectangle& box, double reach, const std::vector<RoadPoint>& points, double width);
+  void sort_pieces(const Rectangle& box);
+  const std::vector<std::uint32_t>& pieces_at(double east, double north) const;
   void add_works(GroundSample& sample, double east, double north) const;
   void add_field(GroundSample& sample, double east, double north) const;
 
@@ -84,6 +102,7 @@ class Ground {
   std::vector<Reach> reaches_;
   std::vector<Lake> lakes_;
   std::vector<RoadPiece> pieces_;
+  Bins bins_;
   std::vector<HouseMark> houses_;
   std::vector<Farmland> farmland_;
 };

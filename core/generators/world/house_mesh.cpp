@@ -15,6 +15,7 @@ namespace {
 constexpr double widest_openings = 64, widest_models = 128, widest_roofs = 512, widest_boxes = 2048,
                  widest_prisms = 8192;  ///< metres
 constexpr double prisms_along = 64;     ///< of cells of a tile, each with one prism
+constexpr double widest_town_roofs = 256, widest_town_boxes = 512, narrow_prism = 40, wide_prism = 64;
 
 using Point = glm::dvec3;
 
@@ -23,10 +24,10 @@ using Paint = std::array<std::uint8_t, 4>;
 /// How much of a house is drawn.
 enum class Finish { walls_and_roof, with_openings };
 
-constexpr double overhang = 0.45;       ///< metres that a roof reaches beyond the walls
-constexpr double proud = 0.05;          ///< metres that openings stand before a wall
-constexpr double storey = 2.7;          ///< metres between rows of windows
-constexpr double window_spacing = 3.3;  ///< metres
+constexpr double overhang = 0.45;  ///< metres that a roof reaches beyond the walls
+constexpr double proud = 0.05;     ///< metres that openings stand before a wall
+constexpr double storey = 2.7;     ///< metres between rows of windows
+constexpr double window_spacing = 3.3, lot_window_spacing = 3.8;                      ///< metres
 constexpr Paint glass{9, 12, 16, 255}, door{22, 13, 8, 255}, brick{86, 44, 34, 255};  ///< linear
 
 /// A colour made lighter, or darker, and warmer.
@@ -71,7 +72,7 @@ class HouseMesh {
     }
     if (h.kind == House::church) add_tower(h);
     if (finish != Finish::with_openings) return;
-    if (h.kind == House::dwelling)
+    if (h.kind == House::dwelling && (!h.is_on_lot || h.roof_light < 0.9F))
       add_block(h, {0.45, 0.18, 0.55 / h.length, 0.4 / h.depth}, h.eaves, h.ridge + 0.7, brick, brick);
     add_openings(h);
   }
@@ -129,16 +130,20 @@ class HouseMesh {
       const auto at = [&](double x, double z) { return position(h, (middle + x) / h.length, v, z); };
       add_face({at(-half, low), at(half, low), at(half, top), at(-half, top)}, across * side, paint);
     };
-    const int columns = std::max(1, static_cast<int>(2 * (h.length - 0.9) / window_spacing));
+    const int columns = std::max(
+        1, static_cast<int>(2 * (h.length - 0.9) / (h.is_on_lot ? lot_window_spacing : window_spacing)));
     const bool is_barn = h.kind == House::barn;
     for (const double side : {-1.0, 1.0}) {
       const double way = is_barn ? 1.5 : 0.5;
-      add_opening(side, 0, way, foot, std::min(h.eaves - 0.3, foot + (is_barn ? 2.9 : 2.1)), door);
+      const bool is_rear = side * h.front < 0;  // with fewer windows, which few see
+      if (!is_rear)
+        add_opening(side, 0, way, foot, std::min(h.eaves - 0.3, foot + (is_barn ? 2.9 : 2.1)), door);
       if (is_barn) continue;
       for (double sill = foot + 0.9; sill + 1.3 < h.eaves; sill += storey) {
         for (int k = 0; k < columns; ++k) {
           const double middle = (k + 0.5 - 0.5 * columns) * window_spacing;
-          if (sill < foot + 1 && std::abs(middle) < 1.1) continue;
+          if (sill < foot + 1 && std::abs(middle) < 1.1 && !is_rear) continue;
+          if (is_rear && k % 2 != 0) continue;
           add_opening(side, middle, 0.45, sill,
                       std::min(sill + (h.kind == House::church ? 3.2 : 1.25), h.eaves - 0.3), glass);
         }
@@ -182,6 +187,11 @@ class HouseMesh {
 std::vector<House> houses_of(const World& world, const TileFrame& frame, Job& job) {
   const Rectangle box{frame.west, frame.south, frame.west + frame.side, frame.south + frame.side};
   return houses_near(world, box, 0, job);
+}
+
+std::vector<House> on_lots(std::vector<House> houses) {
+  std::erase_if(houses, [](const House& house) { return !house.is_on_lot; });
+  return houses;
 }
 
 /// One box around the houses of a cell, as high as their mean.
@@ -249,8 +259,11 @@ void add_houses(Glb& glb, const World& world, const TileFrame& frame, double bas
   if (frame.side > widest_boxes) {
     add_prisms(mesh, houses, frame.side / prisms_along);
   } else {
+    if (frame.side > widest_town_boxes)
+      add_prisms(mesh, on_lots(houses), frame.side > 2 * widest_town_boxes ? wide_prism : narrow_prism);
     for (const House& house : houses) {
-      if (frame.side > widest_roofs) {
+      if (house.is_on_lot && frame.side > widest_town_boxes) continue;
+      if (frame.side > (house.is_on_lot ? widest_town_roofs : widest_roofs)) {
         mesh.add_box(house, (house.eaves + house.ridge) / 2, mesh.roof_of(house));
       } else if (frame.side > widest_models || house.model < 0) {
         mesh.add(house, frame.side <= widest_openings ? Finish::with_openings : Finish::walls_and_roof);

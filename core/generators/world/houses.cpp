@@ -5,6 +5,7 @@
 
 #include "core/base/math.h"
 #include "core/generators/world/lanes.h"
+#include "core/generators/world/town.h"
 
 namespace seedmesh::world {
 namespace {
@@ -12,10 +13,14 @@ namespace {
 constexpr double lot = 17;                             ///< metres along a road for a house
 constexpr double plain_reach = 14, plain_height = 23;  ///< of houses without a model
 constexpr double model_reach = 20, model_height = 30;
-constexpr double most_uneven = 3;    ///< metres that the ground below a house may rise
-constexpr double least_gap = 1.8;    ///< metres between houses
-constexpr double least_town = 150;   ///< metres; the radius of settlements with higher houses in their middle
-constexpr double storey = 2.7;       ///< metres
+constexpr double most_uneven = 3;   ///< metres that the ground below a house may rise
+constexpr double least_gap = 1.8;   ///< metres between houses
+constexpr double least_town = 150;  ///< metres; the radius of settlements with higher houses in their middle
+constexpr double storey = 2.7;      ///< metres
+constexpr double town_storey = 2.9;
+constexpr double widest_town_house = 11.5, deepest_town_house = 7.5;  ///< half; without a model
+constexpr double least_fit = 0.55;                                    ///< of a model on its lot
+constexpr double town_road = 0.3;                                     ///< metres from a house to a street
 constexpr double least_church = 90;  ///< metres; the radius of settlements with a church
 
 /// Places houses one after the other, each apart from those before.
@@ -24,24 +29,30 @@ class Planner {
   Planner(const World& world, const Site& site, Job& job)
       : world_(world),
         site_(site),
+        job_(job),
         reach_(farm_reach * site.radius + 30),
         box_{site.east - reach_, site.north - reach_, site.east + reach_, site.north + reach_},
         ground_(Ground::with_roads(world, box_, job)),
         roads_(roads_near(world, box_, 0, job)),
-        lanes_(lanes_of(world, site, job)) {
+        lanes_(lanes_of(world, site, job)),
+        town_(town_of(world, site, job)) {
     for (std::size_t k = 0; world.make_asset && k < world.params.settlements.houses.size(); ++k)
       models_.push_back(house_asset(world, static_cast<int>(k), job));
   }
 
   Plan make() {
     const Rng rng(cell_key(world_.key ^ 0x484F555345U, site_.cell.x, site_.cell.y));
-    if (models_.empty() && site_.radius >= least_church) add_church(rng.at("church"));
-    for (const auto& road : roads_) add_rows(road->points, road->width, rng.at(road->id));
+    if (town_->is_built()) {
+      add_town();
+    } else {
+      if (models_.empty() && site_.radius >= least_church) add_church(rng.at("church"));
+      for (const auto& road : roads_) add_rows(road->points, road->width, rng.at(road->id));
+    }
     for (std::size_t k = 0; k < lanes_->lanes.size(); ++k) {
       const Lane& lane = lanes_->lanes[k];
       if (lane.leads_to_farm) {
         add_farm(lane, rng.at("farm").at(k));
-      } else {
+      } else if (!lane.is_street) {
         add_rows(lane.points, lane.width, rng.at("lane").at(k));
       }
     }
@@ -88,6 +99,7 @@ class Planner {
     const double off = width / 2 + (shows_gable ? house.length : house.depth) + setback;
     house.x = shows_gable ? -y : x;
     house.y = shows_gable ? x : y;
+    house.front = shows_gable ? 0 : side < 0 ? 1 : -1;
     house.east = east - side * y * off;
     house.north = north + side * x * off;
     const double out = away(house);
@@ -138,18 +150,70 @@ class Planner {
     put(24, rng.uniform(-3, 3), shed, true, rng.uniform(2.4, 3.2));
   }
 
+  /// The houses of the lots of a town, and its church.
+  void add_town() {
+    if (models_.empty() && town_->has_church) {
+      House church = church_towards(math::sincos_degrees(90 * Rng(town_->houses.size()).unit()));
+      church.east = town_->church_east;
+      church.north = town_->church_north;
+      place(church, 7.5, 5.6, 0);
+    }
+    for (const TownHouse& lot_house : town_->houses) {
+      job_.check();
+      add_town_house(lot_house);
+    }
+  }
+
+  void add_town_house(const TownHouse& given) {
+    Rng rng(given.key);
+    const math::SinCos turn = math::sincos_degrees(given.turn);
+    const double width = std::min(given.width / 2, widest_town_house),
+                 depth = std::min(given.depth / 2, deepest_town_house);
+    House house;
+    house.east = given.east;
+    house.north = given.north;
+    double tall = 0;
+    if (!models_.empty()) {
+      tall = choose_model(house, rng);
+      const double fit = std::min({1.0, width / house.length, depth / house.depth});
+      house.scale *= fit;
+      house.length *= fit;
+      house.depth *= fit;
+      tall *= fit;
+      if (fit < least_fit) return;
+    }
+    style(house, rng);
+    if (models_.empty()) {
+      house.length = width;
+      house.depth = depth;
+    }
+    house.is_on_lot = true;
+    house.front = -1;
+    house.x = turn.cos;
+    house.y = turn.sin;
+    const double walls = 0.5 + town_storey * given.floors + rng.uniform(0, 0.5);
+    const double roof = std::min(4.8, house.depth * rng.uniform(0.75, 1));
+    if (!stand(house, walls, roof, tall, town_road)) return;
+    turn_to(plan_.houses.back(), turn.sin, 0 - turn.cos);
+  }
+
+  static House church_towards(const math::SinCos& turn) {
+    House house;
+    house.kind = House::church;
+    house.length = 9.5;
+    house.depth = 4.6;
+    house.x = turn.cos;
+    house.y = turn.sin;
+    house.wall_light = 1.1F;
+    house.roof_light = 0.6F;
+    return house;
+  }
+
   /// Beside the middle of the settlement.
   void add_church(Rng rng) {
     const math::SinCos turn = math::sincos_degrees(360 * rng.unit());
     for (int k = 0; k < 8; ++k) {
-      House house;
-      house.kind = House::church;
-      house.length = 9.5;
-      house.depth = 4.6;
-      house.x = turn.cos;
-      house.y = turn.sin;
-      house.wall_light = 1.1F;
-      house.roof_light = 0.6F;
+      House house = church_towards(turn);
       const math::SinCos way = math::sincos_degrees(45.0 * k);
       house.east = site_.east + 26 * way.cos;
       house.north = site_.north + 26 * way.sin;
@@ -165,11 +229,15 @@ class Planner {
         static_cast<float>(house.kind == House::barn ? rng.uniform(0.1, 0.25) : rng.uniform(-0.1, 0.12));
   }
 
-  /// Sets the heights of a house and adds it where it can stand. `tall`: the height of its model, or 0.
-  bool place(House house, double walls, double roof, double tall) {
-    if (!is_apart(house)) return false;
+  /// Adds a house where it can stand apart from others. `tall`: the height of its model, or 0.
+  bool place(const House& house, double walls, double roof, double tall) {
+    return is_apart(house) && stand(house, walls, roof, tall, 0.7);
+  }
+
+  /// Sets the heights of a house and adds it where the ground allows it, `from_road` metres away from roads.
+  bool stand(House house, double walls, double roof, double tall, double from_road) {
     const GroundSample middle = ground_.at(house.east, house.north);
-    if (middle.shore < 18 || middle.road < 1) return false;
+    if (middle.shore < 18 || middle.road < from_road + 0.3) return false;
     if (world_.params.relief.sea && middle.height < world_.params.relief.sea_level + 2) return false;
     double low = middle.height, high = low;
     for (const double u : {-1.0, -0.5, 0.0, 0.5, 1.0}) {
@@ -177,7 +245,7 @@ class Planner {
         const double px = house.east + u * house.length * house.x - v * house.depth * house.y;
         const double py = house.north + u * house.length * house.y + v * house.depth * house.x;
         const GroundSample corner = ground_.at(px, py);
-        if (corner.road < 0.7) return false;
+        if (corner.road < from_road) return false;
         low = std::min(low, corner.height);
         high = std::max(high, corner.height);
       }
@@ -237,11 +305,13 @@ class Planner {
 
   const World& world_;
   const Site& site_;
+  Job& job_;
   double reach_;
   Rectangle box_;
   Ground ground_;
   std::vector<std::shared_ptr<const Road>> roads_;
   std::shared_ptr<const Lanes> lanes_;
+  std::shared_ptr<const Town> town_;
   std::vector<std::shared_ptr<const Asset>> models_;
   Plan plan_;
 };
@@ -251,7 +321,11 @@ class Planner {
 HouseExtent house_extent(const World& world) {
   if (world.params.settlements.density <= 0) return {};
   const bool has_models = world.make_asset && !world.params.settlements.houses.empty();
-  return has_models ? HouseExtent{model_reach, model_height} : HouseExtent{plain_reach, plain_height};
+  HouseExtent extent =
+      has_models ? HouseExtent{model_reach, model_height} : HouseExtent{plain_reach, plain_height};
+  if (!has_models && world.params.settlements.towns.share > 0)
+    extent.up = std::max(extent.up, most_uneven + 1 + town_storey * most_floors(world) + 6);
+  return extent;
 }
 
 std::shared_ptr<const Asset> house_asset(const World& world, int number, Job& job) {
@@ -272,7 +346,7 @@ std::shared_ptr<const Plan> plan_of(const World& world, const Site& site, Job& j
 
 std::vector<House> houses_near(const World& world, const Rectangle& box, double reach, Job& job) {
   std::vector<House> found;
-  const double around = reach + world.reach(Reads::houses, farm_reach * world.params.settlements.radius + 30);
+  const double around = reach + world.reach(Reads::houses, farm_reach * greatest_radius(world) + 30);
   for (const auto& site : sites_near(world, box, around, job)) {
     for (const House& house : plan_of(world, *site, job)->houses) {
       if (house.east >= box.west - reach && house.east < box.east + reach &&

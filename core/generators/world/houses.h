@@ -20,6 +20,8 @@ struct House {
   double low = 0, eaves = 0, ridge = 0;  ///< heights; `low` is below the ground
   double top = 0;                        ///< height of the highest chimney or tower
   enum Kind : std::uint8_t { dwelling, barn, church } kind = dwelling;
+  bool is_on_lot = false;  ///< of a town
+  int front = 0;           ///< side of its front, seen along the ridge: -1 right, 1 left, 0 no side
   float wall_light = 1, roof_light = 1,
         warmth = 0;                 ///< of the colours; warmth shifts the walls to yellow or white
   int model = -1;                   ///< of WorldSettlements::houses; -1: walls and a gable roof
@@ -52,6 +54,7 @@ std::vector<House> houses_near(const World& world, const Rectangle& box, double 
 
 /// The houses whose middle is in the tile. Tiles of up to 128 m have the models of houses, or walls and a gable roof;
 /// up to 512 m all have walls and roof, up to 2 km boxes, up to 8 km one prism for the houses of each 64 m or 128 m.
+/// Towns have boxes in tiles of 512 m, and prisms for the houses of 40 m and 64 m in those of 1 km and 2 km.
 void add_houses(Glb& glb, const World& world, const TileFrame& frame, double base, Job& job,
                 std::string_view folder);
 

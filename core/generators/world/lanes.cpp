@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/base/math.h"
+#include "core/generators/world/town.h"
 
 namespace seedmesh::world {
 namespace {
@@ -30,10 +31,12 @@ class LaneFinder {
         box_{site.east - reach_, site.north - reach_, site.east + reach_, site.north + reach_},
         ground_(world, box_, job),
         roads_(roads_near(world, box_, 0, job)),
+        town_(town_of(world, site, job)),
         rng_(cell_key(world.key ^ 0x4C414E45U, site.cell.x, site.cell.y)) {}
 
   Lanes find() {
-    if (roads_.empty()) add_street();
+    found_.lanes = town_->streets;
+    if (roads_.empty() && !town_->is_built()) add_street();
     for (const auto& road : roads_) {
       Rng rng = rng_.at(road->id);
       walk(*road, rng);
@@ -74,6 +77,7 @@ class LaneFinder {
         const double u = -side * y / length, v = side * x / length;
         side = -side;
         if (out > (farm_reach - 0.5) * site_.radius || a.is_bridge || b.is_bridge) continue;
+        if (town_->is_built() && !is_farm) continue;
         add_lane(from, {u * turn.cos - v * turn.sin, u * turn.sin + v * turn.cos}, most, is_farm, &road);
       }
       walked += length;
@@ -136,6 +140,7 @@ class LaneFinder {
   Rectangle box_;
   Ground ground_;
   std::vector<std::shared_ptr<const Road>> roads_;
+  std::shared_ptr<const Town> town_;
   Rng rng_;
   Lanes found_;
 };
@@ -157,7 +162,7 @@ std::shared_ptr<const Lanes> lanes_of(const World& world, const Site& site, Job&
 std::vector<std::shared_ptr<const Lanes>> lanes_near(const World& world, const Rectangle& box, double reach,
                                                      Job& job) {
   std::vector<std::shared_ptr<const Lanes>> found;
-  const double most = farm_reach * world.params.settlements.radius;
+  const double most = farm_reach * greatest_radius(world);
   for (const auto& site : sites_near(world, box, reach + most, job)) {
     const double far = reach + farm_reach * site->radius;
     if (site->east < box.west - far || site->east > box.east + far || site->north < box.south - far ||

@@ -1,5 +1,6 @@
 #pragma once
-/// Lanes of a settlement: streets that leave its roads, and ways to farms outside. They follow the ground.
+/// Lanes of a settlement: those that leave the roads of a village, the streets of a town, and ways to farms outside. They
+/// follow the ground.
 #include <memory>
 #include <vector>
 
@@ -11,6 +12,7 @@ struct Lane {
   double width = 0;
   bool leads_to_farm = false;
   std::vector<RoadPoint> points;  ///< from the road outwards; none is a bridge
+  bool is_street = false;         ///< of a town; its houses have lots
 };
 struct Lanes {
   std::vector<Lane> lanes;

@@ -8,8 +8,10 @@
 #include "core/base/math.h"
 
 #include "core/generators/world/ground.h"
+#include "core/generators/world/houses.h"
 #include "core/generators/world/plants.h"
 #include "core/generators/world/roads.h"
+#include "core/generators/world/town.h"
 #include "core/generators/world/world.h"
 
 namespace seedmesh::world {
@@ -54,7 +56,7 @@ class MapWriter {
   }
 
   void add_plants(Json& map) const {
-    const bool has_places = std::max(box_.east - box_.west, box_.north - box_.south) <= most_places_side;
+    const bool has_places = has_details(most_places_side);
     for (std::size_t k = 0; has_places && k < world_.params.plants.size(); ++k) {
       const WorldClass& plant = world_.params.plants[k];
       Json places = Json::array();
@@ -78,9 +80,11 @@ class MapWriter {
 
   void add_settlements(Json& map) const {
     for (const auto& site : sites_near(world_, box_, 0, job_)) {
-      map["settlements"].push_back({{"id", name_of(*site)},
-                                    {"position", position(site->east, site->north, site->height)},
-                                    {"radius", rounded(site->radius)}});
+      Json settlement = {{"id", name_of(*site)},
+                         {"position", position(site->east, site->north, site->height)},
+                         {"radius", rounded(site->radius)}};
+      if (has_details(most_streets_side)) add_plan(settlement, *site);
+      map["settlements"].push_back(std::move(settlement));
     }
   }
 
@@ -93,7 +97,31 @@ class MapWriter {
   }
 
  private:
-  static constexpr double most_places_side = 2048, block = 256;
+  static constexpr double most_places_side = 2048, most_streets_side = 8192, block = 256;
+
+  bool has_details(double most_side) const {
+    return std::max(box_.east - box_.west, box_.north - box_.south) <= most_side;
+  }
+
+  /// What is known of a settlement only after it is planned.
+  void add_plan(Json& settlement, const Site& site) const {
+    const auto town = town_of(world_, site, job_);
+    settlement["class"] = town->is_built() ? "town" : "village";
+    settlement["houses"] = plan_of(world_, site, job_)->houses.size();
+    Json outline = Json::array(), streets = Json::array();
+    for (const auto& p : town->outline) {
+      outline.push_back({rounded(p[0] - static_cast<double>(world_.east)),
+                         rounded(p[1] - static_cast<double>(world_.north))});
+    }
+    if (town->is_built()) settlement["outline"] = std::move(outline);
+    for (const Lane& lane : lanes_of(world_, site, job_)->lanes) {
+      Json points = Json::array();
+      for (const RoadPoint& p : lane.points) points.push_back(position(p.east, p.north, p.height));
+      const char* kind = lane.is_street ? "street" : lane.leads_to_farm ? "farm" : "lane";
+      streets.push_back({{"class", kind}, {"width", rounded(lane.width)}, {"points", std::move(points)}});
+    }
+    settlement["streets"] = std::move(streets);
+  }
 
   Json position(double east, double north, double height) const {
     return {rounded(east - static_cast<double>(world_.east)),

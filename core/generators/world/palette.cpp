@@ -91,7 +91,7 @@ std::array<std::uint8_t, 4> ground_color(const World& world, const GroundColors&
   }
   if (spacing <= widest_verge_spacing) {
     const double verge = 1 - smooth_step(sample.road + 0.4 * patch, 0.2, 3.5);
-    shade = mixed(shade, colors.dry, 0.6 * verge);
+    shade = mixed(shade, colors.dry, (sample.is_town ? 0.8 : 0.6) * verge);
   }
   const double bare = smooth_step(1 - steepness + 0.02 * patch, 0.1, 0.24);
   shade = mixed(shade, colors.rock, bare);

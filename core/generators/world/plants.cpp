@@ -162,8 +162,9 @@ bool suits(const World& world, const WorldClass& plant, const GroundSample& samp
          slope_of(sample.land.height) <= steepest;
 }
 
-/// The share of plants that villagers have cut.
+/// The share of plants that villagers and townspeople have cut.
 double cleared_share(const WorldClass& plant, const GroundSample& sample) {
+  if (sample.is_town) return plant.height < 3 ? 0.88 : 0.95;
   return (plant.height < 3 ? 0.6 : 0.93) * sample.settled;
 }
 

@@ -24,8 +24,9 @@ constexpr double most_works = 9;  ///< metres; a road that needs deeper cuttings
 
 struct Site {
   CellKey cell;
-  bool is_settled = false;
+  bool is_settled = false, is_town = false;
   double east = 0, north = 0, height = 0, radius = 0;  ///< absolute
+  double waterside = 0;                                ///< 1 beside a river or a coast, 0 far from both
   static std::uint64_t bytes() { return sizeof(Site); }
 };
 
@@ -40,6 +41,9 @@ struct Road {
   std::vector<RoadPoint> points;  ///< empty where no path exists
   std::uint64_t bytes() const { return sizeof(Road) + points.size() * sizeof(RoadPoint); }
 };
+
+/// Returns the greatest radius that a settlement can have.
+double greatest_radius(const World& world);
 
 std::string name_of(const Site& site);
 std::shared_ptr<const Site> site_at(const World& world, const CellKey& cell, Job& job);

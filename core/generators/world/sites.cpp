@@ -11,19 +11,24 @@ constexpr int candidates = 8;
 constexpr double grid = 128;  ///< metres; settlements are on nodes of the grid of roads
 
 /// How suitable a position is; below 0 is unsuitable.
-double suitability(const World& world, double east, double north, double& height, Job& job) {
+double suitability(const World& world, double east, double north, Site& site, Job& job) {
   const Land land = land_at(world, east, north);
   const double slope = std::sqrt(land.height.east * land.height.east + land.height.north * land.height.north);
   if (slope > 0.16 || (world.params.relief.sea && land.height.value < world.params.relief.sea_level + 6))
     return -1;
   const Ground ground(world, {east, north, east, north}, job);
   const GroundSample sample = ground.at(east, north);
-  height = sample.height;
+  const double height = sample.height;
   if (sample.shore < 60 || (world.params.relief.sea && height < world.params.relief.sea_level + 3)) return -1;
   const Climate climate = climate_at(world, east, north, height);
   if (climate.temperature < -3) return -1;
   const double water = 1 - smooth_step(sample.shore, 150, 1200);
   if (climate.moisture < 0.2 && water < 0.2) return -1;
+  const double coast = world.params.relief.sea ? 1 - smooth_step(land.coast, 0.02, 0.12) : 0;
+  site.east = east;
+  site.north = north;
+  site.height = height;
+  site.waterside = std::max(water, coast);
   return 1 - 5 * slope - land.ruggedness + water;
 }
 
@@ -39,13 +44,11 @@ std::shared_ptr<const Site> make_site(const World& world, const CellKey& cell, J
       return (std::floor(at / grid) + 0.5) * grid;
     };
     const double east = along(cell.x), north = along(cell.y);
-    double height = 0;
-    const double value = suitability(world, east, north, height, job) + 0.2 * rng.unit();
+    Site tried = *site;
+    const double value = suitability(world, east, north, tried, job) + 0.2 * rng.unit();
     if (value <= best) continue;
     best = value;
-    site->east = east;
-    site->north = north;
-    site->height = height;
+    *site = tried;
     site->is_settled = true;
   }
   Rng rng(key);
@@ -53,10 +56,21 @@ std::shared_ptr<const Site> make_site(const World& world, const CellKey& cell, J
   // few large villages and many small ones
   const double size = rng.unit();
   site->radius = world.params.settlements.radius * (0.3 + 0.7 * size * size);
+  const WorldTowns& towns = world.params.settlements.towns;
+  const double share = towns.share * (towns.share < 1 ? 0.4 + 1.2 * site->waterside : 1);
+  Rng town = Rng(key).at("town");
+  site->is_town = towns.share > 0 && town.unit() < share;
+  if (site->is_town) site->radius = towns.radius * town.uniform(0.6, 1);
   return site;
 }
 
 }  // namespace
+
+double greatest_radius(const World& world) {
+  const WorldSettlements& settlements = world.params.settlements;
+  return settlements.towns.share > 0 ? std::max(settlements.radius, settlements.towns.radius)
+                                     : settlements.radius;
+}
 
 std::string name_of(const Site& site) {
   return 's' + std::to_string(site.cell.x) + "_" + std::to_string(site.cell.y);

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 
 #include "core/generators/world/canopy.h"
 #include "core/generators/world/flat_mesh.h"
@@ -39,6 +40,27 @@ void add_water(Glb& glb, const World& world, const TileFrame& frame, const Terra
   add_mesh(glb, "water", water.mesh, 0.15, frame, base, job);
 }
 
+/// Whether a piece of a road can have a part in a rectangle.
+bool is_near(const Rectangle& box, const RoadPoint& a, const RoadPoint& b, double width) {
+  return std::min(a.east, b.east) <= box.east + width && std::max(a.east, b.east) >= box.west - width &&
+         std::min(a.north, b.north) <= box.north + width && std::max(a.north, b.north) >= box.south - width;
+}
+
+/// The points of a street that passes its ends by half its width, which closes the corners between streets.
+std::vector<RoadPoint> extended(const Lane& street) {
+  std::vector<RoadPoint> points = street.points;
+  const auto move = [&street](RoadPoint& end, const RoadPoint& before, double share) {
+    const double x = end.east - before.east, y = end.north - before.north;
+    const double by = share * street.width / std::max(0.01, std::sqrt(x * x + y * y));
+    end.east += by * x;
+    end.north += by * y;
+  };
+  constexpr double start_share = 0.5, end_share = 0.3;  ///< ribbons pass their end by a fifth
+  move(points.front(), street.points[1], start_share);
+  move(points.back(), street.points[points.size() - 2], end_share);
+  return points;
+}
+
 /// Roads and houses of small tiles.
 void add_works(Glb& glb, const World& world, const TileFrame& frame, double base, Job& job,
                std::string_view folder) {
@@ -49,6 +71,7 @@ void add_works(Glb& glb, const World& world, const TileFrame& frame, double base
     const auto add = [&](const std::vector<RoadPoint>& points, double width, double above) {
       for (std::size_t k = 1; k < points.size(); ++k) {
         const RoadPoint &a = points[k - 1], &b = points[k];
+        if (!is_near(box, a, b, width)) continue;
         roads.add_ribbon({a.east, a.north, a.height + above}, width, {b.east, b.north, b.height + above},
                          width);
       }
@@ -56,7 +79,8 @@ void add_works(Glb& glb, const World& world, const TileFrame& frame, double base
     for (const auto& road : roads_near(world, box, world.params.roads.width, job))
       add(road->points, road->width, lift);
     for (const auto& lanes : lanes_near(world, box, world.params.roads.width, job)) {
-      for (const Lane& lane : lanes->lanes) add(lane.points, lane.width, 0.9 * lift);
+      for (const Lane& lane : lanes->lanes)
+        add(lane.is_street ? extended(lane) : lane.points, lane.width, 0.9 * lift);
     }
     add_mesh(glb, "roads", roads.take(), 0.95, frame, base, job);
   }

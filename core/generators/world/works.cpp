@@ -10,6 +10,11 @@ namespace seedmesh::world {
 namespace {
 
 constexpr double works_reach = 56;  ///< metres from the middle of a road to untouched ground
+constexpr double least_bin = 32, most_bins = 64;
+constexpr double bin_margin = 48;  ///< metres around a rectangle in which plants compete
+
+/// How far from a position roads are read.
+double works_reach_of(const World& world) { return world.reach(Reads::works, works_reach + 16); }
 
 /// The share of earthworks that a position allows: none at the samples of coarse tiles.
 double away_from_pins(double east, double north) {
@@ -66,27 +71,69 @@ Field field_of(const World& world, double east, double north) {
 Ground Ground::with_roads(const World& world, const Rectangle& box, Job& job) {
   Ground ground(world, box, job);
   const WorldFields& fields = world.params.fields;
-  const double around =
-      std::max(cleared_reach, fields.reach) * world.params.settlements.radius + 2 * fields.size;
+  const double around = std::max(cleared_reach, fields.reach) * greatest_radius(world) + 2 * fields.size;
   for (const auto& site : sites_near(world, box, world.reach(Reads::fields, around), job))
-    ground.farmland_.push_back({site->east, site->north, site->radius});
-  const double reach = world.reach(Reads::works, works_reach + 16);
-  const auto add = [&](const std::vector<RoadPoint>& points, double width) {
-    for (std::size_t k = 1; k < points.size(); ++k) {
-      const RoadPoint &a = points[k - 1], &b = points[k];
-      if (std::min(a.east, b.east) > box.east + reach || std::max(a.east, b.east) < box.west - reach ||
-          std::min(a.north, b.north) > box.north + reach || std::max(a.north, b.north) < box.south - reach) {
-        continue;
-      }
-      ground.pieces_.push_back({a.east, a.north, a.height, b.east, b.north, b.height, width,
-                                a.is_bridge || b.is_bridge, a.works, b.works});
-    }
-  };
-  for (const auto& road : roads_near(world, box, reach, job)) add(road->points, road->width);
+    ground.farmland_.push_back({site->east, site->north, site->radius, site->is_town});
+  const double reach = works_reach_of(world);
+  for (const auto& road : roads_near(world, box, reach, job))
+    ground.add_pieces(box, reach, road->points, road->width);
   for (const auto& lanes : lanes_near(world, box, reach, job)) {
-    for (const Lane& lane : lanes->lanes) add(lane.points, lane.width);
+    for (const Lane& lane : lanes->lanes) ground.add_pieces(box, reach, lane.points, lane.width);
   }
+  ground.sort_pieces(box);
   return ground;
+}
+
+Ground Ground::with_main_roads(const World& world, const Rectangle& box, Job& job) {
+  Ground ground(world, box, job);
+  const double reach = works_reach_of(world);
+  for (const auto& road : roads_near(world, box, reach, job))
+    ground.add_pieces(box, reach, road->points, road->width);
+  ground.sort_pieces(box);
+  return ground;
+}
+
+void Ground::add_pieces(const Rectangle& box, double reach, const std::vector<RoadPoint>& points,
+                        double width) {
+  for (std::size_t k = 1; k < points.size(); ++k) {
+    const RoadPoint &a = points[k - 1], &b = points[k];
+    if (std::min(a.east, b.east) > box.east + reach || std::max(a.east, b.east) < box.west - reach ||
+        std::min(a.north, b.north) > box.north + reach || std::max(a.north, b.north) < box.south - reach) {
+      continue;
+    }
+    pieces_.push_back({a.east, a.north, a.height, b.east, b.north, b.height, width,
+                       a.is_bridge || b.is_bridge, a.works, b.works});
+  }
+}
+
+void Ground::sort_pieces(const Rectangle& box) {
+  const double side = std::max(box.east - box.west, box.north - box.south) + 2 * bin_margin;
+  bins_.west = box.west - bin_margin;
+  bins_.south = box.south - bin_margin;
+  bins_.cell = std::max(least_bin, side / most_bins);
+  bins_.count = math::to_int32(side / bins_.cell) + 1;
+  const auto count = static_cast<std::size_t>(bins_.count);
+  bins_.pieces.assign(count * count, {});
+  for (std::uint32_t n = 0; n < pieces_.size(); ++n) {
+    const RoadPiece& p = pieces_[n];
+    const std::size_t west = bins_.cell_of(std::min(p.from_east, p.to_east) - works_reach - bins_.west),
+                      east = bins_.cell_of(std::max(p.from_east, p.to_east) + works_reach - bins_.west),
+                      south = bins_.cell_of(std::min(p.from_north, p.to_north) - works_reach - bins_.south),
+                      north = bins_.cell_of(std::max(p.from_north, p.to_north) + works_reach - bins_.south);
+    for (std::size_t row = south; row <= north; ++row) {
+      for (std::size_t column = west; column <= east; ++column)
+        bins_.pieces[row * count + column].push_back(n);
+    }
+  }
+}
+
+std::size_t Ground::Bins::cell_of(double away) const {
+  return static_cast<std::size_t>(math::to_int32(std::clamp(std::floor(away / cell), 0.0, count - 1.0)));
+}
+
+const std::vector<std::uint32_t>& Ground::pieces_at(double east, double north) const {
+  return bins_.pieces[bins_.cell_of(north - bins_.south) * static_cast<std::size_t>(bins_.count) +
+                      bins_.cell_of(east - bins_.west)];
 }
 
 Ground Ground::with_works(const World& world, const Rectangle& box, Job& job) {
@@ -99,7 +146,8 @@ Ground Ground::with_works(const World& world, const Rectangle& box, Job& job) {
 
 void Ground::add_works(GroundSample& sample, double east, double north) const {
   double weight = 0, level = 0, half = 0, nearest = 1e12;
-  for (const RoadPiece& piece : pieces_) {
+  for (const std::uint32_t n : pieces_at(east, north)) {
+    const RoadPiece& piece = pieces_[n];
     double share = 0;
     const double away = distance_to(piece, east, north, share);
     sample.road = std::min(sample.road, away - piece.width / 2);
@@ -131,6 +179,7 @@ void Ground::add_field(GroundSample& sample, double east, double north) const {
     const double most = cleared_reach * farm.radius;
     if (square >= most * most) continue;
     sample.settled = std::max(sample.settled, 1 - smooth_step(std::sqrt(square), 0.4 * most, most));
+    sample.is_town |= farm.is_town && square < farm.radius * farm.radius;
   }
   const Slope& h = sample.land.height;
   if (h.east * h.east + h.north * h.north > steepest_field * steepest_field || sample.shore < 15 ||
@@ -138,7 +187,7 @@ void Ground::add_field(GroundSample& sample, double east, double north) const {
     return;
   }
   if (world_->params.relief.sea && sample.height < world_->params.relief.sea_level + 2.5) return;
-  if (fields.share <= 0 || fields.reach <= 0) return;
+  if (fields.share <= 0 || fields.reach <= 0 || sample.is_town) return;
   for (const Farmland& farm : farmland_) {
     const double most = fields.reach * farm.radius;
     const double x = east - farm.east, y = north - farm.north, far = most + 2 * fields.size;

@@ -65,7 +65,8 @@ enum class MapHeights {
 };  ///< grid: {columns, rows, values} of 65 x 65 samples, rows from the south
 
 /// {box, sea_level, heights?, settlements, rivers, lakes, roads, plants} of a box with sides of at most 2^16 m.
-/// Plants have `places` up to a side of 2,048 m. Rivers that touch the box come with all waters that they flow into, so
+/// Plants have `places` up to a side of 2,048 m; settlements have `class`, `houses`, `streets` and the `outline` of a town
+/// up to 8,192 m. Rivers that touch the box come with all waters that they flow into, so
 /// `into` is "sea" or names an entry. Positions, heights, widths and radii are rounded to 1/64 m.
 Json map_json(const World& world, const MapBox& box, MapHeights heights, Job& job);
 

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <set>
 
+#include "core/generators/world/town.h"
+#include "generated/params/city.h"
+
 namespace seedmesh::world {
 namespace {
 
@@ -53,6 +56,7 @@ std::vector<Issue> issues_of(const WorldParams& params) {
     issues.emplace_back(IssueKind::conflict, "/settlements/houses/" + std::to_string(k) + "/model/generator",
                         "found \"" + generator + "\", expected \"building\"");
   }
+  check_towns(params, issues);
   return issues;
 }
 
@@ -72,6 +76,7 @@ Result<World> read_world(const WorldParams& params, std::uint64_t seed, std::sha
   world.layers = 0;
   for (const WorldLayersItem layer : params.layers) world.layers |= 1U << static_cast<unsigned>(layer);
   world.noise = noise_keys(world.key);
+  world.town_rules = std::make_shared<const CityParams>(town_rules(params));
   world.land_bias = 1.5 * (params.relief.land - 0.5);
   return world;
 }

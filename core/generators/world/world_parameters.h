@@ -9,6 +9,10 @@
 #include "core/generators/world/store.h"
 #include "generated/params/world.h"
 
+namespace seedmesh {
+struct CityParams;
+}
+
 namespace seedmesh::world {
 
 constexpr double leaf_side = 64;             ///< metres
@@ -34,8 +38,9 @@ struct NoiseKeys {
 NoiseKeys noise_keys(std::uint64_t key);
 
 /// What a layer reads around the part that it makes: cells of a region, water, settlements
-/// that decide about roads, earthworks of roads, settlements with fields, and settlements with houses.
-enum class Reads : std::uint8_t { cells, water, roads, works, fields, houses };
+/// that decide about roads, earthworks of roads, settlements with fields, settlements with houses, and what the plan of a
+/// town depends on.
+enum class Reads : std::uint8_t { cells, water, roads, works, fields, houses, towns };
 
 /// Immutable; copies share the store. Positions of the plane ("absolute") are metres from its own zero; those of
 /// tiles and maps are relative to the middle of the world.
@@ -54,6 +59,7 @@ struct World {
   unsigned layers = 31;
   double land_bias = 0;  ///< of the continents
   NoiseKeys noise;
+  std::shared_ptr<const CityParams> town_rules;  ///< never null
 
   /// What a layer with a declared reach reads. Tests change `reach_factor` and `reach_more` of one layer, to show that
   /// its reach is enough and that half of it is not.
@@ -61,8 +67,8 @@ struct World {
     const auto n = static_cast<std::size_t>(layer);
     return reach_factor[n] * declared + reach_more[n];
   }
-  static constexpr std::size_t reaches = static_cast<std::size_t>(Reads::houses) + 1;
-  std::array<double, reaches> reach_factor{1, 1, 1, 1, 1, 1}, reach_more{};
+  static constexpr std::size_t reaches = static_cast<std::size_t>(Reads::towns) + 1;
+  std::array<double, reaches> reach_factor{1, 1, 1, 1, 1, 1, 1}, reach_more{};
 };
 
 /// Errors that the schema cannot express: /extent where it is no power of two, /layers where one is named twice,

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
+#include <string>
 
 #include "core/generators/world/plants.h"
 #include "core/generators/world/region.h"
@@ -63,6 +65,38 @@ TEST(WorldMap, LengthsAreMultiplesOfOne64thAndRiversStillFall) {
     for (std::size_t k = 1; k < river["points"].size(); ++k)
       EXPECT_LE(river["points"][k][2].get<double>(), river["points"][k - 1][2].get<double>());
   }
+}
+
+/// A box around each settlement shows what it consists of; a wide box only where it lies.
+TEST(WorldMap, SettlementsHaveStreetsAndHouses) {
+  WorldParams params = mountains_with_woods();
+  params.relief.mountains = 250;
+  params.settlements.density = 1;
+  params.settlements.towns.share = 0.5;
+  params.plants.clear();
+  const World world = world_of(params);
+  Job job = test_job();
+  const Json wide = map_json(world, {-12000, -12000, 12000, 12000}, MapHeights::none, job);
+  std::map<std::string, int> classes, streets;
+  for (const Json& found : wide["settlements"]) {
+    EXPECT_FALSE(found.contains("streets"));
+    const double east = found["position"][0], north = found["position"][1];
+    const Json map = map_json(world, {east - 8, north - 8, east + 8, north + 8}, MapHeights::none, job);
+    ASSERT_EQ(map["settlements"].size(), 1U);
+    const Json& settlement = map["settlements"][0];
+    EXPECT_EQ(settlement["id"], found["id"]);
+    ++classes[settlement["class"]];
+    EXPECT_EQ(settlement.contains("outline"), settlement["class"] == "town");
+    EXPECT_GE(settlement["houses"].get<int>(), settlement["class"] == "town" ? 40 : 0);
+    for (const Json& street : settlement["streets"]) {
+      ++streets[street["class"]];
+      EXPECT_GE(street["points"].size(), 2U);
+      EXPECT_TRUE(is_rounded(street["points"]) && is_rounded(street["width"]));
+    }
+  }
+  EXPECT_GT(classes["town"], 2);
+  EXPECT_GT(classes["village"], 2);
+  for (const char* kind : {"street", "lane", "farm"}) EXPECT_GT(streets[kind], 10) << kind;
 }
 
 /// Rounding moves no plant in plan, and its foot by half a step.

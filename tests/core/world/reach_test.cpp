@@ -8,6 +8,7 @@
 #include "core/generators/world/houses.h"
 #include "core/generators/world/region.h"
 #include "core/generators/world/roads.h"
+#include "core/generators/world/town.h"
 #include "tests/core/world/world_support.h"
 
 namespace seedmesh::world {
@@ -142,6 +143,32 @@ Made leaves_of(const World& world, Job& job) {
   return made;
 }
 
+/// Towns on uneven ground.
+WorldParams with_towns() {
+  WorldParams params = inhabited();
+  params.settlements.density = 1;
+  params.settlements.towns.share = 1;
+  return params;
+}
+
+/// The streets and houses of towns.
+Made towns_of(const World& world, Job& job) {
+  Made made;
+  for (const auto& site : sites_near(world, {0, 0, 80000, 80000}, 0, job)) {
+    const auto town = town_of(world, *site, job);
+    std::string& text = made.emplace_back();
+    for (const Lane& street : town->streets) {
+      for (const RoadPoint& p : street.points) {
+        for (const double value : {p.east, p.north, p.height}) add_bits(text, value);
+      }
+    }
+    for (const TownHouse& house : town->houses) {
+      for (const double value : {house.east, house.north, house.turn}) add_bits(text, value);
+    }
+  }
+  return made;
+}
+
 std::size_t differences(const Made& a, const Made& b) {
   std::size_t count = a.size() == b.size() ? 0 : 1;
   for (std::size_t k = 0; k < std::min(a.size(), b.size()); ++k) count += a[k] != b[k] ? 1U : 0U;
@@ -172,7 +199,8 @@ TEST(WorldReach, IsEnoughAndHalfOfItIsNot) {
       {"works", Reads::works, 128, inhabited(),
        [&](const World& w) { return heights_of(w, roads, true, job); }},
       {"fields", Reads::fields, site_cell, inhabited(), leaves},
-      {"houses", Reads::houses, site_cell, inhabited(), leaves}};
+      {"houses", Reads::houses, site_cell, inhabited(), leaves},
+      {"towns", Reads::towns, town_lattice, with_towns(), [&](const World& w) { return towns_of(w, job); }}};
   for (const Trial& trial : trials) {
     const Made known = trial.made(world_of(trial.params));
     const auto layer = static_cast<std::size_t>(trial.layer);

@@ -14,6 +14,7 @@ WorldParams settled_land() {
   WorldParams params = mountains_with_woods();
   params.relief.mountains = 250;
   params.settlements.density = 1;
+  params.settlements.towns.share = 0;  // towns have tests of their own
   return params;
 }
 

@@ -1373,6 +1373,12 @@ class WorldParametersColors(TypedDict, total=False):
     water: str
 
 
+class WorldParametersSettlementsTowns(TypedDict, total=False):
+    share: float
+    radius: float
+    city: "Child"
+
+
 class _WorldParametersSettlementsHousesItemRequired(TypedDict):
     model: "Child"
 
@@ -1386,6 +1392,7 @@ class WorldParametersSettlements(TypedDict, total=False):
     radius: float
     wall: str
     roof: str
+    towns: "WorldParametersSettlementsTowns"
     houses: List["WorldParametersSettlementsHousesItem"]
 
 

@@ -1,0 +1,54 @@
+#pragma once
+/// Towns: settlements whose streets, blocks and lots the generator city plans on the ground of the world. The plan
+/// depends on the settlement alone: on the ground and the roads within its radius.
+#include <array>
+#include <memory>
+#include <vector>
+
+#include "core/generators/world/lanes.h"
+
+namespace seedmesh::city {
+struct CityPlan;
+}
+
+namespace seedmesh::world {
+
+/// The rectangle of a house on its lot.
+struct TownHouse {
+  double east = 0, north = 0;   ///< of its middle, absolute
+  double turn = 0;              ///< degrees, counter-clockwise from above; at 0 the front faces south
+  double width = 0, depth = 0;  ///< along and across the front, metres
+  int floors = 1;
+  std::uint64_t key = 0;
+};
+
+struct Town {
+  std::vector<Lane> streets;  ///< without the roads of the world, which pass through
+  std::vector<TownHouse> houses;
+  bool has_church = false;
+  double church_east = 0, church_north = 0;
+  std::vector<std::array<double, 2>> outline;  ///< counter-clockwise, absolute
+  bool is_built() const { return !streets.empty(); }
+  std::uint64_t bytes() const;
+};
+
+/// Metres around the middle of a town, beyond its radius, that its plan reads.
+constexpr double town_margin = 60;
+constexpr double town_lattice = 10;  ///< metres between samples of the ground for the plan
+
+/// The rules of towns: those of WorldTowns::city, or built-in ones.
+CityParams town_rules(const WorldParams& params);
+/// Errors at /settlements/towns: parameters of the city that have no effect in a world.
+void check_towns(const WorldParams& params, std::vector<Issue>& issues);
+/// Returns the number of floors of the highest houses of towns.
+int most_floors(const World& world);
+
+/// Returns the plan of a town, in metres around the middle of the settlement. Code::invalid without issues where the ground
+/// leaves too little area.
+Result<city::CityPlan> town_plan(const World& world, const Site& site, Job& job);
+
+/// The town of a settlement, from the store, or made in some tens of milliseconds. Empty where Site::is_town is false,
+/// and where the ground leaves too little area: such settlements are villages.
+std::shared_ptr<const Town> town_of(const World& world, const Site& site, Job& job);
+
+}  // namespace seedmesh::world
