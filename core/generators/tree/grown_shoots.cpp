@@ -24,8 +24,8 @@ glm::dvec3 toward_light(const GrownBud& bud, const glm::dvec3& position, const G
     const double share = i == 0 ? 0 : i <= samples_of_ring ? 0.5 : 1;
     const math::SinCos off = math::quick_sincos_degrees(share * grown.perception_angle);
     const math::SinCos around = math::quick_sincos_degrees(360.0 * i / samples_of_ring);
-    direction[i] = bud.frame.heading * off.cos +
-                   (bud.frame.left * around.cos + bud.frame.up * around.sin) * off.sin;
+    direction[i] =
+        bud.frame.heading * off.cos + (bud.frame.left * around.cos + bud.frame.up * around.sin) * off.sin;
     shade[i] = site.shadows.shade_at(position + direction[i] * distance);
     darkest = std::max(darkest, shade[i]);
   }
@@ -46,8 +46,8 @@ glm::dvec3 next_heading(const GrownBud& bud, const glm::dvec3& position, const G
   const double angle = level.wander * unit_at(rng, "wander");
   const math::SinCos off = math::quick_sincos_degrees(angle);
   const math::SinCos around = math::quick_sincos_degrees(360 * unit_at(rng, "around"));
-  glm::dvec3 heading = bud.frame.heading * off.cos +
-                       (bud.frame.left * around.cos + bud.frame.up * around.sin) * off.sin;
+  glm::dvec3 heading =
+      bud.frame.heading * off.cos + (bud.frame.left * around.cos + bud.frame.up * around.sin) * off.sin;
   heading.y *= 1 - level.level_out;
   heading += up * level.tropism;
   if (level.light > 0) heading += toward_light(bud, position, site) * level.light;

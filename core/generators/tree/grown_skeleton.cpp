@@ -23,7 +23,10 @@ constexpr double unfolding = 0.3;
 /// What the nodes of a plant become.
 struct Shape {
   explicit Shape(Job& job, std::size_t size)
-      : position(job, size), radius(job, size), follower(job, size, Limbs::none), joint(job, size, Limbs::none) {}
+      : position(job, size),
+        radius(job, size),
+        follower(job, size, Limbs::none),
+        joint(job, size, Limbs::none) {}
   Array<glm::dvec3> position;
   Array<double> radius;
   Array<std::uint32_t> follower;  ///< the child that continues the limb
@@ -75,9 +78,15 @@ struct Start {
 
 class GrownWriter {
  public:
-  GrownWriter(const GrownPlant& plant, const TreeParams& params, const GrownTime& time, SkeletonWriter& writer)
-      : plant_(plant), p_(params), g_(params.grown), time_(time), writer_(writer),
-        shape_(writer.job(), plant.nodes.size()), next_(writer.job(), plant.nodes.size(), Limbs::none),
+  GrownWriter(const GrownPlant& plant, const TreeParams& params, const GrownTime& time,
+              SkeletonWriter& writer)
+      : plant_(plant),
+        p_(params),
+        g_(params.grown),
+        time_(time),
+        writer_(writer),
+        shape_(writer.job(), plant.nodes.size()),
+        next_(writer.job(), plant.nodes.size(), Limbs::none),
         first_(writer.job(), plant.nodes.size(), Limbs::none) {
     place_nodes(plant, g_, time, shape_);
     smooth(plant, g_, shape_, writer.job());
@@ -138,7 +147,8 @@ bool GrownWriter::needs_joint(std::uint32_t node, const glm::dvec3& from, int pa
   const std::uint32_t next = shape_.follower[node];
   if (next == Limbs::none || passed >= longest_piece) return true;
   for (std::uint32_t child = first_[node]; child != Limbs::none; child = next_[child]) {
-    if (child != next && (writer_.marks_every_foot() || !writer_.leaves_out(shape_.radius[child]))) return true;
+    if (child != next && (writer_.marks_every_foot() || !writer_.leaves_out(shape_.radius[child])))
+      return true;
   }
   const glm::dvec3 here = shape_.position[node] - from, ahead = shape_.position[next] - shape_.position[node];
   const double along = glm::dot(here, ahead);

@@ -118,10 +118,10 @@ std::vector<LevelFigures> figures_of(const Limbs& limbs) {
 /// Warns of the entries of the list of levels of a model that have no effect.
 void warn_of_levels(const std::string& model, int levels, std::size_t given, std::vector<Warning>& warnings) {
   for (std::size_t i = static_cast<std::size_t>(levels); i < given; ++i) {
-    warnings.push_back({"/" + model + "/level/" + std::to_string(i),
-                        "This level has no effect unless `" + model + ".levels` is greater than " +
-                            std::to_string(i) + ".",
-                        0, 0});
+    warnings.push_back(
+        {"/" + model + "/level/" + std::to_string(i),
+         "This level has no effect unless `" + model + ".levels` is greater than " + std::to_string(i) + ".",
+         0, 0});
   }
 }
 
