@@ -36,7 +36,8 @@ TreeParams of(TreeModel model) {
 }
 
 TEST(UnusedParameters, AreNoneOfTheDefaults) {
-  for (const TreeModel model : {TreeModel::weber_penn, TreeModel::proctree, TreeModel::sculpt, TreeModel::grown})
+  for (const TreeModel model :
+       {TreeModel::weber_penn, TreeModel::proctree, TreeModel::sculpt, TreeModel::grown})
     EXPECT_THAT(unused(of(model)), IsEmpty());
 }
 
