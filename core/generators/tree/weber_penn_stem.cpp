@@ -26,16 +26,6 @@ double attraction_angle(const Frame& frame, double attraction, int segments) {
   return math::degrees(attraction * declination * std::clamp(frame.up.y, -1.0, 1.0)) / segments;
 }
 
-/// Arbaro turns a segment to the sky, about the horizontal line at right angles to it.
-Frame attracted(const Frame& frame, double attraction) {
-  const double y = std::clamp(frame.heading.y, -1.0, 1.0);
-  const double across = std::sqrt(1 - y * y);
-  if (across < 1e-9) return frame;
-  const double angle = std::clamp(math::degrees(attraction * approximate_acos(y) * across), -170.0, 170.0);
-  const glm::dvec3 axis = glm::dvec3(-frame.heading.z, 0, frame.heading.x) / across;
-  return rotated(frame, axis, math::quick_sincos_degrees(angle));
-}
-
 /// Does the stem stay within the envelope at this length? Its bends are the same at any length: `frames` has
 /// those of the segments after the first, as far as they are known.
 bool fits_envelope(const WeberPennTree& tree, const WeberPennStem& stem, double length,
@@ -107,10 +97,8 @@ Frame next_frame(const WeberPennTree& tree, const WeberPennStem& stem, const Fra
     curve += spread(random, level.curve_v) / level.curve_res;
   }
   curve -= stem.uncurve;
-  const bool is_attracted = stem.level >= 2 && attraction != 0;
-  if (is_attracted && !tree.counts_as_arbaro()) curve -= attraction_angle(frame, attraction, level.curve_res);
-  const Frame bent = pitch(frame, math::quick_sincos_degrees(std::clamp(curve, -170.0, 170.0)));
-  return is_attracted && tree.counts_as_arbaro() ? attracted(bent, attraction / level.curve_res) : bent;
+  if (stem.level >= 2 && attraction != 0) curve -= attraction_angle(frame, attraction, level.curve_res);
+  return pitch(frame, math::quick_sincos_degrees(std::clamp(curve, -170.0, 170.0)));
 }
 
 Frame swayed_frame(const WeberPennTree& tree, const WeberPennStem& stem, const Frame& frame, int segment) {
