@@ -25,7 +25,7 @@ std::optional<double> number_of(const CityGivenBuilding& building, const char* n
   const auto at = building.properties.find(name);
   if (at == building.properties.end()) return std::nullopt;
   if (const double* value = std::get_if<double>(&at->second)) return *value;
-  issues.push_back({IssueKind::wrong_type, pointer + "/properties/" + name, "expected a number"});
+  issues.emplace_back(IssueKind::wrong_type, pointer + "/properties/" + name, "expected a number");
   return std::nullopt;
 }
 
@@ -34,9 +34,9 @@ double height_of(const CityGivenBuilding& building, const std::string& pointer, 
   const auto floors = number_of(building, "floors", pointer, issues);
   const double value = height ? *height : floors ? *floors * height_of_floor : usual_height;
   if (value >= least_height && value <= most_height) return value;
-  issues.push_back({IssueKind::out_of_range, pointer + "/properties/" + (height ? "height" : "floors"),
-                    "found a height of " + number_text(value) + " m, expected " + number_text(least_height) +
-                        " to " + number_text(most_height) + " m"});
+  issues.emplace_back(IssueKind::out_of_range, pointer + "/properties/" + (height ? "height" : "floors"),
+                      "found a height of " + number_text(value) + " m, expected " +
+                          number_text(least_height) + " to " + number_text(most_height) + " m");
   return usual_height;
 }
 
@@ -76,8 +76,8 @@ std::vector<GivenFootprint> given_footprints(const CityParams& params, std::vect
       if (std::all_of(rings.begin(), rings.end(), [](const CmRing& ring) { return is_simple(ring); })) {
         all.push_back({pointer, std::move(rings), height});
       } else {
-        issues.push_back({IssueKind::invalid_value, pointer + "/geometry",
-                          "found a ring that meets itself, expected simple rings"});
+        issues.emplace_back(IssueKind::invalid_value, pointer + "/geometry",
+                            "found a ring that meets itself, expected simple rings");
       }
     }
   }
