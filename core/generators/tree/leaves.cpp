@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/base/rng.h"
+#include "core/generators/tree/far_leaves.h"
 #include "core/generators/tree/materials.h"
 #include "core/generators/tree/range.h"
 #include "core/geom/lod/detail.h"
@@ -43,6 +44,24 @@ float area_of(const Mesh& mesh) {
     area += 0.5F * std::sqrt(glm::dot(across, across));
   }
   return area;
+}
+
+/// The mesh of a leaf with all faces once more as its back, if it has one.
+Mesh with_back(Mesh mesh, bool has_back) {
+  if (!has_back) return mesh;
+  const auto front = static_cast<std::uint32_t>(mesh.position.size());
+  const std::size_t corners = mesh.index.wide.size();
+  for (std::uint32_t i = 0; i < front; ++i) {
+    const glm::vec3 normal = mesh.normal[i];
+    mesh.position.push_back(mesh.position[i] - thickness * normal + 0.0F);
+    mesh.normal.push_back(-normal + 0.0F);
+    mesh.uv[0].push_back(mesh.uv[0][i]);
+  }
+  for (std::size_t i = 0; i < corners; i += 3) {
+    for (const std::size_t corner : {i, i + 2, i + 1})
+      mesh.index.wide.push_back(mesh.index.wide[corner] + front);
+  }
+  return mesh;
 }
 
 LeafBuild leaf_build(TreeBuild build) {
@@ -94,30 +113,38 @@ std::vector<Foliage> place(const Organs& organs, const Mesh& leaf, FoliageOption
   return place_organs(organs, options, job);
 }
 
+/// The leaves of a coarser level.
+std::vector<Foliage> coarser(const Leaves& leaves, TreeLevels& levels, int level, const TreeLevels::Plan& plan,
+                             const GenerateContext& context) {
+  Job& job = context.job;
+  const Mesh leaf =
+      with_back(far_leaf(leaves.params, plan.leaves, level, job), has_outward_faces(leaves.params, context.demand));
+  const Organs fewer = levels.foliage->keep(leaves.organs, plan.share, job);
+  const FoliageOptions options = options_of(leaves, context);
+  std::vector<Foliage> parts = place(fewer, leaf, options, job);
+  if (!is_single(plan.leaves) || !has_outward_faces(leaves.params, context.demand)) return parts;
+  for (Foliage& part : parts) part.mesh = outer_sides(part.mesh, leaf, *options.crown, job);
+  return parts;
+}
+
 void add_merged(Model& model, const Leaves& leaves, TreeLevels& levels, const LeafMaterials& materials,
                 const GenerateContext& context) {
-  Job& job = context.job;
   Node node;
   node.name = "leaves";
   node.parent = 0;
-  std::uint64_t before = 0;  // triangles of the whole tree at the level before
+  std::optional<LeafMaterials> far;
   for (int level = 0; level < context.demand.lods; ++level) {
     MeshGroup group{level_name("leaves", level), {}};
-    std::vector<Foliage> parts;
-    if (level == 0) {
-      parts = place(leaves.organs, leaves.leaf, options_of(leaves, context), job);
-    } else {
-      const Mesh leaf = drawn_leaf(leaves.params, level, context);
-      const double share =
-          levels.leaves_at(Detail(level), leaves.organs.organ.size(), leaf.elements(), before);
-      const Organs fewer = levels.foliage->keep(leaves.organs, share, job);
-      parts = place(fewer, leaf, options_of(leaves, context), job);
-    }
-    before = levels.bark.empty() ? 0 : levels.bark[static_cast<std::size_t>(level)];
-    for (Foliage& part : parts) {
-      before += part.mesh.elements();
-      group.primitives.push_back({std::move(part.mesh), materials.material, materials.variants});
-    }
+    const TreeLevels::Plan plan =
+        level == 0 ? TreeLevels::Plan{} : levels.plan(level, levels.bark.empty() ? 0 : levels.bark.front());
+    std::vector<Foliage> parts = level == 0
+                                     ? place(leaves.organs, leaves.leaf, options_of(leaves, context), context.job)
+                                     : coarser(leaves, levels, level, plan, context);
+    const bool is_far = is_single(plan.leaves) && has_outward_faces(leaves.params, context.demand);
+    if (is_far && !far) far = double_sided(model, materials);
+    const LeafMaterials& used = is_far ? *far : materials;
+    for (Foliage& part : parts)
+      group.primitives.push_back({std::move(part.mesh), used.material, used.variants});
     if (!group.primitives.empty()) attach(model, node, std::move(group));
   }
   if (node.mesh >= 0) model.nodes.push_back(std::move(node));
@@ -162,21 +189,7 @@ Mesh leaf_of(const TreeParams& params, int level, const Job& job) {
 }
 
 Mesh drawn_leaf(const TreeParams& params, int level, const GenerateContext& context) {
-  Mesh mesh = leaf_of(params, level, context.job);
-  if (!has_outward_faces(params, context.demand)) return mesh;
-  const auto front = static_cast<std::uint32_t>(mesh.position.size());
-  const std::size_t corners = mesh.index.wide.size();
-  for (std::uint32_t i = 0; i < front; ++i) {
-    const glm::vec3 normal = mesh.normal[i];
-    mesh.position.push_back(mesh.position[i] - thickness * normal + 0.0F);
-    mesh.normal.push_back(-normal + 0.0F);
-    mesh.uv[0].push_back(mesh.uv[0][i]);
-  }
-  for (std::size_t i = 0; i < corners; i += 3) {
-    for (const std::size_t corner : {i, i + 2, i + 1})
-      mesh.index.wide.push_back(mesh.index.wide[corner] + front);
-  }
-  return mesh;
+  return with_back(leaf_of(params, level, context.job), has_outward_faces(params, context.demand));
 }
 
 std::optional<FoliageShade> shade_of(const Limbs& limbs, const Organs& organs, const Mesh& leaf,

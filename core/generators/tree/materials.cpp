@@ -216,4 +216,21 @@ LeafMaterials add_leaf_materials(Model& model, const TreeParams& params, const G
   return result;
 }
 
+LeafMaterials double_sided(Model& model, const LeafMaterials& materials) {
+  const auto add_copy = [&](int original) {
+    Material copy = model.materials[static_cast<std::size_t>(original)];
+    copy.name += "_far";
+    copy.double_sided = true;
+    model.materials.push_back(std::move(copy));
+    return static_cast<int>(model.materials.size()) - 1;
+  };
+  LeafMaterials result;
+  for (const int each : materials.variants) {
+    result.variants.push_back(add_copy(each));
+    if (each == materials.material) result.material = result.variants.back();
+  }
+  if (result.material < 0) result.material = add_copy(materials.material);
+  return result;
+}
+
 }  // namespace seedmesh::tree

@@ -48,4 +48,7 @@ struct LeafMaterials {
 /// Adds the materials of leaves and their variants. Throws Stop (Code::invalid) for a damaged image.
 LeafMaterials add_leaf_materials(Model& model, const TreeParams& params, const GenerateContext& context);
 
+/// Adds double-sided copies of the materials of leaves, whose names end in "_far".
+LeafMaterials double_sided(Model& model, const LeafMaterials& materials);
+
 }  // namespace seedmesh::tree

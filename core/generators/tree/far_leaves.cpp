@@ -1,0 +1,94 @@
+// A card of one triangle: the twigs of core/geom/plant/leafy_twig.h and needle_twig.h are widest at two fifths of their
+// length from the tip and end in points, so a triangle holds nearly all of a twig with 0.6 of the area that the smallest
+// triangle around the whole square has. Texture coordinates outside 0..1 are those of the transparent margin.
+#include "core/generators/tree/far_leaves.h"
+
+#include <array>
+
+#include "core/generators/tree/leaves.h"
+#include "core/generators/tree/materials.h"
+#include "core/geom/mesh/sheet.h"
+
+namespace seedmesh::tree {
+namespace {
+
+constexpr std::array<glm::vec2, 3> corners{glm::vec2(-0.5F, 1), glm::vec2(1.42F, 1), glm::vec2(0.46F, -0.25F)};
+// The coarseness at which leaf_mesh() makes flat squares.
+constexpr std::int32_t flat = 4;
+
+/// Replaces each square of two triangles and four vertices by one triangle in its plane. The vertices of a square
+/// differ in the texture coordinates alone, which are 0 or 1.
+Mesh as_triangles(const Mesh& squares, std::size_t most, const Job& job) {
+  Mesh mesh = empty_sheet(job);
+  for (std::size_t first = 0; first < most; first += 4) {
+    std::array<glm::vec3, 4> at;
+    for (std::size_t i = first; i < first + 4; ++i) {
+      const glm::vec2 uv = squares.uv[0][i];
+      at[(uv.x > 0.5F ? 1U : 0U) + (uv.y > 0.5F ? 2U : 0U)] = squares.position[i];
+    }
+    for (const glm::vec2& uv : corners) {
+      mesh.position.push_back(at[0] + uv.x * (at[1] - at[0]) + uv.y * (at[2] - at[0]) + 0.0F);
+      mesh.normal.push_back(squares.normal[first]);
+      mesh.uv[0].push_back(uv);
+      mesh.index.wide.push_back(static_cast<std::uint32_t>(mesh.index.wide.size()));
+    }
+  }
+  settle_normals(mesh);
+  return mesh;
+}
+
+template <class T>
+void take(const Array<T>& from, std::span<const std::uint32_t> vertices, Array<T>& to, const Job& job) {
+  if (from.empty()) return;
+  to = Array<T>(job, vertices.size());
+  for (std::size_t i = 0; i < vertices.size(); ++i) to[i] = from[vertices[i]];
+}
+
+glm::vec3 face_of(const Mesh& mesh, std::size_t corner) {
+  const glm::vec3& a = mesh.position[mesh.index.at(corner)];
+  return glm::cross(mesh.position[mesh.index.at(corner + 1)] - a, mesh.position[mesh.index.at(corner + 2)] - a);
+}
+
+}  // namespace
+
+bool has_far_leaves(const TreeParams& params, const GenerateContext& context) {
+  return context.demand.textures > 0 && build_of(params) != TreeBuild::mesh && has_leaf_texture(params) &&
+         params.leaf.images.color.empty();
+}
+
+Mesh far_leaf(const TreeParams& params, LeafDetail detail, int level, const Job& job) {
+  if (detail == LeafDetail::bent) return leaf_of(params, level, job);
+  TreeParams coarse = params;
+  coarse.leaf.coarseness = flat;
+  Mesh squares = leaf_of(coarse, level, job);
+  if (detail == LeafDetail::square) return squares;
+  return as_triangles(squares, detail == LeafDetail::one_card ? 4 : squares.position.size(), job);
+}
+
+Mesh outer_sides(const Mesh& mesh, const Mesh& leaf, const glm::vec3& middle, const Job& job) {
+  const std::size_t half = leaf.index.size() / 2;
+  Array<std::uint32_t> kept(job);
+  kept.reserve(mesh.index.size() / 2);
+  for (std::size_t first = 0; first < mesh.index.size(); first += 2 * half) {
+    if (first % 65'536 == 0) job.check();
+    for (std::size_t i = first; i < first + half; i += 3) {
+      const glm::vec3 out = mesh.position[mesh.index.at(i)] - middle, face = face_of(mesh, i);
+      const std::size_t side = face.x * out.x + face.z * out.z >= 0 ? i : i + half;
+      for (std::size_t corner = side; corner < side + 3; ++corner) kept.push_back(mesh.index.at(corner));
+    }
+  }
+  Mesh outer;
+  take(mesh.position, kept.span(), outer.position, job);
+  take(mesh.normal, kept.span(), outer.normal, job);
+  for (std::size_t set = 0; set < mesh.uv.size(); ++set) take(mesh.uv[set], kept.span(), outer.uv[set], job);
+  take(mesh.color, kept.span(), outer.color, job);
+  take(mesh.tangent, kept.span(), outer.tangent, job);
+  take(mesh.bone, kept.span(), outer.bone, job);
+  outer.index.wide = Array<std::uint32_t>(job, kept.size());
+  for (std::size_t i = 0; i < kept.size(); ++i) outer.index.wide[i] = static_cast<std::uint32_t>(i);
+  outer.cache_ordered = mesh.cache_ordered;
+  outer.no_minus_zero = mesh.no_minus_zero;
+  return outer;
+}
+
+}  // namespace seedmesh::tree
