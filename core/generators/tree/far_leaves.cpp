@@ -3,16 +3,25 @@
 // triangle around the whole square has. Texture coordinates outside 0..1 are those of the transparent margin.
 #include "core/generators/tree/far_leaves.h"
 
+#include <algorithm>
 #include <array>
 
 #include "core/generators/tree/leaves.h"
 #include "core/generators/tree/materials.h"
+#include "core/base/math.h"
 #include "core/geom/mesh/sheet.h"
+#include "core/texture/raster.h"
 
 namespace seedmesh::tree {
 namespace {
 
 constexpr std::array<glm::vec2, 3> corners{glm::vec2(-0.5F, 1), glm::vec2(1.42F, 1), glm::vec2(0.46F, -0.25F)};
+// Light from above, of the sun at 55 degrees for leaves without shadow, and of the sky; the ground has a quarter of it.
+constexpr double sun = 3.6, sky = 0.72, ground_share = 0.25, unshaded = 0.5, sun_degrees = 55;
+constexpr std::uint32_t samples = 96;
+constexpr int views = 3, azimuths = 4;
+// Shares of the brightness that leaves gain where no twig and where no other leaf shades them.
+constexpr double from_twigs = 0.025, from_leaves = 0.25;
 // The coarseness at which leaf_mesh() makes flat squares.
 constexpr std::int32_t flat = 4;
 
@@ -37,6 +46,14 @@ Mesh as_triangles(const Mesh& squares, std::size_t most, const Job& job) {
   return mesh;
 }
 
+/// Moves flat cards to the mean position of bent ones: two thirds of the height of the arc above its chord.
+void raise_to_mean(Mesh& squares, const TreeParams& params) {
+  const TreeBuild build = build_of(params);
+  if (build == TreeBuild::card || build == TreeBuild::cross) return;
+  const auto height = static_cast<float>(math::radians(params.leaf.droop) / 12);
+  for (std::size_t i = 0; i < squares.position.size(); ++i) squares.position[i] += height * squares.normal[i] + 0.0F;
+}
+
 template <class T>
 void take(const Array<T>& from, std::span<const std::uint32_t> vertices, Array<T>& to, const Job& job) {
   if (from.empty()) return;
@@ -49,7 +66,49 @@ glm::vec3 face_of(const Mesh& mesh, std::size_t corner) {
   return glm::cross(mesh.position[mesh.index.at(corner + 1)] - a, mesh.position[mesh.index.at(corner + 2)] - a);
 }
 
+/// The light on a surface with a normal, its axes to the right, up and towards the viewer; mean over azimuths of the sun.
+double light_on(const glm::i8vec4& normal) {
+  const glm::dvec3 n = glm::dvec3(normal) / 127.0;
+  const math::SinCos height = math::sincos_degrees(sun_degrees);
+  double light = sky * (ground_share + (1 - ground_share) * 0.5 * (1 + n.y));
+  for (int i = 0; i < azimuths; ++i) {
+    const math::SinCos turn = math::sincos_degrees(45 + 90.0 * i);
+    const double facing = n.y * height.sin + (n.x * turn.sin + n.z * turn.cos) * height.cos;
+    light += unshaded * sun / azimuths * std::max(facing, 0.0);
+  }
+  return light;
+}
+
+double light_on(const Mesh& mesh, const Job& job) {
+  const Box box = bounds_of(mesh.position.span());
+  const glm::dvec3 middle(0.5F * (box.min + box.max));
+  const double reach = 0.5 * static_cast<double>(glm::distance(box.min, box.max));
+  double light = 0, count = 0;
+  for (int view = 0; view < views; ++view) {
+    const math::SinCos turn = math::sincos_degrees(120.0 * view);
+    const texture::ViewFrame frame{{turn.cos, 0, -turn.sin}, {0, 1, 0}, {turn.sin, 0, turn.cos}};
+    const glm::dvec2 at(glm::dot(middle, frame.right), middle.y);
+    texture::Canvas canvas(frame, {at - reach, at + reach}, samples, samples, job);
+    canvas.draw(mesh, glm::mat4(1), {}, job);
+    for (std::uint32_t y = 0; y < samples; ++y) {
+      for (std::uint32_t x = 0; x < samples; ++x) {
+        const texture::Canvas::Sample& sample = canvas.at(x, y);
+        if (sample.is_covered == 0) continue;
+        light += light_on(sample.normal);
+        ++count;
+      }
+    }
+  }
+  return light / std::max(count, 1.0);
+}
+
 }  // namespace
+
+float gain_of(const Mesh& both, const Mesh& outer, const Job& job) {
+  return static_cast<float>(light_on(both, job) / std::max(light_on(outer, job), 1e-6));
+}
+
+float dimming(double share) { return static_cast<float>((1 - from_twigs) * (1 - from_leaves * (1 - share))); }
 
 bool has_far_leaves(const TreeParams& params, const GenerateContext& context) {
   return context.demand.textures > 0 && build_of(params) != TreeBuild::mesh && has_leaf_texture(params) &&
@@ -61,6 +120,7 @@ Mesh far_leaf(const TreeParams& params, LeafDetail detail, int level, const Job&
   TreeParams coarse = params;
   coarse.leaf.coarseness = flat;
   Mesh squares = leaf_of(coarse, level, job);
+  raise_to_mean(squares, params);
   if (detail == LeafDetail::square) return squares;
   return as_triangles(squares, detail == LeafDetail::one_card ? 4 : squares.position.size(), job);
 }

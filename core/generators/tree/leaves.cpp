@@ -113,17 +113,30 @@ std::vector<Foliage> place(const Organs& organs, const Mesh& leaf, FoliageOption
   return place_organs(organs, options, job);
 }
 
-/// The leaves of a coarser level.
+/// Multiplies the colours of all vertices.
+void dim(Mesh& mesh, float factor) {
+  const auto dimmed = [&](std::uint8_t value) {
+    return static_cast<std::uint8_t>(static_cast<float>(value) * factor + 0.5F);
+  };
+  for (glm::u8vec4& color : mesh.color) color = {dimmed(color.r), dimmed(color.g), dimmed(color.b), color.a};
+}
+
+/// The leaves of a coarser level. `gain` gets what single triangles need where they replace both sides, as gain_of().
 std::vector<Foliage> coarser(const Leaves& leaves, TreeLevels& levels, int level, const TreeLevels::Plan& plan,
-                             const GenerateContext& context) {
+                             float& gain, const GenerateContext& context) {
   Job& job = context.job;
-  const Mesh leaf =
-      with_back(far_leaf(leaves.params, plan.leaves, level, job), has_outward_faces(leaves.params, context.demand));
+  const bool has_back = has_outward_faces(leaves.params, context.demand);
+  const Mesh leaf = with_back(far_leaf(leaves.params, plan.leaves, level, job), has_back);
   const Organs fewer = levels.foliage->keep(leaves.organs, plan.share, job);
   const FoliageOptions options = options_of(leaves, context);
   std::vector<Foliage> parts = place(fewer, leaf, options, job);
-  if (!is_single(plan.leaves) || !has_outward_faces(leaves.params, context.demand)) return parts;
-  for (Foliage& part : parts) part.mesh = outer_sides(part.mesh, leaf, *options.crown, job);
+  for (Foliage& part : parts) {
+    dim(part.mesh, dimming(plan.share));
+    if (!is_single(plan.leaves) || !has_back) continue;
+    Mesh outer = outer_sides(part.mesh, leaf, *options.crown, job);
+    gain = gain_of(part.mesh, outer, job);
+    part.mesh = std::move(outer);
+  }
   return parts;
 }
 
@@ -132,17 +145,24 @@ void add_merged(Model& model, const Leaves& leaves, TreeLevels& levels, const Le
   Node node;
   node.name = "leaves";
   node.parent = 0;
-  std::optional<LeafMaterials> far;
+  const std::uint64_t bark = levels.bark.empty() ? 0 : levels.bark.front();
   for (int level = 0; level < context.demand.lods; ++level) {
     MeshGroup group{level_name("leaves", level), {}};
-    const TreeLevels::Plan plan =
-        level == 0 ? TreeLevels::Plan{} : levels.plan(level, levels.bark.empty() ? 0 : levels.bark.front());
-    std::vector<Foliage> parts = level == 0
-                                     ? place(leaves.organs, leaves.leaf, options_of(leaves, context), context.job)
-                                     : coarser(leaves, levels, level, plan, context);
-    const bool is_far = is_single(plan.leaves) && has_outward_faces(leaves.params, context.demand);
-    if (is_far && !far) far = double_sided(model, materials);
-    const LeafMaterials& used = is_far ? *far : materials;
+    std::vector<Foliage> parts;
+    TreeLevels::Plan plan;
+    float gain = 0;  // 0: the usual materials
+    if (level == 0) {
+      parts = place(leaves.organs, leaves.leaf, options_of(leaves, context), context.job);
+    } else {
+      plan = levels.plan(level, bark);
+      parts = coarser(leaves, levels, level, plan, gain, context);
+    }
+    LeafMaterials far;
+    if (gain > 0) {
+      const bool is_sparse = plan.leaves == LeafDetail::one_card;
+      far = double_sided(model, materials, {gain, is_sparse, "_LOD" + std::to_string(level)});
+    }
+    const LeafMaterials& used = gain > 0 ? far : materials;
     for (Foliage& part : parts)
       group.primitives.push_back({std::move(part.mesh), used.material, used.variants});
     if (!group.primitives.empty()) attach(model, node, std::move(group));

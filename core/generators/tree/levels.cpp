@@ -13,8 +13,9 @@ namespace {
 constexpr float filled_card = 0.7F;
 // Shares of the triangles of the finest level.
 constexpr std::array<double, most_levels> level_shares{1, 0.4, 0.15, 0.05, 0.03};
-// Share of the triangles of a level that bark may have where leaves need the others.
-constexpr double bark_share = 0.3;
+// Share of the triangles of a level that bark may have where leaves need the others. Far away, twigs are too thin to
+// be seen.
+constexpr std::array<double, most_levels> bark_shares{1, 0.3, 0.3, 0.2, 0.2};
 // A build of leaves is used if at least this share of them can remain. Otherwise leaves get fewer triangles.
 constexpr double fullest = 0.7;
 // The least share of the leaves that remains.
@@ -62,6 +63,7 @@ TreeLevels::Plan TreeLevels::plan(int level, std::uint64_t finest) const {
   plan.bark = detail.bark(finest, seen);
   if (!foliage) return plan;
   const auto count = static_cast<double>(count_);
+  const double bark_share = bark_shares[static_cast<std::size_t>(level)];
   const double all = level_shares[static_cast<std::size_t>(level)] *
                      (static_cast<double>(finest) + count * static_cast<double>(of_leaf_));
   const double for_leaves = (1 - bark_share) * all;

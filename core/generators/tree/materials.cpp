@@ -11,6 +11,8 @@
 namespace seedmesh::tree {
 namespace {
 
+// Share of the alpha cutoff for sparse leaves far away.
+constexpr float sparse_cutoff = 0.5F;
 constexpr float bark_roughness = 0.95F, leaf_roughness = 0.65F;
 constexpr Color plain_bark{107, 84, 64};
 // The colour of young leaves is mixed with this share of a light yellow green.
@@ -216,11 +218,17 @@ LeafMaterials add_leaf_materials(Model& model, const TreeParams& params, const G
   return result;
 }
 
-LeafMaterials double_sided(Model& model, const LeafMaterials& materials) {
+LeafMaterials double_sided(Model& model, const LeafMaterials& materials, const FarLook& look) {
   const auto add_copy = [&](int original) {
     Material copy = model.materials[static_cast<std::size_t>(original)];
-    copy.name += "_far";
+    copy.name += look.name;
     copy.double_sided = true;
+    copy.base_color = glm::vec4(glm::min(glm::vec3(copy.base_color) * look.gain, glm::vec3(1)), copy.base_color.w);
+    copy.recipe.factor = glm::min(copy.recipe.factor * look.gain, glm::vec3(1));
+    if (look.is_sparse) {
+      copy.alpha_mode = AlphaMode::mask;
+      copy.alpha_cutoff = sparse_cutoff * texture::leaf_cutoff(copy.recipe.kind);
+    }
     model.materials.push_back(std::move(copy));
     return static_cast<int>(model.materials.size()) - 1;
   };
