@@ -1,0 +1,21 @@
+// Levels of detail of trees: 40, 15 and 5 % of the triangles. An artist sees no change where an engine swaps them: the
+// outlines of neighbouring levels have at least nine tenths in common, and their brightness differs by at most 5 %.
+import assert from 'node:assert/strict';
+import test from 'node:test';
+import { compare_levels } from '../pictures/levels.mjs';
+
+const shares = [1, 0.4, 0.15, 0.05];
+
+for (const name of ['oak', 'birch', 'quaking_aspen', 'maple', 'pine', 'spruce', 'weeping_willow', 'poplar', 'cherry']) {
+  test(`${name}: its levels have 40, 15 and 5 % of the triangles, and hardly differ`, { timeout: 300_000 }, async (t) => {
+    const levels = (await compare_levels(process.env.SEEDMESH_PROGRAM, [name], { impostor: false })).get(name);
+    assert.equal(levels.length, shares.length);
+    for (const [i, { share, overlap, brightness }] of levels.entries()) {
+      if (i === 0) continue;
+      t.diagnostic(`${i}: ${(100 * share).toFixed(1)} %, overlap ${overlap.toFixed(3)}, brightness ${brightness.toFixed(3)}`);
+      assert.ok(share <= 1.03 * shares[i], `level ${i} has ${(100 * share).toFixed(1)} % of the triangles`);
+      assert.ok(overlap >= 0.9, `level ${i}: ${overlap.toFixed(3)} of the outline`);
+      assert.ok(Math.abs(brightness - 1) <= 0.05, `level ${i}: ${brightness.toFixed(3)} of the brightness`);
+    }
+  });
+}
