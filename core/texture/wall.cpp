@@ -39,8 +39,7 @@ Relief laid(const Masonry& masonry, int size, Rng rng, const Job& job) {
       const ReliefRow out = row_at(y);
       for (int x = 0; x < size; ++x) {
         const float shade = shades.at(course, course.column[x]), level = levels.at(course, course.column[x]);
-        out.tone[x] =
-            clamp_share(0.5F + masonry.differ * (shade - 0.5F) + 0.14F * fine[x] + 0.05F * large[x]);
+        out.tone[x] = clamp_share(0.5F + masonry.differ * (shade - 0.5F) + 0.1F * fine[x] + 0.05F * large[x]);
         out.height[x] = 0.82F + 0.12F * level;
       }
       for (int x = 0; x < size; ++x) {
@@ -76,7 +75,7 @@ Relief plaster(int size, Rng rng, const Job& job) {
       const ReliefRow out = row_at(y);
       for (int x = 0; x < size; ++x) {
         out.height[x] = clamp_share(0.6F + 0.35F * fine[x] + 0.15F * large[x]);
-        out.tone[x] = clamp_share(0.5F + 0.08F * large[x] + 0.2F * fine[x]);
+        out.tone[x] = clamp_share(0.5F + 0.08F * large[x] + 0.16F * fine[x]);
       }
     }
   });

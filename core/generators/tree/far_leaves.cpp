@@ -5,20 +5,23 @@
 
 #include <algorithm>
 #include <array>
+#include <numeric>
 
+#include "core/base/math.h"
 #include "core/generators/tree/leaves.h"
 #include "core/generators/tree/materials.h"
-#include "core/base/math.h"
+#include "core/geom/lod/view_samples.h"
 #include "core/geom/mesh/sheet.h"
-#include "core/texture/raster.h"
 
 namespace seedmesh::tree {
 namespace {
 
-constexpr std::array<glm::vec2, 3> corners{glm::vec2(-0.5F, 1), glm::vec2(1.42F, 1), glm::vec2(0.46F, -0.25F)};
+constexpr std::array<glm::vec2, 3> corners{glm::vec2(-0.5F, 1), glm::vec2(1.42F, 1),
+                                           glm::vec2(0.46F, -0.25F)};
 // Light from above, of the sun at 55 degrees for leaves without shadow, and of the sky; the ground has a quarter of it.
-constexpr double sun = 3.6, sky = 0.72, ground_share = 0.25, unshaded = 0.5, sun_degrees = 55;
-constexpr std::uint32_t samples = 96;
+constexpr double sun = 3.6, sky = 0.72, ground_share = 0.25, unshaded = 0.9, sun_degrees = 55;
+// Share of the sides of a triangle that its texture fills.
+constexpr double filled = 0.5;
 constexpr int views = 3, azimuths = 4;
 // Shares of the brightness that leaves gain where no twig and where no other leaf shades them.
 constexpr double from_twigs = 0.025, from_leaves = 0.25;
@@ -51,7 +54,8 @@ void raise_to_mean(Mesh& squares, const TreeParams& params) {
   const TreeBuild build = build_of(params);
   if (build == TreeBuild::card || build == TreeBuild::cross) return;
   const auto height = static_cast<float>(math::radians(params.leaf.droop) / 12);
-  for (std::size_t i = 0; i < squares.position.size(); ++i) squares.position[i] += height * squares.normal[i] + 0.0F;
+  for (std::size_t i = 0; i < squares.position.size(); ++i)
+    squares.position[i] += height * squares.normal[i] + 0.0F;
 }
 
 template <class T>
@@ -63,43 +67,87 @@ void take(const Array<T>& from, std::span<const std::uint32_t> vertices, Array<T
 
 glm::vec3 face_of(const Mesh& mesh, std::size_t corner) {
   const glm::vec3& a = mesh.position[mesh.index.at(corner)];
-  return glm::cross(mesh.position[mesh.index.at(corner + 1)] - a, mesh.position[mesh.index.at(corner + 2)] - a);
+  return glm::cross(mesh.position[mesh.index.at(corner + 1)] - a,
+                    mesh.position[mesh.index.at(corner + 2)] - a);
 }
 
-/// The light on a surface with a normal, its axes to the right, up and towards the viewer; mean over azimuths of the sun.
-double light_on(const glm::i8vec4& normal) {
-  const glm::dvec3 n = glm::dvec3(normal) / 127.0;
+/// The axes of a level view: right and towards the viewer; the third is up.
+struct LevelView {
+  glm::dvec3 right, towards;
+};
+
+/// The light on a surface; mean over azimuths of the sun.
+double light_of(const glm::dvec3& normal, const LevelView& view) {
   const math::SinCos height = math::sincos_degrees(sun_degrees);
-  double light = sky * (ground_share + (1 - ground_share) * 0.5 * (1 + n.y));
+  double light = sky * (ground_share + (1 - ground_share) * 0.5 * (1 + normal.y));
   for (int i = 0; i < azimuths; ++i) {
     const math::SinCos turn = math::sincos_degrees(45 + 90.0 * i);
-    const double facing = n.y * height.sin + (n.x * turn.sin + n.z * turn.cos) * height.cos;
-    light += unshaded * sun / azimuths * std::max(facing, 0.0);
+    const double aside = glm::dot(normal, view.right) * turn.sin + glm::dot(normal, view.towards) * turn.cos;
+    light += unshaded * sun / azimuths * std::max(normal.y * height.sin + aside * height.cos, 0.0);
   }
   return light;
 }
 
-double light_on(const Mesh& mesh, const Job& job) {
-  const Box box = bounds_of(mesh.position.span());
-  const glm::dvec3 middle(0.5F * (box.min + box.max));
-  const double reach = 0.5 * static_cast<double>(glm::distance(box.min, box.max));
-  double light = 0, count = 0;
-  for (int view = 0; view < views; ++view) {
-    const math::SinCos turn = math::sincos_degrees(120.0 * view);
-    const texture::ViewFrame frame{{turn.cos, 0, -turn.sin}, {0, 1, 0}, {turn.sin, 0, turn.cos}};
-    const glm::dvec2 at(glm::dot(middle, frame.right), middle.y);
-    texture::Canvas canvas(frame, {at - reach, at + reach}, samples, samples, job);
-    canvas.draw(mesh, glm::mat4(1), {}, job);
-    for (std::uint32_t y = 0; y < samples; ++y) {
-      for (std::uint32_t x = 0; x < samples; ++x) {
-        const texture::Canvas::Sample& sample = canvas.at(x, y);
-        if (sample.is_covered == 0) continue;
-        light += light_on(sample.normal);
-        ++count;
-      }
-    }
+/// The nearest triangle at each texel of a view, and its light.
+class LitView {
+ public:
+  LitView(const Box& box, const LevelView& view, const Job& job)
+      : view_(view),
+        middle_(0.5F * (box.min + box.max)),
+        scale_(ViewSamples::across / std::max(static_cast<double>(glm::distance(box.min, box.max)), 1e-9)),
+        depth_(job, ViewSamples::texels, -far),
+        light_(job, ViewSamples::texels, 0.0F) {}
+
+  /// Draws the part of a triangle that the texture fills.
+  void draw(const std::array<glm::dvec3, 3>& at, const glm::dvec3& normal) {
+    const glm::dvec3 center = (at[0] + at[1] + at[2]) / 3.0;
+    const bool is_front = glm::dot(glm::cross(at[1] - at[0], at[2] - at[0]), view_.towards) > 0;
+    const auto light = static_cast<float>(light_of(is_front ? normal : -normal, view_));
+    const auto depth = static_cast<float>(glm::dot(center - middle_, view_.towards));
+    const auto placed = [&](std::size_t i) {
+      const glm::dvec3 off = center + filled * (at[i] - center) - middle_;
+      return 0.5 * ViewSamples::across + scale_ * glm::dvec2(glm::dot(off, view_.right), off.y);
+    };
+    ViewSamples::fill(placed(0), placed(1), placed(2), [&](std::size_t texel) {
+      if (depth <= depth_[texel]) return;
+      depth_[texel] = depth;
+      light_[texel] = light;
+    });
   }
-  return light / std::max(count, 1.0);
+
+  double sum() const { return std::accumulate(light_.begin(), light_.end(), 0.0); }
+  double covered() const {
+    return static_cast<double>(std::ranges::count_if(depth_, [](float depth) { return depth > -far; }));
+  }
+
+ private:
+  static constexpr float far = 1e30F;
+
+  LevelView view_;
+  glm::dvec3 middle_;
+  double scale_;
+  Array<float> depth_, light_;
+};
+
+/// The mean light on what is seen of a mesh of such triangles.
+double light_on(const Mesh& mesh, const Job& job) {
+  double light = 0, covered = 0;
+  for (int number = 0; number < views; ++number) {
+    const math::SinCos turn = math::sincos_degrees(120.0 * number);
+    LitView view(bounds_of(mesh.position.span()), {{turn.cos, 0, -turn.sin}, {turn.sin, 0, turn.cos}}, job);
+    for (std::size_t i = 0; i < mesh.index.size(); i += 3) {
+      std::array<glm::dvec3, 3> at;
+      glm::dvec3 normal(0);
+      for (std::size_t k = 0; k < 3; ++k) {
+        at[k] = mesh.position[mesh.index.at(i + k)];
+        normal += glm::dvec3(mesh.normal[mesh.index.at(i + k)]);
+      }
+      view.draw(at, math::unit(normal, {0, 1, 0}));
+    }
+    light += view.sum();
+    covered += view.covered();
+  }
+  return light / std::max(covered, 1.0);
 }
 
 }  // namespace

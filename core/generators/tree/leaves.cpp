@@ -122,8 +122,8 @@ void dim(Mesh& mesh, float factor) {
 }
 
 /// The leaves of a coarser level. `gain` gets what single triangles need where they replace both sides, as gain_of().
-std::vector<Foliage> coarser(const Leaves& leaves, TreeLevels& levels, int level, const TreeLevels::Plan& plan,
-                             float& gain, const GenerateContext& context) {
+std::vector<Foliage> coarser(const Leaves& leaves, TreeLevels& levels, int level,
+                             const TreeLevels::Plan& plan, float& gain, const GenerateContext& context) {
   Job& job = context.job;
   const bool has_back = has_outward_faces(leaves.params, context.demand);
   const Mesh leaf = with_back(far_leaf(leaves.params, plan.leaves, level, job), has_back);

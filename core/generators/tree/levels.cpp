@@ -35,11 +35,14 @@ TreeLevels::TreeLevels(const Skeleton& skeleton, const TreeParams& params, const
   if (has_far_leaves_) {
     for (const LeafDetail detail :
          {LeafDetail::square, LeafDetail::triangle, LeafDetail::single, LeafDetail::one_card}) {
-      const std::uint64_t triangles = far_leaf(params, detail, 1, job).elements() * (is_single(detail) ? 1 : sides);
-      if (triangles < (builds_.empty() ? of_leaf_ + 1 : builds_.back().triangles)) builds_.push_back({detail, triangles});
+      const std::uint64_t triangles =
+          far_leaf(params, detail, 1, job).elements() * (is_single(detail) ? 1 : sides);
+      if (triangles < (builds_.empty() ? of_leaf_ + 1 : builds_.back().triangles))
+        builds_.push_back({detail, triangles});
     }
   }
-  const Mesh ranked = has_far_leaves_ ? far_leaf(params, LeafDetail::square, 1, job) : leaf_of(params, most_levels - 1, job);
+  const Mesh ranked =
+      has_far_leaves_ ? far_leaf(params, LeafDetail::square, 1, job) : leaf_of(params, most_levels - 1, job);
   const float filled = build_of(params) == TreeBuild::mesh ? 1.0F : filled_card;
   const Limbs& limbs = skeleton.limbs;
   foliage.emplace(FoliageLevels::Plant{skeleton.organs, std::span(&ranked, 1), limbs, filled}, job);

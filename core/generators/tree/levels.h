@@ -41,8 +41,8 @@ struct TreeLevels {
   std::uint64_t count_ = 0;    ///< of leaves
   std::uint64_t of_leaf_ = 0;  ///< triangles of a leaf at the finest level
   bool has_far_leaves_ = false;
-  std::vector<Build> builds_;                    ///< by falling number of triangles
-  std::vector<std::uint64_t> bent_;              ///< triangles of a bent leaf by level
+  std::vector<Build> builds_;        ///< by falling number of triangles
+  std::vector<std::uint64_t> bent_;  ///< triangles of a bent leaf by level
 };
 
 }  // namespace seedmesh::tree
