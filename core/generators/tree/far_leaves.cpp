@@ -30,9 +30,9 @@ constexpr std::int32_t flat = 4;
 
 /// Replaces each square of two triangles and four vertices by one triangle in its plane. The vertices of a square
 /// differ in the texture coordinates alone, which are 0 or 1.
-Mesh as_triangles(const Mesh& squares, std::size_t most, const Job& job) {
+Mesh as_triangles(const Mesh& squares, std::size_t begin, std::size_t end, const Job& job) {
   Mesh mesh = empty_sheet(job);
-  for (std::size_t first = 0; first < most; first += 4) {
+  for (std::size_t first = begin; first < end; first += 4) {
     std::array<glm::vec3, 4> at;
     for (std::size_t i = first; i < first + 4; ++i) {
       const glm::vec2 uv = squares.uv[0][i];
@@ -170,7 +170,9 @@ Mesh far_leaf(const TreeParams& params, LeafDetail detail, int level, const Job&
   Mesh squares = leaf_of(coarse, level, job);
   raise_to_mean(squares, params);
   if (detail == LeafDetail::square) return squares;
-  return as_triangles(squares, detail == LeafDetail::one_card ? 4 : squares.position.size(), job);
+  // The first of crossed cards is level where the upper sides of leaves face up; from aside one sees the second.
+  const bool has_second = detail == LeafDetail::one_card && squares.position.size() > 4;
+  return as_triangles(squares, has_second ? 4 : 0, has_second ? 8 : squares.position.size(), job);
 }
 
 Mesh outer_sides(const Mesh& mesh, const Mesh& leaf, const glm::vec3& middle, const Job& job) {

@@ -14,7 +14,7 @@ enum class LeafDetail {
   square,    ///< flat cards: two triangles for each side
   triangle,  ///< one triangle for each side; it contains the visible part of the texture, which is not repeated
   single,    ///< the same triangle for both sides, in a double-sided material
-  one_card,  ///< the same, for the first card of crossed ones
+  one_card,  ///< the same, for one of crossed cards
 };
 
 /// Has a leaf only one triangle for both sides of a card?
