@@ -152,8 +152,8 @@ double light_on(const Mesh& mesh, const Job& job) {
 
 }  // namespace
 
-float gain_of(const Mesh& both, const Mesh& outer, const Job& job) {
-  return static_cast<float>(light_on(both, job) / std::max(light_on(outer, job), 1e-6));
+float gain_of(const Mesh& all, const Mesh& outer, const Job& job) {
+  return static_cast<float>(light_on(all, job) / std::max(light_on(outer, job), 1e-6));
 }
 
 float dimming(double share) { return static_cast<float>((1 - from_twigs) * (1 - from_leaves * (1 - share))); }

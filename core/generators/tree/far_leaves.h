@@ -31,11 +31,11 @@ Mesh far_leaf(const TreeParams& params, LeafDetail detail, int level, const Job&
 /// before all backs and does not share vertices between triangles.
 Mesh outer_sides(const Mesh& mesh, const Mesh& leaf, const glm::vec3& middle, const Job& job);
 
-/// By how much brighter the texture of single triangles has to be so that the crown looks as bright as with both sides:
-/// renderers turn the normals of back sides around, away from the sky. The quotient of the mean light on what is seen of
-/// both meshes in three level views, under a sky with a fifth of the sun. `outer`: outer_sides() of `both`. Cost: about
-/// 0.4 us a triangle.
-float gain_of(const Mesh& both, const Mesh& outer, const Job& job);
+/// By how much brighter the texture of single triangles has to be so that the crown looks as bright as all leaves with both
+/// sides: renderers turn the normals of back sides around, away from the sky. The quotient of the mean light on what is seen
+/// of both meshes in three level views, under a sky with a fifth of the sun. `all`: all leaves as `triangle` with backs;
+/// `outer`: those of the level after outer_sides(). Cost: about 0.5 us a triangle.
+float gain_of(const Mesh& all, const Mesh& outer, const Job& job);
 
 /// The factor for the colours of leaves at a coarser level: without the shadows of the leaves and the twigs that are left
 /// out, the others are brighter. Measured with the presets.

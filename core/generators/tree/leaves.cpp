@@ -115,29 +115,37 @@ std::vector<Foliage> place(const Organs& organs, const Mesh& leaf, FoliageOption
 
 /// Multiplies the colours of all vertices.
 void dim(Mesh& mesh, float factor) {
+  const auto parts = static_cast<std::uint32_t>(math::to_int32(256 * static_cast<double>(factor)));
   const auto dimmed = [&](std::uint8_t value) {
-    return static_cast<std::uint8_t>(static_cast<float>(value) * factor + 0.5F);
+    return static_cast<std::uint8_t>((value * parts + 128) / 256);
   };
   for (glm::u8vec4& color : mesh.color) color = {dimmed(color.r), dimmed(color.g), dimmed(color.b), color.a};
 }
 
-/// The leaves of a coarser level. `gain` gets what single triangles need where they replace both sides, as gain_of().
-std::vector<Foliage> coarser(const Leaves& leaves, TreeLevels& levels, int level,
-                             const TreeLevels::Plan& plan, float& gain, const GenerateContext& context) {
+struct CoarserLeaves {
+  std::vector<Foliage> parts;
+  /// Where single triangles replace both sides, the factor for their colours as gain_of(); else 0.
+  float gain = 0;
+};
+
+CoarserLeaves coarser(const Leaves& leaves, TreeLevels& levels, const TreeLevels::Plan& plan,
+                      const GenerateContext& context) {
   Job& job = context.job;
   const bool has_back = has_outward_faces(leaves.params, context.demand);
-  const Mesh leaf = with_back(far_leaf(leaves.params, plan.leaves, level, job), has_back);
+  const Mesh leaf = with_back(far_leaf(leaves.params, plan.leaves, plan.level, job), has_back);
   const Organs fewer = levels.foliage->keep(leaves.organs, plan.share, job);
   const FoliageOptions options = options_of(leaves, context);
-  std::vector<Foliage> parts = place(fewer, leaf, options, job);
-  for (Foliage& part : parts) {
+  CoarserLeaves made;
+  made.parts = place(fewer, leaf, options, job);
+  for (Foliage& part : made.parts) {
     dim(part.mesh, dimming(plan.share));
     if (!is_single(plan.leaves) || !has_back) continue;
-    Mesh outer = outer_sides(part.mesh, leaf, *options.crown, job);
-    gain = gain_of(part.mesh, outer, job);
-    part.mesh = std::move(outer);
+    part.mesh = outer_sides(part.mesh, leaf, *options.crown, job);
+    const Mesh card = with_back(far_leaf(leaves.params, LeafDetail::triangle, plan.level, job), true);
+    for (const Foliage& all : place(leaves.organs, card, options, job))
+      made.gain = gain_of(all.mesh, part.mesh, job);
   }
-  return parts;
+  return made;
 }
 
 void add_merged(Model& model, const Leaves& leaves, TreeLevels& levels, const LeafMaterials& materials,
@@ -149,20 +157,18 @@ void add_merged(Model& model, const Leaves& leaves, TreeLevels& levels, const Le
   for (int level = 0; level < context.demand.lods; ++level) {
     MeshGroup group{level_name("leaves", level), {}};
     std::vector<Foliage> parts;
-    TreeLevels::Plan plan;
-    float gain = 0;  // 0: the usual materials
+    LeafMaterials far;
     if (level == 0) {
       parts = place(leaves.organs, leaves.leaf, options_of(leaves, context), context.job);
     } else {
-      plan = levels.plan(level, bark);
-      parts = coarser(leaves, levels, level, plan, gain, context);
-    }
-    LeafMaterials far;
-    if (gain > 0) {
+      const TreeLevels::Plan plan = levels.plan(level, bark);
+      CoarserLeaves made = coarser(leaves, levels, plan, context);
       const bool is_sparse = plan.leaves == LeafDetail::one_card;
-      far = double_sided(model, materials, {gain, is_sparse, "_LOD" + std::to_string(level)});
+      if (made.gain > 0)
+        far = double_sided(model, materials, {made.gain, is_sparse, "_LOD" + std::to_string(level)});
+      parts = std::move(made.parts);
     }
-    const LeafMaterials& used = gain > 0 ? far : materials;
+    const LeafMaterials& used = far.material >= 0 ? far : materials;
     for (Foliage& part : parts)
       group.primitives.push_back({std::move(part.mesh), used.material, used.variants});
     if (!group.primitives.empty()) attach(model, node, std::move(group));
@@ -171,18 +177,19 @@ void add_merged(Model& model, const Leaves& leaves, TreeLevels& levels, const Le
 }
 
 /// Adds one node with an instance for each leaf.
-void add_shared(Model& model, const Organs& organs, const TreeParams& params, FoliageOptions options,
-                const LeafMaterials& materials, const GenerateContext& context) {
+void add_shared(Model& model, const Leaves& leaves, const LeafMaterials& materials,
+                const GenerateContext& context) {
   Job& job = context.job;
+  FoliageOptions options = options_of(leaves, context);
   Node node;
   node.name = "leaf";
   node.parent = 0;
   for (int level = 0; level < context.demand.lods; ++level) {
     MeshGroup group{level_name("leaf", level), {}};
-    group.primitives.push_back({leaf_of(params, level, job), materials.material, materials.variants});
+    group.primitives.push_back({leaf_of(leaves.params, level, job), materials.material, materials.variants});
     if (level == 0) {
       options.surfaces = std::span(&group.primitives.front().mesh, 1);
-      for (FoliagePlaces& places : organ_places(organs, options, job))
+      for (FoliagePlaces& places : organ_places(leaves.organs, options, job))
         node.instances.transforms = std::move(places.places);
     }
     attach(model, node, std::move(group));
@@ -247,7 +254,7 @@ void add_leaves(Model& model, const Leaves& leaves, TreeLevels& levels, const Ge
   if (leaves.organs.organ.empty()) return;
   const LeafMaterials materials = add_leaf_materials(model, leaves.params, context);
   if (context.demand.share_organs) {
-    add_shared(model, leaves.organs, leaves.params, options_of(leaves, context), materials, context);
+    add_shared(model, leaves, materials, context);
   } else {
     add_merged(model, leaves, levels, materials, context);
   }

@@ -63,6 +63,7 @@ TreeLevels::TreeLevels(const Skeleton& skeleton, const TreeParams& params, const
 TreeLevels::Plan TreeLevels::plan(int level, std::uint64_t finest) const {
   const Detail detail(level);
   Plan plan;
+  plan.level = level;
   plan.bark = detail.bark(finest, seen);
   if (!foliage) return plan;
   const auto count = static_cast<double>(count_);

@@ -20,6 +20,7 @@ struct TreeLevels {
   TreeLevels(const Skeleton& skeleton, const TreeParams& params, const GenerateContext& context);
 
   struct Plan {
+    int level = 1;
     LeafDetail leaves = LeafDetail::bent;
     double share = 1;        ///< of the leaves that remains
     std::uint64_t bark = 0;  ///< the most triangles
