@@ -112,10 +112,10 @@ void dress(Material& material, const Places& places, bool repeats) {
   material.base_color = {material.recipe.factor, material.base_color.w};
   material.roughness = 1;
   if (repeats) return;
+  if (material.alpha_mode != AlphaMode::mask) material.alpha_cutoff = leaf_cutoff(material.recipe.kind);
   material.alpha_mode = AlphaMode::mask;
-  material.alpha_cutoff = leaf_cutoff(material.recipe.kind);
   if (material.transmission == 0) let_light_through(material, leaf_picture(material.recipe.kind).shape);
-  material.double_sided = !material.recipe.has_own_sides;
+  material.double_sided = material.double_sided || !material.recipe.has_own_sides;
 }
 
 }  // namespace

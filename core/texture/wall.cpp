@@ -39,8 +39,7 @@ Relief laid(const Masonry& masonry, int size, Rng rng, const Job& job) {
       const ReliefRow out = row_at(y);
       for (int x = 0; x < size; ++x) {
         const float shade = shades.at(course, course.column[x]), level = levels.at(course, course.column[x]);
-        out.tone[x] =
-            clamp_share(0.5F + masonry.differ * (shade - 0.5F) + 0.12F * fine[x] + 0.14F * large[x]);
+        out.tone[x] = clamp_share(0.5F + masonry.differ * (shade - 0.5F) + 0.1F * fine[x] + 0.05F * large[x]);
         out.height[x] = 0.82F + 0.12F * level;
       }
       for (int x = 0; x < size; ++x) {
@@ -54,15 +53,16 @@ Relief laid(const Masonry& masonry, int size, Rng rng, const Job& job) {
   });
 }
 
-constexpr glm::dvec2 brick_tile{2, 1.8}, plaster_tile{2, 2}, roof_tile_tile{2, 2.4}, slate_tile{2, 2},
-    planks_tile{2.4, 2.4}, ashlar_tile{2.4, 2.4}, concrete_tile{3, 3}, sheet_tile{2, 2};
+// A texture of 512 texels has 512 to 570 texels a metre. Tones that vary slowly are weak, because tiles of a metre repeat.
+constexpr glm::dvec2 brick_tile{1, 0.9}, plaster_tile{1, 1}, roof_tile_tile{1, 0.9}, slate_tile{1, 1},
+    planks_tile{1, 1}, ashlar_tile{1, 1}, concrete_tile{1, 1}, sheet_tile{1, 1};
 
 Relief brick(int size, Rng rng, const Job& job) {
-  return laid({{8, 24, 0.5F, brick_tile}, 0.005F, 0.006F, 0.75F, 0.06F}, size, rng, job);
+  return laid({{4, 12, 0.5F, brick_tile}, 0.005F, 0.006F, 0.75F, 0.06F}, size, rng, job);
 }
 
 Relief ashlar(int size, Rng rng, const Job& job) {
-  return laid({{4, 8, 0.5F, ashlar_tile}, 0.004F, 0.016F, 0.3F, 0.05F}, size, rng, job);
+  return laid({{2, 4, 0.5F, ashlar_tile}, 0.004F, 0.016F, 0.3F, 0.05F}, size, rng, job);
 }
 
 Relief plaster(int size, Rng rng, const Job& job) {
@@ -75,7 +75,7 @@ Relief plaster(int size, Rng rng, const Job& job) {
       const ReliefRow out = row_at(y);
       for (int x = 0; x < size; ++x) {
         out.height[x] = clamp_share(0.6F + 0.35F * fine[x] + 0.15F * large[x]);
-        out.tone[x] = clamp_share(0.5F + 0.3F * large[x] + 0.14F * fine[x]);
+        out.tone[x] = clamp_share(0.5F + 0.08F * large[x] + 0.16F * fine[x]);
       }
     }
   });
@@ -83,7 +83,7 @@ Relief plaster(int size, Rng rng, const Job& job) {
 
 /// Panels with the marks of their boards and pores.
 Relief concrete(int size, Rng rng, const Job& job) {
-  const Courses panels({2, 2, 0, concrete_tile}, size);
+  const Courses panels({1, 1, 0, concrete_tile}, size);
   const Noise grain_noise(size, {64, 64}, {2, 0.6F}, 0.6F, rng.at("grain"));
   const Noise patch_noise(size, {4, 3}, {4, 0.55F}, 0.8F, rng.at("patches"));
   const Noise pore_noise(size, {56, 56}, {1, 1}, 1, rng.at("pores"));
@@ -99,7 +99,7 @@ Relief concrete(int size, Rng rng, const Job& job) {
         const float edge = course.to_side[x] < course.to_bed ? course.to_side[x] : course.to_bed;
         const float panel = step_between(0.004F, 0.012F, edge), pore = step_between(0.5F, 0.7F, pores[x]);
         out.height[x] = clamp_share(0.9F * panel - 0.3F * pore + 0.06F * fine[x]);
-        out.tone[x] = clamp_share(0.5F + 0.34F * large[x] + out.tone[x] + 0.08F * fine[x] -
+        out.tone[x] = clamp_share(0.5F + 0.12F * large[x] + out.tone[x] + 0.12F * fine[x] -
                                   0.35F * (1 - panel) - 0.15F * pore);
       }
     }
@@ -108,7 +108,7 @@ Relief concrete(int size, Rng rng, const Job& job) {
 
 /// Pantiles: a wave across, rising down the slope to the overlap with the next tile.
 Relief roof_tile(int size, Rng rng, const Job& job) {
-  const Courses courses({8, 8, 0, roof_tile_tile}, size);
+  const Courses courses({4, 3, 0, roof_tile_tile}, size);
   const Noise grain_noise(size, {32, 32}, {2, 0.6F}, 0.6F, rng.at("grain"));
   const Noise moss_noise(size, {4, 4}, {4, 0.6F}, 0.7F, rng.at("moss"));
   const PieceNumbers shades(courses.bond(), rng.at("shade"));
@@ -128,14 +128,14 @@ Relief roof_tile(int size, Rng rng, const Job& job) {
         const float low = 0.3F * trough * trough, high = 0.3F + 0.5F * (1 - roll * roll);
         out.height[x] = clamp_share(0.8F * (across < 0.66F ? low : high) + rise + 0.03F * fine[x]);
         const float side = 0.22F * (1 - step_between(0, 0.07F, std::abs(across - 0.63F)));
-        out.tone[x] = clamp_share(0.52F + out.tone[x] + 0.16F * moss[x] + 0.1F * fine[x] - under - side);
+        out.tone[x] = clamp_share(0.52F + out.tone[x] + 0.06F * moss[x] + 0.14F * fine[x] - under - side);
       }
     }
   });
 }
 
 Relief slate(int size, Rng rng, const Job& job) {
-  const Courses courses({8, 10, 0.5F, slate_tile}, size);
+  const Courses courses({4, 4, 0.5F, slate_tile}, size);
   const Noise grain_noise(size, {24, 48}, {2, 0.6F}, 0.6F, rng.at("grain"));
   const Noise patch_noise(size, {3, 3}, {3, 0.5F}, 0.6F, rng.at("patches"));
   const PieceNumbers shades(courses.bond(), rng.at("shade"));
@@ -152,7 +152,7 @@ Relief slate(int size, Rng rng, const Job& job) {
         const float gap = 1 - step_between(0.002F, 0.006F, course.to_side[x]);
         out.height[x] = clamp_share(butt * (1 - 0.6F * gap) + 0.06F * fine[x]);
         out.tone[x] =
-            clamp_share(0.5F + out.tone[x] + 0.12F * fine[x] + 0.1F * large[x] - under - 0.35F * gap);
+            clamp_share(0.5F + out.tone[x] + 0.14F * fine[x] + 0.04F * large[x] - under - 0.35F * gap);
       }
     }
   });
@@ -160,7 +160,7 @@ Relief slate(int size, Rng rng, const Job& job) {
 
 /// Overlapping horizontal boards with grain.
 Relief planks(int size, Rng rng, const Job& job) {
-  const Courses courses({1, 16, 0.37F, planks_tile}, size);
+  const Courses courses({1, 8, 0.37F, planks_tile}, size);
   const Noise line_noise(size, {4, 128}, {1, 1}, 0.6F, rng.at("grain"));
   const Noise fibre_noise(size, {10, 64}, {2, 0.6F}, 0.4F, rng.at("fibres"));
   const PieceNumbers shades(courses.bond(), rng.at("shade"));
@@ -185,7 +185,7 @@ Relief planks(int size, Rng rng, const Job& job) {
 
 /// Vertical ribs.
 Relief sheet(int size, Rng rng, const Job& job) {
-  constexpr int ribs = 10;
+  constexpr int ribs = 5;
   const Noise patch_noise(size, {3, 2}, {4, 0.55F}, 0.6F, rng.at("patches"));
   const Noise streak_noise(size, {64, 8}, {2, 0.6F}, 0.5F, rng.at("streaks"));
   std::vector<float> rib;
@@ -200,7 +200,7 @@ Relief sheet(int size, Rng rng, const Job& job) {
       const ReliefRow out = row_at(y);
       for (int x = 0; x < size; ++x) {
         out.height[x] = rib[static_cast<std::size_t>(x)];
-        out.tone[x] = clamp_share(0.46F + 0.1F * out.height[x] + 0.14F * large[x] + 0.1F * fine[x]);
+        out.tone[x] = clamp_share(0.46F + 0.1F * out.height[x] + 0.05F * large[x] + 0.12F * fine[x]);
       }
     }
   });
@@ -237,7 +237,7 @@ constexpr Painter painters[] = {
     {plaster, {}, 0.86F, 1.1F, {}, 0.006F, 0.96F, 0.92F, 0.95F, 0.2F},
     {roof_tile, {}, 0.5F, 1.18F, {}, 0.05F, 0.92F, 0.8F, 0.9F, 0.5F},
     {slate, {}, 0.6F, 1.18F, {}, 0.012F, 0.85F, 0.65F, 0.9F, 0.4F},
-    {planks, {}, 0.55F, 1.15F, {}, 0.018F, 0.9F, 0.78F, 0.9F, 0.5F},
+    {planks, {}, 0.62F, 1.15F, {}, 0.018F, 0.9F, 0.78F, 0.9F, 0.5F},
     {ashlar, {}, 0.7F, 1.14F, {158, 156, 150}, 0.014F, 0.95F, 0.86F, 0.95F, 0.35F},
     {concrete, {}, 0.74F, 1.12F, {}, 0.008F, 0.95F, 0.85F, 0.95F, 0.3F},
     {sheet, {}, 0.8F, 1.1F, {}, 0.035F, 0.5F, 0.45F, 0.5F, 0.3F},

@@ -17,7 +17,7 @@ const trees = {
   poplar: [leaves, bark], weeping_willow: [leaves, bark], willow: [leaves, bark], bush: [leaves, bark], palm: [leaves, bark],
   black_tupelo: [leaves, bark], maple: [autumn, bark], pine: [needles, bark], spruce: [needles, bark], dead_tree: [bark],
 };
-const snow = [/snow/, 0.45, 0.9, 0.2], water = [/water/, 0.02, 0.05, 1], basalt = [/ground/, 0.02, 0.06, 0.5], ground = [/ground/, 0.08, 0.42, 0.69];
+const snow = [/snow/, 0.45, 0.9, 0.2], water = [/water/, 0.02, 0.05, 1], basalt = [/ground/, 0.02, 0.06, 0.5], ground = [/ground/, 0.08, 0.4, 0.65];
 const lands = {
   alps: [snow, ground], ridges: [snow, ground], snowfield: [snow], river_valleys: [snow, ground], island: [water, ground],
   mesas: [ground], dunes: [ground], lava_plain: [basalt],

@@ -99,4 +99,56 @@ window.draw = async (url, view, { size, sun }) => {
   renderer.render(scene, camera);
   return { triangles: renderer.info.render.triangles, thirds: measured };
 };
+
+/** What is covered, and the mean luminance of that. */
+function cover() {
+  const { width, height } = renderer.domElement, gl = renderer.getContext(), data = new Uint8Array(4 * width * height), mask = new Uint8Array(width * height);
+  gl.readPixels(0, 0, width, height, gl.RGBA, gl.UNSIGNED_BYTE, data);
+  let sum = 0, count = 0;
+  for (let i = 0; i < mask.length; ++i) {
+    if (data[4 * i + 3] < 128) continue;
+    mask[i] = 1;
+    ++count;
+    sum += 0.2126 * linear(data[4 * i]) + 0.7152 * linear(data[4 * i + 1]) + 0.0722 * linear(data[4 * i + 2]);
+  }
+  return { mask, luminance: sum / Math.max(count, 1) };
+}
+
+/**
+ * Draws levels of detail from three directions at the height of the middle. Returns for each level the overlap of its
+ * outline with that of the level before and the quotient of their luminances, means over the directions.
+ */
+window.draw_levels = async (urls, { sun }, rows, keep) => {
+  prepare([rows, rows]);
+  renderer.toneMapping = THREE.NoToneMapping;
+  const results = [], before = [];
+  let box;
+  for (const url of urls) {
+    const { scene: model } = await new GLTFLoader().loadAsync(url), scene = new THREE.Scene();
+    scene.add(model);
+    model.traverse((each) => { each.castShadow = each.receiveShadow = true; });
+    box ??= new THREE.Box3().setFromObject(model);
+    lights(scene, box, sun);
+    const middle = box.getCenter(new THREE.Vector3()), size = box.getSize(new THREE.Vector3()), reach = size.length();
+    const result = { overlap: 0, brightness: 0, image: null };
+    [0, 2.1, 4.2].forEach((turn, i) => {
+      const half = 0.52 * Math.max(size.y, Math.hypot(size.x, size.z) * 0.8);
+      const camera = new THREE.OrthographicCamera(-half, half, half, -half, 0, 4 * reach);
+      camera.position.set(middle.x + 2 * reach * Math.sin(turn), middle.y, middle.z + 2 * reach * Math.cos(turn));
+      camera.lookAt(middle);
+      renderer.render(scene, camera);
+      const { mask, luminance } = cover();
+      if (i === 0 && keep) result.image = renderer.domElement.toDataURL();
+      if (before[i]) {
+        let both = 0, either = 0;
+        for (let k = 0; k < mask.length; ++k) { both += mask[k] & before[i].mask[k]; either += mask[k] | before[i].mask[k]; }
+        result.overlap += both / either / 3;
+        result.brightness += luminance / before[i].luminance / 3;
+      }
+      before[i] = { mask, luminance };
+    });
+    results.push(result);
+  }
+  return results;
+};
 window.ready = true;

@@ -49,8 +49,9 @@ constexpr Surface surfaces[] = {
 
 // Parts of blueprints: what the request can paint is wood, what has a colour of its own is stone.
 constexpr Surface part_surfaces[] = {
-    {"door", "planks"},  {"color", "ashlar"},   {"stone", "ashlar"},      {"brick", "brick"},
-    {"wall", "plaster"}, {"roof", "roof_tile"}, {"concrete", "concrete"}, {"wood", "planks"},
+    {"door", "planks"},    {"frame", "plaster"},     {"color", "ashlar"},
+    {"stone", "ashlar"},   {"brick", "brick"},       {"wall", "plaster"},
+    {"roof", "roof_tile"}, {"concrete", "concrete"}, {"wood", "planks"},
 };
 // Flat bodies of blueprints with a colour alone.
 constexpr std::string_view painted_surface = "plaster";
@@ -197,6 +198,8 @@ std::optional<Warning> MaterialTable::unused_facade_image() const {
 int MaterialTable::material_of_part(std::string_view role, const Style& style) {
   const std::string* const color = shapes_->texts.find(style.color);
   if (params_.materials.contains(std::string(role))) return make({std::string(role), nullptr, true});
+  if (role.starts_with("glass_") && params_.materials.contains("glass"))
+    return make({"glass", nullptr, true});
   if (color != nullptr && role == "stone") return make({name_of_color(*color), color, true});
   // The frames and leaves of parts in the material "painted" have the current colour.
   const std::string* const material = shapes_->texts.find(style.material);

@@ -132,7 +132,7 @@ void add_bark(Model& model, const Limbs& limbs, const TreeParams& params, const 
     } else {
       const GraftOptions options = graft_options(params, detail);
       CoarseOptions coarse;
-      coarse.triangles = std::min(detail.bark(triangles, levels.seen), Detail::fewer_than(before));
+      coarse.triangles = std::min(levels.plan(level, triangles).bark, Detail::fewer_than(before));
       coarse.sides = options.sides;
       coarse.finest_sides = finest.sides;
       coarse.pointed = true;

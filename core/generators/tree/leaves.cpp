@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/base/rng.h"
+#include "core/generators/tree/far_leaves.h"
 #include "core/generators/tree/materials.h"
 #include "core/generators/tree/range.h"
 #include "core/geom/lod/detail.h"
@@ -43,6 +44,24 @@ float area_of(const Mesh& mesh) {
     area += 0.5F * std::sqrt(glm::dot(across, across));
   }
   return area;
+}
+
+/// The mesh of a leaf with all faces once more as its back, if it has one.
+Mesh with_back(Mesh mesh, bool has_back) {
+  if (!has_back) return mesh;
+  const auto front = static_cast<std::uint32_t>(mesh.position.size());
+  const std::size_t corners = mesh.index.wide.size();
+  for (std::uint32_t i = 0; i < front; ++i) {
+    const glm::vec3 normal = mesh.normal[i];
+    mesh.position.push_back(mesh.position[i] - thickness * normal + 0.0F);
+    mesh.normal.push_back(-normal + 0.0F);
+    mesh.uv[0].push_back(mesh.uv[0][i]);
+  }
+  for (std::size_t i = 0; i < corners; i += 3) {
+    for (const std::size_t corner : {i, i + 2, i + 1})
+      mesh.index.wide.push_back(mesh.index.wide[corner] + front);
+  }
+  return mesh;
 }
 
 LeafBuild leaf_build(TreeBuild build) {
@@ -94,48 +113,83 @@ std::vector<Foliage> place(const Organs& organs, const Mesh& leaf, FoliageOption
   return place_organs(organs, options, job);
 }
 
+/// Multiplies the colours of all vertices.
+void dim(Mesh& mesh, float factor) {
+  const auto parts = static_cast<std::uint32_t>(math::to_int32(256 * static_cast<double>(factor)));
+  const auto dimmed = [&](std::uint8_t value) {
+    return static_cast<std::uint8_t>((value * parts + 128) / 256);
+  };
+  for (glm::u8vec4& color : mesh.color) color = {dimmed(color.r), dimmed(color.g), dimmed(color.b), color.a};
+}
+
+struct CoarserLeaves {
+  std::vector<Foliage> parts;
+  /// Where single triangles replace both sides, the factor for their colours as gain_of(); else 0.
+  float gain = 0;
+};
+
+CoarserLeaves coarser(const Leaves& leaves, TreeLevels& levels, const TreeLevels::Plan& plan,
+                      const GenerateContext& context) {
+  Job& job = context.job;
+  const bool has_back = has_outward_faces(leaves.params, context.demand);
+  const Mesh leaf = with_back(far_leaf(leaves.params, plan.leaves, plan.level, job), has_back);
+  const Organs fewer = levels.foliage->keep(leaves.organs, plan.share, job);
+  const FoliageOptions options = options_of(leaves, context);
+  CoarserLeaves made;
+  made.parts = place(fewer, leaf, options, job);
+  for (Foliage& part : made.parts) {
+    dim(part.mesh, dimming(plan.share));
+    if (!is_single(plan.leaves) || !has_back) continue;
+    part.mesh = outer_sides(part.mesh, leaf, *options.crown, job);
+    const Mesh card = with_back(far_leaf(leaves.params, LeafDetail::triangle, plan.level, job), true);
+    for (const Foliage& all : place(leaves.organs, card, options, job))
+      made.gain = gain_of(all.mesh, part.mesh, job);
+  }
+  return made;
+}
+
 void add_merged(Model& model, const Leaves& leaves, TreeLevels& levels, const LeafMaterials& materials,
                 const GenerateContext& context) {
-  Job& job = context.job;
   Node node;
   node.name = "leaves";
   node.parent = 0;
-  std::uint64_t before = 0;  // triangles of the whole tree at the level before
+  const std::uint64_t bark = levels.bark.empty() ? 0 : levels.bark.front();
   for (int level = 0; level < context.demand.lods; ++level) {
     MeshGroup group{level_name("leaves", level), {}};
     std::vector<Foliage> parts;
+    LeafMaterials far;
     if (level == 0) {
-      parts = place(leaves.organs, leaves.leaf, options_of(leaves, context), job);
+      parts = place(leaves.organs, leaves.leaf, options_of(leaves, context), context.job);
     } else {
-      const Mesh leaf = drawn_leaf(leaves.params, level, context);
-      const double share =
-          levels.leaves_at(Detail(level), leaves.organs.organ.size(), leaf.elements(), before);
-      const Organs fewer = levels.foliage->keep(leaves.organs, share, job);
-      parts = place(fewer, leaf, options_of(leaves, context), job);
+      const TreeLevels::Plan plan = levels.plan(level, bark);
+      CoarserLeaves made = coarser(leaves, levels, plan, context);
+      const bool is_sparse = plan.leaves == LeafDetail::one_card;
+      if (made.gain > 0)
+        far = double_sided(model, materials, {made.gain, is_sparse, "_LOD" + std::to_string(level)});
+      parts = std::move(made.parts);
     }
-    before = levels.bark.empty() ? 0 : levels.bark[static_cast<std::size_t>(level)];
-    for (Foliage& part : parts) {
-      before += part.mesh.elements();
-      group.primitives.push_back({std::move(part.mesh), materials.material, materials.variants});
-    }
+    const LeafMaterials& used = far.material >= 0 ? far : materials;
+    for (Foliage& part : parts)
+      group.primitives.push_back({std::move(part.mesh), used.material, used.variants});
     if (!group.primitives.empty()) attach(model, node, std::move(group));
   }
   if (node.mesh >= 0) model.nodes.push_back(std::move(node));
 }
 
 /// Adds one node with an instance for each leaf.
-void add_shared(Model& model, const Organs& organs, const TreeParams& params, FoliageOptions options,
-                const LeafMaterials& materials, const GenerateContext& context) {
+void add_shared(Model& model, const Leaves& leaves, const LeafMaterials& materials,
+                const GenerateContext& context) {
   Job& job = context.job;
+  FoliageOptions options = options_of(leaves, context);
   Node node;
   node.name = "leaf";
   node.parent = 0;
   for (int level = 0; level < context.demand.lods; ++level) {
     MeshGroup group{level_name("leaf", level), {}};
-    group.primitives.push_back({leaf_of(params, level, job), materials.material, materials.variants});
+    group.primitives.push_back({leaf_of(leaves.params, level, job), materials.material, materials.variants});
     if (level == 0) {
       options.surfaces = std::span(&group.primitives.front().mesh, 1);
-      for (FoliagePlaces& places : organ_places(organs, options, job))
+      for (FoliagePlaces& places : organ_places(leaves.organs, options, job))
         node.instances.transforms = std::move(places.places);
     }
     attach(model, node, std::move(group));
@@ -162,21 +216,7 @@ Mesh leaf_of(const TreeParams& params, int level, const Job& job) {
 }
 
 Mesh drawn_leaf(const TreeParams& params, int level, const GenerateContext& context) {
-  Mesh mesh = leaf_of(params, level, context.job);
-  if (!has_outward_faces(params, context.demand)) return mesh;
-  const auto front = static_cast<std::uint32_t>(mesh.position.size());
-  const std::size_t corners = mesh.index.wide.size();
-  for (std::uint32_t i = 0; i < front; ++i) {
-    const glm::vec3 normal = mesh.normal[i];
-    mesh.position.push_back(mesh.position[i] - thickness * normal + 0.0F);
-    mesh.normal.push_back(-normal + 0.0F);
-    mesh.uv[0].push_back(mesh.uv[0][i]);
-  }
-  for (std::size_t i = 0; i < corners; i += 3) {
-    for (const std::size_t corner : {i, i + 2, i + 1})
-      mesh.index.wide.push_back(mesh.index.wide[corner] + front);
-  }
-  return mesh;
+  return with_back(leaf_of(params, level, context.job), has_outward_faces(params, context.demand));
 }
 
 std::optional<FoliageShade> shade_of(const Limbs& limbs, const Organs& organs, const Mesh& leaf,
@@ -214,7 +254,7 @@ void add_leaves(Model& model, const Leaves& leaves, TreeLevels& levels, const Ge
   if (leaves.organs.organ.empty()) return;
   const LeafMaterials materials = add_leaf_materials(model, leaves.params, context);
   if (context.demand.share_organs) {
-    add_shared(model, leaves.organs, leaves.params, options_of(leaves, context), materials, context);
+    add_shared(model, leaves, materials, context);
   } else {
     add_merged(model, leaves, levels, materials, context);
   }

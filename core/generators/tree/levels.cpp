@@ -1,6 +1,7 @@
 #include "core/generators/tree/levels.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/generators/tree/leaves.h"
@@ -10,19 +11,41 @@ namespace {
 
 // Share of the width of a card that its texture fills.
 constexpr float filled_card = 0.7F;
-// A twig that is left out opens gaps in the twigs behind it, so each level has only this share fewer.
-constexpr double fewer_twigs = 0.1;
+// Shares of the triangles of the finest level.
+constexpr std::array<double, most_levels> level_shares{1, 0.4, 0.15, 0.05, 0.03};
+// Share of the triangles of a level that bark may have where leaves need the others. Far away, twigs are too thin to
+// be seen.
+constexpr std::array<double, most_levels> bark_shares{1, 0.3, 0.3, 0.2, 0.2};
+// A build of leaves is used if at least this share of them can remain. Otherwise leaves get fewer triangles.
+constexpr double fullest = 0.7;
+// The least share of the leaves that remains.
+constexpr double least_leaves = 0.2;
 
 }  // namespace
 
 TreeLevels::TreeLevels(const Skeleton& skeleton, const TreeParams& params, const GenerateContext& context) {
   Job& job = context.job;
   if (context.demand.lods < 2 || skeleton.organs.organ.empty() || !has_leaves(params)) return;
-  has_twigs = build_of(params) == TreeBuild::twig;
-  const Mesh coarsest = leaf_of(params, most_levels - 1, job);
+  count_ = skeleton.organs.organ.size();
+  of_leaf_ = drawn_leaf(params, 0, context).elements();
+  for (int level = 0; level < context.demand.lods; ++level)
+    bent_.push_back(drawn_leaf(params, level, context).elements());
+  has_far_leaves_ = has_far_leaves(params, context);
+  const std::uint64_t sides = has_outward_faces(params, context.demand) ? 2 : 1;
+  if (has_far_leaves_) {
+    for (const LeafDetail detail :
+         {LeafDetail::square, LeafDetail::triangle, LeafDetail::single, LeafDetail::one_card}) {
+      const std::uint64_t triangles =
+          far_leaf(params, detail, 1, job).elements() * (is_single(detail) ? 1 : sides);
+      if (triangles < (builds_.empty() ? of_leaf_ + 1 : builds_.back().triangles))
+        builds_.push_back({detail, triangles});
+    }
+  }
+  const Mesh ranked =
+      has_far_leaves_ ? far_leaf(params, LeafDetail::square, 1, job) : leaf_of(params, most_levels - 1, job);
   const float filled = build_of(params) == TreeBuild::mesh ? 1.0F : filled_card;
   const Limbs& limbs = skeleton.limbs;
-  foliage.emplace(FoliageLevels::Plant{skeleton.organs, std::span(&coarsest, 1), limbs, filled}, job);
+  foliage.emplace(FoliageLevels::Plant{skeleton.organs, std::span(&ranked, 1), limbs, filled}, job);
   shown = foliage->shown(limbs, job);
   double all = 0, free = 0;
   for (std::size_t i = 0; i < limbs.size(); ++i) {
@@ -37,18 +60,32 @@ TreeLevels::TreeLevels(const Skeleton& skeleton, const TreeParams& params, const
   seen = all > 0 ? free / all : 1;
 }
 
-double TreeLevels::leaves_at(const Detail& detail, std::uint64_t leaf_count, std::uint64_t triangles_per_leaf,
-                             std::uint64_t triangles_before) const {
-  const double least = has_twigs ? 1 - fewer_twigs * detail.level() : detail.organs();
-  const double wanted = std::max(least, foliage->share_for(detail.loss()));
-  const auto level = static_cast<std::size_t>(detail.level());
-  const std::uint64_t other = level < bark.size() ? bark[level] : 0,
-                      most = Detail::fewer_than(triangles_before);
-  const double allowed =
-      most > other ? static_cast<double>(most - other) /
-                         static_cast<double>(std::max<std::uint64_t>(triangles_per_leaf * leaf_count, 1))
-                   : 0;
-  return std::min(wanted, std::max(least, allowed));
+TreeLevels::Plan TreeLevels::plan(int level, std::uint64_t finest) const {
+  const Detail detail(level);
+  Plan plan;
+  plan.level = level;
+  plan.bark = detail.bark(finest, seen);
+  if (!foliage) return plan;
+  const auto count = static_cast<double>(count_);
+  const double bark_share = bark_shares[static_cast<std::size_t>(level)];
+  const double all = level_shares[static_cast<std::size_t>(level)] *
+                     (static_cast<double>(finest) + count * static_cast<double>(of_leaf_));
+  const double for_leaves = (1 - bark_share) * all;
+  if (!has_far_leaves_) {
+    const auto triangles = static_cast<double>(bent_[static_cast<std::size_t>(level)]);
+    plan.share = std::clamp(for_leaves / (count * triangles), detail.organs(), 1.0);
+    return plan;
+  }
+  double used = 0;
+  for (const Build& build : builds_) {
+    const double most = count * static_cast<double>(build.triangles);
+    plan.leaves = build.detail;
+    plan.share = std::clamp(for_leaves / most, least_leaves, 1.0);
+    used = plan.share * most;
+    if (for_leaves >= fullest * most) break;
+  }
+  plan.bark = std::min(plan.bark, static_cast<std::uint64_t>(std::max(all - used, bark_share * all)));
+  return plan;
 }
 
 }  // namespace seedmesh::tree

@@ -1,9 +1,14 @@
 #pragma once
 /// Which leaves and limbs of a tree remain at coarser levels of detail.
+///
+/// Levels have 100, 40, 15, 5 and 3 % of the triangles. Leaves give up triangles first, because their textures keep
+/// the outline: bent cards become flat, then triangles, then triangles seen from both sides. Only what this does not
+/// save is left out, by the order of FoliageLevels.
 #include <optional>
 #include <vector>
 
 #include "core/generators/api.h"
+#include "core/generators/tree/far_leaves.h"
 #include "core/generators/tree/skeleton_writer.h"
 #include "core/geom/lod/detail.h"
 #include "core/geom/lod/foliage_levels.h"
@@ -14,16 +19,31 @@ struct TreeLevels {
   /// Needs a skeleton after fit_leaves(). Does nothing if there is only one level of detail.
   TreeLevels(const Skeleton& skeleton, const TreeParams& params, const GenerateContext& context);
 
-  /// The share of the leaves that remains at a level: enough to keep the outline of the crown, but so few
-  /// that the level has fewer triangles than the previous one.
-  double leaves_at(const Detail& detail, std::uint64_t leaf_count, std::uint64_t triangles_per_leaf,
-                   std::uint64_t triangles_before) const;
+  struct Plan {
+    int level = 1;
+    LeafDetail leaves = LeafDetail::bent;
+    double share = 1;        ///< of the leaves that remains
+    std::uint64_t bark = 0;  ///< the most triangles
+  };
+  /// The plan of a coarser level. `finest` is the number of triangles of the bark at the finest level.
+  Plan plan(int level, std::uint64_t finest) const;
 
   std::optional<FoliageLevels> foliage;  ///< if there are leaves
   Array<float> shown;                    ///< visible share of the bark of each joint; empty: all of it
-  bool has_twigs = false;                ///< the leaves are pictures of twigs, through which one sees
   double seen = 1;                       ///< visible share of the area of the whole bark
   std::vector<std::uint64_t> bark;       ///< triangles of the bark of each level so far
+
+ private:
+  /// Triangles of a leaf that is built in one way.
+  struct Build {
+    LeafDetail detail;
+    std::uint64_t triangles;
+  };
+  std::uint64_t count_ = 0;    ///< of leaves
+  std::uint64_t of_leaf_ = 0;  ///< triangles of a leaf at the finest level
+  bool has_far_leaves_ = false;
+  std::vector<Build> builds_;        ///< by falling number of triangles
+  std::vector<std::uint64_t> bent_;  ///< triangles of a bent leaf by level
 };
 
 }  // namespace seedmesh::tree

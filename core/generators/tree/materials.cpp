@@ -11,6 +11,11 @@
 namespace seedmesh::tree {
 namespace {
 
+// Leaves of coarse levels are up to 1.45 times as bright, which is a factor of 1.18 for sRGB values. Images have brighter
+// texels than their main colour, so that one stays well below 255.
+constexpr double far_headroom = 1.18, highest_with_headroom = 216;
+// Share of the alpha cutoff for sparse leaves far away.
+constexpr float sparse_cutoff = 0.5F;
 constexpr float bark_roughness = 0.95F, leaf_roughness = 0.65F;
 constexpr Color plain_bark{107, 84, 64};
 // The colour of young leaves is mixed with this share of a light yellow green.
@@ -47,14 +52,20 @@ std::size_t season_of(const TreeParams& params) {
   return params.season == TreeSeason::winter ? 1 : static_cast<std::size_t>(params.season);
 }
 
-/// The largest value of each component over all seasons. The colours of seasons are darker multiples of it.
-Color brightest(const TreeLeaf& leaf) {
+/// The largest value of each component over all seasons. The colours of seasons are darker multiples of it. `headroom`:
+/// factor of sRGB values, as far as they stay below the highest one.
+Color brightest(const TreeLeaf& leaf, double headroom) {
   Color most{1, 1, 1};
   for (std::size_t season = 0; season < leafy_seasons.size(); ++season) {
     const Color each = leaf_color(leaf, season);
     most = {std::max(most.red, each.red), std::max(most.green, each.green), std::max(most.blue, each.blue)};
   }
-  return most;
+  const double highest = std::max({most.red, most.green, most.blue});
+  const double by = std::clamp(highest_with_headroom / highest, 1.0, headroom);
+  const auto raised = [&](std::uint8_t value) {
+    return static_cast<std::uint8_t>(math::to_int32(value * by + 0.5));
+  };
+  return {raised(most.red), raised(most.green), raised(most.blue)};
 }
 
 template <class Images>
@@ -186,7 +197,7 @@ LeafMaterials add_leaf_materials(Model& model, const TreeParams& params, const G
   texture::let_light_through(material, static_cast<LeafShape>(params.leaf.leaf_shape));
   set_specular(material, params.leaf.specular);
   set_emission(material, params.leaf.emission);
-  const Color most = brightest(params.leaf);
+  const Color most = brightest(params.leaf, context.demand.lods > 1 ? far_headroom : 1);
   if (has_leaf_texture(params)) {
     material.recipe.kind =
         texture::leaf_kind(static_cast<LeafShape>(params.leaf.leaf_shape), shows_twig(params));
@@ -213,6 +224,30 @@ LeafMaterials add_leaf_materials(Model& model, const TreeParams& params, const G
     model.variants.emplace_back(leafy_seasons[season]);
   }
   result.material = result.variants[season_of(params)];
+  return result;
+}
+
+LeafMaterials double_sided(Model& model, const LeafMaterials& materials, const FarLook& look) {
+  const auto add_copy = [&](int original) {
+    Material copy = model.materials[static_cast<std::size_t>(original)];
+    copy.name += look.name;
+    copy.double_sided = true;
+    copy.base_color =
+        glm::vec4(glm::min(glm::vec3(copy.base_color) * look.gain, glm::vec3(1)), copy.base_color.w);
+    copy.recipe.factor = glm::min(copy.recipe.factor * look.gain, glm::vec3(1));
+    if (look.is_sparse) {
+      copy.alpha_mode = AlphaMode::mask;
+      copy.alpha_cutoff = sparse_cutoff * texture::leaf_cutoff(copy.recipe.kind);
+    }
+    model.materials.push_back(std::move(copy));
+    return static_cast<int>(model.materials.size()) - 1;
+  };
+  LeafMaterials result;
+  for (const int each : materials.variants) {
+    result.variants.push_back(add_copy(each));
+    if (each == materials.material) result.material = result.variants.back();
+  }
+  if (result.material < 0) result.material = add_copy(materials.material);
   return result;
 }
 

@@ -48,4 +48,13 @@ struct LeafMaterials {
 /// Adds the materials of leaves and their variants. Throws Stop (Code::invalid) for a damaged image.
 LeafMaterials add_leaf_materials(Model& model, const TreeParams& params, const GenerateContext& context);
 
+/// The appearance of leaves that one face shows from both sides.
+struct FarLook {
+  float gain = 1;          ///< factor of the colour
+  bool is_sparse = false;  ///< few are left: a lower alpha cutoff makes leaves and needles wider
+  std::string name;        ///< end of the names of the materials
+};
+/// Adds double-sided copies of the materials of leaves.
+LeafMaterials double_sided(Model& model, const LeafMaterials& materials, const FarLook& look);
+
 }  // namespace seedmesh::tree

@@ -14,7 +14,7 @@ constexpr std::size_t most_triangles = 16;
 // Texels that one organ alone covers, in all views; greater scores are treated as equal.
 constexpr std::uint32_t most_score = 1023;
 // Every level keeps at least this share.
-constexpr double least_share = 0.4;
+constexpr double least_share = 0.2;
 // Limbs thinner than this, in texels, do not hide leaves.
 constexpr double least_width = 1.5;
 // Factors by which a leaf may be enlarged, greatest first.

@@ -28,7 +28,7 @@ class FoliageLevels {
   };
   FoliageLevels(const Plant& plant, Job& job);
 
-  /// Keeps the share `share`, and at least 0.4, of the organs, in the same order. `organs` must be those of
+  /// Keeps the share `share`, and at least 0.2, of the organs, in the same order. `organs` must be those of
   /// the plant.
   Organs keep(const Organs& organs, double share, Job& job);
 

@@ -109,7 +109,7 @@ TEST(Wall, TexturesAreSmallFiles) {
   for (const WallKind& kind : wall_kinds()) {
     const Maps maps = maps_of(kind.name, 512, 0);
     // Blades and stones have more detail than walls.
-    EXPECT_LT(maps.bytes(), kind.name.ends_with("_ground") ? 900'000U : 290'000U) << kind.name;
+    EXPECT_LT(maps.bytes(), kind.name.ends_with("_ground") ? 900'000U : 310'000U) << kind.name;
     EXPECT_EQ(decoded(*maps.color).channels, kind.is_grey ? 1 : 3) << kind.name;
     EXPECT_GT(kind.tile.x, 0.5);
   }

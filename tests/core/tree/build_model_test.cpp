@@ -132,7 +132,7 @@ TEST(BuildModel, HasFewerLeavesAndLessBarkInEveryLevelOfDetail) {
   params.branches_1 = 30;
   params.branches_2 = 20;
   params.leaf.coarseness = 4;
-  const Model model = made(params, {.lods = 5});
+  const Model model = made(params, {.lods = 5, .textures = 0});
   EXPECT_TRUE(faults(model).empty());
   const Node &bark = node(model, "bark"), &leaves = node(model, "leaves");
   ASSERT_EQ(bark.lods.size(), 4U);

@@ -35,6 +35,11 @@ void add_room(PartWriter& out, const dvec3& low, const dvec3& high, double front
   }
 }
 
+/// What lies behind the glass shows in it.
+std::string_view glass_of(int room) {
+  return room == 0 ? "glass" : room == 2 ? "glass_shaded" : "glass_curtained";
+}
+
 /// A frame with openings, and glass in the middle of its depth.
 void add_window(PartWriter& out, const dvec3& low, const dvec3& high, const PartOptions& options) {
   const dvec3 size = high - low;
@@ -60,7 +65,7 @@ void add_window(PartWriter& out, const dvec3& low, const dvec3& high, const Part
   const double inset = 0.5 * frame;
   const dvec3 glass_low{low.x + inset, low.y + inset, low.z + 0.4 * size.z},
       glass_high{high.x - inset, high.y - inset, low.z + 0.55 * size.z};
-  out.box("glass", glass_low, glass_high);
+  out.box(glass_of(options.room), glass_low, glass_high);
   add_room(out, glass_low, glass_high, high.z, options.room);
 }
 

@@ -37,7 +37,7 @@ constexpr std::array<PartRow, 18> rows{{
     {"window", "A frame, glazing bars by its width, and glass.", {1.2, 1.5, 0.12}, make_window},
 }};
 
-constexpr std::array<PartMaterial, 15> materials{{
+constexpr std::array<PartMaterial, 17> materials{{
     {"brick", "#96594a", 0, 0.95F},
     {"bronze", "#8f6b3e", 0.9F, 0.45F},
     {"clay", "#a8623f", 0, 0.9F},
@@ -48,6 +48,8 @@ constexpr std::array<PartMaterial, 15> materials{{
     {"frame", "#dedbd2", 0, 0.6F},
     {"gable", "#ded4c3", 0, 0.95F},
     {"glass", "#2c3236", 0, 0.06F},
+    {"glass_curtained", "#35322d", 0, 0.05F},
+    {"glass_shaded", "#2a3638", 0, 0.09F},
     {"metal", "#43474c", 0.8F, 0.45F},
     {"roof", "#8b4b3b", 0, 0.9F},
     {"stone", "#bdb6a8", 0, 0.95F},
