@@ -68,7 +68,8 @@ TEST(CgaScopes, OfFacesHaveADepthAndTheFacesStayFlat) {
     // Operations on faces find a face.
     EXPECT_THAT(vector_of(shapes_of(front(header, "s('1, '1, 0.3) extrude(0.1) Ledge."), "Ledge")[0], "size"),
                 near(10, 0.1, 4));
-    EXPECT_EQ(active(front(header, "s('1, '1, 0.3) offset(-0.5) comp(f){ border: B. | inside: I. }")), "B I");
+    EXPECT_EQ(active(front(header, "s('1, '1, 0.3) offset(-0.5) comp(f){ border: B. | inside: I. }")),
+              "B B B B I");
     EXPECT_EQ(active(front(header, "s('1, '1, 0.3) split(x){ 4: A. | ~1: B. }")), "A B");
     EXPECT_THAT(
         vector_of(shapes_of(front(header, "s('1, '1, 0.3) split(x){ 4: A. | ~1: B. }"), "B")[0], "size"),
