@@ -57,7 +57,7 @@ CityParams read(const Child& child) {
 template <class T>
 void refuse(const T& found, const T& usual, const char* key, const char* why, std::vector<Issue>& issues) {
   if (found == usual) return;
-  issues.push_back({IssueKind::not_available, std::string(pointer) + "/parameters/" + key, why});
+  issues.emplace_back(IssueKind::not_available, std::string(pointer) + "/parameters/" + key, why);
 }
 
 }  // namespace
@@ -74,8 +74,8 @@ void check_towns(const WorldParams& params, std::vector<Issue>& issues) {
   const std::optional<Child>& child = params.settlements.towns.city;
   if (!child || child->generator.empty()) return;
   if (child->generator != "city") {
-    issues.push_back({IssueKind::conflict, std::string(pointer) + "/generator",
-                      "found \"" + child->generator + "\", expected \"city\""});
+    issues.emplace_back(IssueKind::conflict, std::string(pointer) + "/generator",
+                        "found \"" + child->generator + "\", expected \"city\"");
     return;
   }
   const CityParams usual, found = read(*child);
@@ -99,9 +99,9 @@ void check_towns(const WorldParams& params, std::vector<Issue>& issues) {
   refuse(found.streets.centre, usual.streets.centre, "streets/centre",
          "the centre of a town is the middle of its settlement", issues);
   if (found.streets.method == CityMethod::wards && found.streets.wards.wall_height > 0) {
-    issues.push_back({IssueKind::not_available,
-                      std::string(pointer) + "/parameters/streets/wards/wall_height",
-                      "towns of a world have no walls; expected 0"});
+    issues.emplace_back(IssueKind::not_available,
+                        std::string(pointer) + "/parameters/streets/wards/wall_height",
+                        "towns of a world have no walls; expected 0");
   }
 }
 
