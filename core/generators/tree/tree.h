@@ -1,5 +1,5 @@
 #pragma once
-/// Trees by five models: weber_penn, proctree, sculpt, ez_tree and grown.
+/// Trees by three parametric models: weber_penn, proctree and sculpt.
 ///
 ///   params -> Skeleton (limbs and leaves) -> build_model() -> bark: one closed mesh, and leaves: one mesh
 ///

@@ -36,8 +36,7 @@ TreeParams of(TreeModel model) {
 }
 
 TEST(UnusedParameters, AreNoneOfTheDefaults) {
-  for (const TreeModel model :
-       {TreeModel::weber_penn, TreeModel::proctree, TreeModel::sculpt, TreeModel::grown})
+  for (const TreeModel model : {TreeModel::weber_penn, TreeModel::proctree, TreeModel::sculpt})
     EXPECT_THAT(unused(of(model)), IsEmpty());
 }
 
@@ -53,7 +52,7 @@ TEST(UnusedParameters, OfOtherModelsAreReported) {
 TEST(UnusedParameters, AreTheMatureAgeOfATreeWithoutAge) {
   TreeParams params;
   params.mature_age = 60;
-  EXPECT_EQ(only_message(params), "`mature_age` has no effect unless `age` is given or `model` is grown.");
+  EXPECT_EQ(only_message(params), "`mature_age` has no effect unless `age` is given.");
   params.age = 4;
   EXPECT_THAT(unused(params), IsEmpty());
 }
