@@ -3,6 +3,7 @@
 // leaves have one face, whose normals renderers turn around; its brightness is less exact.
 import assert from 'node:assert/strict';
 import test from 'node:test';
+import { program } from '../http/support.mjs';
 import { compare_levels } from '../pictures/levels.mjs';
 
 const shares = [1, 0.4, 0.15, 0.05], brighter = [0, 0.05, 0.05, 0.13];
@@ -11,7 +12,7 @@ const at_last = { pine: { overlap: 0.88, off: 0.27 }, spruce: { overlap: 0.82, o
 
 for (const name of ['oak', 'birch', 'quaking_aspen', 'maple', 'pine', 'spruce', 'weeping_willow', 'poplar', 'cherry']) {
   test(`${name}: its levels have 40, 15 and 5 % of the triangles, and hardly differ`, { timeout: 300_000 }, async (t) => {
-    const levels = (await compare_levels(process.env.SEEDMESH_PROGRAM, [name], { impostor: false })).get(name);
+    const levels = (await compare_levels(program, [name], { impostor: false })).get(name);
     assert.equal(levels.length, shares.length);
     for (const [i, { share, overlap, brightness }] of levels.entries()) {
       if (i === 0) continue;
