@@ -58,19 +58,7 @@ Solid extruded_alone(const Solid& solid, double height) {
       add_loop(own, corners);
     }
     const std::vector<glm::dvec3> by(own.points.size(), unit_normal(solid, face) * height);
-    const Solid made = extruded_by(own, by);
-    const auto base = static_cast<std::uint32_t>(out.points.size());
-    out.points.insert(out.points.end(), made.points.begin(), made.points.end());
-    for (const Face& each : made.faces) {
-      Face copy = each;
-      copy.first_loop = static_cast<std::uint32_t>(out.loops.size());
-      for (const Loop& loop : loops_of(made, each)) {
-        std::vector<std::uint32_t> corners;
-        for (const std::uint32_t point : points_of(made, loop)) corners.push_back(base + point);
-        add_loop(out, corners);
-      }
-      out.faces.push_back(copy);
-    }
+    append(out, extruded_by(own, by));
   }
   return out;
 }
