@@ -3,6 +3,7 @@
 /// memory budget of the request before it is allocated; the unused ends of pages are counted apart
 /// (MemoryBudget::slack). Big blocks come from the kernel as huge pages, because page faults cost more than
 /// arithmetic in big models. Move-only; not safe for use from two threads at once.
+#include <algorithm>
 #include <cstddef>
 #include <cstring>
 #include <memory>
@@ -60,9 +61,15 @@ class Array {
   Array() = default;  ///< empty and without a budget; it can only stay empty or be assigned to
   explicit Array(const Job& job) : block_(job.budget()) {}
   Array(const Job& job, std::size_t size) : block_(job.budget()) { resize(size); }
+  /// Checks the deadline and the stop token between blocks: the kernel clears pages as they are first written.
   Array(const Job& job, std::size_t size, const T& value) : block_(job.budget()) {
+    constexpr std::size_t block = (std::size_t{1} << 20U) / sizeof(T) + 1;
     resize(size);
-    for (T& each : *this) each = value;
+    const T copy = value;
+    for (std::size_t first = 0; first < size; first += block) {
+      job.check();
+      std::fill_n(data() + first, std::min(block, size - first), copy);
+    }
   }
   explicit Array(std::shared_ptr<MemoryBudget> budget) : block_(std::move(budget)) {}
   Array(Array&& other) noexcept : block_(std::move(other.block_)), size_(std::exchange(other.size_, 0)) {}
