@@ -15,6 +15,7 @@
 #include "core/gltf/payload.h"
 #include "core/model/model.h"
 #include "core/pipeline/formats.h"
+#include "core/render/view.h"
 #include "core/texture/texture_store.h"
 
 namespace seedmesh {
@@ -78,22 +79,21 @@ struct Product {
 Result<Product> produce(const Request& request, const Job::Options& options,
                         TextureStore* texture_store = nullptr);
 
-/// Options of a square picture of a model: its size, the direction of view in degrees (azimuth 0 is +Z and 90 is +X), and
-/// the ground plane.
-struct PictureWish {
+/// Options of a picture of a model: its size, the direction of view, and the ground plane.
+struct PictureOptions {
   enum class Ground { auto_, none, plane };
-  std::uint32_t size = 512;  ///< pixels a side, from 16 to 1024
-  double azimuth = 35, elevation = 18;
+  std::uint32_t width = 512, height = 512;  ///< pixels, each from 16 to 1024
+  render::View view = {};
   Ground ground = Ground::auto_;  ///< auto_: a plane below plants, buildings and fractals
   std::string text() const;       ///< equal options give the same text
 };
 /// Takes `size`, `view` and `ground` out of a query. Code::invalid holds every error, with the pointer "/<key>".
-Result<PictureWish> read_picture_wish(Overrides& query);
+Result<PictureOptions> read_picture_options(Overrides& query);
 
 /// Returns a picture of the model of a request as WebP, drawn in software, with textures of at most 256 texels. The
 /// options lods, animation and format of the request are ignored. Its bytes are the same on every machine.
-Result<Product> draw_picture(const Request& request, const PictureWish& wish, const Job::Options& options,
-                             TextureStore* texture_store = nullptr);
+Result<Product> draw_picture(const Request& request, const PictureOptions& picture,
+                             const Job::Options& options, TextureStore* texture_store = nullptr);
 
 /// Returns the image of a generated texture. `name` is the part after the engine version in the links that
 /// `output.textures: "links"` writes (core/texture/link.h). An unknown name is Code::invalid.

@@ -94,7 +94,8 @@ Json statistics_of(const CachedModel& made) {
 
 /// A picture of the model as image content; nothing where it cannot be drawn, as for worlds.
 std::optional<Json> picture_content(Context& context, const Request& request) {
-  const Cache::Answer answer = picture_of(context.call, request, {.size = picture_size});
+  const Cache::Answer answer =
+      picture_of(context.call, request, {.width = picture_size, .height = picture_size});
   const auto* entry = std::get_if<Cache::Entry>(&answer.outcome);
   if (!entry) return std::nullopt;
   return Json{{"type", "image"},

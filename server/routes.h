@@ -22,9 +22,11 @@ std::string server_timing(const Call& call, std::string_view cache_use, const Ca
 /// Whether a query may have keys beside those of a picture.
 enum class RestOfQuery { refused, kept };
 /// Takes the keys of a picture out of a query. Returns the response on an error (routes_pictures.cpp).
-std::variant<PictureWish, http::Response> read_wish(const Call& call, Overrides& query, RestOfQuery rest);
+std::variant<PictureOptions, http::Response> read_options(const Call& call, Overrides& query,
+                                                          RestOfQuery rest);
 /// Returns a picture of the model of a request.
-http::Response picture_answer(Call& call, const Request& request, const PictureWish& wish, Caching caching);
+http::Response picture_answer(Call& call, const Request& request, const PictureOptions& picture,
+                              Caching caching);
 
 http::Response get_card(Call& call);  // routes_card.cpp
 

@@ -8,7 +8,7 @@ namespace seedmesh {
 namespace {
 
 constexpr std::uint64_t largest_token_text = 1U << 20U;  ///< bytes of a decompressed token
-constexpr const char* picture_query = "?size=800";
+constexpr const char* picture_query = "?size=1000x524";
 
 /// The preset by whose name the model is called, for its title; null for none.
 const PresetInfo* preset_of(const Request& request) {
@@ -60,7 +60,7 @@ std::string page_of(const Request& request, const std::string& token, const std:
   if (!picture.empty()) {
     html += meta("property", "og:image", origin + picture) + meta("property", "og:image:alt", title);
     html += meta("property", "og:image:type", "image/webp");
-    html += meta("property", "og:image:width", "800") + meta("property", "og:image:height", "800");
+    html += meta("property", "og:image:width", "1000") + meta("property", "og:image:height", "524");
   }
   html += meta("name", "twitter:card", "summary_large_image");
   html += meta("http-equiv", "refresh", "0;url=" + place);

@@ -163,19 +163,19 @@ std::optional<Result<Request>> preset_in_format(const Call& call, const std::str
 http::Response picture_of_permalink(Call& call, const Request& request, Caching caching) {
   auto query = parse_query(call);
   if (auto* refusal = std::get_if<http::Response>(&query)) return std::move(*refusal);
-  auto wish = read_wish(call, std::get<Overrides>(query), RestOfQuery::refused);
-  if (auto* refusal = std::get_if<http::Response>(&wish)) return std::move(*refusal);
-  return picture_answer(call, request, std::get<PictureWish>(wish), caching);
+  auto picture = read_options(call, std::get<Overrides>(query), RestOfQuery::refused);
+  if (auto* refusal = std::get_if<http::Response>(&picture)) return std::move(*refusal);
+  return picture_answer(call, request, std::get<PictureOptions>(picture), caching);
 }
 
 http::Response picture_of_preset(Call& call, const std::string& name, Overrides query) {
-  auto wish = read_wish(call, query, RestOfQuery::kept);
-  if (auto* refusal = std::get_if<http::Response>(&wish)) return std::move(*refusal);
+  auto picture = read_options(call, query, RestOfQuery::kept);
+  if (auto* refusal = std::get_if<http::Response>(&picture)) return std::move(*refusal);
   auto read = read_preset(name, query, call.service.config.limits);
   if (!read) return refuse(call, problem(404, no_preset(name)));
   if (!*read) return refuse(call, problem_of(read->error()));
   if (auto refusal = check_allowed(call, **read)) return std::move(*refusal);
-  return picture_answer(call, **read, std::get<PictureWish>(wish), Caching::revalidate);
+  return picture_answer(call, **read, std::get<PictureOptions>(picture), Caching::revalidate);
 }
 
 http::Response redirect_to_own(const Call& call, const Request& request, const std::string& extension) {

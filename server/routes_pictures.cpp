@@ -17,15 +17,17 @@ http::Response refuse_keys(const Call& call, const Overrides& rest) {
 
 }  // namespace
 
-std::variant<PictureWish, http::Response> read_wish(const Call& call, Overrides& query, RestOfQuery rest) {
-  Result<PictureWish> wish = read_picture_wish(query);
-  if (!wish) return refuse(call, problem_of(wish.error()));
+std::variant<PictureOptions, http::Response> read_options(const Call& call, Overrides& query,
+                                                          RestOfQuery rest) {
+  Result<PictureOptions> picture = read_picture_options(query);
+  if (!picture) return refuse(call, problem_of(picture.error()));
   if (rest == RestOfQuery::refused && !query.empty()) return refuse_keys(call, query);
-  return *wish;
+  return *picture;
 }
 
-http::Response picture_answer(Call& call, const Request& request, const PictureWish& wish, Caching caching) {
-  const std::string tag = tag_of(request.canonical() + '\n' + wish.text(), engine_version());
+http::Response picture_answer(Call& call, const Request& request, const PictureOptions& picture,
+                              Caching caching) {
+  const std::string tag = tag_of(request.canonical() + '\n' + picture.text(), engine_version());
   http::Response response;
   response.set("Cache-Control", cache_control(call, caching));
   response.set("ETag", etag(tag, Coding::identity));
@@ -35,7 +37,7 @@ http::Response picture_answer(Call& call, const Request& request, const PictureW
   }
   if (!wait_for_memory(call)) return refuse(call, too_much_in_flight(call.service));
   const auto asked = Clock::now();
-  const Cache::Answer answer = picture_of(call, request, wish);
+  const Cache::Answer answer = picture_of(call, request, picture);
   const auto found = Clock::now();
   if (const auto* refused = std::get_if<Problem>(&answer.outcome)) return refuse(call, *refused);
   const Cache::Entry entry = std::get<Cache::Entry>(answer.outcome);

@@ -179,12 +179,12 @@ Cache::Answer model_of(const Call& call, const TaggedRequest& wanted, const Job:
       [&](const std::stop_token& stop) { return generate(call, wanted, stop, progress); });
 }
 
-Cache::Answer picture_of(const Call& call, const Request& request, const PictureWish& wish) {
+Cache::Answer picture_of(const Call& call, const Request& request, const PictureOptions& picture) {
   // No canonical request ends with a line.
-  return call.service.cache.get(request.canonical() + '\n' + wish.text(), call.request.gone,
+  return call.service.cache.get(request.canonical() + '\n' + picture.text(), call.request.gone,
                                 [&](const std::stop_token& stop) {
                                   Cache::Outcome outcome = made_by(call, stop, {}, [&](Job::Options options) {
-                                    return draw_picture(request, wish, options, &call.service.textures);
+                                    return draw_picture(request, picture, options, &call.service.textures);
                                   });
                                   if (std::holds_alternative<Cache::Entry>(outcome))
                                     call.service.metrics.drawn();

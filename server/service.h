@@ -141,7 +141,7 @@ std::optional<Problem> with_tile_worker(const Call& call, int level, const std::
 Cache::Answer model_of(const Call& call, const TaggedRequest& wanted, const Job::Progress& progress);
 
 /// Returns a picture of the model of a request, from the cache or drawn now.
-Cache::Answer picture_of(const Call& call, const Request& request, const PictureWish& wish);
+Cache::Answer picture_of(const Call& call, const Request& request, const PictureOptions& picture);
 
 /// Waits until the memory of responses in flight is below its limit. False after two seconds or the deadline.
 bool wait_for_memory(const Call& call);

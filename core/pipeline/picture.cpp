@@ -27,12 +27,12 @@ struct NamedView {
   render::View view;
 };
 constexpr std::array<NamedView, 7> named_views = {{{"three_quarter", {}},
-                                                   {"front", {0, 8}},
-                                                   {"right", {90, 8}},
-                                                   {"back", {180, 8}},
-                                                   {"left", {270, 8}},
-                                                   {"top", {0, 89}},
-                                                   {"high", {35, 45}}}};
+                                                   {"front", {0, 8.0}},
+                                                   {"right", {90, 8.0}},
+                                                   {"back", {180, 8.0}},
+                                                   {"left", {270, 8.0}},
+                                                   {"top", {0, 89.0}},
+                                                   {"high", {35, 45.0}}}};
 
 std::optional<double> read_decimal(std::string_view text) {
   double value = 0;
@@ -58,7 +58,7 @@ std::string view_names() {
 
 std::string quoted(std::string_view text) { return '"' + std::string(text.substr(0, 40)) + '"'; }
 
-std::optional<Issue> read_view(std::string_view text, PictureWish& wish) {
+std::optional<Issue> read_view(std::string_view text, PictureOptions& picture) {
   std::optional<render::View> view = read_angles(text);
   for (const NamedView& each : named_views) {
     if (each.name == text) view = each.view;
@@ -68,28 +68,41 @@ std::optional<Issue> read_view(std::string_view text, PictureWish& wish) {
                  "found " + quoted(text) + "; expected " + view_names() +
                      "or azimuth,elevation in degrees, as 35,18, from -360 to 360 and -89 to 89"};
   }
-  wish.azimuth = view->azimuth;
-  wish.elevation = view->elevation;
+  picture.view = *view;
   return std::nullopt;
 }
 
-std::optional<Issue> read_size(std::string_view text, PictureWish& wish) {
-  std::uint32_t size = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), size);
-  if (error != std::errc{} || end != text.data() + text.size() || size < least_size || size > greatest_size) {
-    return Issue{IssueKind::out_of_range, "/size",
-                 "found " + quoted(text) + "; expected a whole number of pixels from " +
-                     std::to_string(least_size) + " to " + std::to_string(greatest_size)};
+std::optional<std::uint32_t> read_pixels(std::string_view text) {
+  std::uint32_t pixels = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), pixels);
+  if (error != std::errc{} || end != text.data() + text.size() || pixels < least_size ||
+      pixels > greatest_size) {
+    return std::nullopt;
   }
-  wish.size = size;
+  return pixels;
+}
+
+/// "512" for a square, or "640x360".
+std::optional<Issue> read_size(std::string_view text, PictureOptions& picture) {
+  const std::size_t cross = text.find('x');
+  const auto width = read_pixels(text.substr(0, cross));
+  const auto height = cross == std::string_view::npos ? width : read_pixels(text.substr(cross + 1));
+  if (!width || !height) {
+    const std::string range = std::to_string(least_size) + " to " + std::to_string(greatest_size);
+    return Issue{IssueKind::out_of_range, "/size",
+                 "found " + quoted(text) + "; expected a whole number of pixels from " + range +
+                     ", or width and height, as 640x360"};
+  }
+  picture.width = *width;
+  picture.height = *height;
   return std::nullopt;
 }
 
-std::optional<Issue> read_ground(std::string_view text, PictureWish& wish) {
+std::optional<Issue> read_ground(std::string_view text, PictureOptions& picture) {
   if (text == "auto") {
-    wish.ground = PictureWish::Ground::auto_;
+    picture.ground = PictureOptions::Ground::auto_;
   } else if (text == "none" || text == "plane") {
-    wish.ground = text == "none" ? PictureWish::Ground::none : PictureWish::Ground::plane;
+    picture.ground = text == "none" ? PictureOptions::Ground::none : PictureOptions::Ground::plane;
   } else {
     return Issue{IssueKind::invalid_value, "/ground",
                  "found " + quoted(text) + "; expected auto, none or plane"};
@@ -98,7 +111,7 @@ std::optional<Issue> read_ground(std::string_view text, PictureWish& wish) {
 }
 
 /// The request for what the picture shows: without coarser levels, animation, collision shapes and large textures.
-Request for_picture(const Request& request, const PictureWish& wish) {
+Request for_picture(const Request& request, const PictureOptions& picture) {
   Request::Body body = request.body();
   const OutputParams given = body.output;
   body.output = OutputParams{};
@@ -109,7 +122,8 @@ Request for_picture(const Request& request, const PictureWish& wish) {
   if (choice && *choice == OutputTextures::none) {
     body.output.textures = OutputTextures::none;
   } else {
-    body.output.textures = static_cast<std::int32_t>(wish.size > 256 ? most_textures : least_textures);
+    body.output.textures = static_cast<std::int32_t>(
+        std::max(picture.width, picture.height) > 256 ? most_textures : least_textures);
   }
   if (body.generator->keeps_budget && !body.output.max_triangles)
     body.output.max_triangles = static_cast<std::int32_t>(most_triangles);
@@ -117,27 +131,29 @@ Request for_picture(const Request& request, const PictureWish& wish) {
 }
 
 /// Land and places fill their ground themselves.
-bool stands_on_ground(const Request& request, const PictureWish& wish) {
-  if (wish.ground != PictureWish::Ground::auto_) return wish.ground == PictureWish::Ground::plane;
+bool stands_on_ground(const Request& request, const PictureOptions& picture) {
+  if (picture.ground != PictureOptions::Ground::auto_) return picture.ground == PictureOptions::Ground::plane;
   const std::string_view generator = request.generator();
   return generator == "tree" || generator == "lsystem" || generator == "building" || generator == "fractal";
 }
 
 }  // namespace
 
-std::string PictureWish::text() const {
+std::string PictureOptions::text() const {
   constexpr std::array<std::string_view, 3> grounds = {"auto", "none", "plane"};
-  return "size=" + std::to_string(size) + "&view=" + Json(azimuth).dump() + "," + Json(elevation).dump() +
+  return "size=" + std::to_string(width) + "x" + std::to_string(height) +
+         "&view=" + Json(view.azimuth).dump() + "," +
+         (view.elevation ? Json(*view.elevation).dump() : "auto") +
          "&ground=" + std::string(grounds[static_cast<std::size_t>(ground)]);
 }
 
-Result<PictureWish> read_picture_wish(Overrides& query) {
+Result<PictureOptions> read_picture_options(Overrides& query) {
   struct Key {
     std::string_view name;
-    std::optional<Issue> (*read)(std::string_view, PictureWish&);
+    std::optional<Issue> (*read)(std::string_view, PictureOptions&);
   };
   constexpr std::array<Key, 3> keys = {{{"size", read_size}, {"view", read_view}, {"ground", read_ground}}};
-  PictureWish wish;
+  PictureOptions picture;
   std::vector<Issue> issues;
   for (const Key& key : keys) {
     const auto is_key = [&](const auto& pair) { return pair.first == key.name; };
@@ -146,20 +162,20 @@ Result<PictureWish> read_picture_wish(Overrides& query) {
     if (times > 1) {
       issues.push_back({IssueKind::duplicate_key, "/" + std::string(key.name),
                         std::string(key.name) + " is given " + std::to_string(times) + " times"});
-    } else if (std::optional<Issue> issue = key.read(std::ranges::find_if(query, is_key)->second, wish)) {
+    } else if (std::optional<Issue> issue = key.read(std::ranges::find_if(query, is_key)->second, picture)) {
       issues.push_back(*std::move(issue));
     }
     std::erase_if(query, is_key);
   }
   if (!issues.empty()) return Error{Code::invalid, std::move(issues)};
-  return wish;
+  return picture;
 }
 
-Result<Product> draw_picture(const Request& request, const PictureWish& wish, const Job::Options& options,
-                             TextureStore* texture_store) {
+Result<Product> draw_picture(const Request& request, const PictureOptions& picture,
+                             const Job::Options& options, TextureStore* texture_store) {
   return guarded<Product>([&]() -> Result<Product> {
     Job job(request.seed(), options);
-    const Request plain = for_picture(request, wish);
+    const Request plain = for_picture(request, picture);
     Result<Model> model = make_model(plain, texture_store, job);
     if (!model) return std::move(model).error();
     Product product;
@@ -167,11 +183,11 @@ Result<Product> draw_picture(const Request& request, const PictureWish& wish, co
     product.statistics = {counts.triangles, counts.vertices,
                           static_cast<std::uint32_t>(model->warnings.size())};
     job.progress("render", 0);
-    const texture::Picture picture = render::draw_picture(
-        *model, {wish.size, {wish.azimuth, wish.elevation}, stands_on_ground(request, wish)}, job);
+    const texture::Picture pixels = render::draw_picture(
+        *model, {picture.width, picture.height, picture.view, stands_on_ground(request, picture)}, job);
     job.progress("encode", 0);
     auto file = std::make_shared<const Array<std::uint8_t>>(
-        texture::encode_webp(picture.view(), texture::WebpQuality::quick, job));
+        texture::encode_webp(pixels.view(), texture::WebpQuality::quick, job));
     job.spend(Resource::output_bytes, file->size());
     const auto bytes = std::as_bytes(file->span());
     product.payload.add(std::move(file), bytes);

@@ -50,8 +50,19 @@ std::array<float, n> reach_of(const Model& model, const Items& items,
 
 }  // namespace
 
-Frame frame_of(const View& view) {
-  const math::SinCos turn = math::sincos_degrees(view.azimuth), rise = math::sincos_degrees(view.elevation);
+double elevation_of(const View& view, const Box& box) {
+  if (view.elevation) return *view.elevation;
+  constexpr double usual = 18, highest = 38;  // degrees
+  constexpr double flat = 0.1, tall = 0.4;    // height by width
+  const glm::dvec3 size(box.max - box.min);
+  const double width = std::max(size.x, size.z);
+  if (!(width > 0)) return usual;
+  const double share = std::clamp((tall - size.y / width) / (tall - flat), 0.0, 1.0);
+  return usual + (highest - usual) * share;
+}
+
+Frame frame_of(double azimuth, double elevation) {
+  const math::SinCos turn = math::sincos_degrees(azimuth), rise = math::sincos_degrees(elevation);
   Frame frame;
   frame.towards = {rise.cos * turn.sin, rise.sin, rise.cos * turn.cos};
   frame.right = {turn.cos, 0, -turn.sin};
@@ -59,18 +70,17 @@ Frame frame_of(const View& view) {
   return frame;
 }
 
-Camera camera_for(const Model& model, const Items& items, const View& view) {
+Camera camera_for(const Model& model, const Items& items, const Frame& frame, const glm::dvec2& share) {
   Camera camera;
-  camera.frame = frame_of(view);
+  camera.frame = frame;
   camera.half = half_width;
-  const Frame& frame = camera.frame;
   // The four sides of the pyramid of view touch the model: each side gives the least x - half * z of all points, and
   // two opposite sides meet at the eye. Positions are relative to the middle.
   const glm::dvec3 middle(0.5F * (items.box.min + items.box.max));
-  const double slope = half_width / margin;
+  const glm::dvec2 slope = share * (half_width / margin);
   const std::array<glm::dvec3, 5> sides = {
-      frame.right + slope * frame.towards, slope * frame.towards - frame.right,
-      frame.up + slope * frame.towards, slope * frame.towards - frame.up, frame.towards};
+      frame.right + slope.x * frame.towards, slope.x * frame.towards - frame.right,
+      frame.up + slope.y * frame.towards, slope.y * frame.towards - frame.up, frame.towards};
   std::array<glm::vec3, 5> directions;
   for (std::size_t i = 0; i < sides.size(); ++i) directions[i] = glm::vec3(sides[i]);
   const std::array<float, 5> reach = reach_of(model, items, directions);
@@ -80,7 +90,7 @@ Camera camera_for(const Model& model, const Items& items, const View& view) {
   const auto [right, left, above, below, front] = from_middle;
   const double across = (right - left) / 2, high = (above - below) / 2;
   const double back =
-      std::max({(right + left) / (2 * slope), (above + below) / (2 * slope), front * 1.001 + 1e-3});
+      std::max({(right + left) / (2 * slope.x), (above + below) / (2 * slope.y), front * 1.001 + 1e-3});
   camera.eye = middle + frame.right * across + frame.up * high + frame.towards * back;
   return camera;
 }

@@ -239,18 +239,42 @@ float ground_of(const Box& box) {
   return box.min.y < 0 && -box.min.y < deepest * (box.max.y - box.min.y) ? 0 : box.min.y;
 }
 
+/// The middle of the square image.
+texture::Picture painted(const Stage& stage, const PictureOptions& options, const Job& job) {
+  texture::Picture picture;
+  picture.width = options.width;
+  picture.height = options.height;
+  picture.channels = 3;
+  picture.bytes = Array<std::uint8_t>(job, std::size_t{3} * options.width * options.height);
+  const std::uint32_t side = std::max(options.width, options.height), left = (side - options.width) / 2,
+                      top = (side - options.height) / 2;
+  parallel_for(job, options.height, rows_of_chunk, [&](std::size_t begin, std::size_t end, std::size_t) {
+    job.check();
+    Painter painter(stage);
+    std::uint8_t* out = picture.bytes.data() + 3 * begin * options.width;
+    for (std::size_t y = begin; y < end; ++y) {
+      for (std::uint32_t x = 0; x < options.width; ++x) {
+        const glm::u8vec3 pixel = painter.pixel_at(left + x, top + static_cast<std::uint32_t>(y));
+        for (int c = 0; c < 3; ++c) *out++ = pixel[c];
+      }
+    }
+  });
+  return picture;
+}
+
 }  // namespace
 
 texture::Picture draw_picture(const Model& model, const PictureOptions& options, const Job& job) {
   const Items items = items_of(model, job);
   const Surfaces surfaces(model, job);
   const Scene scene = scene_of(model, items, surfaces, job);
-  const Camera camera = camera_for(model, items, options.view);
-  const std::uint32_t side = 2 * options.size;
-  const Shown shown = show(scene, Eye(camera, side), job);
+  const std::uint32_t side = std::max(options.width, options.height);
+  const double azimuth = options.view.azimuth;
+  const Camera camera = camera_for(model, items, frame_of(azimuth, elevation_of(options.view, items.box)),
+                                   glm::dvec2(options.width, options.height) / static_cast<double>(side));
+  const Shown shown = show(scene, Eye(camera, 2 * side), job);
   const Samples samples = draw_samples(shown, job);
-  const ShadowMap shadows =
-      draw_shadows(scene, {options.view.azimuth + sun_turn, sun_height}, options.size, job);
+  const ShadowMap shadows = draw_shadows(scene, frame_of(azimuth + sun_turn, sun_height), side, job);
   const glm::dvec3 size(items.box.max - items.box.min);
   const Stage stage{
       samples,
@@ -266,22 +290,7 @@ texture::Picture draw_picture(const Model& model, const PictureOptions& options,
       options.ground && !items.list.empty(),
       0.5F * (items.box.min + items.box.max),
       static_cast<float>(ground_extent * std::max(0.5 * std::sqrt(glm::dot(size, size)), 1e-6))};
-  texture::Picture picture;
-  picture.width = picture.height = options.size;
-  picture.channels = 3;
-  picture.bytes = Array<std::uint8_t>(job, std::size_t{3} * options.size * options.size);
-  parallel_for(job, options.size, rows_of_chunk, [&](std::size_t begin, std::size_t end, std::size_t) {
-    job.check();
-    Painter painter(stage);
-    for (std::size_t y = begin; y < end; ++y) {
-      for (std::uint32_t x = 0; x < options.size; ++x) {
-        const glm::u8vec3 pixel = painter.pixel_at(x, static_cast<std::uint32_t>(y));
-        for (int c = 0; c < 3; ++c)
-          picture.bytes[3 * (y * options.size + x) + static_cast<std::size_t>(c)] = pixel[c];
-      }
-    }
-  });
-  return picture;
+  return painted(stage, options, job);
 }
 
 }  // namespace seedmesh::render

@@ -7,8 +7,8 @@
 namespace seedmesh::render {
 
 struct PictureOptions {
-  std::uint32_t size = 512;  ///< pixels a side, from 16 to 2048
-  View view;
+  std::uint32_t width = 512, height = 512;  ///< pixels, each from 16 to 2048
+  View view = {};
   bool ground = true;  ///< the model stands on a plane that catches its shadow
 };
 

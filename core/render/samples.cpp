@@ -253,14 +253,14 @@ class Band {
     held.surface = next.surface;
   }
 
-  /// Lines and points, two samples thick.
+  /// Lines and points, three samples thick.
   void draw_thin(std::uint32_t number, const Drawing& drawing, Samples& samples) {
     const Lens lens = shown_.lens_of(drawing);
     const Mesh& mesh = *drawing.mesh;
     const auto size = static_cast<std::int32_t>(samples.size);
     const auto dot = [&](std::int64_t px, std::int64_t py, float depth, std::uint32_t vertex) {
-      for (std::int64_t y = py / fixed_one - 1; y <= py / fixed_one; ++y) {
-        for (std::int64_t x = px / fixed_one - 1; x <= px / fixed_one; ++x) {
+      for (std::int64_t y = py / fixed_one - 1; y <= py / fixed_one + 1; ++y) {
+        for (std::int64_t x = px / fixed_one - 1; x <= px / fixed_one + 1; ++x) {
           if (x < 0 || x >= size || y < rows_.begin || y >= rows_.end) continue;
           const std::size_t at = samples.at(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y));
           if (depth <= samples.near[at]) continue;

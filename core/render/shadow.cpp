@@ -46,9 +46,9 @@ Array<ShadowMap::Range> ranges_of(const ShadowMap& map, const Job& job) {
 
 }  // namespace
 
-ShadowMap draw_shadows(const Scene& scene, const View& sun, std::uint32_t size, const Job& job) {
+ShadowMap draw_shadows(const Scene& scene, const Frame& sun, std::uint32_t size, const Job& job) {
   ShadowMap map;
-  map.frame = frame_of(sun);
+  map.frame = sun;
   map.size = size;
   map.side = static_cast<float>(size);
   map.stride = stride_of(size);

@@ -52,8 +52,8 @@ struct ShadowMap {
   std::size_t stride = 0, blocks = 0;
 };
 
-/// Cost: about 50 ns a triangle and 1 ns a covered texel. Sheets that blend cast no shadow,
+/// `sun` has axes towards the sun. Cost: about 50 ns a triangle and 1 ns a covered texel. Sheets that blend cast no shadow,
 /// and sheets of one side none where they face away from the sun.
-ShadowMap draw_shadows(const Scene& scene, const View& sun, std::uint32_t size, const Job& job);
+ShadowMap draw_shadows(const Scene& scene, const Frame& sun, std::uint32_t size, const Job& job);
 
 }  // namespace seedmesh::render

@@ -31,9 +31,7 @@ Request request_of(const Subject& subject) {
 }
 
 Product drawn(const Request& request, bench::KeptTextures& textures) {
-  PictureWish wish;
-  wish.size = 512;
-  Result<Product> product = draw_picture(request, wish, {.threads = 1}, &textures);
+  Result<Product> product = draw_picture(request, PictureOptions{}, {.threads = 1}, &textures);
   if (!product) std::abort();
   return *std::move(product);
 }

@@ -1,9 +1,9 @@
-// ./dev pictures [preset...|page]: renders images for docs/pictures and gallery thumbnails in the running
-// page.
+// ./dev pictures [preset...|page]: renders images for docs/pictures in the running page. The service draws the
+// thumbnails of the gallery.
 //
 // The page is opened as `/?stage&quality=high`, which shows only the model on a transparent background, with
 // shadows and antialiasing. As in any link, the fragment selects the model. All presets get a thumbnail of
-// 192 x 144; those listed below also get a large image. Row images show several models side by side, and
+// 192 x 144 pixels; those listed below also get a large image. Row images show several models side by side, and
 // page.webp shows the page itself; both are rendered in a full run or when they are named.
 import fs from 'node:fs';
 import path from 'node:path';
@@ -210,11 +210,12 @@ try {
   fs.mkdirSync(thumbnails, { recursive: true });
   fs.mkdirSync(pictures, { recursive: true });
   let bytes = 0;
-  await take(browser, server, chosen, { width: 384, height: 288 }, async (name, png) => {
-    const webp = await to_webp(scaler, png, { width: 192, height: 144, quality: 0.8 });
+  for (const name of chosen) {
+    const { status, bytes: webp } = await server.get(`/v1/presets/${name}.webp?size=192x144`);
+    if (status !== 200) throw new Error(`${name}: ${status}`);
     fs.writeFileSync(path.join(thumbnails, `${name}.webp`), webp);
     bytes += webp.length;
-  });
+  }
   process.stdout.write(`${chosen.length} thumbnails, ${bytes} bytes, in web_client/public/thumbnails\n`);
   const shown = large.filter((name) => chosen.includes(name));
   await take(browser, server, shown, { width: 960, height: 640 }, async (name, png) => {

@@ -26,7 +26,12 @@ test('the add-on works inside Blender', { skip }, async () => {
     const archive = path.join(folder, 'seedmesh.zip');
     assert.equal((await run('python3', [path.join(source, 'build.py'), archive])).status, 0);
     const version = /Blender (\d+)\.(\d+)/.exec((await run(blender, ['--version'])).out.toString()).slice(1).map(Number);
-    const online = version[0] > 4 || (version[0] === 4 && version[1] >= 2) ? ['--online-mode'] : [];
+    const has_extensions = version[0] > 4 || (version[0] === 4 && version[1] >= 2);
+    if (has_extensions) {
+      const validated = await run(blender, ['--command', 'extension', 'validate', archive]);
+      assert.equal(validated.status, 0, `${validated.out}${validated.err}`);
+    }
+    const online = has_extensions ? ['--online-mode'] : [];
     const env = { HOME: folder, XDG_CONFIG_HOME: folder, BLENDER_USER_CONFIG: path.join(folder, 'config'), BLENDER_USER_SCRIPTS: path.join(folder, 'scripts') };
     const { status, out, err } = await run(blender, ['--background', '--factory-startup', ...online, '--python-exit-code', '3', '--python', path.join(source, 'tests/run.py'), '--', archive, server.url], { env });
     assert.equal(status, 0, `${out}${err}`);

@@ -43,7 +43,7 @@ struct Row {
   std::string name;
   std::function<Result<Request>()> read;
   bool is_summarised = false;
-  std::optional<PictureWish> picture = {};  ///< the picture of the model instead of the model
+  std::optional<PictureOptions> picture = {};  ///< the picture of the model instead of the model
 };
 
 std::string hash_of(std::string_view bytes) {
@@ -85,7 +85,7 @@ Row row_of(const std::string& name, const Json& request) {
     Overrides query;
     for (const auto& [key, value] : request["picture"].items())
       query.emplace_back(key, value.get<std::string>());
-    row.picture = *read_picture_wish(query);
+    row.picture = *read_picture_options(query);
   }
   return row;
 }

@@ -57,6 +57,13 @@ test('a picture shows the model, from the side that the query names', async () =
   assert.ok(Math.max(...at(64, 64).map((value, c) => Math.abs(value - at(3, 3)[c]))) > 20);
 });
 
+test('a picture may be wide or high', async () => {
+  for (const [width, height] of [[192, 144], [90, 160], [1024, 16]]) {
+    const { info } = await pixels((await server.get(`/v1/presets/house.webp?size=${width}x${height}`)).bytes);
+    assert.deepEqual([info.width, info.height], [width, height]);
+  }
+});
+
 test('a seed and parameters change the picture of a preset, and the format of a request does not', async () => {
   const get = async (query) => (await server.get(`/v1/presets/oak.webp?size=96${query}`)).bytes;
   assert.ok(difference((await pixels(await get(''))).data, (await pixels(await get('&seed=5'))).data) > 0.02);
@@ -86,7 +93,7 @@ test('errors of the query name the key, what was found and what is expected, all
     is_problem(refused, 422, 'invalid-request');
     assert.deepEqual(refused.json.errors.map((error) => error.pointer), ['/size', '/view', '/ground']);
     for (const error of refused.json.errors) assert.match(error.message, /^found .*expected /);
-    for (const query of ['size=1.5', 'size=', 'size=15', 'view=1', 'view=10,95', 'view=a,b', 'size=64&size=65'])
+    for (const query of ['size=1.5', 'size=64x', 'size=x64', 'size=64x2000', 'size=64x64x64', 'size=', 'size=15', 'view=1', 'view=10,95', 'view=a,b', 'size=64&size=65'])
       is_problem(await server.get(`${path}?${query}`), 422, 'invalid-request');
     is_problem(await server.get(`${path}?size=%zz`), 400);
   }
@@ -131,6 +138,7 @@ test('the address for people has a card with a picture, and leads to the page', 
   assert.equal(picture.type, 'image/webp');
   const { info } = await pixels(picture.bytes);
   assert.equal(String(info.width), content('og:image:width'));
+  assert.equal(String(info.height), content('og:image:height'));
   assert.ok(page.text.includes(`0;url=../#${token}.oak`));
   is_problem(await server.get('/m/nonsense'), 400);
 });

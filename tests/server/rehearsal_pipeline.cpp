@@ -177,9 +177,9 @@ Result<ExportedFile> export_request(const Request&, std::string_view, const Job:
 }
 
 // No request has a picture.
-std::string PictureWish::text() const { return {}; }
-Result<PictureWish> read_picture_wish(Overrides&) { return PictureWish{}; }
-Result<Product> draw_picture(const Request&, const PictureWish&, const Job::Options&, TextureStore*) {
+std::string PictureOptions::text() const { return {}; }
+Result<PictureOptions> read_picture_options(Overrides&) { return PictureOptions{}; }
+Result<Product> draw_picture(const Request&, const PictureOptions&, const Job::Options&, TextureStore*) {
   return invalid("/output", "There are no pictures.");
 }
 

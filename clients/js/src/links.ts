@@ -35,7 +35,8 @@ export async function permalink_path(request: Request, extension = extension_of(
 
 /** How a picture is taken. `view`: a name, or azimuth and elevation in degrees, as "35,18". */
 export interface PictureOptions {
-  size?: number;
+  /** Pixels a side, or width and height, as "640x360". */
+  size?: number | `${number}x${number}`;
   view?: string;
   ground?: 'auto' | 'none' | 'plane';
 }

@@ -79,11 +79,12 @@ void add_box(Mesh& mesh, const glm::vec3& low, const glm::vec3& high) {
 
 /// The samples of a model, and what they are read from.
 struct Drawn {
-  Drawn(const Model& model, const View& view, std::uint32_t size, const Job& job)
+  Drawn(const Model& model, const Frame& frame, std::uint32_t size, const Job& job,
+        const glm::dvec2& share = glm::dvec2(1))
       : items(items_of(model, job)),
         surfaces(model, job),
         scene(scene_of(model, items, surfaces, job)),
-        shown(show(scene, Eye(camera_for(model, items, view), size), job)),
+        shown(show(scene, Eye(camera_for(model, items, frame, share), size), job)),
         samples(draw_samples(shown, job)) {}
   float near(std::uint32_t x, std::uint32_t y) const { return samples.near[samples.at(x, y)]; }
   Fragment fragment(std::uint32_t x, std::uint32_t y) const {
@@ -103,37 +104,72 @@ struct Drawn {
 TEST(Picture, ShowsASphereAsTheDiscThatFitsTheFrame) {
   const Job job = job_of();
   const Model model = sphere(64, job);
-  for (const View view : {View{0, 0}, View{35, 18}, View{200, -40}, View{90, 89}}) {
-    const Drawn drawn(model, view, 400, job);
+  for (const glm::dvec2 view : {glm::dvec2(0, 0), {35, 18.0}, {200, -40}, {90, 89}}) {
+    const Drawn drawn(model, frame_of(view.x, view.y), 400, job);
     std::size_t covered = 0;
     for (const float near : drawn.samples.near) covered += near > 0 ? 1 : 0;
     // The sides of the frame stand off by 6 %.
     const double share = static_cast<double>(covered) / (400.0 * 400.0),
                  disc = 3.14159265 / 4 / (1.06 * 1.06);
-    EXPECT_NEAR(share, disc, 0.01 * disc) << view.azimuth;
+    EXPECT_NEAR(share, disc, 0.01 * disc) << view.x;
   }
 }
 
 TEST(Picture, HasTheNormalsOfASphereInTheMiddle) {
   const Job job = job_of();
   const Model model = sphere(64, job);
-  const View view{35, 18};
-  const Drawn drawn(model, view, 200, job);
-  const glm::dvec3 normal(drawn.fragment(100, 100).normal), towards = frame_of(view).towards;
-  EXPECT_GT(glm::dot(normal, towards), 0.999);
+  const Frame frame = frame_of(35, 18);
+  const Drawn drawn(model, frame, 200, job);
+  const glm::dvec3 normal(drawn.fragment(100, 100).normal);
+  EXPECT_GT(glm::dot(normal, frame.towards), 0.999);
+}
+
+TEST(Picture, FitsASphereIntoTheShorterSide) {
+  const Job job = job_of();
+  const Model model = sphere(64, job);
+  for (const glm::dvec2 share : {glm::dvec2(1, 0.5), {0.5, 1}}) {
+    const Drawn drawn(model, frame_of(35, 18), 400, job, share);
+    const auto covered = std::ranges::count_if(drawn.samples.near, [](float near) { return near > 0; });
+    const double expected = 3.14159265 * 100 * 100 / (1.06 * 1.06);  // a disc in 400 x 200 samples
+    EXPECT_NEAR(static_cast<double>(covered), expected, 0.015 * expected) << share.x;
+  }
+}
+
+TEST(Picture, LooksAtLowModelsFromFartherAbove) {
+  const auto elevation = [](float width, float height) {
+    return elevation_of({}, Box{{0, 0, 0}, {width, height, 1}});
+  };
+  EXPECT_EQ(elevation(1, 10), 18);
+  EXPECT_EQ(elevation(10, 4), 18);
+  EXPECT_NEAR(elevation(10, 2.5F), 28, 1e-4);
+  EXPECT_EQ(elevation(10, 0), 38);
+  EXPECT_EQ(elevation_of({0, 5.0}, Box{{0, 0, 0}, {10, 0, 10}}), 5) << "as given";
+}
+
+TEST(Picture, HasTheSizeThatIsGiven) {
+  const Job job = job_of();
+  const Model model = sphere(16, job);
+  for (const glm::uvec2 size : {glm::uvec2(64, 64), {192, 144}, {50, 201}}) {
+    const texture::Picture picture = draw_picture(model, {size.x, size.y, {}, false}, job);
+    EXPECT_EQ(picture.width, size.x);
+    EXPECT_EQ(picture.height, size.y);
+    EXPECT_EQ(picture.bytes.size(), std::size_t{3} * size.x * size.y);
+    const auto at = [&](std::uint32_t x, std::uint32_t y) { return picture.bytes[3 * (y * size.x + x)]; };
+    EXPECT_NE(at(size.x / 2, size.y / 2), at(1, 1)) << "the sphere is in the middle";
+  }
 }
 
 TEST(Picture, DrawsNoBackOfAClosedSurface) {
   const Job job = job_of();
   Model model = sphere(32, job);
-  const float before = Drawn(model, {}, 200, job).near(100, 100);
+  const float before = Drawn(model, frame_of(35, 18), 200, job).near(100, 100);
   Array<std::uint32_t>& index = model.meshes[0].primitives[0].mesh.index.wide;
   for (std::size_t i = 0; i < index.size(); i += 3) std::swap(index[i + 1], index[i + 2]);
-  const float inside_out = Drawn(model, {}, 200, job).near(100, 100);
+  const float inside_out = Drawn(model, frame_of(35, 18), 200, job).near(100, 100);
   EXPECT_GT(before, inside_out);  // the far side is seen
   // By the rules of glTF, a mirrored node turns the winding of its mesh, too.
   model.nodes[0].transform.scale = {-1, 1, 1};
-  EXPECT_NEAR(Drawn(model, {}, 200, job).near(100, 100), inside_out, 1e-6F);
+  EXPECT_NEAR(Drawn(model, frame_of(35, 18), 200, job).near(100, 100), inside_out, 1e-6F);
 }
 
 /// Whether a ray from `from` along `towards` meets the box.
@@ -154,10 +190,10 @@ TEST(Picture, CastsTheShadowOfABox) {
   add_box(mesh, low, high);
   const Model model = model_of(std::move(mesh));
   const Items items = items_of(model, job);
-  const View sun{-40, 48};
+  const Frame sun = frame_of(-40, 48);
   const Surfaces surfaces(model, job);
   const ShadowMap map = draw_shadows(scene_of(model, items, surfaces, job), sun, 512, job);
-  const glm::dvec3 towards = frame_of(sun).towards;
+  const glm::dvec3& towards = sun.towards;
   std::size_t wrong = 0, dark = 0, known = 0;
   for (std::uint64_t i = 0; i < 100'000; ++i) {
     const Rng rng = Rng::of_seed(i);
@@ -185,7 +221,7 @@ double brightness(const texture::Picture& picture, std::uint32_t x, std::uint32_
 
 TEST(Picture, LightsTheSideOfTheSun) {
   const Job job = job_of();
-  const texture::Picture picture = draw_picture(sphere(48, job), {128, {35, 18}, false}, job);
+  const texture::Picture picture = draw_picture(sphere(48, job), {128, 128, {35, 18.0}, false}, job);
   ASSERT_EQ(picture.width, 128U);
   // The sun stands to the upper left of the camera.
   EXPECT_GT(brightness(picture, 44, 44), 1.5 * brightness(picture, 92, 84));
@@ -194,8 +230,8 @@ TEST(Picture, LightsTheSideOfTheSun) {
 TEST(Picture, ShowsTheGroundWhereItIsAsked) {
   const Job job = job_of();
   const Model model = sphere(24, job);
-  const texture::Picture with = draw_picture(model, {128, {35, 18}, true}, job);
-  const texture::Picture without = draw_picture(model, {128, {35, 18}, false}, job);
+  const texture::Picture with = draw_picture(model, {128, 128, {35, 18.0}, true}, job);
+  const texture::Picture without = draw_picture(model, {128, 128, {35, 18.0}, false}, job);
   EXPECT_EQ(brightness(with, 64, 40), brightness(without, 64, 40));    // the sphere
   EXPECT_NE(brightness(with, 10, 120), brightness(without, 10, 120));  // beside it
 }
@@ -223,21 +259,21 @@ TEST(Picture, CutsHolesWhereATextureIsEmpty) {
   model.textures.push_back(image);
   model.materials[0].base_color_texture = {0, 0, false};
   model.materials[0].alpha_mode = AlphaMode::mask;
-  const Drawn drawn(model, {0, 0}, 200, job);
+  const Drawn drawn(model, frame_of(0, 0), 200, job);
   EXPECT_EQ(drawn.near(60, 100), 0);
   EXPECT_GT(drawn.near(140, 100), 0);
 }
 
 TEST(Picture, IsTheSameWithAnyNumberOfThreads) {
   const Job one = job_of(), four = job_of(4);
-  const texture::Picture a = draw_picture(sphere(40, one), {150, {}, true}, one);
-  const texture::Picture b = draw_picture(sphere(40, four), {150, {}, true}, four);
+  const texture::Picture a = draw_picture(sphere(40, one), {150, 150, {}, true}, one);
+  const texture::Picture b = draw_picture(sphere(40, four), {150, 150, {}, true}, four);
   EXPECT_TRUE(std::equal(a.bytes.begin(), a.bytes.end(), b.bytes.begin(), b.bytes.end()));
 }
 
 TEST(Picture, OfAnEmptyModelIsTheBackground) {
   const Job job = job_of();
-  const texture::Picture picture = draw_picture(Model{}, {32, {}, true}, job);
+  const texture::Picture picture = draw_picture(Model{}, {32, 32, {}, true}, job);
   EXPECT_EQ(picture.bytes.size(), 3U * 32 * 32);
   EXPECT_EQ(brightness(picture, 3, 16), brightness(picture, 28, 16));
 }
@@ -247,7 +283,7 @@ TEST(Picture, EndsWhereTheRequestHasEnded) {
   const Job job(1, Job::Options{.stop = stop.get_token()});
   const Model model = sphere(40, job);
   stop.request_stop();
-  EXPECT_THROW(draw_picture(model, {64, {}, true}, job), Stop);
+  EXPECT_THROW(draw_picture(model, {64, 64, {}, true}, job), Stop);
 }
 
 }  // namespace

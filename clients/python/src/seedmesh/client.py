@@ -75,8 +75,8 @@ class Client:
         """The gallery's picture of a preset: WebP, 192 by 144 pixels."""
         return self._transport.call(links.thumbnail_path(name)).data
 
-    def picture(self, request: Request, size: int = 512, view: str = "three_quarter") -> bytes:
-        """A picture of the model that the service draws: WebP, square. ValueError if no link holds the request."""
+    def picture(self, request: Request, size: Union[int, str] = 512, view: str = "three_quarter") -> bytes:
+        """A picture of the model that the service draws, as WebP. `size`: pixels a side, or "640x360". ValueError if no link holds the request."""
         return self._transport.call(links.picture_path(request, size, view)).data
 
     def schema(self, generator: str) -> Dict[str, Any]:
@@ -212,7 +212,7 @@ class AsyncClient:
     async def thumbnail(self, name: str) -> bytes:
         return await asyncio.to_thread(self.client.thumbnail, name)
 
-    async def picture(self, request: Request, size: int = 512, view: str = "three_quarter") -> bytes:
+    async def picture(self, request: Request, size: Union[int, str] = 512, view: str = "three_quarter") -> bytes:
         return await asyncio.to_thread(self.client.picture, request, size, view)
 
     async def schema(self, generator: str) -> Dict[str, Any]:

@@ -38,8 +38,8 @@ def thumbnail_path(name: str) -> str:
     return f"/thumbnails/{urllib.parse.quote(name, safe='')}.webp"
 
 
-def picture_path(request: Request, size: int = 512, view: str = "three_quarter") -> str:
-    """Path of a picture of the model. `view`: a name, or azimuth and elevation in degrees, as "35,18"."""
+def picture_path(request: Request, size: Union[int, str] = 512, view: str = "three_quarter") -> str:
+    """Path of a picture of the model. `size`: pixels a side, or "640x360". `view`: a name, or azimuth and elevation in degrees, as "35,18"."""
     return permalink_path(request, "webp") + "?" + urllib.parse.urlencode({"size": size, "view": view})
 
 
