@@ -55,7 +55,8 @@ Relief laid(const Masonry& masonry, int size, Rng rng, const Job& job) {
 
 // A texture of 512 texels has 512 to 570 texels a metre. Tones that vary slowly are weak, because tiles of a metre repeat.
 constexpr glm::dvec2 brick_tile{1, 0.9}, plaster_tile{1, 1}, roof_tile_tile{1, 0.9}, slate_tile{1, 1},
-    planks_tile{1, 1}, ashlar_tile{1, 1}, concrete_tile{1, 1}, sheet_tile{1, 1};
+    planks_tile{1, 1}, ashlar_tile{1, 1}, concrete_tile{1, 1}, sheet_tile{1, 1}, panel_tile{1, 1},
+    plain_tile{1, 1};
 
 Relief brick(int size, Rng rng, const Job& job) {
   return laid({{4, 12, 0.5F, brick_tile}, 0.005F, 0.006F, 0.75F, 0.06F}, size, rng, job);
@@ -206,6 +207,63 @@ Relief sheet(int size, Rng rng, const Job& job) {
   });
 }
 
+/// Smooth panels of metal with open joints.
+Relief panels(int size, Rng rng, const Job& job) {
+  const Courses courses({1, 1, 0, panel_tile}, size);
+  const Noise patch_noise(size, {3, 2}, {4, 0.5F}, 0.6F, rng.at("patches"));
+  const Noise streak_noise(size, {48, 3}, {2, 0.6F}, 0.5F, rng.at("streaks"));
+  return paint_rows(size, Accent::none, job, [&](int begin, int end, const auto& row_at) {
+    NoiseRows patch_rows(patch_noise), streak_rows(streak_noise);
+    for (int y = begin; y < end; ++y) {
+      const Courses::Row course = courses.row(y);
+      const float *large = patch_rows.row(y), *streaks = streak_rows.row(y);
+      const ReliefRow out = row_at(y);
+      for (int x = 0; x < size; ++x) {
+        const float edge = course.to_side[x] < course.to_bed ? course.to_side[x] : course.to_bed;
+        const float panel = step_between(0.005F, 0.008F, edge);
+        out.height[x] = clamp_share(0.9F * panel + 0.04F * large[x]);
+        out.tone[x] = clamp_share(0.5F + 0.06F * large[x] + 0.06F * streaks[x] - 0.5F * (1 - panel));
+      }
+    }
+  });
+}
+
+/// One piece of stone, as of sills, lintels and steps: fine grain and small pits, without joints.
+Relief dressed_stone(int size, Rng rng, const Job& job) {
+  const Noise grain_noise(size, {96, 96}, {2, 0.6F}, 0.6F, rng.at("grain"));
+  const Noise patch_noise(size, {4, 4}, {4, 0.55F}, 0.7F, rng.at("patches"));
+  const Noise pit_noise(size, {40, 40}, {2, 0.5F}, 1, rng.at("pits"));
+  return paint_rows(size, Accent::none, job, [&](int begin, int end, const auto& row_at) {
+    NoiseRows grain_rows(grain_noise), patch_rows(patch_noise), pit_rows(pit_noise);
+    for (int y = begin; y < end; ++y) {
+      const float *fine = grain_rows.row(y), *large = patch_rows.row(y), *pits = pit_rows.row(y);
+      const ReliefRow out = row_at(y);
+      for (int x = 0; x < size; ++x) {
+        const float pit = step_between(0.55F, 0.8F, pits[x]);
+        out.height[x] = clamp_share(0.75F + 0.2F * fine[x] - 0.4F * pit);
+        out.tone[x] = clamp_share(0.5F + 0.12F * large[x] + 0.14F * fine[x] - 0.2F * pit);
+      }
+    }
+  });
+}
+
+/// Paint on planed wood: nearly flat, with faint marks of the brush.
+Relief paint(int size, Rng rng, const Job& job) {
+  const Noise brush_noise(size, {96, 6}, {2, 0.6F}, 0.5F, rng.at("brush"));
+  const Noise patch_noise(size, {5, 5}, {3, 0.55F}, 0.6F, rng.at("patches"));
+  return paint_rows(size, Accent::none, job, [&](int begin, int end, const auto& row_at) {
+    NoiseRows brush_rows(brush_noise), patch_rows(patch_noise);
+    for (int y = begin; y < end; ++y) {
+      const float *brush = brush_rows.row(y), *large = patch_rows.row(y);
+      const ReliefRow out = row_at(y);
+      for (int x = 0; x < size; ++x) {
+        out.height[x] = clamp_share(0.7F + 0.2F * brush[x] + 0.1F * large[x]);
+        out.tone[x] = clamp_share(0.5F + 0.1F * large[x] + 0.08F * brush[x]);
+      }
+    }
+  });
+}
+
 struct Painter {
   Relief (*paint)(int size, Rng rng, const Job& job);
   glm::vec3 main;     ///< sRGB bytes; of grey ones only where their grey is not the usual one
@@ -224,6 +282,9 @@ constexpr WallKind kinds[] = {
     {"ashlar", ashlar_tile, true},
     {"concrete", concrete_tile, true},
     {"sheet", sheet_tile, true},
+    {"panels", panel_tile, true},
+    {"dressed_stone", plain_tile, true},
+    {"paint", plain_tile, true},
     {"grass_ground", {ground_tile, ground_tile}, true},
     {"soil_ground", {ground_tile, ground_tile}, true},
     {"rock_ground", {ground_tile, ground_tile}, true},
@@ -241,6 +302,9 @@ constexpr Painter painters[] = {
     {ashlar, {}, 0.7F, 1.14F, {158, 156, 150}, 0.014F, 0.95F, 0.86F, 0.95F, 0.35F},
     {concrete, {}, 0.74F, 1.12F, {}, 0.008F, 0.95F, 0.85F, 0.95F, 0.3F},
     {sheet, {}, 0.8F, 1.1F, {}, 0.035F, 0.5F, 0.45F, 0.5F, 0.3F},
+    {panels, {}, 0.72F, 1.08F, {}, 0.01F, 0.6F, 0.45F, 0.6F, 0.5F},
+    {dressed_stone, {}, 0.74F, 1.12F, {}, 0.004F, 0.95F, 0.82F, 0.95F, 0.25F},
+    {paint, {}, 0.86F, 1.08F, {}, 0.001F, 0.7F, 0.5F, 0.7F, 0.1F},
     {grass_ground, {}, 0.28F, 1.3F, {}, 0.022F, 0.98F, 0.8F, 0.9F, 0.55F},
     {soil_ground, {}, 0.42F, 1.3F, {}, 0.03F, 0.98F, 0.82F, 0.9F, 0.5F},
     {rock_ground, {}, 0.34F, 1.3F, {}, 0.03F, 0.96F, 0.75F, 0.9F, 0.55F},

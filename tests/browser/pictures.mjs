@@ -50,7 +50,7 @@ const sheets = {
   leaves: { tile: [107, 107], columns: 6, textures: [...leaves.map((name) => `${name}_leaf`), 'petal', ...twigs.map((name) => `${name}_twig`)] },
 };
 
-const walls = ['brick', 'plaster', 'roof_tile', 'slate', 'planks', 'ashlar', 'concrete', 'sheet'];
+const walls = ['brick', 'plaster', 'roof_tile', 'slate', 'planks', 'ashlar', 'concrete', 'sheet', 'panels', 'dressed_stone', 'paint'];
 /** What the form shows beside the names of textures. */
 const choices = path.join(root, 'web_client/public/textures');
 

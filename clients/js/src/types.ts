@@ -233,7 +233,7 @@ export interface BuildingParametersMaterialsValue {
   tile?: [number, number];
   images?: Images;
   /** Textures made by seed in the colour of the material: colour, normals, and roughness with occlusion, which replace roughness and metallic. auto: by the name of the material, if `textures` says so. Images take precedence. */
-  texture?: "auto" | "none" | "brick" | "plaster" | "roof_tile" | "slate" | "planks" | "ashlar" | "concrete" | "sheet";
+  texture?: "auto" | "none" | "brick" | "plaster" | "roof_tile" | "slate" | "planks" | "ashlar" | "concrete" | "sheet" | "panels" | "dressed_stone" | "paint";
   /** Another seed gives another texture of the same kind. */
   texture_seed?: number;
 }

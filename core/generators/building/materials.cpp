@@ -1,6 +1,7 @@
 #include "core/generators/building/materials.h"
 
 #include <algorithm>
+#include <array>
 
 #include "core/generators/building/parts/parts.h"
 #include "core/generators/material_members.h"
@@ -41,15 +42,19 @@ struct Surface {
   std::string_view material, kind;
 };
 constexpr Surface surfaces[] = {
-    {"brick", "brick"},      {"plaster", "plaster"},     {"wall", "plaster"},   {"facade", "plaster"},
-    {"stone", "ashlar"},     {"concrete", "concrete"},   {"wood", "planks"},    {"roof", "roof_tile"},
-    {"slate", "slate"},      {"roof_tile", "roof_tile"}, {"cladding", "sheet"}, {"chimney", "brick"},
-    {"building", "plaster"},
+    {"brick", "brick"},      {"plaster", "plaster"},
+    {"wall", "plaster"},     {"facade", "plaster"},
+    {"stone", "ashlar"},     {"concrete", "concrete"},
+    {"wood", "planks"},      {"roof", "roof_tile"},
+    {"slate", "slate"},      {"roof_tile", "roof_tile"},
+    {"cladding", "sheet"},   {"chimney", "brick"},
+    {"building", "plaster"}, {"dressed_stone", "dressed_stone"},
+    {"painted", "paint"},    {"panels", "panels"},
 };
 
-// Parts of blueprints: what the request can paint is wood, what has a colour of its own is stone.
+// Parts of blueprints: doors and frames are painted wood, and what has a colour of its own is one piece of stone.
 constexpr Surface part_surfaces[] = {
-    {"door", "planks"},    {"frame", "plaster"},     {"color", "ashlar"},
+    {"door", "paint"},     {"frame", "paint"},       {"color", "dressed_stone"},
     {"stone", "ashlar"},   {"brick", "brick"},       {"wall", "plaster"},
     {"roof", "roof_tile"}, {"concrete", "concrete"}, {"wood", "planks"},
 };
@@ -67,10 +72,11 @@ const texture::WallKind* surface_named(std::string_view material) {
   return found == std::end(surfaces) ? nullptr : texture::wall_kind(found->kind);
 }
 
-/// Whether a surface is one of walls, not of roofs.
+/// Whether a surface is one of walls, not of roofs, joinery or trim.
 bool is_wall(std::string_view material) {
+  constexpr std::array<std::string_view, 4> others = {"roof_tile", "slate", "paint", "dressed_stone"};
   const texture::WallKind* const kind = surface_named(material);
-  return kind != nullptr && kind->name != "roof_tile" && kind->name != "slate";
+  return kind != nullptr && std::ranges::find(others, kind->name) == others.end();
 }
 
 const MaterialPreset* find_preset(std::string_view name) {

@@ -163,7 +163,7 @@ class BuildingParametersMaterialsValue(TypedDict, total=False):
     specular: "Specular"
     tile: List[float]
     images: "Images"
-    texture: Literal['auto', 'none', 'brick', 'plaster', 'roof_tile', 'slate', 'planks', 'ashlar', 'concrete', 'sheet']
+    texture: Literal['auto', 'none', 'brick', 'plaster', 'roof_tile', 'slate', 'planks', 'ashlar', 'concrete', 'sheet', 'panels', 'dressed_stone', 'paint']
     texture_seed: int
 
 
