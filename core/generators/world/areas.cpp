@@ -27,10 +27,13 @@ class AreaFinder {
     for (const WorldClass& plant : world.params.plants)
       tallest_class_ = std::max(tallest_class_, plant.height);
     areas_.resize(static_cast<std::size_t>(count_) * static_cast<std::size_t>(count_));
+    const auto samples = static_cast<std::size_t>(count_ * cells_ + 1);
+    heights_.resize(samples * samples);
   }
 
   std::vector<Area> areas() {
     add_samples();
+    if (spacing_ < coarse_spacing) add_deviations();
     if (side_ <= widest_known_rivers) {
       add_water();
     } else {
@@ -96,6 +99,7 @@ class AreaFinder {
     } else {
       sample = ground.at(east, north);
     }
+    heights_[static_cast<std::size_t>(j * (count_ * cells_ + 1) + i)] = sample.height;
     const auto tile = [&](int k) { return std::min(k / cells_, count_ - 1); };
     const auto is_low = [this](int k) { return k % cells_ == 0; };
     const int last = count_ * cells_;
@@ -114,6 +118,25 @@ class AreaFinder {
         if (!world_.has(Layer::plants) || area.plant_height >= tallest_class_) continue;
         if (tallest < 0) tallest = tallest_growing(sample, east, north);
         area.plant_height = std::max(area.plant_height, tallest);
+      }
+    }
+  }
+
+  /// Measures how far samples are from triangles through every other of them.
+  void add_deviations() {
+    const int last = count_ * cells_;
+    const auto height = [&](int i, int j) { return heights_[static_cast<std::size_t>(j * (last + 1) + i)]; };
+    for (int j = 0; j < last; j += 2) {
+      for (int i = 0; i < last; i += 2) {
+        const double sw = height(i, j), se = height(i + 2, j), nw = height(i, j + 2), ne = height(i + 2, j + 2);
+        const double off = std::max({std::abs(height(i + 1, j) - (sw + se) / 2), std::abs(height(i, j + 1) - (sw + nw) / 2),
+                                     std::abs(height(i + 1, j + 1) - (sw + ne) / 2),
+                                     std::abs(height(i + 2, j + 1) - (se + ne) / 2),
+                                     std::abs(height(i + 1, j + 2) - (nw + ne) / 2)});
+        Roughness& rough = at(i / cells_, j / cells_).rough;
+        const double steep = std::max(std::abs(ne - sw), std::abs(se - nw)) / (2 * 2.83 * spacing_);
+        rough.measured = std::max(rough.measured, off / std::sqrt(1 + steep * steep));
+        rough.measured_spacing = 2 * spacing_;
       }
     }
   }
@@ -236,6 +259,7 @@ class AreaFinder {
   double side_ = 0, spacing_ = 0;
   double tallest_class_ = 0;
   std::vector<Area> areas_;
+  std::vector<double> heights_;  ///< of all samples, rows from the south
 };
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include "core/generators/world/areas.h"
 #include "core/generators/world/houses.h"
 #include "core/generators/world/plant_mesh.h"
+#include "core/generators/world/river_mesh.h"
 #include "core/generators/world/terrain_mesh.h"
 #include "core/generators/world/world.h"
 
@@ -69,6 +70,11 @@ Margins margins(const World& world, double spacing, Roughness rough) {
   return {spacing >= coarse_spacing ? land : all, land};
 }
 
+/// The highest that rivers on the terrain of a tile lie.
+double draped_top(const World& world, const TileFrame& frame, const Area& area, double between) {
+  return world.has(Layer::water) ? area.high + between + drape_lift(frame.spacing) + 2 * frame.step : area.high;
+}
+
 /// The box of a tile of the lowest level of a block.
 TileBounds link_bounds(const World& world, const TileKey& key, const Area& area, double spacing) {
   const TileFrame frame = frame_of(world, key);
@@ -77,6 +83,7 @@ TileBounds link_bounds(const World& world, const TileKey& key, const Area& area,
   const WorldRelief& relief = world.params.relief;
   double low = std::min(area.low - below, area.lowest), high = std::max(area.high + between, area.highest);
   if (relief.sea && low < relief.sea_level) high = std::max(high, relief.sea_level);
+  high = std::max(high, draped_top(world, frame, area, between));
   if (!is_leaf) {
     TileFrame child = frame;
     child.spacing /= 2;
@@ -107,6 +114,8 @@ TileBounds bounds_above(const World& world, const TileKey& key, const Area& area
     box.low = std::min(box.low, child->low);
     box.high = std::max(box.high, child->high);
   }
+  const double between = frame.spacing < spacing ? margins(world, spacing, area.rough).above : 0;
+  box.high = std::max(box.high, std::ceil(draped_top(world, frame, area, between) * 4) / 4);
   box.low = std::floor(box.low * 4) / 4;
   box.geometric_error = error_of(world, frame, area.rough, area.plant_height);
   return box;

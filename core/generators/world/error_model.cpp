@@ -11,6 +11,7 @@ namespace seedmesh::world {
 namespace {
 
 constexpr double deviation_share = 0.95;  ///< fitted to walks through worlds with random parameters
+constexpr double measured_share = 1.2;  ///< samples at half the spacing miss a part of the greatest deviation
 constexpr double terrace_share =
     0.3;  ///< of the terraces: their edges also make the sides of valleys steeper
 
@@ -95,6 +96,8 @@ void Roughness::add(const Roughness& other) {
   has_sea_floor |= other.has_sea_floor;
   valley = std::max(valley, other.valley);
   works = std::max(works, other.works);
+  measured = std::max(measured, other.measured);
+  measured_spacing = std::max(measured_spacing, other.measured_spacing);
 }
 
 Roughness roughest(const World& world) {
@@ -126,7 +129,8 @@ double deviation_of(const World& world, double spacing, const Roughness& rough) 
   sum.add(std::min(rough.works, 0.2 * spacing));
   // parts saturate where samples are farther apart than their wavelengths
   const double far = spacing > 1024 ? 1 + 0.12 * (spacing / (spacing + 8192)) : 1;
-  return (deviation_share + terrace_share * relief.terraces) * far * sum.value();
+  const double modelled = (deviation_share + terrace_share * relief.terraces) * far * sum.value();
+  return std::max(modelled, measured_share * rough.measured * std::min(1.0, spacing / rough.measured_spacing));
 }
 
 }  // namespace seedmesh::world

@@ -19,6 +19,8 @@ struct Roughness {
   double valley = 0;  ///< metres that rivers and lakes cut into the land; 0 without water nearby
   double works = 0;   ///< metres that roads are above or below the ground
 
+  double measured = 0, measured_spacing = 1;  ///< deviation that was met, from triangles with this spacing
+
   void add(const GroundSample& sample);
   void add(const Roughness& other);
 };

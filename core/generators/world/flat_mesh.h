@@ -1,10 +1,11 @@
 #pragma once
-/// A mesh of convex polygons that face upwards, for water and roads. Only add_clipped() and add_ribbon() clip to the tile.
+/// A mesh of convex polygons that face upwards, for water and roads. Only add_clipped(), add_draped() and add_ribbon() clip to the tile.
 #include <array>
 #include <glm/glm.hpp>
 #include <vector>
 
 #include "core/generators/world/glb.h"
+#include "core/generators/world/terrain_grid.h"
 #include "core/generators/world/tile_frame.h"
 
 namespace seedmesh::world {
@@ -25,6 +26,9 @@ class FlatMesh {
   /// Adds a strip from one point to another, with a width at each. It extends past the second point by a fifth of its
   /// width, which closes gaps at bends.
   void add_ribbon(const Point& from, double from_width, const Point& to, double to_width);
+
+  /// Adds a convex polygon with the heights of the terrain below it, `lift` metres above its triangles. Clips to the tile.
+  void add_draped(std::vector<Point> polygon, const TerrainGrid& grid, double lift);
 
   TileMesh take() { return std::move(mesh_); }
 

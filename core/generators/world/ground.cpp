@@ -7,18 +7,8 @@ namespace seedmesh::world {
 namespace {
 
 constexpr double channel_reach = 260;  ///< metres; of the exact banks of a river
-constexpr double blend = 24;           ///< metres of height over which a valley meets the land
-
-/// The side of a valley at a distance from its water, and its slope. Infinite at the reach, so that water beyond it
-/// never counts; also where it is not below `most`.
-Slope valley_side(double away, double half_width, double ruggedness, double most) {
-  const double flat = 40 + 8 * half_width, slope = 0.16 + 0.36 * ruggedness;
-  const double beyond = std::max(0.0, away - flat);
-  const double rise = 1 + 0.02 * away + slope * beyond;
-  const double t = away * (1 / valley_reach), left = 1 - t * t;
-  if (left <= 1e-6 || rise >= most) return {1e12, 0, 0};
-  return {rise / left, 0.02 + (beyond > 0 ? slope : 0), 0};
-}
+constexpr double slope_blend = 24;     ///< metres of height over which the slope of a valley becomes that of the land
+constexpr double levee = 0.3;          ///< metres of the ground beside a river above its water
 
 Reach reach_of(const RiverPoint& a, const RiverPoint& b) {
   const double x = b.east - a.east, y = b.north - a.north;
@@ -37,33 +27,47 @@ Nearest nearest_on(const Reach& reach, double east, double north) {
   return {std::sqrt(dx * dx + dy * dy), share, dx, dy};
 }
 
-/// The lesser of two heights with a rounded transition.
-Slope lesser(const Slope& a, const Slope& b) {
-  const double overlap = blend - std::abs(a.value - b.value);
-  const Slope& low = a.value < b.value ? a : b;
-  if (overlap <= 0) return low;
-  const double share = (b.value - a.value) / (2 * blend) + 0.5;
+/// The lesser of two heights with a transition that is rounded over `blend` metres. The slope, which gullies follow,
+/// always changes over `slope_blend`.
+Slope lesser(const Slope& a, const Slope& b, double blend) {
+  const double share = std::clamp((b.value - a.value) / (2 * slope_blend) + 0.5, 0.0, 1.0);
   Slope mixed = a * share + b * (1 - share);
-  mixed.value = low.value - overlap * overlap / (4 * blend);
+  const double overlap = std::max(0.0, blend - std::abs(a.value - b.value));
+  mixed.value = std::min(a.value, b.value) - overlap * overlap / (4 * blend);
   return mixed;
 }
 
 /// What the water near a position does to it.
 struct Waters {
-  Slope valley{1e12, 0, 0};
+  double valley = 1e12;                   ///< its height
+  double east = 0, north = 0, pull = 0;   ///< weighted sums of the slopes of valley sides
   double weight = 0, water = 0, half_width = 0;  ///< weighted sums over near rivers
   double away = 1e12;                            ///< from the nearest middle of a river
   double bank = 1e12;                            ///< from the nearest bank
+  double lake = 1e12;                            ///< from the nearest shore of a lake
 };
+
+/// Where a position is from some water: `away` from its middle or shore, in the direction (east, north) of `length`.
+struct Offset {
+  double away = 0, half_width = 0, east = 0, north = 0, length = 0;
+};
+
+/// Slopes are weighted by distance, so that they do not jump between two waters: gullies would have steps there.
+void add_side(Waters& waters, const Offset& offset, double water, double ruggedness) {
+  const Slope side = valley_side(offset.away, offset.half_width, ruggedness, 1e11);
+  waters.valley = std::min(waters.valley, water + side.value);
+  if (offset.length <= 1e-9) return;
+  const double t = offset.away * (1 / valley_reach), left = 1 - t * t, square = offset.away * offset.away + 400;
+  const double weight = left * left / (square * square), along = weight * side.east / offset.length;
+  waters.pull += weight;
+  waters.east += along * offset.east;
+  waters.north += along * offset.north;
+}
 
 void add_reach(Waters& waters, const Reach& reach, const Nearest& near, double ruggedness) {
   const double water = reach.from.water + near.share * (reach.to.water - reach.from.water);
   const double half = (reach.from.width + near.share * (reach.to.width - reach.from.width)) / 2;
-  const Slope side = valley_side(near.away, half, ruggedness, waters.valley.value - water);
-  if (const double height = water + side.value; height < waters.valley.value) {
-    const double along = near.away > 1e-9 ? side.east / near.away : 0;
-    waters.valley = {height, along * near.east, along * near.north};
-  }
+  add_side(waters, {near.away, half, near.east, near.north, near.away}, water, ruggedness);
   waters.bank = std::min(waters.bank, near.away - half);
   if (near.away >= channel_reach) return;
   waters.away = std::min(waters.away, near.away);
@@ -83,14 +87,18 @@ double with_lake(double height, const Lake& lake, double away, double shore) {
   return mixed(bed, height, smooth_step(away, shore, 1.4 * shore + 60));
 }
 
-/// The bed of a river, its banks, and a transition to the land.
-double with_river(double height, const Waters& waters) {
-  if (waters.weight <= 0) return height;
+/// The bed of a river, its banks, and a transition to the land, which does not lie below the water. `share`: how much of it
+/// there is, less where the river ends in other water.
+double with_river(double height, const Waters& waters, double share) {
+  if (waters.weight <= 0 || share <= 0) return height;
   const double water = waters.water / waters.weight, half = waters.half_width / waters.weight;
   const double t = waters.away / half;
   const double depth = 0.5 + 0.09 * half;
   const double bed = t < 1 ? water - depth * (1 - t * t) : water + 0.1 * (waters.away - half);
-  return mixed(bed, height, smooth_step(waters.away, half + 1, std::min(channel_reach - 10, 3 * half + 70)));
+  const double wide = std::min(channel_reach - 10, 3 * half + 70);
+  const double low = (1 - smooth_step(waters.away, std::min(wide, 150.0), channel_reach)) * (water + levee - height);
+  const double land = height + std::max(0.0, low);
+  return mixed(height, mixed(bed, land, smooth_step(waters.away, half + 1, wide)), share);
 }
 
 }  // namespace
@@ -138,16 +146,14 @@ GroundSample Ground::at(double east, double north) const {
     const double x = east - lake.east, y = north - lake.north, away = std::sqrt(x * x + y * y);
     const double beyond = away - shore_distance(lake, east, north, away);
     if (beyond >= valley_reach) continue;
-    const Slope side =
-        valley_side(std::max(0.0, beyond), 5, land.ruggedness, waters.valley.value - lake.level);
-    if (const double height = lake.level + side.value; height < waters.valley.value) {
-      const double along = away > 1e-9 ? side.east / away : 0;
-      waters.valley = {height, along * x, along * y};
-    }
+    add_side(waters, {std::max(0.0, beyond), 5, x, y, away}, lake.level, land.ruggedness);
     waters.bank = std::min(waters.bank, beyond);
+    waters.lake = std::min(waters.lake, beyond);
   }
   const double uncut = land.height.value;
-  land.height = lesser(land.height, waters.valley);
+  Slope valley{waters.valley, 0, 0};
+  if (waters.pull > 0) valley = {waters.valley, waters.east / waters.pull, waters.north / waters.pull};
+  land.height = lesser(land.height, valley, valley_blend(std::max(0.0, waters.bank)));
   sample.cut = uncut - land.height.value;
   const double dry = smooth_step(waters.bank, 6, 160);
   double height = land.height.value + dry * detail_at(*world_, land, east, north);
@@ -156,7 +162,9 @@ GroundSample Ground::at(double east, double north) const {
     if (away > 3 * lake.radius + 100) continue;
     height = with_lake(height, lake, away, shore_distance(lake, east, north, away));
   }
-  sample.height = with_river(height, waters);
+  double river = smooth_step(waters.lake, -25, 5);
+  if (world_->params.relief.sea) river *= smooth_step(uncut - world_->params.relief.sea_level, -1.5, 0.5);
+  sample.height = with_river(height, waters, river);
   sample.shore = waters.bank;
   if (!pieces_.empty() || !houses_.empty()) add_works(sample, east, north);
   if (!farmland_.empty()) add_field(sample, east, north);

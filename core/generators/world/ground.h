@@ -7,12 +7,10 @@
 
 #include "core/generators/world/land.h"
 #include "core/generators/world/region.h"
+#include "core/generators/world/valley.h"
 #include "core/generators/world/world.h"
 
 namespace seedmesh::world {
-
-/// Metres. Water that is farther away does not change the ground.
-constexpr double valley_reach = 1400;
 
 /// In absolute metres.
 struct Rectangle {

@@ -7,6 +7,7 @@
 #include <ranges>
 
 #include "core/base/math.h"
+#include "core/generators/world/courses.h"
 
 namespace seedmesh::world {
 namespace {
@@ -16,9 +17,8 @@ constexpr double jitter = 0.6;    ///< of a cell
 constexpr int pieces = 12;        ///< of a river between two nodes
 constexpr double cell_area = drain_cell * drain_cell / 1e6;  ///< km²
 constexpr double lake_reach = 640;   ///< metres; greatest radius, below the distance of nodes
-constexpr double lake_grade = 0.03;  ///< of a river before a lake
-constexpr double dry_radius = 1450;  ///< metres around dry positions, beyond the reach of valleys by a bend
-constexpr double shallow = 1;        ///< metres that water lies below the land at least
+constexpr int sinking_steps = 5;
+constexpr double sinking = 70, level_ground = 0.02;  ///< metres a step of a node, where the slope is at least this
 
 struct Node {
   CellKey cell;
@@ -32,18 +32,21 @@ struct Node {
   bool is_sea = false, is_reached = false;
 };
 
-struct Course {
-  std::vector<RiverPoint> points;  ///< from the node to the node below, or to a shore
-  std::string into;                ///< where it ends before the node below
-};
-
 Node node_of(const World& world, const CellKey& cell) {
   Rng rng(cell_key(region_key(world, 1), cell.x, cell.y));
   Node node;
   node.cell = cell;
   node.east = (static_cast<double>(cell.x) + 0.5 + jitter * (rng.unit() - 0.5)) * drain_cell;
   node.north = (static_cast<double>(cell.y) + 0.5 + jitter * (rng.unit() - 0.5)) * drain_cell;
-  node.ground = land_at(world, node.east, node.north).height.value;
+  Slope land = land_at(world, node.east, node.north).height;
+  for (int k = 0; k < sinking_steps; ++k) {  // towards a valley, within the cell
+    const double slope = std::sqrt(land.east * land.east + land.north * land.north);
+    const double by = sinking / std::max(slope, level_ground);
+    node.east -= by * land.east;
+    node.north -= by * land.north;
+    land = land_at(world, node.east, node.north).height;
+  }
+  node.ground = land.value;
   node.is_sea = world.params.relief.sea && node.ground < world.params.relief.sea_level - 6;
   return node;
 }
@@ -54,17 +57,6 @@ bool is_dry(const CellKey& cell) {
   static_assert(period * drain_cell == dry_spacing);
   const auto touches = [](std::int64_t v) { return ((v % period + period + 1) % period) <= 1; };
   return touches(cell.x) && touches(cell.y);
-}
-
-/// Moves bends of rivers that come too near to a dry position away from it.
-void keep_away(RiverPoint& p) {
-  const double x = p.east - dry_spacing * std::floor(p.east / dry_spacing + 0.5);
-  const double y = p.north - dry_spacing * std::floor(p.north / dry_spacing + 0.5);
-  const double square = x * x + y * y;
-  if (square >= dry_radius * dry_radius || square < 1) return;
-  const double by = dry_radius / std::sqrt(square) - 1;
-  p.east += by * x;
-  p.north += by * y;
 }
 
 double distance_of(const RiverPoint& p, const Lake& lake) {
@@ -278,40 +270,52 @@ class Drainage {
     if (node.is_sea) return;
     if (node.lake >= 0) made_.lakes[static_cast<std::size_t>(node.lake)].level = node.water;
     if (!is_river(node)) return;
+    const double water = lay_course(n, path_of(n));
     Node& below = at(node.down);
-    Course& course = courses_[static_cast<std::size_t>(n)];
+    if (courses_[static_cast<std::size_t>(n)].into != "sea") below.water = std::min(below.water, water);
+  }
+
+  /// The positions and widths of a river from its node to the node below.
+  std::vector<RiverPoint> path_of(int n) const {
+    const Node &node = at(n), &below = at(node.down);
     const double last_width = width_of(node.flow);
     const double first_width = node.main_up >= 0 ? width_of(at(node.main_up).flow) : 0.6 * last_width;
+    std::vector<RiverPoint> path;
+    for (int k = 0; k <= pieces; ++k) {
+      path.push_back(point_at(node, below, static_cast<double>(k) / pieces));
+      path.back().width = first_width + (last_width - first_width) * k / pieces;
+    }
+    settle_in_valleys(world_, path);
+    for (std::size_t k = 1; k + 1 < path.size(); ++k) keep_away(path[k]);
+    return path;
+  }
+
+  /// Adds the points of a path up to a shore, with their water. Returns the lowest water.
+  double lay_course(int n, const std::vector<RiverPoint>& path) {
+    Node& node = at(n);
+    const Node& below = at(node.down);
+    Course& course = courses_[static_cast<std::size_t>(n)];
+    course.down = node.down;
     double water = node.water;
-    for (int k = 0; k <= pieces && course.into.empty(); ++k) {
-      RiverPoint point = point_at(node, below, static_cast<double>(k) / pieces);
+    for (std::size_t k = 0; k < path.size() && course.into.empty(); ++k) {
+      RiverPoint point = path[k];
       if (is_inside(lake_of(node), point)) continue;
-      const double land = land_at(world_, point.east, point.north).height.value;
-      if (k > 0) water = std::max(node.floor, std::min(water, land - shallow));
+      const Land ground = land_at(world_, point.east, point.north);
+      const double land = ground.height.value, low = lowest_across(world_, path, k, point.width / 2);
+      if (k > 0) water = std::max(node.floor, std::min(water, std::min(land, low) - shallow));
       if (world_.params.relief.sea && k > 0 && land < world_.params.relief.sea_level - shallow) {
         course.into = "sea";
         water = world_.params.relief.sea_level;
       } else if (is_inside(lake_of(below), point)) {
         course.into = lake_of(below)->id;
+        course.into_lake = below.lake;
       }
       point.water = water;
       point.cut = std::max(0.0, land - water);
-      point.width = first_width + (last_width - first_width) * k / pieces;
       course.points.push_back(point);
+      course.ruggedness.push_back(ground.ruggedness);
     }
-    if (course.into != "sea") below.water = std::min(below.water, water);
-  }
-
-  /// Lets a river reach the level of a lake before the shore.
-  void lower_to_lake(Course& course, const Lake& lake) const {
-    double water = course.points.empty() ? 0 : course.points.front().water;
-    for (RiverPoint& p : course.points) {
-      const double away = distance_of(p, lake);
-      const double beyond = std::max(0.0, away - shore_distance(lake, p.east, p.north, away));
-      water = std::min(water, std::max(lake.level, std::min(p.water, lake.level + lake_grade * beyond)));
-      p.cut += p.water - water;
-      p.water = water;
-    }
+    return water;
   }
 
   bool is_head(int n) const {
@@ -322,13 +326,8 @@ class Drainage {
   }
 
   void join_rivers() {
-    for (int n = 0; n < count(); ++n) {
-      Course& course = courses_[static_cast<std::size_t>(n)];
-      if (const Lake* lake = n < count() && at(n).down >= 0 ? lake_of(at(at(n).down)) : nullptr;
-          lake != nullptr && course.into == lake->id) {
-        lower_to_lake(course, *lake);
-      }
-    }
+    for (int n = 0; n < count(); ++n) courses_[static_cast<std::size_t>(n)].lake = at(n).lake;
+    lower_to_valleys(courses_, order_, made_.lakes);
     std::vector<int> river_at(nodes_.size(), -1), mouths;
     for (int n = 0; n < count(); ++n) {
       if (courses_[static_cast<std::size_t>(n)].points.size() < 2 || !is_head(n)) continue;

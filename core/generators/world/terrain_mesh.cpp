@@ -13,27 +13,50 @@ namespace {
 constexpr double border_share = 0.9;  ///< the greatest deviation along a line, by that of an area
 constexpr double far_share = 0.9;     ///< the same for tiles three levels coarser
 constexpr double unusual = 1.15;      ///< of the usual skirt: the deepest that was met
+constexpr double widest_fine_rise = 64;  ///< metres
+constexpr double fine_share = 0.7;       ///< of normals that follow the slope of finer levels
 constexpr double rounding_steps = 9;  ///< of heights of tiles three levels coarser
+
+/// Rises by a metre east and north.
+struct Rise {
+  double east = 0, north = 0;
+};
+
+/// What samples far apart leave out of the ground around one of them: its slope at finer levels, away from water.
+Rise fine_rise(const World& world, const GroundSample& sample, double east, double north, double spacing) {
+  const double by = std::clamp(spacing / 4, 8.0, widest_fine_rise);
+  const double here = detail_at(world, sample.land, east, north);
+  return {sample.land.height.east + (detail_at(world, sample.land, east + by, north) - here) / by,
+          sample.land.height.north + (detail_at(world, sample.land, east, north + by) - here) / by};
+}
 
 TileVertex vertex_of(const World& world, const GroundColors& colors, const TileFrame& frame,
                      const TerrainGrid& grid, int column, int row, double base) {
   const GroundSample& sample = grid.at(column, row);
-  const double rise_east = grid.at(column + 1, row).height - grid.at(column - 1, row).height;
-  const double rise_north = grid.at(column, row + 1).height - grid.at(column, row - 1).height;
+  const double east = grid.west + column * grid.spacing, north = grid.south + row * grid.spacing;
   const double run = 2 * grid.spacing;
-  const double length = std::sqrt(rise_east * rise_east + rise_north * rise_north + run * run);
+  Rise seen{(grid.at(column + 1, row).height - grid.at(column - 1, row).height) / run,
+            (grid.at(column, row + 1).height - grid.at(column, row - 1).height) / run};
+  Rise fine = seen;
+  const double share = fine_share * smooth_step(grid.spacing, 12, 64) * smooth_step(sample.shore, 20, 200);
+  if (share > 0) {
+    fine = fine_rise(world, sample, east, north, grid.spacing);
+    seen.east += share * (fine.east - seen.east);
+    seen.north += share * (fine.north - seen.north);
+  }
+  const double length = std::sqrt(seen.east * seen.east + seen.north * seen.north + 1);
+  const double steepness = 1 / std::sqrt(fine.east * fine.east + fine.north * fine.north + 1);
   const auto byte = [&](double value) {
     return static_cast<std::int8_t>(math::to_int32(std::floor(value / length * 127 + 0.5)));
   };
   TileVertex vertex;
-  const double east = grid.west + column * grid.spacing, north = grid.south + row * grid.spacing;
   vertex.x = static_cast<std::int16_t>(math::to_int32((east - frame.middle_east) / frame.step));
   vertex.y = steps_of(sample.height, base, frame.step);
   vertex.z = static_cast<std::int16_t>(math::to_int32((frame.middle_north - north) / frame.step));
-  vertex.normal[0] = byte(-rise_east);
-  vertex.normal[1] = byte(run);
-  vertex.normal[2] = byte(rise_north);
-  const auto color = ground_color(world, colors, sample, east, north, run / length, grid.spacing);
+  vertex.normal[0] = byte(-seen.east);
+  vertex.normal[1] = byte(1);
+  vertex.normal[2] = byte(seen.north);
+  const auto color = ground_color(world, colors, sample, east, north, steepness, grid.spacing);
   std::copy(color.begin(), color.end(), vertex.color);
   return vertex;
 }

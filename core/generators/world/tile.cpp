@@ -19,8 +19,7 @@
 namespace seedmesh::world {
 namespace {
 
-/// Ribbons narrower than a pixel of a coarse tile are not drawn, so such tiles need no rivers.
-constexpr double widest_river_spacing = 512;  ///< metres between samples
+constexpr double widest_lake_spacing = 256;  ///< metres between samples that show the shores of lakes
 
 constexpr double widest_road_spacing = 16;
 
@@ -34,9 +33,9 @@ void add_mesh(Glb& glb, std::string_view name, const TileMesh& mesh, double roug
 void add_water(Glb& glb, const World& world, const TileFrame& frame, const TerrainGrid& grid, double base,
                Job& job) {
   const Rectangle box{frame.west, frame.south, frame.west + frame.side, frame.south + frame.side};
-  const bool is_coarse = grid.spacing > widest_river_spacing;
+  const bool is_coarse = grid.spacing > widest_lake_spacing;
   const Ground ground = is_coarse ? Ground(world) : Ground(world, box, job, 100);
-  const WaterMesh water = water_mesh(world, frame, grid, ground, base);
+  const WaterMesh water = water_mesh(world, frame, grid, ground, base, job);
   add_mesh(glb, "water", water.mesh, 0.15, frame, base, job);
 }
 

@@ -5,6 +5,7 @@
 
 #include "core/generators/world/flat_mesh.h"
 #include "core/generators/world/palette.h"
+#include "core/generators/world/river_mesh.h"
 
 namespace seedmesh::world {
 namespace {
@@ -85,23 +86,16 @@ void add_lake(FlatMesh& builder, const TerrainGrid& grid, const Lake& lake) {
   });
 }
 
-void add_reach(FlatMesh& builder, const Reach& reach, double lift) {
-  const RiverPoint &a = reach.from, &b = reach.to;
-  builder.add_ribbon({a.east, a.north, a.water + lift}, a.width, {b.east, b.north, b.water + lift}, b.width);
-}
-
 }  // namespace
 
 WaterMesh water_mesh(const World& world, const TileFrame& frame, const TerrainGrid& grid,
-                     const Ground& ground, double base) {
+                     const Ground& ground, double base, Job& job) {
   FlatMesh builder(frame, base, linear_color(world.params.colors.water));
   if (world.params.relief.sea) add_sea(builder, grid, world.params.relief.sea_level);
   for (const Lake& lake : ground.lakes()) {
-    if (lake.radius > grid.spacing) add_lake(builder, grid, lake);
+    if (is_wide_lake(lake, grid.spacing)) add_lake(builder, grid, lake);
   }
-  for (const Reach& reach : ground.reaches()) {
-    if (reach.to.width >= grid.spacing / 4) add_reach(builder, reach, std::min(2.0, 0.02 * grid.spacing));
-  }
+  if (grid.spacing < dry_spacing) add_rivers(builder, world, frame, grid, job);
   return {builder.take(), base};
 }
 

@@ -1,0 +1,193 @@
+/// Courses of rivers: where they flow and how high. The ground beside a river is the valley of the lowest water nearby,
+/// so a river that stayed higher than the valley of another would stand on a dyke.
+#include "core/generators/world/courses.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/generators/world/valley.h"
+
+namespace seedmesh::world {
+namespace {
+
+constexpr int settling_rounds = 3;
+constexpr double settling_pace = 700, most_settling = 70;  ///< metres by slope, and a round
+constexpr double beside = 45;                              ///< metres from a bank where land counts
+constexpr double dry_radius = 1450;  ///< metres around dry positions, beyond the reach of valleys by a bend
+constexpr double lake_grade = 0.03;                        ///< of a river before a lake
+constexpr double lake_uneven = 1.2;                        ///< radius of a lake by its mean at most
+constexpr int lowering_rounds = 2;  ///< the second knows rivers that the first had not lowered yet
+
+/// The unit vector to the left of a river at a point.
+std::pair<double, double> left_of(const std::vector<RiverPoint>& points, std::size_t k) {
+  const RiverPoint &a = points[k == 0 ? 0 : k - 1], &b = points[std::min(k + 1, points.size() - 1)];
+  const double x = b.east - a.east, y = b.north - a.north, length = std::sqrt(x * x + y * y);
+  if (length <= 0) return {0, 0};
+  return {-y / length, x / length};
+}
+
+struct Bounds {
+  double west = 1e12, south = 1e12, east = -1e12, north = -1e12;
+};
+Bounds bounds_of(const Course& course) {
+  Bounds b;
+  for (const RiverPoint& p : course.points) {
+    b = {std::min(b.west, p.east), std::min(b.south, p.north), std::max(b.east, p.east),
+         std::max(b.north, p.north)};
+  }
+  return b;
+}
+
+/// What the valley of a water allows at a distance from its middle: land at this height has water below it.
+double below_valley(double water, double away, double half_width, double ruggedness) {
+  const double side = valley_side(away, half_width, ruggedness, 1e11).value;
+  return water + std::max(0.0, side - shallow - valley_blend(std::max(0.0, away - half_width)) / 4);
+}
+
+/// Lowers the waters of a region.
+class Lowering {
+ public:
+  Lowering(std::vector<Course>& courses, std::vector<Lake>& lakes) : courses_(courses), lakes_(lakes) {
+    for (const Course& course : courses_) bounds_.push_back(bounds_of(course));
+  }
+
+  void lower(int n) {
+    Course& course = at(n);
+    std::vector<RiverPoint>& points = course.points;
+    const bool has_river = points.size() > 1;
+    double water = has_river ? end_of(course) : -std::numeric_limits<double>::infinity();
+    for (std::size_t k = points.size(); has_river && k-- > 0;) {
+      RiverPoint& p = points[k];
+      const bool is_end = k + 1 == points.size();
+      double most = p.water;
+      if (!is_end) most = std::min(most, most_at(p.east, p.north, course.ruggedness[k], n, k));
+      if (course.into_lake >= 0 && !is_end) most = std::min(most, before_lake(p, lake(course.into_lake)));
+      if (course.lake >= 0 && k == 0) most = std::min(most, most_at_shores(lake(course.lake), n));
+      water = is_end ? std::min(water, p.water) : std::max(water, most);
+      p.cut += p.water - water;
+      p.water = water;
+    }
+    if (course.lake < 0) return;
+    Lake& own = lake(course.lake);
+    own.level = has_river ? points.front().water : std::min(own.level, most_at_shores(own, n));
+  }
+
+ private:
+  Course& at(int n) { return courses_[static_cast<std::size_t>(n)]; }
+  Lake& lake(int n) { return lakes_[static_cast<std::size_t>(n)]; }
+
+  /// The level of the water that a course ends in.
+  double end_of(const Course& course) {
+    if (course.into_lake >= 0) return lake(course.into_lake).level;
+    if (course.down >= 0 && course.into.empty() && !at(course.down).points.empty())
+      return at(course.down).points.front().water;
+    return course.points.back().water;
+  }
+
+  static double before_lake(const RiverPoint& p, const Lake& lake) {
+    const double east = p.east - lake.east, north = p.north - lake.north;
+    const double away = std::sqrt(east * east + north * north);
+    return lake.level + lake_grade * std::max(0.0, away - shore_distance(lake, p.east, p.north, away));
+  }
+
+  /// The level that valleys around a position allow; of the river `own`, those of the points after `from`.
+  double most_at(double east, double north, double ruggedness, int own, std::size_t from) const {
+    double most = std::numeric_limits<double>::infinity();
+    for (std::size_t n = 0; n < courses_.size(); ++n) {
+      const std::vector<RiverPoint>& points = courses_[n].points;
+      const Bounds& b = bounds_[n];
+      if (points.size() < 2 || east < b.west - valley_reach || east > b.east + valley_reach ||
+          north < b.south - valley_reach || north > b.north + valley_reach) {
+        continue;
+      }
+      for (std::size_t k = static_cast<int>(n) == own ? from + 1 : 0; k < points.size(); ++k) {
+        const double x = east - points[k].east, y = north - points[k].north, square = x * x + y * y;
+        if (square >= valley_reach * valley_reach || points[k].water >= most) continue;
+        most = std::min(most, below_valley(points[k].water, std::sqrt(square), points[k].width / 2, ruggedness));
+      }
+    }
+    for (const Lake& near : lakes_) {
+      const double x = east - near.east, y = north - near.north, away = std::sqrt(x * x + y * y);
+      if (away >= valley_reach + lake_uneven * near.radius || near.level >= most) continue;
+      const double beyond = std::max(0.0, away - shore_distance(near, east, north, away));
+      if (beyond < valley_reach) most = std::min(most, below_valley(near.level, beyond, 0, ruggedness));
+    }
+    return most;
+  }
+
+  double most_at_shores(const Lake& own, int n) const {
+    constexpr double d = 0.70710678118654752;
+    constexpr double turns[8][2] = {{1, 0}, {d, d}, {0, 1}, {-d, d}, {-1, 0}, {-d, -d}, {0, -1}, {d, -d}};
+    double most = std::numeric_limits<double>::infinity();
+    for (const auto& turn : turns) {
+      const double shore = shore_distance(own, own.east + turn[0], own.north + turn[1], 1);
+      most = std::min(most, most_at_shore(own.east + shore * turn[0], own.north + shore * turn[1], n));
+    }
+    return most;
+  }
+
+  /// The same as most_at() without the rivers that flow from or into the lake of a node.
+  double most_at_shore(double east, double north, int n) const {
+    double most = std::numeric_limits<double>::infinity();
+    const int own = courses_[static_cast<std::size_t>(n)].lake;
+    for (std::size_t m = 0; m < courses_.size(); ++m) {
+      if (static_cast<int>(m) == n || courses_[m].into_lake == own) continue;
+      for (const RiverPoint& p : courses_[m].points) {
+        const double x = east - p.east, y = north - p.north, square = x * x + y * y;
+        if (square >= valley_reach * valley_reach || p.water >= most) continue;
+        most = std::min(most, below_valley(p.water, std::sqrt(square), p.width / 2, 0));
+      }
+    }
+    return most;
+  }
+
+  std::vector<Course>& courses_;
+  std::vector<Lake>& lakes_;
+  std::vector<Bounds> bounds_;
+};
+
+}  // namespace
+
+void settle_in_valleys(const World& world, std::vector<RiverPoint>& points) {
+  const std::size_t last = points.size() - 1;
+  for (int round = 0; round < settling_rounds; ++round) {
+    const std::vector<RiverPoint> before = points;
+    for (std::size_t k = 1; k < last; ++k) {
+      const auto [x, y] = left_of(before, k);
+      const Slope land = land_at(world, before[k].east, before[k].north).height;
+      const double t = static_cast<double>(k) / static_cast<double>(last);
+      const double by = 4 * t * (1 - t) * std::clamp(-settling_pace * (land.east * x + land.north * y), -most_settling, most_settling);
+      // the mean with the neighbours keeps bends wide
+      points[k].east = 0.6 * before[k].east + 0.2 * (before[k - 1].east + before[k + 1].east) + by * x;
+      points[k].north = 0.6 * before[k].north + 0.2 * (before[k - 1].north + before[k + 1].north) + by * y;
+    }
+  }
+}
+
+void keep_away(RiverPoint& p) {
+  const double x = p.east - dry_spacing * std::floor(p.east / dry_spacing + 0.5);
+  const double y = p.north - dry_spacing * std::floor(p.north / dry_spacing + 0.5);
+  const double square = x * x + y * y;
+  if (square >= dry_radius * dry_radius || square < 1) return;
+  const double by = dry_radius / std::sqrt(square) - 1;
+  p.east += by * x;
+  p.north += by * y;
+}
+
+double lowest_across(const World& world, const std::vector<RiverPoint>& points, std::size_t k, double half_width) {
+  const auto [x, y] = left_of(points, k);
+  const double by = half_width + beside;
+  const RiverPoint& p = points[k];
+  return std::min(land_at(world, p.east + by * x, p.north + by * y).height.value,
+                  land_at(world, p.east - by * x, p.north - by * y).height.value);
+}
+
+void lower_to_valleys(std::vector<Course>& courses, const std::vector<int>& order, std::vector<Lake>& lakes) {
+  Lowering lowering(courses, lakes);
+  for (int round = 0; round < lowering_rounds; ++round) {
+    for (const int n : order) lowering.lower(n);
+  }
+}
+
+}  // namespace seedmesh::world

@@ -1,0 +1,35 @@
+#pragma once
+/// Courses of rivers between two nodes of a region, and the levels of their waters.
+#include <string>
+#include <vector>
+
+#include "core/generators/world/region.h"
+
+namespace seedmesh::world {
+
+constexpr double shallow = 1;  ///< metres that water lies below the land at least
+
+/// A river from a node to the node below, or to a shore.
+struct Course {
+  std::vector<RiverPoint> points;
+  std::vector<double> ruggedness;  ///< ruggedness of the land at the points
+  std::string into;                ///< where it ends before the node below
+  int down = -1;                   ///< the course that it ends at
+  int lake = -1;                   ///< the lake at its node
+  int into_lake = -1;
+};
+
+/// Moves the points between the first and the last towards lower land to the sides, so that rivers follow valleys.
+void settle_in_valleys(const World& world, std::vector<RiverPoint>& points);
+
+/// Moves a bend of a river that comes too near to a dry position away from it.
+void keep_away(RiverPoint& p);
+
+/// Returns the height of the lowest land across a river at a point, up to both banks and a little farther.
+double lowest_across(const World& world, const std::vector<RiverPoint>& points, std::size_t k, double half_width);
+
+/// Lowers rivers and lakes to the valleys of lower waters nearby. A river meets the water at its end, and it still
+/// only falls. `order`: courses from the outlets upwards.
+void lower_to_valleys(std::vector<Course>& courses, const std::vector<int>& order, std::vector<Lake>& lakes);
+
+}  // namespace seedmesh::world
