@@ -128,11 +128,12 @@ class AreaFinder {
     const auto height = [&](int i, int j) { return heights_[static_cast<std::size_t>(j * (last + 1) + i)]; };
     for (int j = 0; j < last; j += 2) {
       for (int i = 0; i < last; i += 2) {
-        const double sw = height(i, j), se = height(i + 2, j), nw = height(i, j + 2), ne = height(i + 2, j + 2);
-        const double off = std::max({std::abs(height(i + 1, j) - (sw + se) / 2), std::abs(height(i, j + 1) - (sw + nw) / 2),
-                                     std::abs(height(i + 1, j + 1) - (sw + ne) / 2),
-                                     std::abs(height(i + 2, j + 1) - (se + ne) / 2),
-                                     std::abs(height(i + 1, j + 2) - (nw + ne) / 2)});
+        const double sw = height(i, j), se = height(i + 2, j), nw = height(i, j + 2),
+                     ne = height(i + 2, j + 2);
+        const double off = std::max(
+            {std::abs(height(i + 1, j) - (sw + se) / 2), std::abs(height(i, j + 1) - (sw + nw) / 2),
+             std::abs(height(i + 1, j + 1) - (sw + ne) / 2), std::abs(height(i + 2, j + 1) - (se + ne) / 2),
+             std::abs(height(i + 1, j + 2) - (nw + ne) / 2)});
         Roughness& rough = at(i / cells_, j / cells_).rough;
         const double steep = std::max(std::abs(ne - sw), std::abs(se - nw)) / (2 * 2.83 * spacing_);
         rough.measured = std::max(rough.measured, off / std::sqrt(1 + steep * steep));

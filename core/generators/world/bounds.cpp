@@ -72,7 +72,8 @@ Margins margins(const World& world, double spacing, Roughness rough) {
 
 /// The highest that rivers on the terrain of a tile lie.
 double draped_top(const World& world, const TileFrame& frame, const Area& area, double between) {
-  return world.has(Layer::water) ? area.high + between + drape_lift(frame.spacing) + 2 * frame.step : area.high;
+  return world.has(Layer::water) ? area.high + between + drape_lift(frame.spacing) + 2 * frame.step
+                                 : area.high;
 }
 
 /// The box of a tile of the lowest level of a block.

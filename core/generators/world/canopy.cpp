@@ -16,6 +16,7 @@ namespace {
 constexpr double least_height = 3;     ///< metres; lower classes are not seen from afar
 constexpr double least_closure = 0.6;  ///< of crowns by the spacing
 constexpr double jitter = 0.28;        ///< of the spacing of samples, to each side
+constexpr double river_gap = 0.75;     ///< of the spacing of samples, from woods to water
 constexpr double brightness = 1.3;     ///< makes up for the mean of the texture
 
 struct Corner {
@@ -45,6 +46,8 @@ class Canopy {
         const GroundSample& sample = grid_.at(column, row);
         c.wood = wood_at(world_, sample, climate_at(world_, east, north, sample.height), east, north,
                          grid_.spacing);
+        // rivers on the terrain stay in sight
+        if (sample.shore < river_gap * grid_.spacing) c.wood.cover = std::min(c.wood.cover, 0.1);
         c.is_wood = c.wood.cover > wood_edge;
         is_any |= c.is_wood;
       }

@@ -13,11 +13,11 @@ namespace {
 
 constexpr int settling_rounds = 3;
 constexpr double settling_pace = 700, most_settling = 70;  ///< metres by slope, and a round
-constexpr double beside = 45;                              ///< metres from a bank where land counts
+constexpr double bank_margin = 45;                         ///< metres from a bank where land counts
 constexpr double dry_radius = 1450;  ///< metres around dry positions, beyond the reach of valleys by a bend
-constexpr double lake_grade = 0.03;                        ///< of a river before a lake
-constexpr double lake_uneven = 1.2;                        ///< radius of a lake by its mean at most
-constexpr int lowering_rounds = 2;  ///< the second knows rivers that the first had not lowered yet
+constexpr double lake_grade = 0.03;  ///< of a river before a lake
+constexpr double lake_uneven = 1.2;  ///< radius of a lake by its mean at most
+constexpr int lowering_rounds = 2;   ///< the second knows rivers that the first had not lowered yet
 
 /// The unit vector to the left of a river at a point.
 std::pair<double, double> left_of(const std::vector<RiverPoint>& points, std::size_t k) {
@@ -39,10 +39,14 @@ Bounds bounds_of(const Course& course) {
   return b;
 }
 
-/// What the valley of a water allows at a distance from its middle: land at this height has water below it.
-double below_valley(double water, double away, double half_width, double ruggedness) {
-  const double side = valley_side(away, half_width, ruggedness, 1e11).value;
-  return water + std::max(0.0, side - shallow - valley_blend(std::max(0.0, away - half_width)) / 4);
+/// A position of water, and the land there.
+struct Site {
+  double east = 0, north = 0, land = 0, ruggedness = 0;
+};
+
+/// What the valley of another water allows: land at this height has water below it.
+double below_valley(const Site& site, const Beside& beside) {
+  return std::max(beside.water, valley_side(site.land, site.ruggedness, beside).height - shallow);
 }
 
 /// Lowers the waters of a region.
@@ -61,7 +65,8 @@ class Lowering {
       RiverPoint& p = points[k];
       const bool is_end = k + 1 == points.size();
       double most = p.water;
-      if (!is_end) most = std::min(most, most_at(p.east, p.north, course.ruggedness[k], n, k));
+      if (!is_end)
+        most = std::min(most, most_at({p.east, p.north, p.water + p.cut, course.ruggedness[k]}, n, k));
       if (course.into_lake >= 0 && !is_end) most = std::min(most, before_lake(p, lake(course.into_lake)));
       if (course.lake >= 0 && k == 0) most = std::min(most, most_at_shores(lake(course.lake), n));
       water = is_end ? std::min(water, p.water) : std::max(water, most);
@@ -92,7 +97,8 @@ class Lowering {
   }
 
   /// The level that valleys around a position allow; of the river `own`, those of the points after `from`.
-  double most_at(double east, double north, double ruggedness, int own, std::size_t from) const {
+  double most_at(const Site& site, int own, std::size_t from) const {
+    const double east = site.east, north = site.north;
     double most = std::numeric_limits<double>::infinity();
     for (std::size_t n = 0; n < courses_.size(); ++n) {
       const std::vector<RiverPoint>& points = courses_[n].points;
@@ -104,14 +110,14 @@ class Lowering {
       for (std::size_t k = static_cast<int>(n) == own ? from + 1 : 0; k < points.size(); ++k) {
         const double x = east - points[k].east, y = north - points[k].north, square = x * x + y * y;
         if (square >= valley_reach * valley_reach || points[k].water >= most) continue;
-        most = std::min(most, below_valley(points[k].water, std::sqrt(square), points[k].width / 2, ruggedness));
+        most = std::min(most, below_valley(site, {std::sqrt(square), points[k].width / 2, points[k].water}));
       }
     }
     for (const Lake& near : lakes_) {
       const double x = east - near.east, y = north - near.north, away = std::sqrt(x * x + y * y);
       if (away >= valley_reach + lake_uneven * near.radius || near.level >= most) continue;
       const double beyond = std::max(0.0, away - shore_distance(near, east, north, away));
-      if (beyond < valley_reach) most = std::min(most, below_valley(near.level, beyond, 0, ruggedness));
+      if (beyond < valley_reach) most = std::min(most, below_valley(site, {beyond, 5, near.level}));
     }
     return most;
   }
@@ -122,21 +128,24 @@ class Lowering {
     double most = std::numeric_limits<double>::infinity();
     for (const auto& turn : turns) {
       const double shore = shore_distance(own, own.east + turn[0], own.north + turn[1], 1);
-      most = std::min(most, most_at_shore(own.east + shore * turn[0], own.north + shore * turn[1], n));
+      // the land of the middle stands for that of the shore
+      most = std::min(
+          most, most_at_shore(
+                    {own.east + shore * turn[0], own.north + shore * turn[1], own.level + shallow, 0}, n));
     }
     return most;
   }
 
   /// The same as most_at() without the rivers that flow from or into the lake of a node.
-  double most_at_shore(double east, double north, int n) const {
+  double most_at_shore(const Site& site, int n) const {
     double most = std::numeric_limits<double>::infinity();
     const int own = courses_[static_cast<std::size_t>(n)].lake;
     for (std::size_t m = 0; m < courses_.size(); ++m) {
       if (static_cast<int>(m) == n || courses_[m].into_lake == own) continue;
       for (const RiverPoint& p : courses_[m].points) {
-        const double x = east - p.east, y = north - p.north, square = x * x + y * y;
+        const double x = site.east - p.east, y = site.north - p.north, square = x * x + y * y;
         if (square >= valley_reach * valley_reach || p.water >= most) continue;
-        most = std::min(most, below_valley(p.water, std::sqrt(square), p.width / 2, 0));
+        most = std::min(most, below_valley(site, {std::sqrt(square), p.width / 2, p.water}));
       }
     }
     return most;
@@ -157,7 +166,9 @@ void settle_in_valleys(const World& world, std::vector<RiverPoint>& points) {
       const auto [x, y] = left_of(before, k);
       const Slope land = land_at(world, before[k].east, before[k].north).height;
       const double t = static_cast<double>(k) / static_cast<double>(last);
-      const double by = 4 * t * (1 - t) * std::clamp(-settling_pace * (land.east * x + land.north * y), -most_settling, most_settling);
+      const double by =
+          4 * t * (1 - t) *
+          std::clamp(-settling_pace * (land.east * x + land.north * y), -most_settling, most_settling);
       // the mean with the neighbours keeps bends wide
       points[k].east = 0.6 * before[k].east + 0.2 * (before[k - 1].east + before[k + 1].east) + by * x;
       points[k].north = 0.6 * before[k].north + 0.2 * (before[k - 1].north + before[k + 1].north) + by * y;
@@ -175,9 +186,10 @@ void keep_away(RiverPoint& p) {
   p.north += by * y;
 }
 
-double lowest_across(const World& world, const std::vector<RiverPoint>& points, std::size_t k, double half_width) {
+double lowest_across(const World& world, const std::vector<RiverPoint>& points, std::size_t k,
+                     double half_width) {
   const auto [x, y] = left_of(points, k);
-  const double by = half_width + beside;
+  const double by = half_width + bank_margin;
   const RiverPoint& p = points[k];
   return std::min(land_at(world, p.east + by * x, p.north + by * y).height.value,
                   land_at(world, p.east - by * x, p.north - by * y).height.value);

@@ -26,7 +26,8 @@ void settle_in_valleys(const World& world, std::vector<RiverPoint>& points);
 void keep_away(RiverPoint& p);
 
 /// Returns the height of the lowest land across a river at a point, up to both banks and a little farther.
-double lowest_across(const World& world, const std::vector<RiverPoint>& points, std::size_t k, double half_width);
+double lowest_across(const World& world, const std::vector<RiverPoint>& points, std::size_t k,
+                     double half_width);
 
 /// Lowers rivers and lakes to the valleys of lower waters nearby. A river meets the water at its end, and it still
 /// only falls. `order`: courses from the outlets upwards.

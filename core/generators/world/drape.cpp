@@ -59,7 +59,8 @@ void FlatMesh::add_draped(Polygon polygon, const TerrainGrid& grid, double lift)
         if (part.size() < 3) continue;
         for (Point& p : part) {
           const double u = p.x - column, v = p.y - row;
-          const double height = side > 0 ? sw + u * (se - sw) + v * (ne - se) : sw + u * (ne - nw) + v * (nw - sw);
+          const double height =
+              side > 0 ? sw + u * (se - sw) + v * (ne - se) : sw + u * (ne - nw) + v * (nw - sw);
           p = {grid.west + p.x * grid.spacing, grid.south + p.y * grid.spacing, height + lift};
         }
         add(part);

@@ -130,7 +130,8 @@ double deviation_of(const World& world, double spacing, const Roughness& rough) 
   // parts saturate where samples are farther apart than their wavelengths
   const double far = spacing > 1024 ? 1 + 0.12 * (spacing / (spacing + 8192)) : 1;
   const double modelled = (deviation_share + terrace_share * relief.terraces) * far * sum.value();
-  return std::max(modelled, measured_share * rough.measured * std::min(1.0, spacing / rough.measured_spacing));
+  return std::max(modelled,
+                  measured_share * rough.measured * std::min(1.0, spacing / rough.measured_spacing));
 }
 
 }  // namespace seedmesh::world

@@ -7,7 +7,6 @@ namespace seedmesh::world {
 namespace {
 
 constexpr double channel_reach = 260;  ///< metres; of the exact banks of a river
-constexpr double slope_blend = 24;     ///< metres of height over which the slope of a valley becomes that of the land
 constexpr double levee = 0.3;          ///< metres of the ground beside a river above its water
 
 Reach reach_of(const RiverPoint& a, const RiverPoint& b) {
@@ -27,47 +26,37 @@ Nearest nearest_on(const Reach& reach, double east, double north) {
   return {std::sqrt(dx * dx + dy * dy), share, dx, dy};
 }
 
-/// The lesser of two heights with a transition that is rounded over `blend` metres. The slope, which gullies follow,
-/// always changes over `slope_blend`.
-Slope lesser(const Slope& a, const Slope& b, double blend) {
-  const double share = std::clamp((b.value - a.value) / (2 * slope_blend) + 0.5, 0.0, 1.0);
-  Slope mixed = a * share + b * (1 - share);
-  const double overlap = std::max(0.0, blend - std::abs(a.value - b.value));
-  mixed.value = std::min(a.value, b.value) - overlap * overlap / (4 * blend);
-  return mixed;
-}
-
 /// What the water near a position does to it.
 struct Waters {
-  double valley = 1e12;                   ///< its height
-  double east = 0, north = 0, pull = 0;   ///< weighted sums of the slopes of valley sides
+  explicit Waters(double land) : valley(land) {}
+  double valley;                                 ///< its height, at most that of the land
+  double share = 1;                              ///< of the slope of the land
+  double east = 0, north = 0, pull = 0;          ///< weighted sums of the slopes of valley sides
   double weight = 0, water = 0, half_width = 0;  ///< weighted sums over near rivers
   double away = 1e12;                            ///< from the nearest middle of a river
   double bank = 1e12;                            ///< from the nearest bank
   double lake = 1e12;                            ///< from the nearest shore of a lake
 };
 
-/// Where a position is from some water: `away` from its middle or shore, in the direction (east, north) of `length`.
-struct Offset {
-  double away = 0, half_width = 0, east = 0, north = 0, length = 0;
-};
-
 /// Slopes are weighted by distance, so that they do not jump between two waters: gullies would have steps there.
-void add_side(Waters& waters, const Offset& offset, double water, double ruggedness) {
-  const Slope side = valley_side(offset.away, offset.half_width, ruggedness, 1e11);
-  waters.valley = std::min(waters.valley, water + side.value);
-  if (offset.length <= 1e-9) return;
-  const double t = offset.away * (1 / valley_reach), left = 1 - t * t, square = offset.away * offset.away + 400;
-  const double weight = left * left / (square * square), along = weight * side.east / offset.length;
+/// `offset`: from the water, of any length.
+void add_side(Waters& waters, const Beside& beside, const Slope& offset, const Land& land) {
+  const ValleySide side = valley_side(land.height.value, land.ruggedness, beside);
+  waters.valley = std::min(waters.valley, side.height);
+  waters.share = std::min(waters.share, side.share);
+  if (offset.value <= 1e-9) return;
+  const double t = beside.away * (1 / valley_reach), left = 1 - t * t,
+               square = beside.away * beside.away + 400;
+  const double weight = left * left / (square * square), along = weight * side.along / offset.value;
   waters.pull += weight;
   waters.east += along * offset.east;
   waters.north += along * offset.north;
 }
 
-void add_reach(Waters& waters, const Reach& reach, const Nearest& near, double ruggedness) {
+void add_reach(Waters& waters, const Reach& reach, const Nearest& near, const Land& land) {
   const double water = reach.from.water + near.share * (reach.to.water - reach.from.water);
   const double half = (reach.from.width + near.share * (reach.to.width - reach.from.width)) / 2;
-  add_side(waters, {near.away, half, near.east, near.north, near.away}, water, ruggedness);
+  add_side(waters, {near.away, half, water}, {near.away, near.east, near.north}, land);
   waters.bank = std::min(waters.bank, near.away - half);
   if (near.away >= channel_reach) return;
   waters.away = std::min(waters.away, near.away);
@@ -96,7 +85,8 @@ double with_river(double height, const Waters& waters, double share) {
   const double depth = 0.5 + 0.09 * half;
   const double bed = t < 1 ? water - depth * (1 - t * t) : water + 0.1 * (waters.away - half);
   const double wide = std::min(channel_reach - 10, 3 * half + 70);
-  const double low = (1 - smooth_step(waters.away, std::min(wide, 150.0), channel_reach)) * (water + levee - height);
+  const double low =
+      (1 - smooth_step(waters.away, std::min(wide, 150.0), channel_reach)) * (water + levee - height);
   const double land = height + std::max(0.0, low);
   return mixed(height, mixed(bed, land, smooth_step(waters.away, half + 1, wide)), share);
 }
@@ -135,25 +125,28 @@ GroundSample Ground::at(double east, double north) const {
   GroundSample sample;
   Land& land = sample.land;
   land = land_at(*world_, east, north);
-  Waters waters;
+  Waters waters(land.height.value);
   for (const Reach& reach : reaches_) {
     const double x = east - reach.middle_east, y = north - reach.middle_north;
     if (x * x + y * y > reach.far) continue;
     const Nearest near = nearest_on(reach, east, north);
-    if (near.away < valley_reach) add_reach(waters, reach, near, land.ruggedness);
+    if (near.away < valley_reach) add_reach(waters, reach, near, land);
   }
   for (const Lake& lake : lakes_) {
     const double x = east - lake.east, y = north - lake.north, away = std::sqrt(x * x + y * y);
     const double beyond = away - shore_distance(lake, east, north, away);
     if (beyond >= valley_reach) continue;
-    add_side(waters, {std::max(0.0, beyond), 5, x, y, away}, lake.level, land.ruggedness);
+    add_side(waters, {std::max(0.0, beyond), 5, lake.level}, {away, x, y}, land);
     waters.bank = std::min(waters.bank, beyond);
     waters.lake = std::min(waters.lake, beyond);
   }
   const double uncut = land.height.value;
-  Slope valley{waters.valley, 0, 0};
-  if (waters.pull > 0) valley = {waters.valley, waters.east / waters.pull, waters.north / waters.pull};
-  land.height = lesser(land.height, valley, valley_blend(std::max(0.0, waters.bank)));
+  land.height.value = waters.valley;
+  if (waters.pull > 0) {
+    const double by = (1 - waters.share) / waters.pull;
+    land.height.east = waters.share * land.height.east + by * waters.east;
+    land.height.north = waters.share * land.height.north + by * waters.north;
+  }
   sample.cut = uncut - land.height.value;
   const double dry = smooth_step(waters.bank, 6, 160);
   double height = land.height.value + dry * detail_at(*world_, land, east, north);

@@ -16,9 +16,10 @@ constexpr int window_margin = 3;  ///< cells that displaced borders reach beyond
 constexpr double jitter = 0.6;    ///< of a cell
 constexpr int pieces = 12;        ///< of a river between two nodes
 constexpr double cell_area = drain_cell * drain_cell / 1e6;  ///< km²
-constexpr double lake_reach = 640;   ///< metres; greatest radius, below the distance of nodes
+constexpr double lake_reach = 640;  ///< metres; greatest radius, below the distance of nodes
 constexpr int sinking_steps = 5;
-constexpr double sinking = 70, level_ground = 0.02;  ///< metres a step of a node, where the slope is at least this
+constexpr double sinking = 70,
+                 level_ground = 0.02;  ///< metres a step of a node, where the slope is at least this
 
 struct Node {
   CellKey cell;

@@ -8,11 +8,11 @@
 namespace seedmesh::world {
 namespace {
 
-constexpr double usual_piece = 170;      ///< metres between points of a river
-constexpr double least_width = 1.0 / 512;  ///< by the spacing; narrower rivers are left out
-constexpr double least_lake = 1.0 / 16;    ///< radius by the spacing
+constexpr double usual_piece = 170;                        ///< metres between points of a river
+constexpr double least_width = 1.0 / 512;                  ///< by the spacing; narrower rivers are left out
+constexpr double least_lake = 1.0 / 16;                    ///< radius by the spacing
 constexpr double resolved_width = 1.5, resolved_lake = 3;  ///< by the spacing
-constexpr double great_river = 24;  ///< metres; narrower ones have narrower ribbons
+constexpr double great_river = 24;                         ///< metres; narrower ones have narrower ribbons
 constexpr int lake_corners = 24;
 
 /// The points of a river that a tile shows: all tiles of a level show the same.
@@ -96,7 +96,8 @@ void add_small_lake(FlatMesh& builder, const TerrainGrid& grid, const Lake& lake
 
 bool is_wide_lake(const Lake& lake, double spacing) { return lake.radius > resolved_lake * spacing; }
 
-void add_rivers(FlatMesh& builder, const World& world, const TileFrame& frame, const TerrainGrid& grid, Job& job) {
+void add_rivers(FlatMesh& builder, const World& world, const TileFrame& frame, const TerrainGrid& grid,
+                Job& job) {
   const Rectangle box{frame.west, frame.south, frame.west + frame.side, frame.south + frame.side};
   const double reach = 100 + least_ribbon(grid.spacing);
   Ribbon ribbon(builder, grid);

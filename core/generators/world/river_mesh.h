@@ -8,13 +8,14 @@ namespace seedmesh::world {
 
 /// The width of the ribbon of a great river at least. Samples farther apart are seen from farther away, also by clients
 /// that ask for small errors.
-constexpr double least_ribbon(double spacing) { return spacing * (0.016 + 0.084 * spacing / (spacing + 256)); }
+constexpr double least_ribbon(double spacing) { return spacing * (0.016 + 0.14 * spacing / (spacing + 256)); }
 
 /// Metres of draped water above the terrain.
 constexpr double drape_lift(double spacing) { return 0.02 * spacing; }
 
 /// Adds the rivers of a tile, and lakes that are too small for its samples.
-void add_rivers(FlatMesh& builder, const World& world, const TileFrame& frame, const TerrainGrid& grid, Job& job);
+void add_rivers(FlatMesh& builder, const World& world, const TileFrame& frame, const TerrainGrid& grid,
+                Job& job);
 
 /// True where samples show the shore of a lake.
 bool is_wide_lake(const Lake& lake, double spacing);

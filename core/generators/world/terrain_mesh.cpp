@@ -10,12 +10,12 @@
 namespace seedmesh::world {
 namespace {
 
-constexpr double border_share = 0.9;  ///< the greatest deviation along a line, by that of an area
-constexpr double far_share = 0.9;     ///< the same for tiles three levels coarser
-constexpr double unusual = 1.15;      ///< of the usual skirt: the deepest that was met
+constexpr double border_share = 0.9;     ///< the greatest deviation along a line, by that of an area
+constexpr double far_share = 0.9;        ///< the same for tiles three levels coarser
+constexpr double unusual = 1.15;         ///< of the usual skirt: the deepest that was met
 constexpr double widest_fine_rise = 64;  ///< metres
 constexpr double fine_share = 0.7;       ///< of normals that follow the slope of finer levels
-constexpr double rounding_steps = 9;  ///< of heights of tiles three levels coarser
+constexpr double rounding_steps = 9;     ///< of heights of tiles three levels coarser
 
 /// Rises by a metre east and north.
 struct Rise {

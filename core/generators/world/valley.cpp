@@ -3,19 +3,34 @@
 #include <algorithm>
 
 namespace seedmesh::world {
+namespace {
 
-Slope valley_side(double away, double half_width, double ruggedness, double most) {
-  const double flat = 40 + 8 * half_width, slope = 0.16 + 0.36 * ruggedness;
-  const double beyond = std::max(0.0, away - flat);
-  const double rise = 1 + 0.02 * away + slope * beyond;
-  const double t = away * (1 / valley_reach), left = 1 - t * t;
-  if (left <= 1e-6 || rise >= most) return {1e12, 0, 0};
-  return {rise / left, 0.02 + slope * smooth_step(beyond, 0, 90), 0};
-}
+constexpr double first_return = 0.12;  ///< of the reach; from here the valley returns to the land
+constexpr double slope_blend =
+    24;  ///< metres of height over which the slope of a valley becomes that of the land
 
-double valley_blend(double from_bank) {
+/// Metres of height over which a valley meets the land. Small beside the water, so that the rounding never cuts the
+/// bank below the water.
+double blend_at(double from_bank) {
   constexpr double least = 2, by = 0.04, most = 24;
   return std::min(most, least + by * from_bank);
+}
+
+}  // namespace
+
+ValleySide valley_side(double land, double ruggedness, const Beside& beside) {
+  const double away = beside.away;
+  if (away >= valley_reach) return {land, 1, 0};
+  const double flat = 40 + 8 * beside.half_width, slope = 0.16 + 0.36 * ruggedness;
+  const double beyond = std::max(0.0, away - flat);
+  const double side = beside.water + 1 + 0.02 * away + slope * beyond;
+  const double blend = blend_at(std::max(0.0, away - beside.half_width));
+  const double overlap = std::max(0.0, blend - std::abs(land - side));
+  const double low = std::min(land, side) - overlap * overlap / (4 * blend);
+  const Slope back = smooth_step(Slope{away * (1 / valley_reach), 1 / valley_reach, 0}, first_return, 1);
+  const double own = std::clamp((side - land) / (2 * slope_blend) + 0.5, 0.0, 1.0);
+  return {low + back.value * (land - low), 1 - (1 - own) * (1 - back.value),
+          (0.02 + slope * smooth_step(beyond, 0, 90)) * (1 - back.value) + back.east * (land - low)};
 }
 
 }  // namespace seedmesh::world

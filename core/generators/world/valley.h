@@ -7,13 +7,22 @@ namespace seedmesh::world {
 /// Metres. Water that is farther away does not change the ground.
 constexpr double valley_reach = 1400;
 
-/// Returns the side of a valley at a distance from its water, above the water, and about its slope: at
-/// the foot, the slope rises over some metres. Infinite at the reach, so
-/// that water beyond it never counts; also where it is not below `most`.
-Slope valley_side(double away, double half_width, double ruggedness, double most);
+/// A position beside some water.
+struct Beside {
+  double away = 0;        ///< metres from the middle of a river, or from the shore of a lake
+  double half_width = 0;  ///< metres, of the river
+  double water = 0;       ///< height of the water
+};
 
-/// Returns the metres of height over which a valley meets the land, at a distance from a bank. Beside the water it is
-/// small, so that the rounding never cuts the bank below the water.
-double valley_blend(double from_bank);
+struct ValleySide {
+  double height = 0;  ///< at most that of the land
+  double share = 1;   ///< share of the slope of the land that the slope of the ground has
+  double along = 0;   ///< slope of the side, away from the water
+};
+
+/// Returns the side of a valley below land of the height `land`. It rises from the water, more steeply beyond the flood
+/// plain, and meets the land at the reach at the latest. Beside the water it is never below the water, if the land is
+/// not.
+ValleySide valley_side(double land, double ruggedness, const Beside& beside);
 
 }  // namespace seedmesh::world

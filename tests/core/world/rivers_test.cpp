@@ -36,12 +36,14 @@ void look_at_banks(const World& world, const River& river, Job& job, Banks& bank
         const double by = side * (p.width / 2 + out) / length;
         const double east = p.east - by * y, north = p.north + by * x;
         const GroundSample sample = ground.at(east, north);
-        const bool is_coast = world.params.relief.sea && land_at(world, east, north).height.value <
-                                                             world.params.relief.sea_level + 1;
-        const bool is_shore = std::any_of(ground.lakes().begin(), ground.lakes().end(), [&](const Lake& lake) {
-          const double dx = east - lake.east, dy = north - lake.north, away = std::sqrt(dx * dx + dy * dy);
-          return away < shore_distance(lake, east, north, away) + 40;
-        });
+        const bool is_coast = world.params.relief.sea &&
+                              land_at(world, east, north).height.value < world.params.relief.sea_level + 1;
+        const bool is_shore =
+            std::any_of(ground.lakes().begin(), ground.lakes().end(), [&](const Lake& lake) {
+              const double dx = east - lake.east, dy = north - lake.north,
+                           away = std::sqrt(dx * dx + dy * dy);
+              return away < shore_distance(lake, east, north, away) + 40;
+            });
         if (is_coast || is_shore || sample.shore < 1.5) continue;  // other water
         // the water of the nearest reach: near the mouth of a tributary that is the main river
         double nearest = 1e12, water = 0;
@@ -69,10 +71,12 @@ TEST(WorldRivers, LieBetweenBanksThatAreNotLowerThanTheirWater) {
     Job job = test_job();
     Banks banks;
     for (std::int64_t n = 0; n < 4; ++n) {
-      for (const River& river : region_at(world, {n % 2, n / 2}, job)->rivers) look_at_banks(world, river, job, banks);
+      for (const River& river : region_at(world, {n % 2, n / 2}, job)->rivers)
+        look_at_banks(world, river, job, banks);
     }
     EXPECT_GT(banks.seen, 2000);
-    EXPECT_LE(banks.low, banks.seen / 500) << "land " << number << ": " << banks.low << " of " << banks.seen << ", by " << banks.lowest;
+    EXPECT_LE(banks.low, banks.seen / 500)
+        << "land " << number << ": " << banks.low << " of " << banks.seen << ", by " << banks.lowest;
     ++number;
   }
 }
@@ -88,7 +92,8 @@ TEST(WorldRivers, MeetTheWaterThatTheyFlowInto) {
       for (const River& river : region->rivers) {
         const RiverPoint& mouth = river.points.back();
         for (const Lake& lake : region->lakes) {
-          if (lake.id == river.into) EXPECT_EQ(mouth.water, lake.level);
+          if (lake.id != river.into) continue;
+          EXPECT_EQ(mouth.water, lake.level);
         }
         for (const River& other : region->rivers) {
           if (other.id != river.into) continue;

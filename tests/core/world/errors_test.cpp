@@ -1,0 +1,79 @@
+/// Declared geometric errors of the presets against the ground at finer levels. They also cover plants that a tile
+/// leaves out, so the presets are measured without plants, villages and roads.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+
+#include "core/generators/world/terrain_grid.h"
+#include "tests/core/world/world_support.h"
+
+namespace seedmesh::world {
+namespace {
+
+World bare_world(const std::string& preset) {
+  std::ifstream file(std::string(SEEDMESH_SOURCE_DIR) + "/api_schema/presets/world/" + preset + ".json");
+  Json parameters = Json::parse(file)["parameters"];
+  parameters["layers"] = {"terrain", "water"};
+  IssueList issues;
+  WorldParams params = seedmesh::read_world(parameters, "/parameters", issues);
+  params.plants.clear();
+  params.settlements.density = 0;
+  return world_of(params);
+}
+
+/// The greatest distance of samples at a quarter of the spacing from the triangles of a tile.
+double measured(const World& world, const TileKey& key, Job& job) {
+  constexpr int finer = 4;
+  const TileFrame frame = frame_of(world, key);
+  const TerrainGrid coarse = sample_grid(world, frame, tile_cells, 0, job);
+  const TerrainGrid fine = sample_grid(world, frame, finer * tile_cells, 0, job);
+  double most = 0;
+  for (int row = 0; row < fine.count; ++row) {
+    for (int column = 0; column < fine.count; ++column) {
+      const int i = std::min(column / finer, tile_cells - 1), j = std::min(row / finer, tile_cells - 1);
+      const double u = 1.0 * column / finer - i, v = 1.0 * row / finer - j;
+      const double sw = coarse.at(i, j).height, ne = coarse.at(i + 1, j + 1).height;
+      const double corner = u >= v ? coarse.at(i + 1, j).height : coarse.at(i, j + 1).height;
+      const double east = u >= v ? corner - sw : ne - corner, north = u >= v ? ne - corner : corner - sw;
+      const double off = std::abs(fine.at(column, row).height - (sw + u * east + v * north));
+      most = std::max(most,
+                      off / std::sqrt(1 + (east * east + north * north) / (coarse.spacing * coarse.spacing)));
+    }
+  }
+  return most;
+}
+
+TEST(WorldErrors, AreAtMostTwiceThoseOfTheGroundInAllPresets) {
+  for (const char* preset :
+       {"temperate_land", "alpine", "archipelago", "desert_oases", "boreal_plain", "alien_plateaus"}) {
+    const World world = bare_world(preset);
+    Job job = test_job();
+    std::vector<double> ratios;
+    int low = 0;
+    for (int n = 0; n < 52; ++n) {
+      Rng rng = Rng::of_seed(static_cast<std::uint64_t>(n)).at(preset);
+      const int level = n % (world.levels - 2) + 1;  // leaves have no error
+      const auto along = [&] { return static_cast<std::int64_t>(rng.unit() * std::ldexp(1, level)); };
+      const TileKey key{level, along(), along()};
+      const double found = measured(world, key, job), declared = tile_bounds(world, key, job).geometric_error;
+      if (found < 0.02) continue;  // the sea
+      ratios.push_back(declared / found);
+      if (declared >= found) continue;
+      ++low;
+      ADD_FAILURE() << preset << " " << key.level << "/" << key.x << "/" << key.y << ": declared " << declared
+                    << ", measured " << found;
+    }
+    ASSERT_GT(ratios.size(), 25U);
+    std::sort(ratios.begin(), ratios.end());
+    RecordProperty(preset, std::to_string(ratios[ratios.size() / 2]));
+    std::printf("%s: median %.2f, from %.2f to %.2f\n", preset, ratios[ratios.size() / 2], ratios.front(),
+                ratios.back());
+    EXPECT_LE(ratios[ratios.size() / 2], 2) << preset;
+  }
+}
+
+}  // namespace
+}  // namespace seedmesh::world
