@@ -9,7 +9,7 @@ namespace seedmesh::world {
 namespace {
 
 constexpr double usual_piece = 170;                        ///< metres between points of a river
-constexpr double least_width = 1.0 / 512;                  ///< by the spacing; narrower rivers are left out
+constexpr double least_width = 1.0 / 200;                  ///< by the spacing; narrower rivers are left out
 constexpr double least_lake = 1.0 / 16;                    ///< radius by the spacing
 constexpr double resolved_width = 1.5, resolved_lake = 3;  ///< by the spacing
 constexpr double great_river = 24;                         ///< metres; narrower ones have narrower ribbons

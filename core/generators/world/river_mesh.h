@@ -8,7 +8,7 @@ namespace seedmesh::world {
 
 /// The width of the ribbon of a great river at least. Samples farther apart are seen from farther away, also by clients
 /// that ask for small errors.
-constexpr double least_ribbon(double spacing) { return spacing * (0.016 + 0.14 * spacing / (spacing + 256)); }
+constexpr double least_ribbon(double spacing) { return spacing * (0.016 + 0.3 * spacing / (spacing + 300)); }
 
 /// Metres of draped water above the terrain.
 constexpr double drape_lift(double spacing) { return 0.02 * spacing; }
