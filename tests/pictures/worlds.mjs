@@ -15,14 +15,14 @@ const before = (world, [east, north], heading, back, above, pitch) => {
 /** name: world, east, north, metres above the ground, heading, pitch. Villages are those of the map. */
 export const views = {
   temperate_ground: before('temperate_land.7', [10816, -4672], 60, 175, 5, 0),
-  temperate_hill: before('temperate_land.7', [9152, 5184], 300, 620, 120, -9),
-  temperate_plane: before('temperate_land.7', [9152, 5184], 330, 2600, 900, -17),
+  temperate_hill: before('temperate_land.7', [9152, 3904], 300, 620, 120, -9),
+  temperate_plane: before('temperate_land.7', [9152, 3904], 330, 2600, 900, -17),
   temperate_orbit: ['temperate_land.7', 0, -20_000, 60_000, 0, -60],
   alpine_hill: before('alpine.3', [-3776, 4800], 120, 750, 160, -6),
   alpine_plane: ['alpine.3', 0, -4000, 1800, 20, -12],
   archipelago_plane: before('archipelago.5', [2752, -3520], 240, 2000, 600, -14),
   archipelago_orbit: ['archipelago.5', 0, -20_000, 70_000, 0, -65],
-  desert_plane: before('desert_oases.4', [-8384, 4928], 110, 800, 240, -12),
+  desert_plane: before('desert_oases.4', [-9536, 4416], 110, 800, 240, -12),
   boreal_hill: before('boreal_plain.2', [-7872, -4928], 70, 520, 95, -8),
   boreal_plane: before('boreal_plain.2', [-7872, -4928], 160, 2400, 800, -16),
   town_ground: ['temperate_land.7', 9144, 5136, 2.2, 337, 1],
