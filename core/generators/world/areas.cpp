@@ -29,9 +29,10 @@ class AreaFinder {
     areas_.resize(static_cast<std::size_t>(count_) * static_cast<std::size_t>(count_));
     const auto samples = static_cast<std::size_t>(count_ * cells_ + 1);
     heights_.resize(samples * samples);
+    if (spacing_ >= coarse_spacing) ruggedness_.resize(samples * samples);
   }
 
-  std::vector<Area> areas() {
+  Areas areas() {
     add_samples();
     if (spacing_ < coarse_spacing) add_deviations();
     if (side_ <= widest_known_rivers) {
@@ -46,7 +47,10 @@ class AreaFinder {
     } else if (has_sites) {
       guess_works();
     }
-    return std::move(areas_);
+    const bool is_coarse = spacing_ >= coarse_spacing;
+    Areas found{std::move(areas_), spacing_, {}, !is_coarse || side_ <= widest_known_rivers, !is_coarse};
+    for (int d = 0; (1 << d) < count_; ++d) found.deviations.push_back(deviations(d));
+    return found;
   }
 
  private:
@@ -96,10 +100,11 @@ class AreaFinder {
     if (spacing_ >= coarse_spacing) {
       sample.land = land_at(world_, east, north);
       sample.height = sample.land.height.value;
+      ruggedness_[index_of(i, j)] = static_cast<float>(sample.land.ruggedness);
     } else {
       sample = ground.at(east, north);
     }
-    heights_[static_cast<std::size_t>(j * (count_ * cells_ + 1) + i)] = sample.height;
+    heights_[index_of(i, j)] = sample.height;
     const auto tile = [&](int k) { return std::min(k / cells_, count_ - 1); };
     const auto is_low = [this](int k) { return k % cells_ == 0; };
     const int last = count_ * cells_;
@@ -122,10 +127,46 @@ class AreaFinder {
     }
   }
 
+  double height(int i, int j) const { return heights_[index_of(i, j)]; }
+
+  /// The greatest distances of the samples from the triangles of the tiles at a depth.
+  std::vector<double> deviations(int depth) {
+    const int tiles = 1 << depth, wide = count_ / tiles * cells_, stride = wide / tile_cells;
+    if (stride < 2 || wide % tile_cells != 0) return {};
+    std::vector<double> found;
+    for (int row = 0; row < tiles; ++row) {
+      job_.check();
+      for (int column = 0; column < tiles; ++column) {
+        double most = 0;
+        for (int k = 0; k < tile_cells * tile_cells; ++k) {
+          const int i = column * wide + k % tile_cells * stride, j = row * wide + k / tile_cells * stride;
+          most = std::max(most, deviation_in_cell(i, j, stride));
+        }
+        found.push_back(most);
+      }
+    }
+    return found;
+  }
+
+  /// The same in a cell of a tile, whose south-west corner is a sample.
+  double deviation_in_cell(int i, int j, int stride) const {
+    const double sw = height(i, j), se = height(i + stride, j), nw = height(i, j + stride),
+                 ne = height(i + stride, j + stride);
+    double most = 0;
+    for (int y = 0; y <= stride; ++y) {
+      for (int x = 0; x <= stride; ++x) {
+        const double plane = x >= y ? stride * sw + x * (se - sw) + y * (ne - se)
+                                    : stride * sw + x * (ne - nw) + y * (nw - sw);
+        most = std::max(most, std::abs(height(i + x, j + y) - plane / stride));
+      }
+    }
+    const double steep = std::max(std::abs(ne - sw), std::abs(se - nw)) / (2.83 * stride * spacing_);
+    return most / std::sqrt(1 + steep * steep);
+  }
+
   /// Measures how far samples are from triangles through every other of them.
   void add_deviations() {
     const int last = count_ * cells_;
-    const auto height = [&](int i, int j) { return heights_[static_cast<std::size_t>(j * (last + 1) + i)]; };
     for (int j = 0; j < last; j += 2) {
       for (int i = 0; i < last; i += 2) {
         const double sw = height(i, j), se = height(i + 2, j), nw = height(i, j + 2),
@@ -151,9 +192,69 @@ class AreaFinder {
     return tallest;
   }
 
+  std::size_t index_of(int i, int j) const { return static_cast<std::size_t>(j * (count_ * cells_ + 1) + i); }
+
+  /// Calls `visit` with the samples within `reach` of a rectangle and with their positions.
+  template <class Visit>
+  void for_samples(const Rectangle& r, double reach, const Visit& visit) {
+    const double last = count_ * cells_;
+    const auto index = [&](double v) {
+      return math::to_int32(std::clamp(std::floor(v / spacing_), -1.0, last));
+    };
+    const int west = index(r.west - reach - frame_.west) + 1, east = index(r.east + reach - frame_.west);
+    const int south = index(r.south - reach - frame_.south) + 1,
+              north = index(r.north + reach - frame_.south);
+    for (int j = south; j <= north; ++j) {
+      for (int i = west; i <= east; ++i)
+        visit(index_of(i, j), frame_.west + i * spacing_, frame_.south + j * spacing_);
+    }
+  }
+
+  /// Lowers samples of the land to the valleys of rivers and lakes, which reach `wide` metres.
+  void carve(const Reach& reach, const Rectangle& around, double wide, const std::vector<double>& land) {
+    const RiverPoint &a = reach.from, &b = reach.to;
+    for_samples(around, wide, [&](std::size_t n, double east, double north) {
+      const double x = east - a.east, y = north - a.north;
+      const double share = std::clamp((x * reach.x + y * reach.y) * reach.by, 0.0, 1.0);
+      const double dx = x - share * reach.x, dy = y - share * reach.y;
+      const Beside beside{std::sqrt(dx * dx + dy * dy), (a.width + share * (b.width - a.width)) / 2,
+                          a.water + share * (b.water - a.water)};
+      heights_[n] =
+          std::min(heights_[n], valley_side(land[n], static_cast<double>(ruggedness_[n]), beside).height);
+    });
+  }
+
+  void carve(const Lake& lake, const Rectangle& around, const std::vector<double>& land) {
+    for_samples(around, valley_reach, [&](std::size_t n, double east, double north) {
+      const double x = east - lake.east, y = north - lake.north, away = std::sqrt(x * x + y * y);
+      const double shore = shore_distance(lake, east, north, away), t = away / shore;
+      const double height =
+          t < 1 ? lake.level - lake.depth * (1 - t * t)
+                : valley_side(land[n], static_cast<double>(ruggedness_[n]), {away - shore, 5, lake.level})
+                      .height;
+      heights_[n] = std::min(heights_[n], height);
+    });
+  }
+
+  /// How deep valleys are cut into the land of each area.
+  void add_cuts(const std::vector<double>& land) {
+    for (int row = 0; row < count_; ++row) {
+      for (int column = 0; column < count_; ++column) {
+        double most = 0;
+        for (int j = row * cells_; j <= (row + 1) * cells_; ++j) {
+          for (int i = column * cells_; i <= (column + 1) * cells_; ++i)
+            most = std::max(most, land[index_of(i, j)] - heights_[index_of(i, j)]);
+        }
+        double& valley = at(column, row).rough.valley;
+        if (most > 0) valley = std::max(valley, most + 3);
+      }
+    }
+  }
+
   void add_water() {
     const Ground water(world_, box(), job_, valley_reach);
     const bool is_coarse = spacing_ >= coarse_spacing;
+    const std::vector<double> land = is_coarse ? heights_ : std::vector<double>{};
     for (const Reach& reach : water.reaches()) {
       const RiverPoint &a = reach.from, &b = reach.to;
       const Rectangle around{std::min(a.east, b.east), std::min(a.north, b.north), std::max(a.east, b.east),
@@ -161,10 +262,9 @@ class AreaFinder {
       const double bed = 0.5 + 0.045 * std::max(a.width, b.width);
       // a valley that is cut deeper is wider
       const double wide = std::clamp(60 + 5 * std::max(a.cut, b.cut), 500.0, valley_reach);
-      for_areas(around, is_coarse ? wide : b.width, [&](Area& area) {
-        area.lowest = std::min(area.lowest, b.water - bed);
-        if (is_coarse) area.rough.valley = std::max(area.rough.valley, std::max(a.cut, b.cut) + 3);
-      });
+      for_areas(around, is_coarse ? wide : b.width,
+                [&](Area& area) { area.lowest = std::min(area.lowest, b.water - bed); });
+      if (is_coarse) carve(reach, around, wide, land);
       for_areas(around, b.width, [&](Area& area) {
         area.highest = std::max(area.highest, a.water + highest_lift);
         area.rough.valley = std::max(area.rough.valley, std::max(a.cut, b.cut) + 3);
@@ -173,15 +273,15 @@ class AreaFinder {
     for (const Lake& lake : water.lakes()) {
       const double far = 1.3 * lake.radius;
       const Rectangle around{lake.east - far, lake.north - far, lake.east + far, lake.north + far};
-      for_areas(around, is_coarse ? valley_reach : 0, [&](Area& area) {
-        area.lowest = std::min(area.lowest, lake.level - lake.depth);
-        if (is_coarse) area.rough.valley = std::max(area.rough.valley, 0.3 * (area.high - area.low) + 5);
-      });
+      for_areas(around, is_coarse ? valley_reach : 0,
+                [&](Area& area) { area.lowest = std::min(area.lowest, lake.level - lake.depth); });
+      if (is_coarse) carve(lake, around, land);
       for_areas(around, 0, [&](Area& area) {
         area.highest = std::max(area.highest, lake.level + 0.5);
         area.rough.valley = std::max(area.rough.valley, lake.depth);
       });
     }
+    if (is_coarse) add_cuts(land);
   }
 
   /// Water of wide areas is not below the sea, or not below the lowest land nearby.
@@ -260,7 +360,8 @@ class AreaFinder {
   double side_ = 0, spacing_ = 0;
   double tallest_class_ = 0;
   std::vector<Area> areas_;
-  std::vector<double> heights_;  ///< of all samples, rows from the south
+  std::vector<double> heights_;    ///< of all samples, rows from the south
+  std::vector<float> ruggedness_;  ///< the same, of coarse samples
 };
 
 }  // namespace
@@ -270,7 +371,7 @@ int cells_a_link(const World& world, int root_level) {
   return root_level == levels_a_block ? 32 : 8;
 }
 
-std::vector<Area> areas_below(const World& world, const TileKey& root, int depth, Job& job) {
+Areas areas_below(const World& world, const TileKey& root, int depth, Job& job) {
   return AreaFinder(world, root, depth, job).areas();
 }
 

@@ -27,8 +27,18 @@ struct Area {
   double border() const { return *std::min_element(borders.begin(), borders.end()); }
 };
 
-/// Returns the areas of the tiles `depth` levels below a tile: rows from the south.
-std::vector<Area> areas_below(const World& world, const TileKey& root, int depth, Job& job);
+/// What was found below a tile. Rows from the south.
+struct Areas {
+  std::vector<Area> links;  ///< the tiles of the lowest level
+  double spacing = 0;       ///< metres between samples
+  /// By depth below the tile: the greatest distances of the samples from the triangles of each tile. Empty for links, and
+  /// where samples do not divide the cells of tiles.
+  std::vector<std::vector<double>> deviations;
+  bool has_valleys = false, has_detail = false;  ///< whether the samples have them
+};
+
+/// Returns the areas of the tiles `depth` levels below a tile.
+Areas areas_below(const World& world, const TileKey& root, int depth, Job& job);
 
 /// Returns the square of four.
 Area joined(const Area& sw, const Area& se, const Area& nw, const Area& ne);

@@ -119,6 +119,8 @@ TileBounds bounds_above(const World& world, const TileKey& key, const Area& area
   box.high = std::max(box.high, std::ceil(draped_top(world, frame, area, between) * 4) / 4);
   box.low = std::floor(box.low * 4) / 4;
   box.geometric_error = error_of(world, frame, area.rough, area.plant_height);
+  for (const TileBounds* child : below)
+    box.geometric_error = std::max(box.geometric_error, child->geometric_error / least_fall);
   return box;
 }
 
@@ -131,8 +133,9 @@ void limit(TileBounds& box, const TileBounds& above) {
 Block make_block(const World& world, const TileKey& root, Job& job) {
   Block block;
   block.depth = std::min(levels_a_block, world.levels - 1 - root.level);
-  std::vector<Area> areas = areas_below(world, root, block.depth, job);
-  const double spacing = frame_of(world, root).side / (cells_a_link(world, root.level) << block.depth);
+  const Areas found = areas_below(world, root, block.depth, job);
+  std::vector<Area> areas = found.links;
+  const double spacing = found.spacing;
   for (int d = block.depth; d >= 0; --d) {
     const int count = 1 << d;
     auto& tiles = block.tiles[static_cast<std::size_t>(d)];
@@ -153,6 +156,10 @@ Block make_block(const World& world, const TileKey& root, Job& job) {
         const std::size_t sw = 4 * own - 2 * static_cast<std::size_t>(x),
                           nw = sw + 2 * static_cast<std::size_t>(count);
         areas[own] = joined(finer[sw], finer[sw + 1], finer[nw], finer[nw + 1]);
+        if (const auto& met = found.deviations[static_cast<std::size_t>(d)]; !met.empty()) {
+          areas[own].rough.met = {met[own], frame_of(world, key).spacing, spacing, found.has_valleys,
+                                  found.has_detail};
+        }
         tiles.push_back(bounds_above(world, key, areas[own], spacing,
                                      {&below[sw], &below[sw + 1], &below[nw], &below[nw + 1]}));
       }

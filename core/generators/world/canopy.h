@@ -24,9 +24,9 @@ Wood wood_at(const World& world, const GroundSample& sample, const Climate& clim
 
 constexpr double wood_edge = 0.45;  ///< of the cover; woods begin here
 
-/// `base`: the height of position 0 of the tile's meshes. `folder`: see tile_glb().
-void add_canopy(Glb& glb, const World& world, const TileFrame& frame, const TerrainGrid& grid, double base,
-                Job& job, std::string_view folder);
+/// `folder`: see tile_glb().
+void add_canopy(Glb& glb, const World& world, const TileFrame& frame, const TileGround& ground, Job& job,
+                std::string_view folder);
 
 /// A square of crowns from above in grey, which repeats, as a PNG file.
 struct CanopyTexture {

@@ -115,20 +115,26 @@ Roughness roughest(const World& world) {
 double deviation_of(const World& world, double spacing, const Roughness& rough) {
   const WorldRelief& relief = world.params.relief;
   Sum sum;
+  // what was measured leaves to the model what lies between the samples
+  const bool is_met = rough.met.spacing > 0 && rough.met.spacing == spacing;
+  const double of_land = is_met ? rough.met.finer_spacing : spacing;
+  const double of_valleys = is_met && rough.met.has_valleys ? rough.met.finer_spacing : spacing;
+  const double of_ground = is_met && rough.met.has_detail ? rough.met.finer_spacing : spacing;
+  if (is_met) sum.add(rough.met.most);
   const double coast = (rough.has_sea_floor ? sea_fall : land_rise) * 1.5 / 1.875;
-  add_octaves(sum, spacing, relief.continents, 4, coast);
-  if (rough.ruggedness > 0) add_ranges(sum, relief, spacing, rough);
-  add_octaves(sum, spacing, hill_wavelength, hill_octaves, 1.5 / 1.75 * relief.hills);
-  const double steps = spacing * rough.slope / terrace_step;
+  add_octaves(sum, of_land, relief.continents, 4, coast);
+  if (rough.ruggedness > 0) add_ranges(sum, relief, of_land, rough);
+  add_octaves(sum, of_land, hill_wavelength, hill_octaves, 1.5 / 1.75 * relief.hills);
+  const double steps = of_land * rough.slope / terrace_step;
   sum.add(relief.terraces * terrace_step * std::min(0.22, 1.45 * steps * steps));
   const double fine = relief.terraces > 0 ? 1 + 0.6 * relief.terraces : 1;
-  add_octaves(sum, spacing, detail_wavelength, detail_octaves,
+  add_octaves(sum, of_ground, detail_wavelength, detail_octaves,
               fine * detail_share(world, rough.ruggedness) * detail_wavelength);
-  add_gullies(sum, relief, spacing, rough.slope);
-  add_valley(sum, spacing, rough);
-  sum.add(std::min(rough.works, 0.2 * spacing));
+  add_gullies(sum, relief, of_ground, rough.slope);
+  add_valley(sum, of_valleys, rough);
+  sum.add(std::min(rough.works, 0.2 * of_ground));
   // parts saturate where samples are farther apart than their wavelengths
-  const double far = spacing > 1024 ? 1 + 0.12 * (spacing / (spacing + 8192)) : 1;
+  const double far = spacing > 1024 && !is_met ? 1 + 0.12 * (spacing / (spacing + 8192)) : 1;
   const double modelled = (deviation_share + terrace_share * relief.terraces) * far * sum.value();
   return std::max(modelled,
                   measured_share * rough.measured * std::min(1.0, spacing / rough.measured_spacing));

@@ -10,6 +10,14 @@
 
 namespace seedmesh::world {
 
+/// How far samples were from the triangles of a tile.
+struct MetDeviation {
+  double most = 0;           ///< metres
+  double spacing = 0;        ///< spacing of the vertices of the tile; 0 if nothing was measured
+  double finer_spacing = 0;  ///< spacing of the samples
+  bool has_valleys = false, has_detail = false;  ///< whether the samples have them; detail includes roads
+};
+
 /// What the ground of an area is like: the greatest values over the area.
 struct Roughness {
   double ruggedness = 0;                       ///< ruggedness of Land
@@ -20,6 +28,8 @@ struct Roughness {
   double works = 0;   ///< metres that roads are above or below the ground
 
   double measured = 0, measured_spacing = 1;  ///< deviation that was met, from triangles with this spacing
+
+  MetDeviation met;  ///< by the triangles of this area
 
   void add(const GroundSample& sample);
   void add(const Roughness& other);

@@ -41,11 +41,22 @@ TileVertex FlatMesh::vertex_of(const Point& p) const {
   return vertex;
 }
 
+std::uint32_t FlatMesh::index_of(const Point& p) {
+  const TileVertex vertex = vertex_of(p);
+  const auto next = static_cast<std::uint32_t>(mesh_.vertices.size());
+  const auto [found, is_new] = known_.try_emplace({vertex.x, vertex.y, vertex.z}, next);
+  if (is_new) mesh_.vertices.push_back(vertex);
+  return found->second;
+}
+
 void FlatMesh::add(const std::vector<Point>& polygon) {
-  const auto first = static_cast<std::uint32_t>(mesh_.vertices.size());
-  for (const Point& p : polygon) mesh_.vertices.push_back(vertex_of(p));
-  for (std::uint32_t k = 2; k < polygon.size(); ++k) {
-    for (const std::uint32_t corner : {first, first + k - 1, first + k}) mesh_.indices.push_back(corner);
+  std::vector<std::uint32_t> corners;
+  corners.reserve(polygon.size());
+  for (const Point& p : polygon) corners.push_back(index_of(p));
+  for (std::size_t k = 2; k < corners.size(); ++k) {
+    const std::uint32_t a = corners[0], b = corners[k - 1], c = corners[k];
+    if (a == b || b == c || c == a) continue;
+    for (const std::uint32_t corner : {a, b, c}) mesh_.indices.push_back(corner);
   }
 }
 

@@ -2,6 +2,7 @@
 /// A mesh of convex polygons that face upwards, for water and roads. Only add_clipped(), add_draped() and add_ribbon() clip to the tile.
 #include <array>
 #include <glm/glm.hpp>
+#include <map>
 #include <vector>
 
 #include "core/generators/world/glb.h"
@@ -30,15 +31,18 @@ class FlatMesh {
   /// Adds a convex polygon with the heights of the terrain below it, `lift` metres above its triangles. Clips to the tile.
   void add_draped(std::vector<Point> polygon, const TerrainGrid& grid, double lift);
 
+  /// Polygons share the vertices that they have at one position.
   TileMesh take() { return std::move(mesh_); }
 
  private:
   TileVertex vertex_of(const Point& p) const;
+  std::uint32_t index_of(const Point& p);
 
   const TileFrame& frame_;
   double base_;
   std::array<std::uint8_t, 4> color_;
   TileMesh mesh_;
+  std::map<std::array<std::int16_t, 3>, std::uint32_t> known_;  ///< vertices by position
 };
 
 }  // namespace seedmesh::world

@@ -135,13 +135,14 @@ void add_places(Glb& glb, const World& world, int above_leaves, const TileFrame&
 
 }  // namespace
 
-void add_plants(Glb& glb, const World& world, const TileKey& key, const TileFrame& frame,
-                const TerrainGrid& grid, double base, Job& job, std::string_view folder) {
+void add_plants(Glb& glb, const World& world, const TileKey& key, const TileGround& ground, Job& job,
+                std::string_view folder) {
+  const TileFrame frame = frame_of(world, key);
   const int above_leaves = world.levels - 1 - key.level;
   const bool has_places = above_leaves < levels_of_plants;
   if (has_places) add_places(glb, world, above_leaves, frame, job, folder);
   if (has_places ? showings[above_leaves].has_canopy : frame.side <= widest_plants)
-    add_canopy(glb, world, frame, grid, base, job, folder);
+    add_canopy(glb, world, frame, ground, job, folder);
 }
 
 std::shared_ptr<const Asset> plant_asset(const World& world, int plant_class, AssetForm form, Job& job) {

@@ -11,9 +11,9 @@ namespace seedmesh::world {
 
 constexpr double widest_plants = 4096;  ///< metres; wider tiles have the colour of woods alone
 
-/// `grid`: the terrain of the tile. `base` and `folder`: see add_canopy().
-void add_plants(Glb& glb, const World& world, const TileKey& key, const TileFrame& frame,
-                const TerrainGrid& grid, double base, Job& job, std::string_view folder);
+/// `folder`: see tile_glb().
+void add_plants(Glb& glb, const World& world, const TileKey& key, const TileGround& ground, Job& job,
+                std::string_view folder);
 
 /// The model of a class, from the store or made now; null where the class has none.
 std::shared_ptr<const Asset> plant_asset(const World& world, int plant_class, AssetForm form, Job& job);

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <glm/glm.hpp>
 #include <queue>
-#include <ranges>
 
 #include "core/base/math.h"
 #include "core/generators/world/courses.h"
@@ -87,7 +86,7 @@ class Drainage {
     add_flow();
     choose_main_rivers();
     add_hollows();
-    for (int& n : std::ranges::reverse_view(order_)) follow(n);
+    for (std::size_t k = order_.size(); k-- > 0;) follow(order_[k]);
     join_rivers();
     made_.size = 256 + 200 * made_.lakes.size();
     for (River& river : made_.rivers) {
@@ -195,8 +194,9 @@ class Drainage {
   }
 
   void add_flow() {
-    for (int& n : std::ranges::reverse_view(order_)) {
-      if (at(n).down >= 0) at(at(n).down).flow += at(n).flow;
+    for (std::size_t k = order_.size(); k-- > 0;) {
+      const Node& node = at(order_[k]);
+      if (node.down >= 0) at(node.down).flow += node.flow;
     }
   }
 

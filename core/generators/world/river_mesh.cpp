@@ -4,26 +4,18 @@
 #include <cmath>
 
 #include "core/base/math.h"
+#include "core/generators/world/draped_strip.h"
 
 namespace seedmesh::world {
 namespace {
 
-constexpr double usual_piece = 170;                        ///< metres between points of a river
-constexpr double least_width = 1.0 / 200;                  ///< by the spacing; narrower rivers are left out
-constexpr double least_lake = 1.0 / 16;                    ///< radius by the spacing
+constexpr double least_width = 1.0 / 96;                   ///< by the spacing; narrower rivers are left out
+constexpr double least_lake = 1.0 / 4;                     ///< radius by the spacing
 constexpr double resolved_width = 1.5, resolved_lake = 3;  ///< by the spacing
+constexpr double strip_width = 0.35;                       ///< by the spacing; wider ribbons are cut by cells
+constexpr double bend_tolerance = 0.1;                     ///< by the spacing, of the lines of rivers
 constexpr double great_river = 24;                         ///< metres; narrower ones have narrower ribbons
-constexpr int lake_corners = 24;
-
-/// The points of a river that a tile shows: all tiles of a level show the same.
-std::vector<RiverPoint> shown_points(const River& river, double spacing) {
-  const int stride = std::max(1, math::to_int32(std::floor(spacing / 2 / usual_piece)));
-  std::vector<RiverPoint> shown;
-  const auto last = river.points.size() - 1;
-  for (std::size_t k = 0; k < last; k += static_cast<std::size_t>(stride)) shown.push_back(river.points[k]);
-  shown.push_back(river.points[last]);
-  return shown;
-}
+constexpr int least_corners = 8, most_corners = 24;        ///< of lakes
 
 /// A ribbon whose pieces share their corners, as triangles.
 class Ribbon {
@@ -40,11 +32,14 @@ class Ribbon {
           std::max(a.north, b.north) < box.south - reach) {
         continue;
       }
-      const auto [a_left, a_right] = edges(points, k - 1, least);
-      const auto [b_left, b_right] = edges(points, k, least);
+      const StripEdges from = edges(points, k - 1, least), to = edges(points, k, least);
+      if (std::max(a.width, b.width) < strip_width * grid_.spacing) {
+        add_draped_strip(builder_, grid_, from, to, drape_lift(grid_.spacing));
+        continue;
+      }
       const bool is_draped = b.width < resolved_width * grid_.spacing;
-      add_triangle({a_right, b_right, b_left}, is_draped);
-      add_triangle({a_right, b_left, a_left}, is_draped);
+      add_triangle({from.right, to.right, to.left}, is_draped);
+      add_triangle({from.right, to.left, from.left}, is_draped);
     }
   }
 
@@ -52,7 +47,7 @@ class Ribbon {
   using Point = FlatMesh::Point;
 
   /// The left and the right edge at a point.
-  static std::pair<Point, Point> edges(const std::vector<RiverPoint>& points, std::size_t k, double least) {
+  static StripEdges edges(const std::vector<RiverPoint>& points, std::size_t k, double least) {
     const RiverPoint &p = points[k], &before = points[k == 0 ? 0 : k - 1],
                      &after = points[std::min(k + 1, points.size() - 1)];
     const double x = after.east - before.east, y = after.north - before.north;
@@ -81,8 +76,9 @@ class Ribbon {
 
 void add_small_lake(FlatMesh& builder, const TerrainGrid& grid, const Lake& lake) {
   std::vector<FlatMesh::Point> shore;
-  for (int k = 0; k < lake_corners; ++k) {
-    const math::SinCos turn = math::sincos_degrees(360.0 * k / lake_corners);
+  const int corners = std::clamp(math::to_int32(8 * lake.radius / grid.spacing), least_corners, most_corners);
+  for (int k = 0; k < corners; ++k) {
+    const math::SinCos turn = math::sincos_degrees(360.0 * k / corners);
     const double away = shore_distance(lake, lake.east + turn.cos, lake.north + turn.sin, 1);
     shore.emplace_back(lake.east + away * turn.cos, lake.north + away * turn.sin, 0);
   }
@@ -109,7 +105,7 @@ void add_rivers(FlatMesh& builder, const World& world, const TileFrame& frame, c
           river.north < box.south - reach || river.points.back().width < least_width * grid.spacing) {
         continue;
       }
-      ribbon.add(shown_points(river, grid.spacing), box);
+      ribbon.add(simplified_line(river.points, bend_tolerance * grid.spacing), box);
     }
     for (const Lake& lake : region->lakes) {
       const double far = 1.3 * lake.radius;

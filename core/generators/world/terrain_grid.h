@@ -18,6 +18,11 @@ struct TerrainGrid {
     return samples[static_cast<std::size_t>((row + halo) * wide + column + halo)];
   }
 };
+/// The terrain of a tile, which the layers above it stand on. It does not own the grid.
+struct TileGround {
+  const TerrainGrid& grid;
+  double base = 0;  ///< the height of position 0 of the tile's meshes
+};
 /// Samples the ground of a tile with `cells` cells a side and `halo` samples around them.
 TerrainGrid sample_grid(const World& world, const TileFrame& frame, int cells, int halo, Job& job);
 

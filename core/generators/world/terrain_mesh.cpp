@@ -31,7 +31,8 @@ Rise fine_rise(const World& world, const GroundSample& sample, double east, doub
 }
 
 TileVertex vertex_of(const World& world, const GroundColors& colors, const TileFrame& frame,
-                     const TerrainGrid& grid, int column, int row, double base) {
+                     const TileGround& ground, int column, int row) {
+  const TerrainGrid& grid = ground.grid;
   const GroundSample& sample = grid.at(column, row);
   const double east = grid.west + column * grid.spacing, north = grid.south + row * grid.spacing;
   const double run = 2 * grid.spacing;
@@ -51,7 +52,7 @@ TileVertex vertex_of(const World& world, const GroundColors& colors, const TileF
   };
   TileVertex vertex;
   vertex.x = static_cast<std::int16_t>(math::to_int32((east - frame.middle_east) / frame.step));
-  vertex.y = steps_of(sample.height, base, frame.step);
+  vertex.y = steps_of(sample.height, ground.base, frame.step);
   vertex.z = static_cast<std::int16_t>(math::to_int32((frame.middle_north - north) / frame.step));
   vertex.normal[0] = byte(-seen.east);
   vertex.normal[1] = byte(1);
@@ -100,7 +101,8 @@ double skirt_depth(const World& world, const TileFrame& frame, const TerrainGrid
   return std::max(most + rounding_steps * frame.step, usual_skirt(world, frame, rough));
 }
 
-double most_skirt(const World& world, const TileFrame& frame, const Roughness& rough) {
+double most_skirt(const World& world, const TileFrame& frame, Roughness rough) {
+  rough.met = {};  // tiles know nothing of it, and their skirts cover neighbours
   return unusual * usual_skirt(world, frame, rough);
 }
 
@@ -129,7 +131,7 @@ TerrainMesh terrain_mesh(const World& world, const TileFrame& frame, const Terra
   const GroundColors colors(world);
   for (int row = 0; row < count; ++row) {
     for (int column = 0; column < count; ++column) {
-      made.vertices.push_back(vertex_of(world, colors, frame, grid, column, row, made.height));
+      made.vertices.push_back(vertex_of(world, colors, frame, {grid, made.height}, column, row));
     }
   }
   add_skirt(made.vertices, count, skirt, frame.step);

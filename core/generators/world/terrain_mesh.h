@@ -21,7 +21,7 @@ TerrainMesh terrain_mesh(const World& world, const TileFrame& frame, const Terra
 /// `grid` is that of the tile.
 double skirt_depth(const World& world, const TileFrame& frame, const TerrainGrid& grid);
 /// Returns a bound of the depths of skirts in an area.
-double most_skirt(const World& world, const TileFrame& frame, const Roughness& roughness);
+double most_skirt(const World& world, const TileFrame& frame, Roughness roughness);
 
 /// Whole steps at `height`, relative to `base`, within 16 bits.
 std::int16_t steps_of(double height, double base, double step);

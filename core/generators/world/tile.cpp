@@ -23,11 +23,17 @@ constexpr double widest_lake_spacing = 256;  ///< metres between samples that sh
 
 constexpr double widest_road_spacing = 16;
 
-void add_mesh(Glb& glb, std::string_view name, const TileMesh& mesh, double roughness, const TileFrame& frame,
-              double base, Job& job) {
+/// The name of a node and of its material, and the roughness of that.
+struct Surface {
+  std::string_view name;
+  double roughness = 1;
+};
+
+void add_mesh(Glb& glb, const Surface& surface, const TileMesh& mesh, const TileFrame& frame, double base,
+              Job& job) {
   if (mesh.indices.empty()) return;
   job.spend(Resource::triangles, mesh.indices.size() / 3);
-  glb.add_mesh(name, mesh, glb.add_material(name, roughness), frame.step, base);
+  glb.add_mesh(surface.name, mesh, glb.add_material(surface.name, surface.roughness), frame.step, base);
 }
 
 void add_water(Glb& glb, const World& world, const TileFrame& frame, const TerrainGrid& grid, double base,
@@ -36,7 +42,7 @@ void add_water(Glb& glb, const World& world, const TileFrame& frame, const Terra
   const bool is_coarse = grid.spacing > widest_lake_spacing;
   const Ground ground = is_coarse ? Ground(world) : Ground(world, box, job, 100);
   const WaterMesh water = water_mesh(world, frame, grid, ground, base, job);
-  add_mesh(glb, "water", water.mesh, 0.15, frame, base, job);
+  add_mesh(glb, {"water", 0.15}, water.mesh, frame, base, job);
 }
 
 /// Whether a piece of a road can have a part in a rectangle.
@@ -81,7 +87,7 @@ void add_works(Glb& glb, const World& world, const TileFrame& frame, double base
       for (const Lane& lane : lanes->lanes)
         add(lane.is_street ? extended(lane) : lane.points, lane.width, 0.9 * lift);
     }
-    add_mesh(glb, "roads", roads.take(), 0.95, frame, base, job);
+    add_mesh(glb, {"roads", 0.95}, roads.take(), frame, base, job);
   }
   if (world.has(Layer::buildings)) add_houses(glb, world, frame, base, job, folder);
 }
@@ -110,7 +116,7 @@ std::string tile_glb(const World& world, const TileKey& key, Job& job, std::stri
   }
   if (world.has(Layer::water)) add_water(glb, world, frame, grid, terrain.height, job);
   add_works(glb, world, frame, terrain.height, job, folder);
-  if (world.has(Layer::plants)) add_plants(glb, world, key, frame, grid, terrain.height, job, folder);
+  if (world.has(Layer::plants)) add_plants(glb, world, key, {grid, terrain.height}, job, folder);
   return std::move(glb).text();
 }
 

@@ -66,7 +66,7 @@ TEST(WorldErrors, AreNearThoseOfTheGroundInAllPresets) {
     }
     ASSERT_GT(ratios.size(), 25U);
     std::sort(ratios.begin(), ratios.end());
-    EXPECT_LE(ratios[ratios.size() / 2], 2.4) << preset;
+    EXPECT_LE(ratios[ratios.size() / 2], 2.1) << preset;
     EXPECT_LE(low, 2) << preset << ": declared below measured";
   }
 }

@@ -76,7 +76,7 @@ TEST(WorldMap, SettlementsHaveStreetsAndHouses) {
   params.plants.clear();
   const World world = world_of(params);
   Job job = test_job();
-  const Json wide = map_json(world, {-12000, -12000, 12000, 12000}, MapHeights::none, job);
+  const Json wide = map_json(world, {-20000, -20000, 20000, 20000}, MapHeights::none, job);
   std::map<std::string, int> classes, streets;
   for (const Json& found : wide["settlements"]) {
     EXPECT_FALSE(found.contains("streets"));
@@ -87,7 +87,7 @@ TEST(WorldMap, SettlementsHaveStreetsAndHouses) {
     EXPECT_EQ(settlement["id"], found["id"]);
     ++classes[settlement["class"]];
     EXPECT_EQ(settlement.contains("outline"), settlement["class"] == "town");
-    EXPECT_GE(settlement["houses"].get<int>(), settlement["class"] == "town" ? 40 : 0);
+    EXPECT_GE(settlement["houses"].get<int>(), settlement["class"] == "town" ? 30 : 0);
     for (const Json& street : settlement["streets"]) {
       ++streets[street["class"]];
       EXPECT_GE(street["points"].size(), 2U);

@@ -1,0 +1,25 @@
+#pragma once
+/// A strip along a line on the triangles of the terrain of a tile, for rivers that are narrow beside the cells.
+#include <vector>
+
+#include "core/generators/world/flat_mesh.h"
+#include "core/generators/world/region.h"
+
+namespace seedmesh::world {
+
+/// The left and the right edge of a strip at a point of its line. Heights are not used.
+struct StripEdges {
+  FlatMesh::Point left{}, right{};
+};
+
+/// Adds the strip between two points, `lift` metres above the triangles of the terrain along its line and along its
+/// edges. It has vertices where the terrain bends by more than a part of `lift`, and at the borders of the tile, so that
+/// strips of neighbours meet. Clips to the tile. The edges may pass the tile by one cell at most.
+void add_draped_strip(FlatMesh& builder, const TerrainGrid& grid, const StripEdges& from,
+                      const StripEdges& to, double lift);
+
+/// Returns the line without points that are within `tolerance` metres of the rest. The ends stay. Douglas and
+/// Peucker 1973.
+std::vector<RiverPoint> simplified_line(const std::vector<RiverPoint>& points, double tolerance);
+
+}  // namespace seedmesh::world
