@@ -80,7 +80,7 @@ void plant_seed(GrownPlant& plant, const glm::dvec3& foot, std::uint32_t tree, c
 void grow_year(GrownPlant& plant, const GrownSite& site, std::uint16_t year) {
   const TreeGrown& grown = site.grown;
   sense_light(plant, site);
-  gather_light(plant);
+  gather_light(plant, year - grown.shed_years);
   if (grown.allocation == TreeAllocation::priority) {
     divide_by_priority(plant, grown, site.job);
   } else {

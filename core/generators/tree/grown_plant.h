@@ -20,7 +20,8 @@ struct GrownNode {
   bool continues = false;    ///< continues the axis of its parent
   std::uint32_t tree = 0;    ///< 0: the tree of the request; its neighbours follow
   std::uint32_t count = 0;   ///< internodes that it carries, itself included
-  double path = 0;           ///< length from the ground
+  std::uint32_t young = 0;   ///< of these, those that are too young to be shed
+  double shade = 0;          ///< weight of its shadow: its length in internodes of full length
   double light = 0;          ///< of all buds that it carries
   double main_light = 0;     ///< of that, what the axis gathers that continues at the node
   double side_light = 0;     ///< and what side branches and side buds at the node gather

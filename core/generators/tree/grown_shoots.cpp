@@ -63,11 +63,16 @@ bool avoid_obstacles(const glm::dvec3& position, double length, const GrownSite&
   return site.obstacles->room_at(position + heading * length) > 0;
 }
 
+/// Is a node on the part of a trunk without side buds?
+bool is_bare(const GrownNode& node, const TreeGrown& grown) {
+  return node.order == 0 && node.position.y < grown.clearance;
+}
+
 /// Adds the side buds of a node. `at_end`: the node ends the shoot of a year.
 void add_side_buds(GrownPlant& plant, const GrownBud& axis, bool at_end, const GrownSite& site,
                    std::uint16_t year) {
   const TreeAxis& level = axis_level(site.grown, axis.order);
-  if (axis.order + 1 >= site.grown.levels) return;
+  if (axis.order + 1 >= site.grown.levels || is_bare(plant.nodes[axis.node], site.grown)) return;
   const int count = at_end && level.whorl > 0 ? level.whorl : level.buds;
   const Rng rng = Rng(key_at(plant.nodes[axis.node].key, 0xB0D));
   for (int i = 0; i < count; ++i) {
@@ -92,9 +97,7 @@ int grow_shoot(GrownPlant& plant, GrownBud& bud, const GrownSite& site, std::uin
   const TreeGrown& grown = site.grown;
   const double vigour = std::min(bud.vigour, static_cast<double>(grown.longest_shoot));
   const int count = math::to_int32(std::floor(vigour));
-  const double slow = grown.reach > 0 ? plant.nodes[bud.node].path / grown.reach : 0;
-  const double length =
-      grown.internode * axis_level(grown, bud.order).length * (vigour / count) / (1 + slow * slow);
+  const double length = grown.internode * axis_level(grown, bud.order).length * (vigour / count);
   const bool begins = !bud.ends_axis;
   for (int i = 0; i < count; ++i) {
     const GrownNode parent = plant.nodes[bud.node];
@@ -115,13 +118,13 @@ int grow_shoot(GrownPlant& plant, GrownBud& bud, const GrownSite& site, std::uin
     node.number = bud.number;
     node.continues = !(begins && i == 0);
     node.tree = parent.tree;
-    node.path = parent.path + length;
+    node.shade = length / grown.internode;
     node.key = rng.key();
     bud.frame = headed(bud.frame, heading);
     bud.node = static_cast<std::uint32_t>(plant.nodes.size());
     bud.axis = node.axis;
     plant.nodes.push_back(node);
-    site.shadows.add(node.position);
+    site.shadows.add(node.position, node.shade);
     add_side_buds(plant, bud, i + 1 == count, site, year);
     ++bud.number;
   }
@@ -143,8 +146,9 @@ void sense_light(GrownPlant& plant, const GrownSite& site) {
   for (std::size_t i = 0; i < plant.buds.size(); ++i) {
     if (i % check_every == 0) site.job.check();
     GrownBud& bud = plant.buds[i];
-    const double shade = site.shadows.shade_at(plant.nodes[bud.node].position);
-    bud.light = std::clamp(1 - shade + own, 0.0, 1.0);
+    const GrownNode& node = plant.nodes[bud.node];
+    const double shade = site.shadows.shade_at(node.position);
+    bud.light = std::clamp(1 - shade + own * node.shade, 0.0, 1.0);
   }
 }
 
@@ -157,7 +161,7 @@ std::uint64_t grow_shoots(GrownPlant& plant, const GrownSite& site, std::uint16_
     if (i % check_every == 0) site.job.check();
     GrownBud bud = plant.buds[i];
     const bool grows = bud.vigour >= 1;
-    const bool taken_over = bud.ends_axis && bud.number > 1 &&
+    const bool taken_over = bud.ends_axis && bud.number > 1 && !is_bare(plant.nodes[bud.node], site.grown) &&
                             unit_at(Rng(bud.key).at("takeover").at(year), "die") < site.grown.takeover;
     if (taken_over || (!grows && year >= bud.idle_since + site.grown.bud_years)) continue;
     if (grows) {
@@ -182,12 +186,12 @@ void shed_branches(GrownPlant& plant, const GrownSite& site, std::uint16_t year)
     bool stays = node.parent == Limbs::none;
     if (!stays && new_index[node.parent] != Limbs::none) {
       const bool is_old = year >= node.born + grown.shed_years;
-      const bool is_weak = !node.continues && node.vigour < grown.shed * node.count;
+      const bool is_weak = !node.continues && node.vigour < grown.shed * node.young;
       stays = !is_old || !(is_weak || node.light == 0);
       node.parent = new_index[node.parent];
     }
     if (!stays) {
-      site.shadows.remove(node.position);
+      site.shadows.remove(node.position, node.shade);
       continue;
     }
     new_index[i] = kept;

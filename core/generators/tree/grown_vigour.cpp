@@ -43,10 +43,11 @@ double weight_of(std::size_t rank, std::size_t count, const TreeGrown& grown) {
 
 }  // namespace
 
-void gather_light(GrownPlant& plant) {
+void gather_light(GrownPlant& plant, int first_young) {
   for (GrownNode& node : plant.nodes) {
     node.main_light = node.side_light = 0;
     node.count = 1;
+    node.young = node.born >= first_young ? 1 : 0;
   }
   for (const GrownBud& bud : plant.buds) {
     GrownNode& node = plant.nodes[bud.node];
@@ -59,6 +60,7 @@ void gather_light(GrownPlant& plant) {
     GrownNode& parent = plant.nodes[node.parent];
     (node.continues ? parent.main_light : parent.side_light) += node.light;
     parent.count += node.count;
+    parent.young += node.young;
   }
 }
 

@@ -5,8 +5,9 @@
 
 namespace seedmesh::tree {
 
-/// Sums the light of buds, and counts internodes, from the tips to the feet.
-void gather_light(GrownPlant& plant);
+/// Sums the light of buds, and counts internodes, from the tips to the feet. Internodes that grew in the year
+/// `first_young` or later count as young.
+void gather_light(GrownPlant& plant, int first_young);
 
 /// Returns the apical control in a year.
 double lambda_in(const TreeGrown& grown, double year);

@@ -20,7 +20,7 @@ constexpr std::int32_t least_growth = 8, growth_share = 4;
 ShadowGrid::ShadowGrid(const ShadowOptions& options, const Job& job) : cell_(options.cell), shade_(job) {
   double amount = options.shade;
   for (int layer = 0; layer <= options.layers; ++layer, amount /= options.falloff)
-    amounts_.push_back(static_cast<std::uint32_t>(math::to_int32(std::floor(amount * whole + 0.5))));
+    amounts_.push_back(amount * whole);
 }
 
 ShadowGrid::Cell ShadowGrid::cell_of(const glm::dvec3& point) const {
@@ -77,13 +77,14 @@ void ShadowGrid::extend(const Cell& low, const Cell& high) {
   shade_ = std::move(wider);
 }
 
-void ShadowGrid::cast(const Cell& cell, std::uint32_t sign) {
+void ShadowGrid::cast(const Cell& cell, double weight, std::uint32_t sign) {
   const auto depth = static_cast<std::int32_t>(amounts_.size()) - 1;
   const Cell low{cell.x - depth, cell.y - depth, cell.z - depth};
   const Cell high{cell.x + depth, cell.y, cell.z + depth};
   if (!holds(low, high)) extend(low, high);
   for (std::int32_t layer = 0; layer <= depth; ++layer) {
-    const std::uint32_t amount = sign * amounts_[static_cast<std::size_t>(layer)];
+    const double wanted = std::floor(amounts_[static_cast<std::size_t>(layer)] * weight + 0.5);
+    const std::uint32_t amount = sign * static_cast<std::uint32_t>(math::to_int32(wanted));
     for (std::int32_t x = cell.x - layer; x <= cell.x + layer; ++x) {
       std::uint32_t* row = shade_.data() + index_of({x, cell.y - layer, cell.z - layer});
       for (std::int32_t i = 0; i <= 2 * layer; ++i) row[i] += amount;
@@ -91,9 +92,11 @@ void ShadowGrid::cast(const Cell& cell, std::uint32_t sign) {
   }
 }
 
-void ShadowGrid::add(const glm::dvec3& point) { cast(cell_of(point), 1); }
+void ShadowGrid::add(const glm::dvec3& point, double weight) { cast(cell_of(point), weight, 1); }
 
-void ShadowGrid::remove(const glm::dvec3& point) { cast(cell_of(point), ~std::uint32_t{0}); }
+void ShadowGrid::remove(const glm::dvec3& point, double weight) {
+  cast(cell_of(point), weight, ~std::uint32_t{0});
+}
 
 double ShadowGrid::shade_at(const glm::dvec3& point) const {
   const Cell cell = cell_of(point);

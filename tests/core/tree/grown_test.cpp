@@ -53,7 +53,7 @@ std::vector<double> vigour_of_buds(const GrownPlant& plant) {
 TEST(Grown, DividesVigourByLambdaAndLight) {
   const Job job(1, Job::Options{});
   GrownPlant plant = fork(0.5, {0.25, 0.5}, job);
-  gather_light(plant);
+  gather_light(plant, 0);
   EXPECT_EQ(plant.nodes[0].light, 1.25);
   EXPECT_EQ(plant.nodes[0].count, 2U);
   divide_by_lambda(plant, 2, 0.6);
@@ -65,7 +65,7 @@ TEST(Grown, DividesVigourByLambdaAndLight) {
 TEST(Grown, DividesVigourByRank) {
   Job job(1, Job::Options{});
   GrownPlant plant = fork(0.5, {1, 0.25}, job);
-  gather_light(plant);
+  gather_light(plant, 0);
   TreeGrown grown;
   grown.alpha = 1;
   grown.priority_least = 0.2;
@@ -102,6 +102,7 @@ TEST(Grown, KeepsTheSumOfThePowersOfRadiiAtForks) {
   params.grown.shed = 0;
   params.grown.takeover = 0;
   params.grown.bud_years = 100;
+  params.grown.light.shade = 0.01;  // All buds have light, so no branch is shed.
   const Skeletons tree(params, 3);
   const std::vector<double> sum = carried(tree.limbs(), params.grown.radius_exponent);
   std::size_t forks = 0;
@@ -144,9 +145,8 @@ TEST(Grown, EveryParameterHasAnEffect) {
   };
   const Change changes[] = {
       {"internode", [](TreeGrown& g) { g.internode = 0.4; }},
-      {"reach", [](TreeGrown& g) { g.reach = 5; }},
       {"alpha", [](TreeGrown& g) { g.alpha = 1.5; }},
-      {"longest_shoot", [](TreeGrown& g) { g.longest_shoot = 2; }},
+      {"longest_shoot", [](TreeGrown& g) { g.longest_shoot = 1; }},
       {"allocation", [](TreeGrown& g) { g.allocation = TreeAllocation::priority; }},
       {"lambda", [](TreeGrown& g) { g.lambda = 0.6; }},
       {"lambda_old", [](TreeGrown& g) { g.lambda_old = 0.45; }},
@@ -167,6 +167,7 @@ TEST(Grown, EveryParameterHasAnEffect) {
       {"shed_years", [](TreeGrown& g) { g.shed_years = 7; }},
       {"radius_exponent", [](TreeGrown& g) { g.radius_exponent = 2; }},
       {"tip_radius", [](TreeGrown& g) { g.tip_radius = 0.005; }},
+      {"clearance", [](TreeGrown& g) { g.clearance = 2; }},
       {"leaves", [](TreeGrown& g) { g.leaves = 1; }},
       {"leaf_years", [](TreeGrown& g) { g.leaf_years = 1; }},
       {"leaf_length", [](TreeGrown& g) { g.leaf_length = 0.1; }},
@@ -187,7 +188,8 @@ TEST(Grown, EveryParameterHasAnEffect) {
       {"level.whorl", [](TreeGrown& g) { g.level[0].whorl = 5; }},
       {"level.phyllotaxis", [](TreeGrown& g) { g.level[0].phyllotaxis = 90; }},
       {"level.phyllotaxis_spread", [](TreeGrown& g) { g.level[0].phyllotaxis_spread = 60; }},
-      {"level.light", [](TreeGrown& g) { g.level[0].light = 0; }},
+      // A leader in full light has no direction of more light.
+      {"level.light", [](TreeGrown& g) { g.level[1].light = 0; }},
       {"level.tropism", [](TreeGrown& g) { g.level[0].tropism = 0.5; }},
       {"level.level_out", [](TreeGrown& g) { g.level[1].level_out = 0.5; }},
       {"level.wander", [](TreeGrown& g) { g.level[0].wander = 0; }},
@@ -251,18 +253,38 @@ TEST(Grown, IsTheYoungTreeAtItsAge) {
 
 TEST(Grown, ShedsBranchesInTheShade) {
   TreeParams params = grown_for(25);
-  const auto lowest_branch = [](const Skeletons& tree) {
-    float lowest = 1e9F;
-    const Limbs& limbs = tree.limbs();
-    for (std::size_t i = 1; i < limbs.size(); ++i) {
-      if (limbs.starts_limb[i]) lowest = std::min(lowest, limbs.position[limbs.parent[i]].y);
+  const auto low_branches = [&] {
+    int count = 0;
+    for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+      const Skeletons tree(params, seed);
+      const Limbs& limbs = tree.limbs();
+      for (std::size_t i = 1; i < limbs.size(); ++i)
+        count += limbs.starts_limb[i] && limbs.position[limbs.parent[i]].y < 4 ? 1 : 0;
     }
-    return lowest;
+    return count;
   };
   params.grown.shed = 0.1;
-  const float kept = lowest_branch(Skeletons(params, 3));
+  const int kept = low_branches();
   params.grown.shed = 0.5;
-  EXPECT_GT(lowest_branch(Skeletons(params, 3)), kept);
+  EXPECT_LT(low_branches(), kept / 2);
+}
+
+TEST(Grown, BendsALeaderAwayFromTheShade) {
+  TreeParams params = grown_for(12);
+  params.grown.level.resize(1);
+  params.grown.level[0].wander = 0;
+  params.grown.obstacles = {{TreeObstacleShape::box, {0.7, 4, 0}, {1.6, 0.5, 8}}};
+  const auto highest = [&](double weight) {
+    params.grown.level[0].light = weight;
+    const Skeletons tree(params, 1);
+    const Limbs& limbs = tree.limbs();
+    glm::vec3 top{0};
+    for (std::size_t i = 0; i < limbs.size(); ++i) {
+      if (limbs.order[i] == 0 && limbs.position[i].y > top.y) top = limbs.position[i];
+    }
+    return top;
+  };
+  EXPECT_LT(highest(1).x, highest(0).x - 0.2F);
 }
 
 TEST(Grown, SpendsInternodesBeforeTheyGrow) {

@@ -49,7 +49,8 @@ Json drawn(const Json& schema, Rng rng) {
   if (type == "object") return drawn_object(schema, rng);
   if (type == "array") {
     Json list = Json::array();
-    const std::uint32_t count = rng.below(4);
+    const auto least = schema.value("minItems", 0U), most = std::min(schema.value("maxItems", 3U), least + 3);
+    const std::uint32_t count = least + rng.below(most - least + 1);
     for (std::uint32_t i = 0; i < count; ++i) list.push_back(drawn(schema["items"], rng.at(i)));
     return list;
   }
