@@ -1906,7 +1906,7 @@ export interface TreeParametersSculpt {
 export interface TreeParametersGrownLight {
   /** The width of a cell. If left out, the length of an internode. */
   cell?: number;
-  /** The share of the light that an internode removes from its own cell: a in the paper. */
+  /** The share of the light that an internode of the length `internode` removes from its own cell: a in the paper. */
   shade?: number;
   /** The divisor of the shade from layer to layer: b in the paper. */
   falloff?: number;
@@ -1960,8 +1960,6 @@ export interface TreeParametersGrownLevelItem {
 export interface TreeParametersGrown {
   /** Length of an internode that grows with a vigour of 1, the unit of the model. Cells of the light have this size unless `cell` is given. */
   internode?: number;
-  /** Length of the path from the ground at which internodes grow to half their length, so that height has a bound. 0: no bound. */
-  reach?: number;
   /** Vigour of the tree in a year for each bud in full light. 1 is what an internode needs. */
   alpha?: number;
   /** Largest number of internodes that a bud grows in a year. */
@@ -1990,15 +1988,15 @@ export interface TreeParametersGrown {
   takeover?: number;
   /** Number of levels of branching, including the trunk. Axes of the last level have no side buds. */
   levels?: number;
-  /** A branch is shed when its vigour divided by the number of its internodes is smaller. 0: only dead branches are shed. */
+  /** A branch is shed when its vigour divided by the number of its internodes that are younger than `shed_years` is smaller. 0: only branches without any light are shed. */
   shed?: number;
-  /** Age at which a branch can be shed. */
+  /** Age at which a branch can be shed. Internodes of this age no longer count for the threshold. */
   shed_years?: number;
   /** Exponent n of the pipe model: the nth power of the radius below a fork is the sum of those above it. Wood of shed branches stays. 2 keeps the cross-section. */
   radius_exponent?: number;
   /** Radius of the youngest wood. */
   tip_radius?: number;
-  /** Least height above the ground. Shoots that come lower end. */
+  /** Least height of branches above the ground. The trunk has no side buds below it, and shoots that come lower end. */
   clearance?: number;
   /** Number of leaves, or of twigs with leaves, at each internode that bears them. */
   leaves?: number;

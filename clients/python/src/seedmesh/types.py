@@ -1237,7 +1237,6 @@ class TreeParametersGrownLevelItem(TypedDict, total=False):
 
 TreeParametersGrown = TypedDict("TreeParametersGrown", {
     'internode': float,
-    'reach': float,
     'alpha': float,
     'longest_shoot': int,
     'allocation': Literal['borchert_honda', 'priority'],
