@@ -81,6 +81,7 @@ void grow_year(GrownPlant& plant, const GrownSite& site, std::uint16_t year) {
   const TreeGrown& grown = site.grown;
   sense_light(plant, site);
   gather_light(plant, year - grown.shed_years);
+  site.job.check();
   if (grown.allocation == TreeAllocation::priority) {
     divide_by_priority(plant, grown, site.job);
   } else {
@@ -88,6 +89,7 @@ void grow_year(GrownPlant& plant, const GrownSite& site, std::uint16_t year) {
   }
   shed_branches(plant, site, year);
   grow_shoots(plant, site, year);
+  site.job.check();
   thicken(plant, grown);
 }
 

@@ -6,7 +6,8 @@
 namespace seedmesh::tree {
 namespace {
 
-constexpr std::size_t check_every = 1024;
+// A shoot may have many internodes, each with a shadow of many cells.
+constexpr std::size_t check_every = 1024, check_shoots_every = 16, check_shadows_every = 64;
 // Directions in which a bud samples the light: ahead, and rings at half the perception angle and at all of it.
 constexpr int samples_of_ring = 6;
 constexpr glm::dvec3 up{0, 1, 0};
@@ -158,7 +159,7 @@ std::uint64_t grow_shoots(GrownPlant& plant, const GrownSite& site, std::uint16_
   std::size_t kept = 0;
   std::uint64_t grown = 0;
   for (std::size_t i = 0; i < before; ++i) {
-    if (i % check_every == 0) site.job.check();
+    if (i % check_shoots_every == 0) site.job.check();
     GrownBud bud = plant.buds[i];
     const bool grows = bud.vigour >= 1;
     const bool taken_over = bud.ends_axis && bud.number > 1 && !is_bare(plant.nodes[bud.node], site.grown) &&
@@ -181,6 +182,7 @@ void shed_branches(GrownPlant& plant, const GrownSite& site, std::uint16_t year)
   Array<std::uint32_t> new_index(site.job, plant.nodes.size());
   std::uint32_t kept = 0;
   for (std::size_t i = 0; i < plant.nodes.size(); ++i) {
+    if (i % check_shadows_every == 0) site.job.check();
     GrownNode node = plant.nodes[i];
     new_index[i] = Limbs::none;
     bool stays = node.parent == Limbs::none;
