@@ -59,10 +59,10 @@ Size size_of(const Skeletons& tree) {
 }
 
 struct Band {
-  double low, high;
+  double low = 0, high = 0;
 };
 struct Measured {
-  const char* name;
+  const char* name = nullptr;
   Band crown_by_height, height_by_diameter, crown_by_diameter;
 };
 
