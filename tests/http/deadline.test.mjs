@@ -66,6 +66,7 @@ const hostile = {
   tree: [
     (random) => ({ model: 'weber_penn', Levels: 4, '1Branches': 500, '2Branches': Math.floor(500 * random()), '3Branches': Math.floor(500 * random()), Leaves: Math.floor(500 * random()) }),
     (random) => ({ model: 'proctree', mLevels: Math.floor(3 + 10 * random()), mSegments: 32 }),
+    (random) => ({ model: 'grown', mature_age: Math.floor(20 + 900 * random()), grown: { allocation: pick(random, ['borchert_honda', 'priority']), longest_shoot: 1 + Math.floor(9 * random()), shed: 0.3 * random(), light: { shade: 0.06 * random(), layers: 1 + Math.floor(19 * random()) } } }),
   ],
   fractal: [
     (random) => ({ method: 'mrcm', instructions: 'koch_snowflake', element: 'plate', stages: [1, 2, 3, Math.floor(5 + 5 * random())] }),

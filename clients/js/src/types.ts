@@ -1688,7 +1688,7 @@ export interface TreeParametersRoots {
 
 export type Seed = number | string;
 
-/** A part with a seed of its own does not change with the seed of the request. */
+/** A part with a seed of its own does not change with the seed of the request. In the model grown, parts compete for light and change each other. */
 export interface TreeParametersSeeds {
   /** Seed of the trunk and of the roots. */
   trunk?: Seed;
@@ -1902,10 +1902,126 @@ export interface TreeParametersSculpt {
   leaf_angle?: number;
 }
 
-/** A tree by one of four models: weber_penn (Weber and Penn, 1995), proctree (Paul Brunt, 2012), sculpt (Kruszewski, 1999) or ez_tree (Daniel Greenheck, 2024). Parameters of the first two models have their published names. */
+/** Shadow propagation: each internode darkens its cell and a pyramid of cells below it. */
+export interface TreeParametersGrownLight {
+  /** The width of a cell. If left out, the length of an internode. */
+  cell?: number;
+  /** The share of the light that an internode of the length `internode` removes from its own cell: a in the paper. */
+  shade?: number;
+  /** The divisor of the shade from layer to layer: b in the paper. */
+  falloff?: number;
+  /** The depth of a shadow in layers of cells. */
+  layers?: number;
+}
+
+/** One solid. */
+export interface TreeParametersGrownObstaclesItem {
+  /** A shape that fills its size. */
+  shape: "box" | "sphere" | "cylinder" | "cone";
+  /** The middle of the lower face of the box around the shape. */
+  position?: [number, number, number];
+  /** Width, height and depth of the shape. */
+  size?: [number, number, number];
+}
+
+/** One tree. */
+export interface TreeParametersGrownNeighboursItem {
+  /** X and Z of its foot. */
+  position: [number, number];
+}
+
+/** How axes of one level grow. */
+export interface TreeParametersGrownLevelItem {
+  /** Angle between the side shoots of such an axis and the axis. */
+  angle?: number;
+  /** Largest random difference of the angle to either side. */
+  angle_spread?: number;
+  /** Number of side buds at each internode's end: 1 alternate, 2 opposite, more for a whorl. */
+  buds?: number;
+  /** Number of side buds at the end of the shoot of a year, instead of `buds`. 0: as at the other internodes. */
+  whorl?: number;
+  /** Angle about the axis from the buds of one internode to those of the next. For opposite buds, 90 is usual. */
+  phyllotaxis?: number;
+  /** Largest random difference of the position of a bud about the axis, to either side. */
+  phyllotaxis_spread?: number;
+  /** Weight of the direction of the most light against the direction in which the axis grows: ξ in the paper. */
+  light?: number;
+  /** Weight of the direction up, or down if negative, against the direction in which the axis grows: η in the paper. */
+  tropism?: number;
+  /** Share of its slope that an axis loses with each internode, so that it becomes horizontal. */
+  level_out?: number;
+  /** Largest random angle between an internode and the one before it. */
+  wander?: number;
+  /** Length of internodes as a share of `internode`. */
+  length?: number;
+}
+
+/** Parameters of the model grown: buds compete for light year by year, after Palubicki and others, Self-organizing tree models for image synthesis, SIGGRAPH 2009. The tree has mature_age years, or `age` years if it is younger. */
+export interface TreeParametersGrown {
+  /** Length of an internode that grows with a vigour of 1, the unit of the model. Cells of the light have this size unless `cell` is given. */
+  internode?: number;
+  /** Vigour of the tree in a year for each bud in full light. 1 is what an internode needs. */
+  alpha?: number;
+  /** Largest number of internodes that a bud grows in a year. */
+  longest_shoot?: number;
+  /** How vigour is divided among branches. borchert_honda: at each fork by the light of both sides and `lambda`. priority: along each axis by rank of the mean light, which gives strong leaders. */
+  allocation?: "borchert_honda" | "priority";
+  /** Apical control of a young tree: the weight of the axis that continues against its side branches. Below 0.5 side branches are favoured: bushes 0.46, trees with a trunk 0.56. */
+  lambda?: number;
+  /** Apical control from the second year of `lambda_years` on. */
+  lambda_old?: number;
+  /** Apical control falls, or rises, from `lambda` to `lambda_old` between these two years. */
+  lambda_years?: [number, number];
+  /** Weight of the branches of the lowest rank against the branch of the first rank: w_min by w_max in the paper. */
+  priority_least?: number;
+  /** Share of the branches of an axis along which weights fall to the least: κ in the paper. */
+  priority_share?: number;
+  /** Shadow propagation: each internode darkens its cell and a pyramid of cells below it. */
+  light?: TreeParametersGrownLight;
+  /** Distance at which a bud samples the light to find its direction, in internodes. */
+  perception_distance?: number;
+  /** Angle between the direction of a bud and the outermost samples of the light. */
+  perception_angle?: number;
+  /** Years after which a bud that does not grow dies. */
+  bud_years?: number;
+  /** Probability that the bud at the end of an axis dies in a year, so that a side shoot takes over. */
+  takeover?: number;
+  /** Number of levels of branching, including the trunk. Axes of the last level have no side buds. */
+  levels?: number;
+  /** A branch is shed when its vigour divided by the number of its internodes that are younger than `shed_years` is smaller. 0: only branches without any light are shed. */
+  shed?: number;
+  /** Age at which a branch can be shed. Internodes of this age no longer count for the threshold. */
+  shed_years?: number;
+  /** Exponent n of the pipe model: the nth power of the radius below a fork is the sum of those above it. Wood of shed branches stays. 2 keeps the cross-section. */
+  radius_exponent?: number;
+  /** Radius of the youngest wood. */
+  tip_radius?: number;
+  /** Least height of branches above the ground. The trunk has no side buds below it, and shoots that come lower end. */
+  clearance?: number;
+  /** Number of leaves, or of twigs with leaves, at each internode that bears them. */
+  leaves?: number;
+  /** Age of the wood that bears leaves. 1: shoots of the last year alone. */
+  leaf_years?: number;
+  /** Length of a leaf. */
+  leaf_length?: number;
+  /** Width of a leaf as a share of its length. */
+  leaf_width?: number;
+  /** Angle between a leaf and its shoot. */
+  leaf_angle?: number;
+  /** Share of the turn of leaves to the light, with their upper side out of the crown. */
+  leaf_bend?: number;
+  /** Solids that shoots grow around, and that cast shade. They are not part of the model. */
+  obstacles?: TreeParametersGrownObstaclesItem[];
+  /** Trees of the same parameters and other seeds that grow beside this one and compete with it for light. They are not part of the model. */
+  neighbours?: TreeParametersGrownNeighboursItem[];
+  /** Axes in order: the trunk, its branches, their branches. The last entry applies to all further levels. */
+  level?: TreeParametersGrownLevelItem[];
+}
+
+/** A tree by one of five models: weber_penn (Weber and Penn, 1995), proctree (Paul Brunt, 2012), sculpt (Kruszewski, 1999), ez_tree (Daniel Greenheck, 2024) or grown (Palubicki and others, 2009). Parameters of the first two models have their published names. */
 export interface TreeParameters {
   /** The algorithm that grows the tree. Parameters of the other models have no effect, and a warning reports each that is given. */
-  model?: "weber_penn" | "proctree" | "sculpt" | "ez_tree";
+  model?: "weber_penn" | "proctree" | "sculpt" | "ez_tree" | "grown";
   /** Number of corners of the cross-section of the thickest limb. Thinner limbs have fewer. The model proctree uses mSegments instead. */
   sides?: number;
   /** Joins all limbs into one surface. Limbs of similar thickness meet in a fork, thin limbs leave a thick one through a collar. If false, every limb is a closed tube that begins inside its parent, which needs fewer triangles. */
@@ -1918,7 +2034,7 @@ export interface TreeParameters {
   trunk_flare?: number;
   /** Roots that leave the foot of the trunk and run into the ground. They do not change the rest of the tree. */
   roots?: TreeParametersRoots;
-  /** A part with a seed of its own does not change with the seed of the request. */
+  /** A part with a seed of its own does not change with the seed of the request. In the model grown, parts compete for light and change each other. */
   seeds?: TreeParametersSeeds;
   /** Shape and appearance of the leaves. */
   leaf?: TreeParametersLeaf;
@@ -1934,7 +2050,7 @@ export interface TreeParameters {
   bark_emission?: Emission;
   /** Years since the seed sprouted. The shape changes continuously with the age. If left out or above mature_age, the tree is full-grown. */
   age?: number;
-  /** Years after which the tree has the size that its parameters describe. */
+  /** Years after which the tree has the size that its parameters describe. In the model grown, the years that it grows. */
   mature_age?: number;
   /** Season of the leaves. In winter only evergreen trees have leaves. The model also contains the other seasons with leaves as material variants (KHR_materials_variants). */
   season?: "spring" | "summer" | "autumn" | "winter";
@@ -2172,6 +2288,8 @@ export interface TreeParameters {
   ez_tree?: TreeParametersEzTree;
   /** Parameters of the model sculpt: limbs in whorls that fit into a bounding shape, after P. Kruszewski, An algorithm for sculpting trees, Computers and Graphics 23(5), 1999. The names are our own. */
   sculpt?: TreeParametersSculpt;
+  /** Parameters of the model grown: buds compete for light year by year, after Palubicki and others, Self-organizing tree models for image synthesis, SIGGRAPH 2009. The tree has mature_age years, or `age` years if it is younger. */
+  grown?: TreeParametersGrown;
 }
 
 /** The shape of the ground. */

@@ -122,6 +122,12 @@ void dim(Mesh& mesh, float factor) {
   for (glm::u8vec4& color : mesh.color) color = {dimmed(color.r), dimmed(color.g), dimmed(color.b), color.a};
 }
 
+/// Far leaves have fewer shadows of each other than gain_of() assumes. Measured with the presets.
+float of_shadows(const TreeLevels::Plan& plan) {
+  if (plan.leaves == LeafDetail::one_card) return 0.89F;
+  return plan.level >= 3 ? 0.96F : 1.0F;
+}
+
 struct CoarserLeaves {
   std::vector<Foliage> parts;
   /// Where single triangles replace both sides, the factor for their colours as gain_of(); else 0.
@@ -143,7 +149,7 @@ CoarserLeaves coarser(const Leaves& leaves, TreeLevels& levels, const TreeLevels
     part.mesh = outer_sides(part.mesh, leaf, *options.crown, job);
     const Mesh card = with_back(far_leaf(leaves.params, LeafDetail::triangle, plan.level, job), true);
     for (const Foliage& all : place(leaves.organs, card, options, job))
-      made.gain = gain_of(all.mesh, part.mesh, job);
+      made.gain = gain_of(all.mesh, part.mesh, job) * of_shadows(plan);
   }
   return made;
 }

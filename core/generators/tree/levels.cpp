@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/generators/tree/leaves.h"
+#include "core/generators/tree/materials.h"
 
 namespace seedmesh::tree {
 namespace {
@@ -18,8 +19,16 @@ constexpr std::array<double, most_levels> level_shares{1, 0.4, 0.15, 0.05, 0.03}
 constexpr std::array<double, most_levels> bark_shares{1, 0.3, 0.3, 0.2, 0.2};
 // A build of leaves is used if at least this share of them can remain. Otherwise leaves get fewer triangles.
 constexpr double fullest = 0.7;
+// The brightest linear colour of leaves that can become brighter by the factors of single triangles.
+constexpr float most_to_brighten = 0.65F;
 // The least share of the leaves that remains.
 constexpr double least_leaves = 0.2;
+
+/// Single triangles get a brighter colour in place of the light on backs, up to twice as bright. White has none.
+bool is_too_bright(const TreeParams& params) {
+  const glm::vec3 color = color_of_leaves(params);
+  return std::max({color.x, color.y, color.z}) > most_to_brighten;
+}
 
 }  // namespace
 
@@ -35,6 +44,7 @@ TreeLevels::TreeLevels(const Skeleton& skeleton, const TreeParams& params, const
   if (has_far_leaves_) {
     for (const LeafDetail detail :
          {LeafDetail::square, LeafDetail::triangle, LeafDetail::single, LeafDetail::one_card}) {
+      if (is_single(detail) && sides == 2 && is_too_bright(params)) break;
       const std::uint64_t triangles =
           far_leaf(params, detail, 1, job).elements() * (is_single(detail) ? 1 : sides);
       if (triangles < (builds_.empty() ? of_leaf_ + 1 : builds_.back().triangles))

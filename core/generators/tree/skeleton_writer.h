@@ -80,6 +80,9 @@ class SkeletonWriter {
     end_leaves_ = leaves;
   }
 
+  /// May the attempt be abandoned?
+  bool may_abandon() const { return end_joints_ != ~std::size_t{0}; }
+
   /// Limbs that begin thinner, and everything that grows from them, need not be written, because no part of
   /// the output needs them. The caller calls pass_over() for their joints, and finish() at the end.
   void leave_out_below(double radius) { least_radius_ = static_cast<float>(radius); }

@@ -7,6 +7,7 @@
 #include "core/generators/tree/build_model.h"
 #include "core/generators/tree/estimate.h"
 #include "core/generators/tree/ez_tree.h"
+#include "core/generators/tree/grown.h"
 #include "core/generators/tree/materials.h"
 #include "core/generators/tree/proctree.h"
 #include "core/generators/tree/range.h"
@@ -46,7 +47,8 @@ struct Wanted {
 Wanted wanted_for_model(const TreeParams& params, const GenerateContext& context) {
   const Demand& demand = context.demand;
   const RangeShares shares = shares_at(params);
-  const bool is_plain = demand.lods < 2 && !demand.wind && !demand.growth && !params.age &&
+  const bool is_young = params.age && params.model != TreeModel::grown;
+  const bool is_plain = demand.lods < 2 && !demand.wind && !demand.growth && !is_young &&
                         demand.collision == CollisionNames::none && shares.branches >= 1 && shares.twigs >= 1;
   Wanted wanted;
   wanted.density = drawn_leaves(params);
@@ -76,8 +78,12 @@ Skeleton grow(const TreeParams& params, const Wanted& wanted, const GenerateCont
     case TreeModel::ez_tree:
       grow_ez_tree(params, random, job.seed(), writer);
       break;
+    case TreeModel::grown:
+      grow_grown(params, random, writer);
+      break;
   }
-  if (params.age) make_young(skeleton, *params.age / params.mature_age, job);
+  const bool has_own_age = params.model == TreeModel::grown;
+  if (params.age && !has_own_age) make_young(skeleton, *params.age / params.mature_age, job);
   // Roots have the size that fits the trunk at this age.
   grow_roots(params.roots, writer.radius(0) / foot_flare(params), random, writer);
   writer.finish();
@@ -109,6 +115,16 @@ std::vector<LevelFigures> figures_of(const Limbs& limbs) {
   return levels;
 }
 
+/// Warns of the entries of the list of levels of a model that have no effect.
+void warn_of_levels(const std::string& model, int levels, std::size_t given, std::vector<Warning>& warnings) {
+  for (std::size_t i = static_cast<std::size_t>(levels); i < given; ++i) {
+    warnings.push_back(
+        {"/" + model + "/level/" + std::to_string(i),
+         "This level has no effect unless `" + model + ".levels` is greater than " + std::to_string(i) + ".",
+         0, 0});
+  }
+}
+
 Json vector(const glm::vec3& v) { return Json::array({v.x + 0.0F, v.y + 0.0F, v.z + 0.0F}); }
 
 }  // namespace
@@ -126,13 +142,10 @@ std::vector<Issue> check(const TreeParams& params, const Limits&) {
 std::vector<Warning> warnings_of(const TreeParams& params) {
   std::vector<Warning> warnings = warnings_of(unused_parameters(params));
   // How many entries of the list are used is more than x-applies-when can say.
-  if (params.model != TreeModel::sculpt) return warnings;
-  const auto used = static_cast<std::size_t>(params.sculpt.levels);
-  for (std::size_t i = used; i < params.sculpt.level.size(); ++i) {
-    warnings.push_back(
-        {"/sculpt/level/" + std::to_string(i),
-         "This level has no effect unless `sculpt.levels` is greater than " + std::to_string(i) + ".", 0, 0});
-  }
+  if (params.model == TreeModel::sculpt)
+    warn_of_levels("sculpt", params.sculpt.levels, params.sculpt.level.size(), warnings);
+  if (params.model == TreeModel::grown)
+    warn_of_levels("grown", params.grown.levels, params.grown.level.size(), warnings);
   return warnings;
 }
 

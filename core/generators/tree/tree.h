@@ -1,5 +1,5 @@
 #pragma once
-/// Trees by three parametric models: weber_penn, proctree and sculpt.
+/// Trees by five models: weber_penn, proctree, sculpt, ez_tree and grown.
 ///
 ///   params -> Skeleton (limbs and leaves) -> build_model() -> bark: one closed mesh, and leaves: one mesh
 ///

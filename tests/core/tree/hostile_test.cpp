@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
@@ -49,7 +50,8 @@ Json drawn(const Json& schema, Rng rng) {
   if (type == "object") return drawn_object(schema, rng);
   if (type == "array") {
     Json list = Json::array();
-    const std::uint32_t count = rng.below(4);
+    const auto least = schema.value("minItems", 0U), most = std::min(schema.value("maxItems", 3U), least + 3);
+    const std::uint32_t count = least + rng.below(most - least + 1);
     for (std::uint32_t i = 0; i < count; ++i) list.push_back(drawn(schema["items"], rng.at(i)));
     return list;
   }
@@ -81,7 +83,10 @@ int outcome(const Json& json, std::uint64_t seed) {
       // Several trunks without any distance start at one point.
       const bool trunks_meet =
           json.value("0Branches", 1) > 1 && fault.find("duplicate vertices") != std::string::npos;
-      EXPECT_TRUE(is_of_leaves || is_about_order || trunks_meet)
+      // A leaf that is rolled up has corners whose faces look in opposite directions.
+      const double droop = json.value("leaf", Json::object()).value("droop", 0.0);
+      const bool is_rolled_up = std::abs(droop) > 150 && fault.find("turned against") != std::string::npos;
+      EXPECT_TRUE(is_of_leaves || is_about_order || trunks_meet || is_rolled_up)
           << fault << " of seed " << seed << ": " << json.dump();
     }
     return 1;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/generators/tree/ez_tree.h"
+#include "core/generators/tree/grown.h"
 #include "core/generators/tree/proctree.h"
 #include "core/generators/tree/sculpt.h"
 #include "core/generators/tree/weber_penn.h"
@@ -21,6 +22,7 @@ inline Skeleton skeleton_of(const TreeParams& params, std::uint64_t seed, Job& j
   if (params.model == TreeModel::proctree) grow_proctree(params, random, writer);
   if (params.model == TreeModel::sculpt) grow_sculpt(params, random, writer);
   if (params.model == TreeModel::ez_tree) grow_ez_tree(params, random, seed, writer);
+  if (params.model == TreeModel::grown) grow_grown(params, random, writer);
   writer.finish();
   return skeleton;
 }

@@ -36,7 +36,8 @@ TreeParams of(TreeModel model) {
 }
 
 TEST(UnusedParameters, AreNoneOfTheDefaults) {
-  for (const TreeModel model : {TreeModel::weber_penn, TreeModel::proctree, TreeModel::sculpt})
+  for (const TreeModel model :
+       {TreeModel::weber_penn, TreeModel::proctree, TreeModel::sculpt, TreeModel::grown})
     EXPECT_THAT(unused(of(model)), IsEmpty());
 }
 
@@ -52,7 +53,7 @@ TEST(UnusedParameters, OfOtherModelsAreReported) {
 TEST(UnusedParameters, AreTheMatureAgeOfATreeWithoutAge) {
   TreeParams params;
   params.mature_age = 60;
-  EXPECT_EQ(only_message(params), "`mature_age` has no effect unless `age` is given.");
+  EXPECT_EQ(only_message(params), "`mature_age` has no effect unless `age` is given or `model` is grown.");
   params.age = 4;
   EXPECT_THAT(unused(params), IsEmpty());
 }

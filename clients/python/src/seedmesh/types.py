@@ -1201,8 +1201,75 @@ class TreeParametersSculpt(TypedDict, total=False):
     leaf_angle: float
 
 
+class TreeParametersGrownLight(TypedDict, total=False):
+    cell: float
+    shade: float
+    falloff: float
+    layers: int
+
+
+class _TreeParametersGrownObstaclesItemRequired(TypedDict):
+    shape: Literal['box', 'sphere', 'cylinder', 'cone']
+
+
+class TreeParametersGrownObstaclesItem(_TreeParametersGrownObstaclesItemRequired, total=False):
+    position: List[float]
+    size: List[float]
+
+
+class TreeParametersGrownNeighboursItem(TypedDict):
+    position: List[float]
+
+
+class TreeParametersGrownLevelItem(TypedDict, total=False):
+    angle: float
+    angle_spread: float
+    buds: int
+    whorl: int
+    phyllotaxis: float
+    phyllotaxis_spread: float
+    light: float
+    tropism: float
+    level_out: float
+    wander: float
+    length: float
+
+
+TreeParametersGrown = TypedDict("TreeParametersGrown", {
+    'internode': float,
+    'alpha': float,
+    'longest_shoot': int,
+    'allocation': Literal['borchert_honda', 'priority'],
+    'lambda': float,
+    'lambda_old': float,
+    'lambda_years': List[float],
+    'priority_least': float,
+    'priority_share': float,
+    'light': "TreeParametersGrownLight",
+    'perception_distance': float,
+    'perception_angle': float,
+    'bud_years': int,
+    'takeover': float,
+    'levels': int,
+    'shed': float,
+    'shed_years': int,
+    'radius_exponent': float,
+    'tip_radius': float,
+    'clearance': float,
+    'leaves': int,
+    'leaf_years': int,
+    'leaf_length': float,
+    'leaf_width': float,
+    'leaf_angle': float,
+    'leaf_bend': float,
+    'obstacles': List["TreeParametersGrownObstaclesItem"],
+    'neighbours': List["TreeParametersGrownNeighboursItem"],
+    'level': List["TreeParametersGrownLevelItem"],
+}, total=False)
+
+
 TreeParameters = TypedDict("TreeParameters", {
-    'model': Literal['weber_penn', 'proctree', 'sculpt', 'ez_tree'],
+    'model': Literal['weber_penn', 'proctree', 'sculpt', 'ez_tree', 'grown'],
     'sides': int,
     'weld': bool,
     'twig_radius': float,
@@ -1337,6 +1404,7 @@ TreeParameters = TypedDict("TreeParameters", {
     'sequence': Literal['keyed', 'original'],
     'ez_tree': "TreeParametersEzTree",
     'sculpt': "TreeParametersSculpt",
+    'grown': "TreeParametersGrown",
 }, total=False)
 
 

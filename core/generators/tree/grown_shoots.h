@@ -1,0 +1,32 @@
+#pragma once
+/// What happens to buds and branches in a year of the model grown: buds sense the light, grow shoots and die, branches
+/// are shed, and wood thickens.
+#include "core/generators/tree/grown_plant.h"
+#include "core/geom/plant/shadow_grid.h"
+#include "core/geom/plant/surroundings.h"
+
+namespace seedmesh::tree {
+
+/// What a plant grows in. Borrowed.
+struct GrownSite {
+  const TreeGrown& grown;
+  const RandomStreams& random;
+  ShadowGrid& shadows;
+  const Surroundings* obstacles;  ///< null: none
+  Job& job;
+};
+
+/// Exposure of each bud to light, 0 .. 1: 1 - shade + the shade of its own internode.
+void sense_light(GrownPlant& plant, const GrownSite& site);
+
+/// Grows the shoot of each bud whose vigour is at least 1, and removes buds that die. Internodes of a shoot have the
+/// length vigour / number. Returns the number of internodes that grew.
+std::uint64_t grow_shoots(GrownPlant& plant, const GrownSite& site, std::uint16_t year);
+
+/// Removes branches whose vigour by internode is below the threshold, and wood without living buds.
+void shed_branches(GrownPlant& plant, const GrownSite& site, std::uint16_t year);
+
+/// Pipe model: the area of each internode is the sum of those it carries. It never becomes smaller.
+void thicken(GrownPlant& plant, const TreeGrown& grown);
+
+}  // namespace seedmesh::tree

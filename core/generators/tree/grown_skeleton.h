@@ -1,0 +1,19 @@
+#pragma once
+/// From the internodes of the model grown to the limbs and leaves that all models of a tree have.
+#include "core/generators/tree/grown_plant.h"
+
+namespace seedmesh::tree {
+
+/// The last year of a plant, and the share of it that has passed: 0 .. 1.
+struct GrownTime {
+  std::uint16_t year = 0;
+  double share = 1;
+};
+
+/// Writes the tree of number 0. At a node, the thickest internode continues the limb, and the others begin limbs. Limbs
+/// are smoothed as old wood is, and have joints where they bend or where limbs begin. Leaves are on wood of the last
+/// `leaf_years`.
+void write_grown(const GrownPlant& plant, const TreeParams& params, const GrownTime& time,
+                 const RandomStreams& random, SkeletonWriter& writer);
+
+}  // namespace seedmesh::tree

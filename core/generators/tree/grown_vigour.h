@@ -1,0 +1,24 @@
+#pragma once
+/// The flow of light to the foot of a tree and of vigour from there to its buds (Palubicki et al., 2009, section 4.2:
+/// the extended Borchert-Honda model and the priority model).
+#include "core/generators/tree/grown_plant.h"
+
+namespace seedmesh::tree {
+
+/// Sums the light of buds, and counts internodes, from the tips to the feet. Internodes that grew in the year
+/// `first_young` or later count as young.
+void gather_light(GrownPlant& plant, int first_young);
+
+/// Returns the apical control in a year.
+double lambda_in(const TreeGrown& grown, double year);
+
+/// Divides the vigour alpha * light of each tree among its branches and buds: at a node with light m of the axis and s
+/// of its side branches, the axis gets lambda m / (lambda m + (1 - lambda) s) of the vigour. Side branches share the
+/// rest by their light.
+void divide_by_lambda(GrownPlant& plant, double alpha, double lambda);
+
+/// Divides it along each axis, among its side branches, side buds and the bud at its end: in order of their mean light,
+/// weights fall linearly from 1 to `priority_least`. Each gets vigour in proportion to light times weight.
+void divide_by_priority(GrownPlant& plant, const TreeGrown& grown, Job& job);
+
+}  // namespace seedmesh::tree
