@@ -53,9 +53,10 @@ TerrainParams params_of(const TerrainParams& params, const TerrainLayer& layer, 
   own.shape = params.shape;
   own.size = params.size;
   own.tile = params.tile;
-  own.resolution = params.algorithm == TerrainAlgorithm::image ? side : made_side(params);
+  const int samples = params.algorithm == TerrainAlgorithm::image ? side : made_side(params);
+  own.resolution = samples;
   own.iterations = layer.iterations;
-  if (is_subdivision(layer.layer_algorithm) && !own.iterations) own.iterations = rounds_across(own.resolution);
+  if (is_subdivision(layer.layer_algorithm) && !own.iterations) own.iterations = rounds_across(samples);
   own.amplitude = layer.amplitude;
   own.hurst = layer.hurst;
   own.wavelength = layer.wavelength;
