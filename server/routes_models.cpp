@@ -228,7 +228,8 @@ http::Response post_generate(Call& call) {
 /// The program behind the last point of "token.proctree"; empty if there is none.
 static std::string_view saved_program_of(std::string_view text) {
   for (const std::string_view program : saved_programs) {
-    if (text.size() > program.size() && text.ends_with(program) && text[text.size() - program.size() - 1] == '.')
+    if (text.size() > program.size() && text.ends_with(program) &&
+        text[text.size() - program.size() - 1] == '.')
       return program;
   }
   return {};

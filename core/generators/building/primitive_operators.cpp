@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/base/math.h"
+#include "core/generators/building/containment.h"
 #include "core/generators/building/interpret.h"
 #include "core/generators/building/operator_arguments.h"
 #include "core/generators/building/operators.h"

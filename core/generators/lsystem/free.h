@@ -68,8 +68,8 @@ class FreeDerivation {
     }
     const std::span<const Production> candidates = rules_.candidates(kind);
     for (std::uint32_t now = step; now < steps_; ++now) {
-      const Production* production =
-          choose(grammar_, candidates, Draws(key, now), [&](const Production&) { return parameters; }, job_);
+      const Production* production = choose(
+          grammar_, candidates, Draws(key, now), [&](const Production&) { return parameters; }, job_);
       if (production) return write(production->successor, parameters, key, now + 1);
       // without random conditions, a failed match fails in every later step
       if (!rules_.redraws[kind]) break;

@@ -134,9 +134,9 @@ class Writer {
     const Rules& rules = grammar_.decomposition;
     const std::uint64_t stream = keyed_ ? key_at(module.key, 40 + module.depth) : 0;
     const Draws draws(stream, module.depth);
-    const Production* chosen =
-        choose(grammar_, rules.candidates(module.kind), draws,
-               [&](const Production& rule) { return prepare(rule, own.data(), draws); }, job_);
+    const Production* chosen = choose(
+        grammar_, rules.candidates(module.kind), draws,
+        [&](const Production& rule) { return prepare(rule, own.data(), draws); }, job_);
     if (!chosen) return false;
     if (chosen->weighted) prepare(*chosen, own.data(), draws);
     written_.clear();

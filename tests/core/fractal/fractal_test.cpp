@@ -62,7 +62,8 @@ TEST(Fractal, MeasuresTheKochCurveAndTheSnowflake) {
   EXPECT_NEAR(plate(1)["area"].get<double>(), triangle * 4 / 3, 1e-12);
   EXPECT_NEAR(plate(200)["area"].get<double>(), triangle * 8 / 5, 1e-12);
   EXPECT_NEAR(plate(3)["length"].get<double>(), 3 * side * std::pow(4.0 / 3, 3), 1e-12);
-  const Json outline = derived(R"({"instructions": "koch_snowflake", "element": "segment", "iterations": 3})");
+  const Json outline =
+      derived(R"({"instructions": "koch_snowflake", "element": "segment", "iterations": 3})");
   EXPECT_EQ(outline["area"], plate(3)["area"]);
   // The mesh of the plate has the same area: half of its faces that look along Z show one side.
   const Result<Model> model =
@@ -329,7 +330,8 @@ std::vector<std::string> unused(std::string_view json) {
 TEST(Probabilities, ThatDoNotSumToOneAreReportedOrRefused) {
   const auto request = [](const char* second, const char* weights) {
     return std::string(R"({"method": "frcm", "weights": ")") + weights +
-           R"(", "instructions": [{"scale": 0.5, "probability": 0.5}, {"scale": 0.4, "probability": )" + second + "}]}";
+           R"(", "instructions": [{"scale": 0.5, "probability": 0.5}, {"scale": 0.4, "probability": )" +
+           second + "}]}";
   };
   EXPECT_THAT(unused(request("0.5", "normalize")), IsEmpty());
   EXPECT_THAT(unused(request("0.4", "normalize")), testing::ElementsAre("/instructions"));

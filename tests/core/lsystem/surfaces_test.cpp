@@ -219,9 +219,10 @@ TEST(Levels, FallInTriangles) {
 /// Tunnel 2012, table 8. A tube of n sides and m stacks has 2 n m triangles, and 2 n at its two ends.
 TEST(Levels, HaveTheSlicesAndStacksOfTunnel) {
   // A cone and a cylinder.
-  for (const char* parameters :
-       {R"({"axiom":"F","width_rule":"longest_chain","tip_width":0.05,"sides":32,"stacks":6,"levels":"slices"})",
-        R"({"axiom":"F","sides":32,"stacks":6,"levels":"slices"})"}) {
+  for (
+      const char* parameters :
+      {R"({"axiom":"F","width_rule":"longest_chain","tip_width":0.05,"sides":32,"stacks":6,"levels":"slices"})",
+       R"({"axiom":"F","sides":32,"stacks":6,"levels":"slices"})"}) {
     const Model model = model_of(parameters, {.lods = 5});
     const Node& bark = *node_named(model, "bark");
     std::vector<std::size_t> triangles{first_mesh(model, bark).elements()};

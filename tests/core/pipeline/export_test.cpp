@@ -41,7 +41,8 @@ TEST(Export, WritesWhatProctreeSaved) {
 }
 
 // Listing 2.1 of Hutsko's thesis (2022).
-constexpr const char* thesis = R"({"mBranchFactor": 2.45, "mClimbRate": 0.37, "mClumpMax": 0.45, "mClumpMin": 0.40,
+constexpr const char* thesis =
+    R"({"mBranchFactor": 2.45, "mClimbRate": 0.37, "mClumpMax": 0.45, "mClumpMin": 0.40,
   "mDropAmount": -0.10, "mGrowAmount": 0.23, "mInitialBranchLength": 0.49, "mLengthFalloffFactor": 0.85,
   "mLengthFalloffPower": 0.99, "mLevels": 5, "mMaxRadius": 0.13, "mRadiusFalloffRate": 0.73, "mSeed": 262,
   "mSegments": 6, "mSweepAmount": 0.00, "mTaperRate": 0.94, "mTreeSteps": 5, "mTrunkKink": 0.09,
@@ -57,7 +58,8 @@ TEST(Export, WritesListing2_1) {
 }
 
 TEST(Export, ARequestWithASeedIsNoFileOfProctree) {
-  EXPECT_EQ(likely_import_format(R"({"generator": "tree", "seed": 5, "parameters": {"model": "proctree"}})"), "");
+  EXPECT_EQ(likely_import_format(R"({"generator": "tree", "seed": 5, "parameters": {"model": "proctree"}})"),
+            "");
   EXPECT_EQ(likely_import_format(R"({"preset": "proctree_0", "seed": 5})"), "");
   EXPECT_EQ(likely_import_format(R"({"seed": 5, "levels": 3})"), "proctree");
 }

@@ -65,7 +65,8 @@ TEST(HeightExpressions, HaveTheirErrorsAtTheColumn) {
   EXPECT_THAT(errors_of(expressed("2 * fbm(x, y, x)")),
               ElementsAre(HasSubstr("1:5 the last argument of `fbm`")));
   EXPECT_THAT(errors_of(expressed("noise(x, noise(y, q))")), ElementsAre(HasSubstr("1:19 ")));
-  EXPECT_THAT(errors_of(expressed("latitude")), ElementsAre(HasSubstr("1:1 unknown name `latitude`; only the shape sphere has it")));
+  EXPECT_THAT(errors_of(expressed("latitude")),
+              ElementsAre(HasSubstr("1:1 unknown name `latitude`; only the shape sphere has it")));
   EXPECT_THAT(errors_of(expressed("x y")), ElementsAre(HasSubstr("1:3 found `y`")));
   TerrainParams params;
   params.algorithm = TerrainAlgorithm::expression;
@@ -144,7 +145,7 @@ TEST(Layers, CanBeSubdivisions) {
     params.layers.resize(1);
     params.layers[0].layer_algorithm = algorithm;
     params.layers[0].amplitude = 10;
-    const std::vector<float> heights = values(made(params));
+    const std::vector<double> heights = values(made(params));
     const auto [low, high] = std::minmax_element(heights.begin(), heights.end());
     EXPECT_LT(*low, *high);
     EXPECT_LT(*high, 60);
@@ -157,8 +158,9 @@ TEST(Layers, CanBeSubdivisions) {
     for (int z = 0; z < 34; ++z) EXPECT_EQ(a.at(33, z), b.at(0, z));
     params.layers[0].iterations = 15;
     params.layers[0].fault_max = 1;
-    EXPECT_THAT(errors_of(params), ElementsAre(HasSubstr("/layers/0/fault_max"),
-                                               HasSubstr("/layers/0/iterations 0:0 found 15; expected at most 14")));
+    EXPECT_THAT(errors_of(params),
+                ElementsAre(HasSubstr("/layers/0/fault_max"),
+                            HasSubstr("/layers/0/iterations 0:0 found 15; expected at most 14")));
     params = expressed("0");
     params.shape = TerrainShape::sphere;
     params.layers.resize(1);
