@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cctype>
 #include <cmath>
 #include <memory>
 #include <utility>
@@ -75,24 +76,29 @@ std::unique_ptr<HeightExpression> checked(const TerrainParams& params, const std
   return compiled(params, text, layers_before, is_layer, none);
 }
 
-/// Where a name exists that the expression cannot use.
-std::string hint_of(const TerrainParams& params, const std::string& message) {
-  const auto is_unknown = [&](const char* name) {
-    return message.starts_with("unknown name `" + std::string(name) + "`");
+/// Where a name exists that the expression cannot use; `behind` begins with an unknown name.
+const char* hint_of(const TerrainParams& params, std::string_view behind) {
+  const auto is_name = [&](std::string_view name) {
+    if (!behind.starts_with(name)) return false;
+    const char next = behind.size() > name.size() ? behind[name.size()] : ' ';
+    return next != '_' && next != '(' && (std::isalnum(static_cast<unsigned char>(next)) == 0);
   };
   const bool is_plane = params.shape != TerrainShape::sphere;
-  if (is_plane && (is_unknown("latitude") || is_unknown("longitude") || is_unknown("z")))
+  if (is_plane && (is_name("latitude") || is_name("longitude") || is_name("z")))
     return "; only the shape sphere has it";
-  if (!is_plane && is_unknown("slope")) return "; a sphere has no slope";
-  if (is_unknown("height") || is_unknown("slope")) return "; only the expressions of layers have it";
-  return {};
+  if (!is_plane && is_name("slope")) return "; a sphere has no slope";
+  if (is_name("height") || is_name("slope")) return "; only the expressions of layers have it";
+  return "";
 }
 
 void check_text(const TerrainParams& params, const std::string& text, const std::string& pointer,
                 std::size_t layer, bool is_layer, std::vector<Issue>& issues) {
   std::vector<lang::TextError> errors;
   compiled(params, text, layer, is_layer, errors);
-  for (lang::TextError& error : errors) error.message += hint_of(params, error.message);
+  for (lang::TextError& error : errors) {
+    if (error.kind == IssueKind::unknown_name)
+      error.message += hint_of(params, std::string_view(text).substr(error.offset));
+  }
   lang::add_issues(pointer, text, errors, issues);
 }
 
