@@ -45,7 +45,8 @@ inline double weight_of(const Grammar& grammar, const Production& production, co
 
 /// Returns the one of `candidates` that rewrites a module, or null. `match(production)` returns
 /// the slots of the production, or null where its contexts do not match. The first matching production
-/// without a weight wins. Otherwise one random number chooses among all matching productions with weights. Stop:
+/// without a weight wins. Otherwise one random number chooses among all matching productions with weights; those without a context only
+/// count if none with a context matches, unless the order of the list decides. Stop:
 /// their sum is not 1, where it has to be.
 /// Cost: linear in `candidates`.
 template <class Match>
@@ -54,6 +55,10 @@ const Production* choose(const Grammar& grammar, std::span<const Production> can
   const Production* last = nullptr;
   double total = 0;
   for (const Production& each : candidates) {
+    if (last && grammar.contexts_first && last->has_context() && !each.has_context()) {
+      candidates = candidates.first(static_cast<std::size_t>(&each - candidates.data()));
+      break;
+    }
     const double* slots = match(each);
     if (!slots || !holds(grammar, each, slots, draws)) continue;
     if (!each.weighted) {

@@ -143,6 +143,7 @@ struct Grammar {
   bool backward = false;          ///< words are written from right to left, for new right contexts
   bool statements = false;        ///< true where a production has statements
   bool strict = false;            ///< true where a production has a predecessor of several modules
+  bool contexts_first = true;     ///< productions with a context come before those without
   bool weights_sum_to_1 = false;  ///< another sum of the weights that match a module is an error
   KindId open = 0, close = 0, cut = 0;  ///< kinds of [ ] %
   bool cuts = false;                    ///< true where % occurs
