@@ -377,10 +377,11 @@ std::vector<Issue> check_instructions(const FractalParams& params) {
   if (issues.empty() && by_chance && !(sum > 0))
     issues.push_back({IssueKind::invalid_value, "/instructions", "found probabilities that are all 0"});
   const std::optional<double> odd = issues.empty() ? odd_sum_of_weights(params) : std::nullopt;
-  if (odd && params.weights == FractalWeights::strict)
+  if (odd && params.weights == FractalWeights::strict) {
     issues.push_back({IssueKind::invalid_value, "/instructions",
                       "the probabilities of the maps sum to " + number_text(std::round(*odd * 1e9) / 1e9) +
                           ", expected 1 because `weights` is strict"});
+  }
   return issues;
 }
 

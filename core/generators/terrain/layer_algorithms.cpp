@@ -78,9 +78,10 @@ void check_layer_algorithm(const TerrainParams& params, std::size_t index, std::
              is_fault = source == Source::fault_formation || source == Source::poisson_faulting;
   const std::string own = "/layers/" + std::to_string(index) + "/";
   const auto belongs = [&](bool is_given, bool is_owner, const char* name, const char* owners) {
-    if (is_given && !is_owner)
+    if (is_given && !is_owner) {
       issues.push_back({IssueKind::conflict, own + name,
                         std::string("this algorithm has no ") + name + "; only " + owners + " have it"});
+    }
   };
   belongs(layer.expression.has_value(), is_text, "expression", "layers of the algorithm expression");
   belongs(layer.iterations.has_value(), !is_text, "iterations", "faults, fbm and subdivisions");
@@ -91,14 +92,16 @@ void check_layer_algorithm(const TerrainParams& params, std::size_t index, std::
   belongs(layer.fault_max.has_value(), is_fault, "fault_max", "faults");
   belongs(layer.fault_min.has_value(), is_fault, "fault_min", "faults");
   if (!is_divided) return;
-  if (params.shape == TerrainShape::sphere)
+  if (params.shape == TerrainShape::sphere) {
     issues.push_back({IssueKind::not_available, own + "algorithm",
                       "a sphere has no subdivision; expected expression, fault_formation, poisson_faulting "
                       "or fbm"});
-  if (layer.iterations.value_or(1) > most_rounds)
+  }
+  if (layer.iterations && *layer.iterations > most_rounds) {
     issues.push_back({IssueKind::out_of_range, own + "iterations",
                       "found " + std::to_string(*layer.iterations) + "; expected at most " +
                           std::to_string(most_rounds) + " rounds of subdivision"});
+  }
 }
 
 Field layer_field(const TerrainParams& params, const TerrainLayer& layer, const Window& window,

@@ -321,9 +321,10 @@ void combine_layers(Ground ground, Array<float>& height, const Make& make) {
 void check_layer(const TerrainParams& params, std::size_t index, std::vector<Issue>& issues) {
   const TerrainLayer& layer = params.layers[index];
   const bool is_text = layer.layer_algorithm == Source::expression;
-  if (is_text && !layer.expression)
+  if (is_text && !layer.expression) {
     issues.push_back({IssueKind::missing, "/layers/" + std::to_string(index),
                       "\"expression\" is missing; the algorithm expression takes its heights from it"});
+  }
   check_layer_algorithm(params, index, issues);
   if (layer.expression && is_text)
     check_text(params, *layer.expression, pointer_of(index, "expression"), index, true, issues);
