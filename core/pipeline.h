@@ -130,7 +130,7 @@ struct ImportFormatInfo {
 std::vector<ImportFormatInfo> import_format_list();
 
 /// A request as a file of another program, with warnings about what such a file cannot hold. `format`:
-/// "proctree".
+/// "proctree", with the names of listing 2.1 of Hutsko's thesis, or "proctree_js", with those of proctree.js.
 struct ExportedFile {
   std::string text;
   std::vector<Warning> warnings;  ///< with pointers into the request

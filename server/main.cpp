@@ -140,8 +140,9 @@ void add_commands(CLI::App& app, Arguments& arguments, Texts& texts) {
                         "The system to import from a file with several.");
   importing->add_option("-w,--with", arguments.files.with,
                         "A file beside it, such as a view file of cpfg; may be repeated.");
-  importing->add_option("-t,--to", arguments.files.to,
-                        "Write a file of this program instead: proctree. The file can then be a request.");
+  importing->add_option(
+      "-t,--to", arguments.files.to,
+      "Write a file of this program instead: proctree or proctree_js. The file can then be a request.");
   importing->add_option("-o,--out", arguments.files.out, "File for the result; - means standard output.");
   command("presets", "List the presets, or print the request of one.")
       ->add_option("name", arguments.preset, "The preset to print.");

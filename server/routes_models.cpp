@@ -15,7 +15,8 @@ namespace {
 
 constexpr std::size_t longest_location = 2'048;
 constexpr std::uint64_t largest_token_text = 1U << 20U;  ///< bytes of a decompressed token
-constexpr std::string_view proctree_end = ".proctree";
+// "token.proctree.json" is the request as a file of this program.
+constexpr std::string_view saved_programs[] = {"proctree", "proctree_js"};
 
 std::string milliseconds(std::string_view name, double duration) {
   char text[96];
@@ -224,14 +225,36 @@ http::Response post_generate(Call& call) {
   return model_answer(call, wanted, Caching::revalidate);
 }
 
+/// The program behind the last point of "token.proctree"; empty if there is none.
+static std::string_view saved_program_of(std::string_view text) {
+  for (const std::string_view program : saved_programs) {
+    if (text.size() > program.size() && text.ends_with(program) &&
+        text[text.size() - program.size() - 1] == '.')
+      return program;
+  }
+  return {};
+}
+
+/// The request as a file of another program.
+static http::Response saved_file(Call& call, const Request& request, std::string_view program,
+                                 Caching caching) {
+  Job::Options options;
+  options.limits = call.service.config.limits;
+  Result<ExportedFile> file = export_request(request, program, options);
+  if (!file) return refuse(call, problem_of(file.error()));
+  http::Response response =
+      json_answer(call, std::move(file->text), "application/json", cache_control(call, caching));
+  response.set("Seedmesh-Warnings", std::to_string(file->warnings.size()));
+  return response;
+}
+
 http::Response get_model(Call& call) {
   if (!call.query().empty() && !call.name.ends_with(".webp"))
     return refuse(call,
                   problem_of({Code::invalid, {{IssueKind::unknown_key, "", "A permalink has no query."}}}));
   auto [text, extension] = split_extension(call.name);
-  // "token.proctree.json" is the request as a file of proctree.
-  const bool for_proctree = extension == "json" && text.ends_with(proctree_end);
-  if (for_proctree) text.resize(text.size() - proctree_end.size());
+  const std::string_view program = extension == "json" ? saved_program_of(text) : std::string_view();
+  if (!program.empty()) text.resize(text.size() - program.size() - 1);
   const std::string target(call.target());
   if (auto remembered = call.service.targets.find(target))
     return model_answer(call, *remembered, Caching::immutable);
@@ -245,17 +268,11 @@ http::Response get_model(Call& call) {
   if (auto* refusal = std::get_if<http::Response>(&read)) return std::move(*refusal);
   const auto request = std::make_optional(std::get<Request>(std::move(read)));
   if (token->engine && *token->engine != engine_version())
-    return redirect_to_own(call, *request, for_proctree ? "proctree.json" : extension);
+    return redirect_to_own(call, *request, program.empty() ? extension : std::string(program) + ".json");
   // Without an engine version, a later version may answer with other bytes.
   const Caching caching = token->engine ? Caching::immutable : Caching::revalidate;
   if (extension == picture_extension) return picture_of_permalink(call, *request, caching);
-  if (for_proctree) {
-    Job::Options options;
-    options.limits = call.service.config.limits;
-    Result<ExportedFile> file = export_request(*request, "proctree", options);
-    if (!file) return refuse(call, problem_of(file.error()));
-    return json_answer(call, std::move(file->text), "application/json", cache_control(call, caching));
-  }
+  if (!program.empty()) return saved_file(call, *request, program, caching);
   if (extension == "json") {
     http::Response response =
         json_answer(call, request->canonical(), "application/json", cache_control(call, caching));

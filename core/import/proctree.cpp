@@ -9,6 +9,7 @@
 #include "core/generators/tree/tree.h"
 #include "core/import/foreign_text.h"
 #include "core/import/formats.h"
+#include "core/import/proctree_file.h"
 #include "core/schema/color.h"
 #include "core/schema/nearest.h"
 #include "generated/params/tree.h"
@@ -50,20 +51,12 @@ constexpr std::array<std::string_view, 2> colors = {"treeColor", "twigColor"};
 // The state of the random sequence, which proctree.js sets to the seed.
 constexpr std::string_view state = "rseed";
 
-/// "levels" for "mLevels". proctree.js misspells one of them.
-std::string name_in_js(std::string_view parameter) {
-  if (parameter == "mInitialBranchLength") return "initalBranchLength";
-  std::string name(parameter.substr(1));
-  if (name[0] >= 'A' && name[0] <= 'Z') name[0] = static_cast<char>(name[0] - 'A' + 'a');
-  return name;
-}
-
 /// The names of the schema by all names in files.
 std::map<std::string, std::string_view, std::less<>> known_names() {
   std::map<std::string, std::string_view, std::less<>> names;
   for (const Parameter& parameter : parameters) {
     names.emplace(parameter.name, parameter.name);
-    names.emplace(name_in_js(parameter.name), parameter.name);
+    names.emplace(proctree_js_name(parameter.name), parameter.name);
   }
   names.emplace("initialBranchLength", "mInitialBranchLength");
   return names;
@@ -100,6 +93,7 @@ int marks_of_proctree(std::string_view text) {
   if (text.size() > largest_tree_file) return 0;
   const Result<Json> file = parse_json(text);
   if (!file || !file->is_object()) return 0;
+  if (file->contains("generator") || file->contains("preset")) return 0;  // a request, which can have a seed
   const auto names = known_names();
   int marks = 0;
   for (const auto& [name, value] : file->items()) marks += names.count(name) != 0 ? 2 : 0;

@@ -7,11 +7,11 @@ namespace seedmesh {
 
 Result<ExportedFile> export_request(const Request& request, std::string_view format,
                                     const Job::Options& options) {
-  if (format != "proctree") {
-    return Error{
-        Code::invalid,
-        {{IssueKind::unknown_name, "/to",
-          "found `" + shortened(std::string(format), 40) + "`; requests can be saved for proctree"}}};
+  if (format != "proctree" && format != "proctree_js") {
+    return Error{Code::invalid,
+                 {{IssueKind::unknown_name, "/to",
+                   "found `" + shortened(std::string(format), 40) +
+                       "`; requests can be saved for proctree and proctree_js"}}};
   }
   const Json whole = Json::parse(request.canonical());
   const Json parameters = whole.value("parameters", Json::object());
@@ -22,7 +22,8 @@ Result<ExportedFile> export_request(const Request& request, std::string_view for
   }
   IssueList issues;
   const TreeParams params = read_tree(parameters, "", issues);
-  ExportedFile file{proctree_file(params), {}};
+  const auto names = format == "proctree" ? ProctreeNames::translation : ProctreeNames::original;
+  ExportedFile file{proctree_file(params, names), {}};
   const Result<ImportedRequest> again = import_request({"proctree", "", file.text}, options);
   if (!again) return again.error();
   const Json kept = Json::parse(again->request.canonical()).value("parameters", Json::object());

@@ -1,4 +1,4 @@
-// Single parts of a model: a shape of a building, a plant of a scene, a texture, the light; and files of proctree.js.
+// Single parts of a model: a shape of a building, a plant of a scene, a texture, the light; and files of proctree.
 import assert from 'node:assert/strict';
 import fs from 'node:fs';
 import { after, before, test } from 'node:test';
@@ -136,7 +136,7 @@ test('fog and coloured light change the view and not the request', { timeout: 30
   assert.deepEqual(await parameters_of(page), before);
 });
 
-test('a tree of the model proctree is saved as a file of proctree.js', { timeout: 300_000 }, async () => {
+test('a tree of the model proctree is saved as a file of proctree', { timeout: 300_000 }, async () => {
   const page = await open(browser, at({ generator: 'tree', seed: 1, parameters: { model: 'proctree', mSeed: 262, mLevels: 3 } }));
   await page.click('#hint-away');
   await page.click('#download-menu > summary');
@@ -144,7 +144,7 @@ test('a tree of the model proctree is saved as a file of proctree.js', { timeout
   assert.match(download.suggestedFilename(), /\.proctree\.json$/);
   const saved = JSON.parse(fs.readFileSync(await download.path(), 'utf8'));
   assert.equal(Object.keys(saved).length, 22);
-  assert.equal(saved.levels, 3);
+  assert.equal(saved.mLevels, 3);
 });
 
 test('a bark is chosen by its picture', { timeout: 300_000 }, async () => {

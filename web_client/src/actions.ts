@@ -89,7 +89,7 @@ function save(file: Blob, name: string): void {
   setTimeout(() => URL.revokeObjectURL(address), 60_000);
 }
 
-/** Saves a tree of the model proctree as a file of proctree.js. */
+/** Saves a tree of the model proctree as a file of proctree. */
 export async function save_proctree(request: Request, context: Context): Promise<void> {
   context.fail('');
   const name = `${context.name()}.proctree.json`;

@@ -860,6 +860,8 @@ export interface FractalParameters {
   emission?: Emission;
   /** Colours of the maps (frcm), repeated if there are more maps. For escape, colours from early to late escape. */
   palette?: string[];
+  /** normalize: probabilities of maps that do not sum to 1 count as shares of their sum, with a warning. strict: they are an error. */
+  weights?: "normalize" | "strict";
   /** Number of points. */
   points?: number;
   /** Where the first point lies: at random on the surface of the element, or on its line; or at random in the unit cube. */
@@ -1122,7 +1124,7 @@ export interface LsystemParameters {
   style?: "tubes" | "lines";
   /** The number of sides of a tube around its axis. */
   sides?: number;
-  /** The number of rings of faces of a segment along its axis if its width changes; a segment with constant width has one. */
+  /** The number of rings of faces of a segment along its axis if its width changes. A segment with constant width has one, unless the parameter levels is slices. */
   stacks?: number;
   /** How the diameter changes between segments. linear: along each segment, from the diameter of the one before it to its own. none: each segment is a cylinder of its own diameter, as gluCylinder draws it with two equal radii. A new tube begins where the diameter changes. */
   taper?: "linear" | "none";
@@ -1444,18 +1446,18 @@ export interface TerrainParametersLayersItem {
   /** A name by which expressions of later layers use the heights of this one. */
   name?: string;
   /** Where the heights of the layer come from. */
-  algorithm?: "expression" | "fault_formation" | "poisson_faulting" | "fbm";
+  algorithm?: "expression" | "fault_formation" | "poisson_faulting" | "fbm" | "triangular_edge" | "diamond_square" | "square_square";
   /** As that of the terrain. It can also use height and slope, the height in metres and the slope in degrees so far, and the names of earlier layers. A sphere has no slope. */
   expression?: string;
   /** The operation on the height so far and that of the layer. replace takes the layer. none only gives it a name. */
   combine?: "add" | "subtract" | "multiply" | "max" | "min" | "replace" | "none";
   /** Where the layer has an effect: an expression from 0 (nowhere) to 1, with the same names, such as slope < 30, or height / 100. */
   mask?: string;
-  /** The number of faults, or the octaves of noise. Default: 64 faults, 8 octaves. */
+  /** The number of faults, the octaves of noise, or the rounds of subdivision, which begins with squares of 2^iterations cells. Default: 64 faults, 8 octaves, or the rounds whose first square covers the terrain. */
   iterations?: number;
-  /** As that of the terrain, for fbm. */
+  /** As that of the terrain, for fbm and subdivisions. */
   amplitude?: number;
-  /** As that of the terrain, for fbm. */
+  /** As that of the terrain, for fbm and subdivisions. */
   hurst?: number;
   /** As that of the terrain, for fbm. */
   noise?: "rolling" | "ridged" | "billow";

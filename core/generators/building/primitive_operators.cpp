@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/base/math.h"
+#include "core/generators/building/containment.h"
 #include "core/generators/building/interpret.h"
 #include "core/generators/building/operator_arguments.h"
 #include "core/generators/building/operators.h"
@@ -229,6 +230,7 @@ void insert_along_uv(Derivation& d, const Step& step, ShapeState& state, const S
       copy.origin = origin + along_u * column + along_v * (row + 1);
       if (glm::dot(y, normal) * height < 0) copy.origin += y * -std::abs(height);
       insert_named_geometry(d, step, copy, text_of(d, argument_at(d, step, 1)));
+      check_containment(d, site.frame.shape, copy, step.offset);
       add_leaf(d, copy, site.frame, key_at(site.key, place++), d.out.shapes[site.frame.shape].symbol);
     }
   }

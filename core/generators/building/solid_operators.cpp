@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/base/math.h"
+#include "core/generators/building/containment.h"
 #include "core/generators/building/evaluate.h"
 #include "core/generators/building/interpret.h"
 #include "core/generators/building/operator_arguments.h"
@@ -242,6 +243,7 @@ void place(Derivation& d, const Step& step, ShapeState& state, const Site& site)
   ShapeState placed = state;
   const std::string name = text_of(d, d.grammar.arguments[step.first_argument]);
   insert_geometry(d, step, placed, name);
+  check_containment(d, site.frame.shape, placed, step.offset);
   add_leaf(d, placed, site.frame, site.key, d.out.shapes[site.frame.shape].symbol);
 }
 

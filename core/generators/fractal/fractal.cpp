@@ -328,14 +328,14 @@ std::vector<Issue> check(const FractalParams& params, const Limits& limits) {
   std::vector<Issue> issues = check_instructions(params);
   check_element(params, issues);
   check_stages(params, issues);
-  if (static_cast<std::uint32_t>(params.iterations) > limits.iterations) {
+  if (static_cast<std::uint32_t>(params.iterations) > limits.iterations)
     issues.push_back(iterations_issue(static_cast<std::uint64_t>(params.iterations), limits));
-  }
   return issues;
 }
 
 std::vector<Warning> warnings_of(const FractalParams& params) {
   std::vector<Warning> warnings = warnings_of(unused_parameters(params));
+  if (auto warning = warning_of_weights(params)) warnings.push_back(*std::move(warning));
   // Whether maps fill a lattice is more than x-applies-when can say.
   const bool is_merged = params.method == FractalMethod::mrcm && params.surface == FractalSurface::merged &&
                          params.smallest == 0;

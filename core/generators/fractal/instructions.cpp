@@ -317,7 +317,24 @@ void check_map(const FractalMap& given, const std::string& pointer, bool by_chan
   }
 }
 
+/// The sum of the probabilities for frcm, if the list gives any and they do not sum to 1.
+std::optional<double> odd_sum_of_weights(const FractalParams& params) {
+  if (params.method != FractalMethod::frcm || params.instructions.index() == 0) return std::nullopt;
+  const auto& list = std::get<1>(params.instructions);
+  const auto has_probability = [](const FractalMap& map) { return map.probability.has_value(); };
+  if (std::ranges::none_of(list, has_probability)) return std::nullopt;
+  double sum = 0;
+  for (const FractalMap& map : list) sum += map.probability.value_or(share_of(map_of(map)));
+  return std::abs(sum - 1) <= 1e-6 ? std::nullopt : std::optional(sum);
+}
+
 }  // namespace
+
+std::optional<Warning> warning_of_weights(const FractalParams& params) {
+  if (params.weights == FractalWeights::strict || !odd_sum_of_weights(params)) return std::nullopt;
+  return Warning{"/instructions",
+                 "the probabilities of the maps do not sum to 1; they count as shares of their sum", 0, 0};
+}
 
 Instructions instructions_of(const FractalParams& params) {
   Instructions out;
@@ -359,6 +376,12 @@ std::vector<Issue> check_instructions(const FractalParams& params) {
                       "found only the identity, expected a map that makes a smaller copy"});
   if (issues.empty() && by_chance && !(sum > 0))
     issues.push_back({IssueKind::invalid_value, "/instructions", "found probabilities that are all 0"});
+  const std::optional<double> odd = issues.empty() ? odd_sum_of_weights(params) : std::nullopt;
+  if (odd && params.weights == FractalWeights::strict) {
+    issues.push_back({IssueKind::invalid_value, "/instructions",
+                      "the probabilities of the maps sum to " + number_text(std::round(*odd * 1e9) / 1e9) +
+                          ", expected 1 because `weights` is strict"});
+  }
   return issues;
 }
 

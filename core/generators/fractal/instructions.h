@@ -36,6 +36,9 @@ struct Instructions {
 /// The parameters must have passed check_instructions().
 Instructions instructions_of(const FractalParams& params);
 
+/// The warning that the probabilities of a list of maps do not sum to 1, unless that is an error.
+std::optional<Warning> warning_of_weights(const FractalParams& params);
+
 /// Errors in a list of maps or in the text of word_test.
 std::vector<Issue> check_instructions(const FractalParams& params);
 

@@ -114,7 +114,8 @@ std::optional<Box> straight_bounds(const Instructions& instructions, int rounds)
 }
 
 /// Lengths of copies of a segment add up. The snowflake's plate has the outline of these segments; a triangle is added
-/// to each of them in every round, with a ninth of the area of those of the round before.
+/// to each of them in every round, with a ninth of the area of those of the round before. The curve encloses these
+/// triangles and the line between its ends.
 void measure_curve(const FractalParams& params, const Instructions& instructions, int rounds, Measure& out) {
   if (!is_named(params, FractalElement::segment) && !is_named(params, FractalElement::plate)) return;
   const auto sum_of_scales = [](const std::vector<Affine>& maps) -> std::optional<double> {
@@ -131,9 +132,11 @@ void measure_curve(const FractalParams& params, const Instructions& instructions
       instructions.arrangement.empty() ? 1.0 : sum_of_scales(instructions.arrangement);
   if (!factor || !first || instructions.keeps) return;
   out.length = *first * power(*factor, rounds);
-  if (!is_named(params, FractalElement::plate)) return;
-  const double side = *first / 3, triangle = std::sqrt(3.0) / 4 * side * side;
-  out.area = triangle * (1 + 0.6 * (1 - power(4.0 / 9, rounds)));
+  const bool is_snowflake = instructions.name == "koch_snowflake";
+  if (!is_snowflake && instructions.name != "koch_curve") return;
+  const double side = is_snowflake ? *first / 3 : *first, triangle = std::sqrt(3.0) / 4 * side * side;
+  const double added = 0.2 * (1 - power(4.0 / 9, rounds));  // to one side, as a share of the triangle on it
+  out.area = triangle * (is_snowflake ? 1 + 3 * added : added);
 }
 
 /// Does the element fill its frame?

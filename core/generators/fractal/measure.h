@@ -20,7 +20,7 @@ struct Measure {
       dimension;  ///< similarity dimension: the solution of Moran's equation, sum of scale^D = 1
   std::optional<double> exposed_quads, surface_area, volume, genus, non_manifold_edges;
   std::optional<double> length;  ///< length of all segments, or of the outline of a plate
-  std::optional<double> area;    ///< area of one side of a plate
+  std::optional<double> area;    ///< area of one side of a plate, or inside the snowflake, or below the curve
   std::optional<Box> bounds;
 };
 

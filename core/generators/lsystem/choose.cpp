@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/base/math.h"
+#include "core/schema/json.h"
 
 namespace seedmesh::lsystem {
 namespace {
@@ -116,6 +117,13 @@ void refuse_argument(const Grammar& grammar, const Template& made, std::uint32_t
               "parameter " + std::to_string(index + 1) + " of `" + grammar.kinds[made.kind].symbol +
                   "` became " + (value != value ? "undefined (for example 0/0)" : "infinite") +
                   "; expected a finite number"});
+}
+
+void refuse_weights(const Grammar& grammar, const Production& last, double total, const Job& job) {
+  job.refuse({IssueKind::evaluation, last.pointer,
+              "the probabilities of the productions that match `" + grammar.kinds[last.predecessor].symbol +
+                  "` sum to " + number_text(std::round(total * 1e9) / 1e9) +
+                  ", expected 1 because `weights` is strict"});
 }
 
 }  // namespace seedmesh::lsystem

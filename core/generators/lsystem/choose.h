@@ -1,6 +1,7 @@
 #pragma once
 /// Chooses the production that rewrites a module, and derives the random keys of the modules that it writes.
 #include <cmath>
+#include <span>
 
 #include "core/generators/lsystem/grammar.h"
 
@@ -37,17 +38,27 @@ inline double weight_of(const Grammar& grammar, const Production& production, co
   return weight > 0 && std::isfinite(weight) ? weight : 0;
 }
 
-/// Returns the production of `rules` in `range` that rewrites a module, or null. `match(production)` returns
+/// Throws Stop (Code::invalid): the weights of the productions that match a module sum to `total`, and have to sum
+/// to 1. `last` is the last of them.
+[[noreturn]] void refuse_weights(const Grammar& grammar, const Production& last, double total,
+                                 const Job& job);
+
+/// Returns the one of `candidates` that rewrites a module, or null. `match(production)` returns
 /// the slots of the production, or null where its contexts do not match. The first matching production
-/// without a weight wins. Otherwise one random number chooses among all matching productions with weights.
-/// Cost: linear in `range`.
+/// without a weight wins. Otherwise one random number chooses among all matching productions with weights; those without a context only
+/// count if none with a context matches, unless the order of the list decides. Stop:
+/// their sum is not 1, where it has to be.
+/// Cost: linear in `candidates`.
 template <class Match>
-const Production* choose(const Grammar& grammar, const Rules& rules, Range range, const Draws& draws,
-                         Match&& match) {
+const Production* choose(const Grammar& grammar, std::span<const Production> candidates, const Draws& draws,
+                         Match&& match, const Job& job) {
   const Production* last = nullptr;
   double total = 0;
-  for (std::uint32_t i = range.first; i < range.first + range.count; ++i) {
-    const Production& each = rules.productions[i];
+  for (const Production& each : candidates) {
+    if (last && grammar.contexts_first && last->has_context() && !each.has_context()) {
+      candidates = candidates.first(static_cast<std::size_t>(&each - candidates.data()));
+      break;
+    }
     const double* slots = match(each);
     if (!slots || !holds(grammar, each, slots, draws)) continue;
     if (!each.weighted) {
@@ -57,11 +68,12 @@ const Production* choose(const Grammar& grammar, const Rules& rules, Range range
     total += weight_of(grammar, each, slots);
     last = &each;
   }
+  if (last && grammar.weights_sum_to_1 && std::abs(total - 1) > 1e-6)
+    refuse_weights(grammar, *last, total, job);
   if (!last || !(total > 0)) return nullptr;
   Rng rng = draws.choice();
   double dart = rng.unit() * total;
-  for (std::uint32_t i = range.first; i < range.first + range.count; ++i) {
-    const Production& each = rules.productions[i];
+  for (const Production& each : candidates) {
     if (!each.weighted) continue;
     const double* slots = match(each);
     if (!slots || !holds(grammar, each, slots, draws)) continue;

@@ -94,7 +94,7 @@ void Drawing::interpret(KindId kind, const double* parameters, Keys keys, std::u
     code_.run(each.before, changed.data(), draws.stream.at(5), [](const Template&, std::uint64_t) {});
     return static_cast<const double*>(changed.data());
   };
-  const Production* production = choose(grammar_, rules, rules.of_kind[kind], draws, slots_of);
+  const Production* production = choose(grammar_, rules.candidates(kind), draws, slots_of, job_);
   if (!production) return execute(grammar_.kinds[kind], parameters, keys);
   const double* slots = slots_of(*production);
   if (!variables_.empty()) keep_variables(changed);

@@ -59,6 +59,7 @@ SkinOptions skin_options(const LsystemParams& params, std::span<const Contour> c
   options.contours = contours;
   options.sides = std::max(params.sides, least_sides_of(options));
   options.stacks = detail.stacks(params.stacks);
+  options.cuts_all = params.levels == LsystemParams::Levels::slices;
   options.wrap = wraps_images(params);
   options.adapt = params.adapt;
   return options;

@@ -16,8 +16,9 @@ void FractionalStep::module(KindId kind, const double* parameters, std::uint64_t
   const Rules& rules = grammar_.rules_at(step_);
   if (kind == grammar_.cut) cut_depth_ = std::max(cut_depth_, 1);
   if (cut_depth_ > 0 || !rules.rewrites(kind)) return stay(each);
-  const Production* chosen = choose(grammar_, rules, rules.of_kind[kind], Draws(key, step_),
-                                    [&](const Production&) { return parameters; });
+  const Production* chosen = choose(
+      grammar_, rules.candidates(kind), Draws(key, step_), [&](const Production&) { return parameters; },
+      drawing_.job());
   return chosen ? rewrite(each, *chosen, parameters) : stay(each);
 }
 
@@ -37,8 +38,9 @@ void FractionalStep::word(const Word& word, Job& job) {
     if (each.kind == grammar_.cut) cut_depth_ = std::max(cut_depth_, 1);
     const Production* chosen = nullptr;
     if (cut_depth_ == 0 && rules.rewrites(each.kind)) {
-      chosen = choose(grammar_, rules, rules.of_kind[each.kind], Draws(each.key, step_),
-                      [&](const Production& production) { return contexts.match(production, i); });
+      chosen = choose(
+          grammar_, rules.candidates(each.kind), Draws(each.key, step_),
+          [&](const Production& production) { return contexts.match(production, i); }, job);
     }
     if (chosen) {
       rewrite(each, *chosen, contexts.match(*chosen, i));

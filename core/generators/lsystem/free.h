@@ -66,10 +66,10 @@ class FreeDerivation {
         job_.refuse(limit_issue({Resource::modules, 4 * job_.limits().modules, rewritten_},
                                 "rewrites more modules than " + std::to_string(rewritten_ - 1)));
     }
-    const Range range = rules_.of_kind[kind];
+    const std::span<const Production> candidates = rules_.candidates(kind);
     for (std::uint32_t now = step; now < steps_; ++now) {
-      const Production* production =
-          choose(grammar_, rules_, range, Draws(key, now), [&](const Production&) { return parameters; });
+      const Production* production = choose(
+          grammar_, candidates, Draws(key, now), [&](const Production&) { return parameters; }, job_);
       if (production) return write(production->successor, parameters, key, now + 1);
       // without random conditions, a failed match fails in every later step
       if (!rules_.redraws[kind]) break;

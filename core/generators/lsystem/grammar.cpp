@@ -143,6 +143,8 @@ Grammar Compiler::compile() {
   grammar_.close = kind("]", 0, none, 0);
   grammar_.cut = kind("%", 0, none, 0);
   grammar_.ring = params_.ring;
+  grammar_.contexts_first = params_.rule_order == LsystemParams::RuleOrder::contexts_first;
+  grammar_.weights_sum_to_1 = params_.weights == LsystemParams::Weights::strict;
   grammar_.decomposition_depth = static_cast<std::uint32_t>(params_.decomposition_depth);
   read_axiom();
   read_rules("/productions/", params_.productions, grammar_.productions);

@@ -4,6 +4,7 @@
 /// A kind is a symbol with its number of parameters. All kinds that a grammar can write occur in its text, so
 /// a word is an array of kind numbers with an array of parameters.
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -99,6 +100,10 @@ struct Rules {
       /// by kind: 1 where a condition uses random numbers, so that a failed match can succeed later
       redraws;
   bool rewrites(KindId kind) const { return of_kind[kind].count != 0; }
+  /// The productions of a kind, in the order of matching.
+  std::span<const Production> candidates(KindId kind) const {
+    return std::span(productions).subspan(of_kind[kind].first, of_kind[kind].count);
+  }
 };
 
 /// A frame expression: a given frame, moved in its own axes move by move.
@@ -138,6 +143,8 @@ struct Grammar {
   bool backward = false;          ///< words are written from right to left, for new right contexts
   bool statements = false;        ///< true where a production has statements
   bool strict = false;            ///< true where a production has a predecessor of several modules
+  bool contexts_first = true;     ///< productions with a context come before those without
+  bool weights_sum_to_1 = false;  ///< another sum of the weights that match a module is an error
   KindId open = 0, close = 0, cut = 0;  ///< kinds of [ ] %
   bool cuts = false;                    ///< true where % occurs
   std::uint32_t widest = 0;             ///< largest Kind::arity

@@ -134,9 +134,9 @@ class Writer {
     const Rules& rules = grammar_.decomposition;
     const std::uint64_t stream = keyed_ ? key_at(module.key, 40 + module.depth) : 0;
     const Draws draws(stream, module.depth);
-    const Production* chosen =
-        choose(grammar_, rules, rules.of_kind[module.kind], draws,
-               [&](const Production& rule) { return prepare(rule, own.data(), draws); });
+    const Production* chosen = choose(
+        grammar_, rules.candidates(module.kind), draws,
+        [&](const Production& rule) { return prepare(rule, own.data(), draws); }, job_);
     if (!chosen) return false;
     if (chosen->weighted) prepare(*chosen, own.data(), draws);
     written_.clear();
@@ -235,7 +235,7 @@ class Rewriting {
     const auto match = [&](const Production& each) {
       return slots = writer_.prepare(each, contexts_.match(each, i), draws);
     };
-    const Production* chosen = choose(grammar_, rules_, rules_.of_kind[kind], draws, match);
+    const Production* chosen = choose(grammar_, rules_.candidates(kind), draws, match, job_);
     if (!chosen) return copy(i);
     if (chosen->weighted) {  // later candidates have overwritten the slots
       std::copy(variables_.begin(), variables_.end(), contexts_.variables());

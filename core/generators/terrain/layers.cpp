@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cctype>
 #include <cmath>
 #include <memory>
 #include <utility>
@@ -9,6 +10,7 @@
 #include "core/base/math.h"
 #include "core/base/parallel.h"
 #include "core/generators/terrain/height_expression.h"
+#include "core/generators/terrain/layer_algorithms.h"
 #include "core/generators/terrain/plan.h"
 #include "core/lang/text_positions.h"
 #include "generated/params/terrain.h"
@@ -74,10 +76,29 @@ std::unique_ptr<HeightExpression> checked(const TerrainParams& params, const std
   return compiled(params, text, layers_before, is_layer, none);
 }
 
+/// Where a name exists that the expression cannot use; `behind` begins with an unknown name.
+const char* hint_of(const TerrainParams& params, std::string_view behind) {
+  const auto is_name = [&](std::string_view name) {
+    if (!behind.starts_with(name)) return false;
+    const char next = behind.size() > name.size() ? behind[name.size()] : ' ';
+    return next != '_' && next != '(' && (std::isalnum(static_cast<unsigned char>(next)) == 0);
+  };
+  const bool is_plane = params.shape != TerrainShape::sphere;
+  if (is_plane && (is_name("latitude") || is_name("longitude") || is_name("z")))
+    return "; only the shape sphere has it";
+  if (!is_plane && is_name("slope")) return "; a sphere has no slope";
+  if (is_name("height") || is_name("slope")) return "; only the expressions of layers have it";
+  return "";
+}
+
 void check_text(const TerrainParams& params, const std::string& text, const std::string& pointer,
                 std::size_t layer, bool is_layer, std::vector<Issue>& issues) {
   std::vector<lang::TextError> errors;
   compiled(params, text, layer, is_layer, errors);
+  for (lang::TextError& error : errors) {
+    if (error.kind == IssueKind::unknown_name)
+      error.message += hint_of(params, std::string_view(text).substr(error.offset));
+  }
   lang::add_issues(pointer, text, errors, issues);
 }
 
@@ -247,29 +268,7 @@ double combined(TerrainCombine combine, double height, double own) {
   return height;
 }
 
-/// The request of a layer's algorithm: its own parameters on the same samples.
-TerrainParams params_of(const TerrainParams& params, const TerrainLayer& layer, std::int32_t side) {
-  TerrainParams own;
-  own.algorithm = layer.layer_algorithm == Source::fbm               ? TerrainAlgorithm::fbm
-                  : layer.layer_algorithm == Source::fault_formation ? TerrainAlgorithm::fault_formation
-                                                                     : TerrainAlgorithm::poisson_faulting;
-  own.shape = params.shape;
-  own.size = params.size;
-  own.tile = params.tile;
-  own.resolution = params.algorithm == TerrainAlgorithm::image ? side : made_side(params);
-  own.iterations = layer.iterations;
-  own.amplitude = layer.amplitude;
-  own.hurst = layer.hurst;
-  own.wavelength = layer.wavelength;
-  if (layer.layer_noise) own.noise = static_cast<TerrainNoise>(*layer.layer_noise);
-  own.fault_max = layer.fault_max;
-  own.fault_min = layer.fault_min;
-  return own;
-}
-static_assert(static_cast<int>(TerrainLayerNoise::billow) == static_cast<int>(TerrainNoise::billow) &&
-              static_cast<int>(TerrainLayerNoise::ridged) == static_cast<int>(TerrainNoise::ridged));
-
-/// Combines layers with `height`. make(layer, params of its algorithm, its stream) gives the heights of an algorithm.
+/// Combines layers with `height`. make(layer, its stream) gives the heights of an algorithm.
 template <class Make>
 void combine_layers(Ground ground, Array<float>& height, const Make& make) {
   const TerrainParams& params = ground.params;
@@ -321,25 +320,12 @@ void combine_layers(Ground ground, Array<float>& height, const Make& make) {
 
 void check_layer(const TerrainParams& params, std::size_t index, std::vector<Issue>& issues) {
   const TerrainLayer& layer = params.layers[index];
-  const bool is_text = layer.layer_algorithm == Source::expression,
-             is_noise = layer.layer_algorithm == Source::fbm;
-  if (is_text && !layer.expression)
+  const bool is_text = layer.layer_algorithm == Source::expression;
+  if (is_text && !layer.expression) {
     issues.push_back({IssueKind::missing, "/layers/" + std::to_string(index),
                       "\"expression\" is missing; the algorithm expression takes its heights from it"});
-  const auto belongs = [&](bool is_given, bool is_owner, const char* name, const char* owners) {
-    if (is_given && !is_owner)
-      issues.push_back({IssueKind::conflict, pointer_of(index, name),
-                        std::string("this algorithm has no ") + name + "; only " + owners + " have it"});
-  };
-  belongs(layer.expression.has_value(), is_text, "expression", "layers of the algorithm expression");
-  belongs(layer.iterations.has_value(), !is_text, "iterations", "faults and fbm");
-  const std::pair<bool, const char*> of_noise[] = {{layer.amplitude.has_value(), "amplitude"},
-                                                   {layer.hurst.has_value(), "hurst"},
-                                                   {layer.wavelength.has_value(), "wavelength"},
-                                                   {layer.layer_noise.has_value(), "noise"}};
-  for (const auto& [is_given, name] : of_noise) belongs(is_given, is_noise, name, "layers of fbm");
-  belongs(layer.fault_max.has_value(), !is_text && !is_noise, "fault_max", "faults");
-  belongs(layer.fault_min.has_value(), !is_text && !is_noise, "fault_min", "faults");
+  }
+  check_layer_algorithm(params, index, issues);
   if (layer.expression && is_text)
     check_text(params, *layer.expression, pointer_of(index, "expression"), index, true, issues);
   if (layer.mask) check_text(params, *layer.mask, pointer_of(index, "mask"), index, true, issues);
@@ -370,8 +356,7 @@ void add_layers(const TerrainParams& params, Field& field, const Window& window,
                 const Job& job) {
   if (params.layers.empty()) return;
   combine_layers({params, job, rng, &window, cell}, field.heights, [&](const TerrainLayer& layer, Rng own) {
-    const std::int32_t side = std::max(window.width, window.depth);
-    return std::move(algorithm_field(params_of(params, layer, side), window, cell, own, job).heights);
+    return std::move(layer_field(params, layer, window, {cell, own}, job).heights);
   });
 }
 
@@ -391,7 +376,7 @@ void add_layers(const TerrainParams& params, Planet& planet, Rng rng, const Job&
   combine_layers(ground, planet.height, [&](const TerrainLayer& layer, Rng own) {
     // The algorithm writes the heights of the sphere, so the heights so far are put aside.
     Array<float> before = std::exchange(planet.height, Array<float>(job, planet.height.size(), 0.0F));
-    algorithm_sphere(params_of(params, layer, 0), planet, own, job);
+    layer_sphere(params, layer, planet, own, job);
     return std::exchange(planet.height, std::move(before));
   });
 }

@@ -18,7 +18,9 @@ struct LimbCorners {
 
 struct SkinOptions {
   int sides = 8;   ///< corners of a cross-section of the thickest limb, 3..64
-  int stacks = 1;  ///< pieces that an internode is cut into, 1..16; only where the radius changes along it
+  int stacks = 1;  ///< pieces that an internode is cut into, 1..16
+  bool cuts_all =
+      false;  ///< true where these pieces are also made of internodes whose radius does not change
   bool uv = true;
   std::span<const std::uint16_t> bones = {};  ///< for each joint, what moves its internode; fills Mesh::bone
   /// For textures that repeat. u goes a whole number of times from 0 to 1 around each limb: once for each

@@ -42,7 +42,8 @@ inline int inner_rings(const SkinOptions& options, const Scale& scale, glm::vec2
                        float twist) {
   const int least = rings_of_twist(twist);
   if (options.stacks <= 1 && least == 0) return 0;
-  int wanted = radii.x == radii.y && !is_twisted(twist) ? 0 : options.stacks - 1;
+  const bool is_even = radii.x == radii.y && !is_twisted(twist) && !options.cuts_all;
+  int wanted = is_even ? 0 : options.stacks - 1;
   if (options.adapt && wanted > 0) {
     const float share = free / (0.1F * scale.size);
     wanted = std::min(wanted, static_cast<int>(std::min(share, 1.0F) * static_cast<float>(options.stacks)));

@@ -233,6 +233,22 @@ TEST(BuildingRestrictions, RejectShapesThatLeaveTheirPredecessor) {
   EXPECT_THAT(refusal(params), HasSubstr("1:9 this shape leaves the scope of `Lot` by 1 m along x"));
 }
 
+/// I() adds a part beside the shape. Rule 4.3 of Kogovšek 2014 leaves a lot of 10 x 20 x 10 m by 9 m.
+TEST(BuildingRestrictions, RejectAddedPartsThatLeaveTheirPredecessor) {
+  BuildingParams params = with("Lot ~> S(30, 20, 30) I(\"cube\")", {4, 3, 5});
+  const Json free = derived(params);
+  ASSERT_EQ(free["warnings"].size(), 1U);
+  EXPECT_THAT(free["warnings"][0]["message"].get<std::string>(),
+              HasSubstr("leaves the scope of `Lot` by 26 m along x"));
+  params.restrict = BuildingRestrict::split;
+  EXPECT_THAT(refusal(params), HasSubstr("1:22 this shape leaves the scope of `Lot` by 26 m along x"));
+  params.rules = "Lot ~> S(2, 3, 2) I(\"cube\") T(1, 0, 1) I(\"cylinder\")";
+  EXPECT_EQ(refusal(params), "none");
+  params = with("A ~> [T(0,0,6)S(8,10,18)I(\"cube\")]T(6,0,0)S(7,13,18)I(\"cube\")", {10, 20, 10});
+  params.restrict = BuildingRestrict::split;
+  EXPECT_THAT(refusal(params), HasSubstr("leaves the scope of `A` by 14 m along z"));
+}
+
 TEST(BuildingRestrictions, AcceptSplitsRepeatsComponentsAndFittingBodies) {
   BuildingParams params = with(
       "Lot --> split(y){ 1: Floor | ~1: Floor } Floor --> comp(f){ side: Facade | top: Cap. } "

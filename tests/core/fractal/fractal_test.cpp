@@ -47,7 +47,10 @@ TEST(Fractal, MeasuresTheKochCurveAndTheSnowflake) {
     const int rounds = stage["iterations"];
     EXPECT_EQ(stage["pieces"], std::pow(4, rounds));
     EXPECT_NEAR(stage["length"].get<double>(), std::pow(4.0 / 3, rounds), 1e-12);
-    EXPECT_TRUE(stage["area"].is_null());
+    // Round k adds 4^(k-1) triangles with sides of 3^-k.
+    double area = 0;
+    for (int k = 1; k <= rounds; ++k) area += std::sqrt(3.0) / 4 * std::pow(4.0, k - 1) / std::pow(9.0, k);
+    EXPECT_NEAR(stage["area"].get<double>(), area, 1e-12);
   }
   constexpr double side = 0.75;
   const double triangle = std::sqrt(3.0) / 4 * side * side;
@@ -59,6 +62,9 @@ TEST(Fractal, MeasuresTheKochCurveAndTheSnowflake) {
   EXPECT_NEAR(plate(1)["area"].get<double>(), triangle * 4 / 3, 1e-12);
   EXPECT_NEAR(plate(200)["area"].get<double>(), triangle * 8 / 5, 1e-12);
   EXPECT_NEAR(plate(3)["length"].get<double>(), 3 * side * std::pow(4.0 / 3, 3), 1e-12);
+  const Json outline =
+      derived(R"({"instructions": "koch_snowflake", "element": "segment", "iterations": 3})");
+  EXPECT_EQ(outline["area"], plate(3)["area"]);
   // The mesh of the plate has the same area: half of its faces that look along Z show one side.
   const Result<Model> model =
       fractal_of(R"({"instructions": "koch_snowflake", "element": "plate", "iterations": 3})");
@@ -319,6 +325,21 @@ std::vector<std::string> unused(std::string_view json) {
   std::vector<std::string> pointers;
   for (const Warning& warning : warnings_of(fractal_params(json))) pointers.push_back(warning.pointer);
   return pointers;
+}
+
+TEST(Probabilities, ThatDoNotSumToOneAreReportedOrRefused) {
+  const auto request = [](const char* second, const char* weights) {
+    return std::string(R"({"method": "frcm", "weights": ")") + weights +
+           R"(", "instructions": [{"scale": 0.5, "probability": 0.5}, {"scale": 0.4, "probability": )" +
+           second + "}]}";
+  };
+  EXPECT_THAT(unused(request("0.5", "normalize")), IsEmpty());
+  EXPECT_THAT(unused(request("0.4", "normalize")), testing::ElementsAre("/instructions"));
+  EXPECT_THAT(check(fractal_params(request("0.5", "strict")), Limits{}), IsEmpty());
+  const std::vector<Issue> issues = check(fractal_params(request("0.4", "strict")), Limits{});
+  ASSERT_EQ(issues.size(), 1U);
+  EXPECT_EQ(issues[0].message,
+            "the probabilities of the maps sum to 0.9, expected 1 because `weights` is strict");
 }
 
 TEST(UnusedParameters, AreThoseOfOtherMethods) {

@@ -54,6 +54,34 @@ TEST(Weights, ThatDoNotSumToOneAreErrorsWhereTheyAreStrict) {
   EXPECT_THAT(warnings_of(params), IsEmpty());
 }
 
+/// Contexts, conditions and weights that depend on parameters decide which productions match a module.
+TEST(Weights, OfTheProductionsThatMatchAModuleSumToOneWhereTheyAreStrict) {
+  const auto refused = [](const std::string& axiom, std::vector<std::string> productions) {
+    LsystemParams params = grammar_of(axiom, std::move(productions));
+    params.weights = LsystemParams::Weights::strict;
+    return refusal_of(params);
+  };
+  EXPECT_EQ(refused("AF", {"A<F->G:0.4", "A<F->FF:0.6"}), "");
+  EXPECT_THAT(refused("AF", {"A<F->G:0.4", "A<F->FF:0.3"}),
+              HasSubstr("/productions/1 the probabilities of the productions that match `F` sum to 0.7, "
+                        "expected 1 because `weights` is strict"));
+  EXPECT_EQ(refused("AF", {"F->FF:0.5", "F->FG:0.5", "A<F->G:0.4", "A<F->GG:0.6"}), "")
+      << "of each left side";
+  EXPECT_THAT(refused("AF", {"F->FF:0.5", "F->FG:0.5", "A<F->G:0.4"}), HasSubstr("sum to 0.4"));
+  EXPECT_EQ(refused("FA", {"A<F->G:0.4", "A<F->FF:0.3"}), "") << "no production matches";
+  EXPECT_EQ(refused("F(0.4)", {"F(x)->G:x", "F(x)->F(x):1-x"}), "");
+  EXPECT_THAT(refused("F(0.4)", {"F(x)->G:x", "F(x)->F(x):x"}), HasSubstr("sum to 0.8"));
+  EXPECT_THAT(refused("F(2)", {"F(x):x>1->G:0.5", "F(x):x<1->FF:0.5"}), HasSubstr("sum to 0.5"));
+}
+
+/// Kogovšek 2014, section 3.2.2: rules with a context have priority over those without.
+TEST(Weights, OfProductionsWithoutAContextCountOnlyWhereNoneWithAContextMatches) {
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    EXPECT_EQ(derived(grammar_of("AF", {"F->B:100", "A<F->C:0.1"}), seed), "AC");
+    EXPECT_EQ(derived(grammar_of("FA", {"F->B:100", "A<F->C:0.1"}), seed), "BA");
+  }
+}
+
 TEST(Productions, AfterOneThatAlwaysAppliesAreReported) {
   EXPECT_THAT(
       warnings_of(grammar_of("F", {"F->FF", "F->G"})),

@@ -218,15 +218,19 @@ TEST(Levels, FallInTriangles) {
 
 /// Tunnel 2012, table 8. A tube of n sides and m stacks has 2 n m triangles, and 2 n at its two ends.
 TEST(Levels, HaveTheSlicesAndStacksOfTunnel) {
-  const Model model = model_of(
-      R"({"axiom":"F","width_rule":"longest_chain","tip_width":0.05,"sides":32,"stacks":6,"levels":"slices"})",
-      {.lods = 5});
-  const Node& bark = *node_named(model, "bark");
-  std::vector<std::size_t> triangles{first_mesh(model, bark).elements()};
-  for (const int lod : bark.lods)
-    triangles.push_back(model.meshes[static_cast<std::size_t>(lod)].primitives.front().mesh.elements());
-  EXPECT_THAT(triangles, ElementsAre(2 * 32 * 6 + 64, 2 * 22 * 4 + 44, 2 * 18 * 3 + 36, 2 * 16 * 3 + 32,
-                                     2 * 14 * 2 + 28));
+  // A cone and a cylinder.
+  for (
+      const char* parameters :
+      {R"({"axiom":"F","width_rule":"longest_chain","tip_width":0.05,"sides":32,"stacks":6,"levels":"slices"})",
+       R"({"axiom":"F","sides":32,"stacks":6,"levels":"slices"})"}) {
+    const Model model = model_of(parameters, {.lods = 5});
+    const Node& bark = *node_named(model, "bark");
+    std::vector<std::size_t> triangles{first_mesh(model, bark).elements()};
+    for (const int lod : bark.lods)
+      triangles.push_back(model.meshes[static_cast<std::size_t>(lod)].primitives.front().mesh.elements());
+    EXPECT_THAT(triangles, ElementsAre(2 * 32 * 6 + 64, 2 * 22 * 4 + 44, 2 * 18 * 3 + 36, 2 * 16 * 3 + 32,
+                                       2 * 14 * 2 + 28));
+  }
 }
 
 /// Tajić 2009, section 4.3: gluCylinder with equal radii, which decrease by 0.015 a step.

@@ -65,7 +65,8 @@ TEST(HeightExpressions, HaveTheirErrorsAtTheColumn) {
   EXPECT_THAT(errors_of(expressed("2 * fbm(x, y, x)")),
               ElementsAre(HasSubstr("1:5 the last argument of `fbm`")));
   EXPECT_THAT(errors_of(expressed("noise(x, noise(y, q))")), ElementsAre(HasSubstr("1:19 ")));
-  EXPECT_THAT(errors_of(expressed("latitude")), ElementsAre(HasSubstr("1:1 ")));
+  EXPECT_THAT(errors_of(expressed("latitude")),
+              ElementsAre(HasSubstr("1:1 unknown name `latitude`; only the shape sphere has it")));
   EXPECT_THAT(errors_of(expressed("x y")), ElementsAre(HasSubstr("1:3 found `y`")));
   TerrainParams params;
   params.algorithm = TerrainAlgorithm::expression;
@@ -133,6 +134,39 @@ TEST(HeightExpressions, AgreeAlongTheBorderOfTiles) {
   east.tile->x = 1;
   const Field a = made(west), b = made(east);
   for (int z = 0; z < 33; ++z) EXPECT_EQ(a.at(32, z), b.at(0, z));
+}
+
+/// A layer is the same ground as the terrain of its algorithm with random corners, on any samples.
+TEST(Layers, CanBeSubdivisions) {
+  for (const TerrainLayerAlgorithm algorithm :
+       {TerrainLayerAlgorithm::diamond_square, TerrainLayerAlgorithm::square_square,
+        TerrainLayerAlgorithm::triangular_edge}) {
+    TerrainParams params = expressed("0", 34, 33);
+    params.layers.resize(1);
+    params.layers[0].layer_algorithm = algorithm;
+    params.layers[0].amplitude = 10;
+    const std::vector<double> heights = values(made(params));
+    const auto [low, high] = std::minmax_element(heights.begin(), heights.end());
+    EXPECT_LT(*low, *high);
+    EXPECT_LT(*high, 60);
+    params.layers[0].iterations = 2;
+    EXPECT_NE(values(made(params)), heights);
+    params.tile.emplace();
+    TerrainParams east = params;
+    east.tile->x = 1;
+    const Field a = made(params), b = made(east);
+    for (int z = 0; z < 34; ++z) EXPECT_EQ(a.at(33, z), b.at(0, z));
+    params.layers[0].iterations = 15;
+    params.layers[0].fault_max = 1;
+    EXPECT_THAT(errors_of(params),
+                ElementsAre(HasSubstr("/layers/0/fault_max"),
+                            HasSubstr("/layers/0/iterations 0:0 found 15; expected at most 14")));
+    params = expressed("0");
+    params.shape = TerrainShape::sphere;
+    params.layers.resize(1);
+    params.layers[0].layer_algorithm = algorithm;
+    EXPECT_THAT(errors_of(params), ElementsAre(HasSubstr("/layers/0/algorithm")));
+  }
 }
 
 TEST(HeightExpressions, KnowLatitudeAndLongitudeOnASphere) {

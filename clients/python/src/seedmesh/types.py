@@ -543,6 +543,7 @@ class FractalParameters(TypedDict, total=False):
     specular: "Specular"
     emission: "Emission"
     palette: List[str]
+    weights: Literal['normalize', 'strict']
     points: int
     start: Literal['element', 'cube']
     drop: int
@@ -940,7 +941,7 @@ class SceneParameters(TypedDict, total=False):
 
 class TerrainParametersLayersItem(TypedDict, total=False):
     name: str
-    algorithm: Literal['expression', 'fault_formation', 'poisson_faulting', 'fbm']
+    algorithm: Literal['expression', 'fault_formation', 'poisson_faulting', 'fbm', 'triangular_edge', 'diamond_square', 'square_square']
     expression: str
     combine: Literal['add', 'subtract', 'multiply', 'max', 'min', 'replace', 'none']
     mask: str
