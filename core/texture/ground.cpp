@@ -35,6 +35,29 @@ struct Patch {
   float half_length = 0.01F, half_width = 0.01F;
 };
 
+/// The texels of the rows of a long narrow patch: those within `half` of a middle that moves with the row.
+class Strip {
+ public:
+  /// |slope * x + across * y| <= most. Texels beyond the strip may be included.
+  Strip(float slope, float across, float most) {
+    constexpr float level = 1e-3F;  // smaller slopes would lose the digits
+    if (std::abs(slope) < level) return;
+    shift_ = -across / slope;
+    half_ = std::abs(most / slope);
+  }
+  float low(float y) const { return shift_ * y - half_; }
+  float high(float y) const { return shift_ * y + half_; }
+
+ private:
+  float shift_ = 0, half_ = 1e9F;
+};
+
+/// The floor of a coordinate in texels. std::floor is a call where the processor may lack the instruction.
+int floor_of(float v) {
+  constexpr float below = 8192;  // patches begin less than an image before it
+  return static_cast<int>(v + below) - static_cast<int>(below);
+}
+
 /// Calls body(x, y, a, b) for the texels of a patch, with their coordinates -1 .. 1 along both axes. x and y may lie
 /// beyond the image, which repeats.
 template <class Body>
@@ -42,15 +65,22 @@ void each_texel(const Patch& patch, int size, Body&& body) {
   const auto scale = static_cast<float>(size);
   const float length = std::max(patch.half_length * scale, 0.5F),
               width = std::max(patch.half_width * scale, 0.5F);
-  const glm::vec2 middle = patch.at * scale;
+  const glm::vec2 middle = patch.at * scale, along = patch.along * (1 / length),
+                  across = glm::vec2(-patch.along.y, patch.along.x) * (1 / width);
   const float reach_x = std::abs(patch.along.x) * length + std::abs(patch.along.y) * width,
               reach_y = std::abs(patch.along.y) * length + std::abs(patch.along.x) * width;
-  const auto floor_of = [](float v) { return math::to_int32(static_cast<double>(std::floor(v))); };
-  for (int y = floor_of(middle.y - reach_y); y <= floor_of(middle.y + reach_y); ++y) {
-    for (int x = floor_of(middle.x - reach_x); x <= floor_of(middle.x + reach_x); ++x) {
-      const glm::vec2 off = glm::vec2(static_cast<float>(x) + 0.5F, static_cast<float>(y) + 0.5F) - middle;
-      const float a = (off.x * patch.along.x + off.y * patch.along.y) / length,
-                  b = (off.y * patch.along.x - off.x * patch.along.y) / width;
+  const Strip lengthwise(patch.along.x, patch.along.y, length),
+      crosswise(-patch.along.y, patch.along.x, width);
+  const int last_y = floor_of(middle.y + reach_y);
+  for (int y = floor_of(middle.y - reach_y); y <= last_y; ++y) {
+    const float off_y = static_cast<float>(y) + 0.5F - middle.y;
+    // The middles of texels are half a texel after their numbers; the rest is for rounding.
+    const float low = std::max({-reach_x, lengthwise.low(off_y), crosswise.low(off_y)}) - 0.6F,
+                high = std::min({reach_x, lengthwise.high(off_y), crosswise.high(off_y)}) - 0.4F;
+    const int last_x = floor_of(middle.x + high);
+    for (int x = floor_of(middle.x + low); x <= last_x; ++x) {
+      const float off_x = static_cast<float>(x) + 0.5F - middle.x;
+      const float a = off_x * along.x + off_y * along.y, b = off_x * across.x + off_y * across.y;
       if (std::abs(a) <= 1 && std::abs(b) <= 1) body(x, y, a, b);
     }
   }
@@ -89,11 +119,12 @@ void add_blades(Relief& relief, const Litter& litter, const Field& clumps, Rng r
     const float tone = 0.5F + litter.differ * draw(-0.5F, 0.5F) +
                        clumps.at(static_cast<int>(there_x), static_cast<int>(there_y));
     each_texel(patch, size, [&](int x, int y, float a, float b) {
+      float& there = relief.height.at(x, y);
+      if (middle <= there) return;
       const float across = std::abs(b) / std::max(0.25F, 1 - 0.7F * std::max(a, 0.0F));
       if (across > 1) return;
       const float height =
           middle * (0.55F + 0.45F * (1 - 0.5F * (1 - a) * (1 - a) * 0.5F)) * (1 - 0.3F * across);
-      float& there = relief.height.at(x, y);
       if (height <= there) return;
       there = height;
       relief.tone.at(x, y) = tone + 0.12F * a - 0.08F * across - 0.42F * (1 - middle);
@@ -127,8 +158,11 @@ void add_stones(Relief& relief, const Litter& litter, Rng rng, const Job& job) {
     const float high = litter.low + (litter.high - litter.low) * (0.35F + 0.65F * size_share);
     const float tone = 0.5F + litter.differ * draw(-0.5F, 0.5F);
     each_texel(patch, size, [&](int x, int y, float a, float b) {
+      float& there = relief.height.at(x, y);
       float up = std::sqrt(std::max(0.0F, 1 - a * a - b * b));
-      if (up <= 0) return;
+      const auto height = [&] { return litter.low + (high - litter.low) * up; };
+      // Cuts only make a stone lower.
+      if (up <= 0 || height() <= there) return;
       float facet = 0;
       for (const glm::vec3& plane : planes) {
         const float bound = (plane.z * 1.25F - a * plane.x - b * plane.y) * 1.6F;
@@ -137,10 +171,8 @@ void add_stones(Relief& relief, const Litter& litter, Rng rng, const Job& job) {
           facet = plane.x;
         }
       }
-      const float height = litter.low + (high - litter.low) * up;
-      float& there = relief.height.at(x, y);
-      if (up <= 0 || height <= there) return;
-      there = height;
+      if (up <= 0 || height() <= there) return;
+      there = height();
       relief.tone.at(x, y) = tone + 0.1F * facet - 0.25F * (1 - std::min(1.0F, 2 * up));
     });
   }

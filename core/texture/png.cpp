@@ -197,11 +197,12 @@ void append_small(Array<std::uint8_t>& out, const Array<std::uint8_t>& rows) {
   out.resize(start + chunk_head + length + chunk_foot);
 }
 
-void append_quick(Array<std::uint8_t>& out, const Array<std::uint8_t>& rows, std::size_t pixel_bytes) {
+void append_quick(Array<std::uint8_t>& out, const Array<std::uint8_t>& rows, std::size_t pixel_bytes,
+                  const Job& job) {
   const std::size_t period = pixel_bytes <= 4 ? pixel_bytes : 1;
   const std::size_t start = out.size();
   out.resize(start + chunk_head + run_deflate_bound(rows.size()) + chunk_foot);
-  const std::size_t length = run_deflate(rows.span(), period, out.data() + start + chunk_head);
+  const std::size_t length = run_deflate(rows.span(), period, out.data() + start + chunk_head, job);
   seal_chunk(out.data() + start, "IDAT", length);
   out.resize(start + chunk_head + length + chunk_foot);
 }
@@ -220,7 +221,7 @@ Array<std::uint8_t> encode_at_once(const PictureView& picture, PngEffort effort,
   if (effort == PngEffort::small) {
     append_small(out, rows);
   } else {
-    append_quick(out, rows, row_size(picture) / picture.width);
+    append_quick(out, rows, row_size(picture) / picture.width, job);
   }
   out.append(chunk("IEND", {}));
   out.shrink_to_fit();

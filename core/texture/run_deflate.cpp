@@ -19,10 +19,12 @@ constexpr int longest_length_code = 7;  ///< of the codes of code lengths (RFC 1
 constexpr std::size_t symbols = 286, end_of_block = 256, first_length = 257;
 constexpr std::size_t longest_run = 258, least_run = 3;
 constexpr std::size_t word = 8;  ///< bytes that are handled at once
+constexpr std::ptrdiff_t bytes_a_look = 1 << 20;
 
 struct Pixels {
   std::span<const std::uint8_t> data;
   std::size_t period;
+  const Job& job;
 };
 
 std::uint64_t load(const std::uint8_t* at) {
@@ -40,7 +42,12 @@ void walk(const Pixels& pixels, Literals&& literals, Repeat&& repeat) {
   const std::size_t first = std::min(period, pixels.data.size());
   if (first > 0) literals(at, first);
   at += first;
+  const std::uint8_t* look = at;
   while (static_cast<std::size_t>(end - at) >= word) {
+    if (at >= look) {
+      pixels.job.check();
+      look = at + std::min(bytes_a_look, end - at);
+    }
     if (load(at) != load(at - period)) {
       literals(at, word);
       at += word;
@@ -157,9 +164,10 @@ std::size_t run_deflate_bound(std::size_t size) {
   return size + size * (longest_code - 8) / 8 + head;
 }
 
-std::size_t run_deflate(std::span<const std::uint8_t> data, std::size_t period, std::uint8_t* out) {
+std::size_t run_deflate(std::span<const std::uint8_t> data, std::size_t period, std::uint8_t* out,
+                        const Job& job) {
   assert(period >= 1 && period <= 4);  // distances that have codes of their own (RFC 1951, 3.2.5)
-  const Pixels pixels{data, period};
+  const Pixels pixels{data, period, job};
   constexpr std::uint8_t method = 0x78, level = 0x01;  // deflate with 32 KiB; the fastest
   const auto lengths = code_lengths(count(pixels), longest_code);
   out[0] = method;

@@ -1,13 +1,17 @@
 /// The processor time of each preset with a seed that was never asked for, without any cache, on one thread and
-/// without compression: what the first request for a model costs, with its textures. Also what of it the textures cost:
+/// without compression: what the first request for a model costs, with its textures. Memory is kept between requests as
+/// in the server. Also what of it the textures cost:
 /// the difference to the same request with stored textures. Usage: cold_bench [presets].
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "core/base/reserve.h"
 #include "core/pipeline.h"
+#include "server/give_back.h"
 #include "tests/bench/kept_textures.h"
 #include "tests/bench/report.h"
 
@@ -23,7 +27,8 @@ std::vector<Product::Span> make(const std::string& preset, int seed, TextureStor
   const std::string text = "{\"preset\":\"" + preset + "\",\"seed\":" + std::to_string(seed) + "}";
   const Result<Request> request = read_request(text, Limits{});
   if (!request) std::abort();
-  const Result<Product> product = produce(*request, {.threads = 1}, textures);
+  static const std::shared_ptr<Reserve> reserve = std::make_shared<Reserve>();
+  const Result<Product> product = produce(*request, {.threads = 1, .reserve = reserve}, textures);
   if (!product) std::abort();
   return product->timing;
 }
@@ -31,6 +36,7 @@ std::vector<Product::Span> make(const std::string& preset, int seed, TextureStor
 }  // namespace
 
 int main(int count, char** words) {
+  keep_little_memory(1);
   for (const PresetInfo& preset : presets()) {
     const auto is_named = [&](const char* word) { return preset.name == word; };
     if (count > 1 && std::none_of(words + 1, words + count, is_named)) continue;

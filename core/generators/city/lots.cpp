@@ -228,8 +228,8 @@ void divide_blocks(CityPlan& plan, const std::vector<BlockOutline>& outlines, co
   whole.division = CityDivision::none;
   const Rng rng = job.rng().at("lots");
   parallel_for(job, outlines.size(), blocks_a_chunk, [&](std::size_t begin, std::size_t end, std::size_t) {
-    job.check();
     for (std::size_t i = begin; i < end; ++i) {
+      job.check();
       const BlockOutline& outline = outlines[i];
       const std::uint64_t key = block_key(plan, outline);
       Divided& each = divided[i];
@@ -250,6 +250,7 @@ void divide_blocks(CityPlan& plan, const std::vector<BlockOutline>& outlines, co
   const Shores shores = shores_of(plan);
   Meter meter(job, Resource::shapes);
   for (std::size_t i = 0; i < outlines.size(); ++i) {
+    job.check();
     meter.spend(1 + divided[i].division->pieces().size());
     add_block(plan, outlines[i], divided[i], density, shores);
   }

@@ -26,7 +26,8 @@ bool is_low(PartKind kind) { return kind == PartKind::carriageway || kind == Par
 
 /// Heights without slopes above the limit: the mean of the greatest ones below and the least ones above, by two sweeps
 /// over a lattice each (Borgefors, "Distance transformations in digital images", 1986).
-void limit_lattice(std::vector<double>& heights, std::int32_t columns, std::int32_t rows, double rise) {
+void limit_lattice(std::vector<double>& heights, std::int32_t columns, std::int32_t rows, double rise,
+                   const Job& job) {
   const auto spread = [&](std::vector<double>& values) {
     const auto at = [columns](std::int32_t x, std::int32_t y) {
       return static_cast<std::size_t>(y) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(x);
@@ -38,12 +39,14 @@ void limit_lattice(std::vector<double>& heights, std::int32_t columns, std::int3
       values[at(x, y)] = std::min(values[at(x, y)], values[at(u, v)] + step);
     };
     for (std::int32_t y = 0; y < rows; ++y) {
+      job.check();
       for (std::int32_t x = 0; x < columns; ++x) {
         for (const std::int32_t dx : {-1, 0, 1}) relax(x, y, dx, -1);
         relax(x, y, -1, 0);
       }
     }
     for (std::int32_t y = rows; y-- > 0;) {
+      job.check();
       for (std::int32_t x = columns; x-- > 0;) {
         for (const std::int32_t dx : {-1, 0, 1}) relax(x, y, dx, 1);
         relax(x, y, 1, 0);
@@ -67,12 +70,13 @@ Surface::Surface(const CityPlan& plan, double wall_height, Job& job)
   }
   part_of_edge_ = EdgeTable(count);
   for (std::uint32_t n = 0; n < plan.parts.size(); ++n) {
+    if (n % 1024 == 0) job.check();
     for (const CmRing& ring : plan.parts[n].rings) {
       for (std::size_t i = 0; i < ring.size(); ++i)
         part_of_edge_.add(ring[i], ring[i + 1 < ring.size() ? i + 1 : 0], n);
     }
   }
-  divide_carriageways();
+  divide_carriageways(job);
   if (is_level()) return;
   tunnels_ = Tunnels(plan, part_of_edge_);
   limit_natural_ground(job);
@@ -105,13 +109,14 @@ void Surface::divide_edge(const CmPoint& from, const CmPoint& to, std::span<cons
 }
 
 /// Kerbs have the ends of the strips, and the ends of carriageways no further vertices.
-void Surface::divide_carriageways() {
+void Surface::divide_carriageways(const Job& job) {
   constexpr std::size_t divided_a_street = 8;
   strips_.resize(plan_.graph.edges.size());
   divided_at_ = EdgeTable(divided_a_street * plan_.graph.edges.size());
   std::vector<dvec2> points;
   for (std::uint32_t edge = 0; edge < plan_.graph.edges.size(); ++edge) {
     if (!plan_.graph.is_street(edge)) continue;
+    job.check();
     strips_[edge] = strips_of_street(plan_, edge);
     const StreetStrips& strips = strips_[edge];
     if (strips.lines.empty()) continue;
@@ -256,7 +261,7 @@ void Surface::limit_natural_ground(const Job& job) {
     for (std::int32_t x = 0; x < columns_; ++x)
       natural_.push_back(std::max(least, plan_.landform->at(low_ + dvec2(x, y) * cell_)));
   }
-  limit_lattice(natural_, columns_, rows_, natural_slope * cell_);
+  limit_lattice(natural_, columns_, rows_, natural_slope * cell_, job);
 }
 
 double Surface::natural_height(const dvec2& metres) const {

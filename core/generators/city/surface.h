@@ -61,7 +61,7 @@ class Surface {
     std::uint32_t first = 0, count = 0;  ///< into `edge_points_`
   };
 
-  void divide_carriageways();
+  void divide_carriageways(const Job& job);
   void divide_edge(const CmPoint& from, const CmPoint& to, std::span<const glm::dvec2> points);
   double street_height(const Part& part, const glm::dvec2& metres) const;
   void collect_border(Ground& ground) const;

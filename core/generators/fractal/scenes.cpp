@@ -66,20 +66,29 @@ Mesh voxels_of(const FractalParams& params, const Cloud& cloud, Job& job) {
 }
 
 /// Counter-clockwise, from the left end of the lower side.
-std::vector<glm::dvec2> snowflake(int rounds) {
+std::vector<glm::dvec2> snowflake(int rounds, const Job& job) {
+  std::size_t looks = 0;
+  const auto look = [&] {
+    if (++looks % 4'096 == 0) job.check();
+  };
   FractalParams params;
   params.instructions = FractalInstructions::koch_snowflake;
   const Instructions instructions = instructions_of(params);
   std::vector<Affine> curve = instructions.arrangement;
   for (int round = 0; round < rounds; ++round) {
     std::vector<Affine> finer;
+    finer.reserve(curve.size() * instructions.maps.size());
     for (const Affine& part : curve) {
+      look();
       for (const Affine& map : instructions.maps) finer.push_back(compose(part, map));
     }
     curve = std::move(finer);
   }
   std::vector<glm::dvec2> outline;
-  for (const Affine& part : curve) outline.emplace_back(part({-0.5, 0, 0}));
+  for (const Affine& part : curve) {
+    look();
+    outline.emplace_back(part({-0.5, 0, 0}));
+  }
   std::ranges::reverse(outline);
   return outline;
 }
@@ -141,6 +150,7 @@ void add_cloud(Model& model, int parent, const FractalParams& params, Cloud clou
 
 Mesh koch_plate(int rounds, double size, Job& job) {
   constexpr double half = 0.05;
+  constexpr std::size_t look_every = 16'384;
   constexpr int most_rounds = 9;
   if (rounds > most_rounds) {
     job.refuse(limit_issue({Resource::iterations, most_rounds, static_cast<std::uint64_t>(rounds)},
@@ -151,7 +161,7 @@ Mesh koch_plate(int rounds, double size, Job& job) {
   std::size_t corners = 3;
   for (int round = 0; round < rounds; ++round) corners *= 4;
   job.spend(Resource::triangles, 4 * corners - 4);
-  const std::vector<glm::dvec2> outline = snowflake(rounds);
+  const std::vector<glm::dvec2> outline = snowflake(rounds, job);
   Triangulator triangulator(&job);
   // Many corners are collinear. Triangles far smaller than the smallest bump of the curve are left out.
   const double least_area = 0.05 / static_cast<double>(corners) / static_cast<double>(corners);
@@ -163,13 +173,17 @@ Mesh koch_plate(int rounds, double size, Job& job) {
   for (const double z : {half, -half}) {
     const auto first = static_cast<std::uint32_t>(mesh.position.size());
     for (const glm::dvec2& p : outline) {
+      if (mesh.position.size() % look_every == 0) job.check();
       mesh.position.push_back(glm::vec3(glm::dvec3(p, z) * size));
       mesh.normal.push_back({0, 0, z > 0 ? 1 : -1});
     }
-    for (std::size_t i = 0; i < inside.size(); ++i)
+    for (std::size_t i = 0; i < inside.size(); ++i) {
+      if (i % look_every == 0) job.check();
       mesh.index.wide.push_back(first + inside[z > 0 ? i : i / 3 * 3 + 2 - i % 3]);
+    }
   }
   for (std::size_t i = 0; i < outline.size(); ++i) {
+    if (i % look_every == 0) job.check();
     const glm::dvec2 a = outline[i], b = outline[(i + 1) % outline.size()];
     const glm::vec3 out(math::unit(glm::dvec3(b.y - a.y, a.x - b.x, 0), {0, 1, 0}));
     const auto first = static_cast<std::uint32_t>(mesh.position.size());

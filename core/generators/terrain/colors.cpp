@@ -109,6 +109,9 @@ GroundColors::GroundColors(PaletteName palette, const Range& range, float level)
   water_ = level > range.low;
   const float ground = water_ ? std::min(level, range.high) : range.low;
   span_ = std::max(range.high - ground, 1e-6F);
+  const Ramp& ramp = ramps[std::min(static_cast<std::size_t>(palette_), ramps.size() - 1)];
+  linear_ = {linear(ramp.bed),  linear(ramp.shore), linear(ramp.low),
+             linear(ramp.high), linear(ramp.cliff), linear(ramp.peak)};
 }
 
 GroundColors::Shares GroundColors::shares(const Site& site) const {
@@ -149,13 +152,12 @@ glm::vec3 GroundColors::color(const Site& site) const {
     const float share = (site.height - range_.low) / std::max(range_.high - range_.low, 1e-6F);
     return glm::vec3(0.05F + 0.85F * std::clamp(share, 0.0F, 1.0F));
   }
-  const Ramp& ramp = ramps[static_cast<std::size_t>(palette_)];
   const Shares all = shares(site);
-  glm::vec3 color = blend(linear(ramp.low), linear(ramp.high), all.high);
-  color = blend(color, linear(ramp.cliff), all.cliff);
-  color = blend(color, linear(ramp.peak), all.peak);
-  color = blend(color, linear(ramp.shore), all.shore);
-  color = blend(color, linear(ramp.bed), all.bed);
+  glm::vec3 color = blend(linear_.low, linear_.high, all.high);
+  color = blend(color, linear_.cliff, all.cliff);
+  color = blend(color, linear_.peak, all.peak);
+  color = blend(color, linear_.shore, all.shore);
+  color = blend(color, linear_.bed, all.bed);
   // Hollows are darker, ridges brighter, and patches vary.
   const float light = std::clamp(1 - site.hollow * 0.9F, 0.55F, 1.25F) * (1 + site.patch * 0.08F);
   return glm::clamp(color * light, glm::vec3(0), glm::vec3(brightest));
@@ -196,9 +198,12 @@ Site Sites::at(std::int32_t x, std::int32_t z) const {
 
 glm::u8vec4 vertex_color(const Sites& sites, const GroundColors& ground_colors, std::int32_t x,
                          std::int32_t z) {
+  // Colours lie between 0 and 1.
   const glm::vec3 color = ground_colors.color(sites.at(x, z)) * 255.0F + 0.5F;
-  return {math::to_int32(static_cast<double>(color.x)), math::to_int32(static_cast<double>(color.y)),
-          math::to_int32(static_cast<double>(color.z)), 255};
+  const auto byte_of = [](float value) {
+    return static_cast<std::uint8_t>(static_cast<std::int32_t>(value));
+  };
+  return {byte_of(color.x), byte_of(color.y), byte_of(color.z), 255};
 }
 
 Array<glm::u8vec4> vertex_colors(const Field& field, const Sites& sites, const GroundColors& ground_colors,

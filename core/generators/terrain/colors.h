@@ -34,8 +34,12 @@ class GroundColors {
     float bed, shore, cliff, peak, high;  ///< each covers the ones before it; `high` covers the plain ground
   };
   Shares shares(const Site& site) const;
+  struct LinearRamp {
+    glm::vec3 bed{0}, shore{0}, low{0}, high{0}, cliff{0}, peak{0};
+  };
 
   PaletteName palette_;
+  LinearRamp linear_;
   Range range_;
   float level_, span_;
   bool water_;

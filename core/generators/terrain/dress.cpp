@@ -77,7 +77,8 @@ class Dressing {
       add_pictures(model, ground);
     } else if (params_.palette != TerrainPalette::none &&
                (params_.mesh == TerrainMesh::grid || demand_.lods > 1)) {
-      colors_ = vertex_colors(field_, sites(), ground_colors_, job_);
+      colors_ = sites_ ? vertex_colors(field_, *sites_, ground_colors_, job_)
+                       : vertex_colors(field_, sites(), ground_colors_, job_);
     }
     add_ground(model, ground);
     add_water(model);
@@ -97,14 +98,14 @@ class Dressing {
   Sites sites() const { return {field_, window_of(params_), job_.rng().at("terrain"), job_}; }
 
   /// Returns the function that gives the colour of a sample of a coarse mesh; empty without colours. The sites
-  /// need as much memory as the field, so they are made with the first colour.
+  /// need as much memory as the field, so they are made with the first colour unless there are some.
   ColorOf color_of() const {
     if (!colors_.empty()) return [this](std::uint32_t sample) { return colors_[sample]; };
     if (params_.texture > 0 || params_.palette == TerrainPalette::none) return {};
     return [this, own = std::shared_ptr<const Sites>()](std::uint32_t sample) mutable {
-      if (!own) own = std::make_shared<const Sites>(sites());
+      if (!sites_ && !own) own = std::make_shared<const Sites>(sites());
       const GridPoint at = grid_point_of(sample, field_.width);
-      return vertex_color(*own, ground_colors_, at.x, at.z);
+      return vertex_color(sites_ ? *sites_ : *own, ground_colors_, at.x, at.z);
     };
   }
 

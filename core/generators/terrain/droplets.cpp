@@ -34,26 +34,35 @@ struct Change {
   float x, z, amount;
 };
 
-struct BrushCell {
-  std::int32_t dx, dz;
-  float weight;
+/// Weights about a sample, in rows from -reach to reach. A row has those of -half .. half.
+struct Brush {
+  struct Row {
+    std::int32_t half;
+    std::size_t first;  ///< position in `weights`
+  };
+  std::int32_t reach = 0;
+  std::vector<Row> rows;
+  std::vector<float> weights;
 };
 
 /// Returns weights that decrease from the centre to `radius` and sum to 1.
-std::vector<BrushCell> brush_of(double radius) {
-  const std::int32_t reach = math::to_int32(std::ceil(radius));
-  std::vector<BrushCell> cells;
+Brush brush_of(double radius) {
+  Brush brush;
+  brush.reach = math::to_int32(std::ceil(radius));
   double sum = 0;
-  for (std::int32_t dz = -reach; dz <= reach; ++dz) {
-    for (std::int32_t dx = -reach; dx <= reach; ++dx) {
+  for (std::int32_t dz = -brush.reach; dz <= brush.reach; ++dz) {
+    Brush::Row row{-1, brush.weights.size()};
+    for (std::int32_t dx = -brush.reach; dx <= brush.reach; ++dx) {
       const double weight = radius - std::sqrt(static_cast<double>(dx * dx + dz * dz));
       if (weight <= 0 && (dx != 0 || dz != 0)) continue;
-      cells.push_back({dx, dz, static_cast<float>(std::max(weight, 1e-3))});
+      row.half = std::max(row.half, dx);
+      brush.weights.push_back(static_cast<float>(std::max(weight, 1e-3)));
       sum += std::max(weight, 1e-3);
     }
+    brush.rows.push_back(row);
   }
-  for (BrushCell& cell : cells) cell.weight /= static_cast<float>(sum);
-  return cells;
+  for (float& weight : brush.weights) weight /= static_cast<float>(sum);
+  return brush;
 }
 
 /// Height and slope at a position between samples.
@@ -134,29 +143,28 @@ class Spread {
  public:
   /// Heights stay within the range before the batch: where many drops of a batch meet, the sum of their changes
   /// can be larger than each of them assumed.
-  Spread(Field& field, const Range& range, const std::vector<BrushCell>& brush, std::int32_t reach)
-      : field_(field), range_(range), brush_(brush), reach_(reach), scale_(static_cast<float>(field.cell)) {}
+  Spread(Field& field, const Range& range, const Brush& brush)
+      : field_(field), range_(range), brush_(brush), scale_(static_cast<float>(field.cell)) {}
 
   void add(const Change& change, std::int32_t begin, std::int32_t end) const {
     const auto i = static_cast<std::int32_t>(change.x + 0.5F), j = static_cast<std::int32_t>(change.z + 0.5F);
-    if (j + reach_ < begin || j - reach_ >= end) return;
+    const std::int32_t top = j - brush_.reach;
+    const std::int32_t first = std::max(begin, top), last = std::min(end, j + brush_.reach + 1);
     const float amount = change.amount * scale_;
-    for (const BrushCell& cell : brush_) {
-      const std::int32_t x = i + cell.dx, z = j + cell.dz;
-      if (z >= begin && z < end && x >= 0 && x < field_.width)
-        change_by(field_.at(x, z), amount * cell.weight);
+    for (std::int32_t z = first; z < last; ++z) {
+      const Brush::Row& row = brush_.rows[static_cast<std::size_t>(z - top)];
+      const std::int32_t west = std::max(0, i - row.half), east = std::min(field_.width - 1, i + row.half);
+      float* heights = field_.row(z);
+      const float* weights = brush_.weights.data() + row.first;
+      for (std::int32_t x = west; x <= east; ++x)
+        heights[x] = std::clamp(heights[x] + amount * weights[x - (i - row.half)], range_.low, range_.high);
     }
   }
 
  private:
-  void change_by(float& height, float amount) const {
-    height = std::clamp(height + amount, range_.low, range_.high);
-  }
-
   Field& field_;
   Range range_;
-  const std::vector<BrushCell>& brush_;
-  std::int32_t reach_;
+  const Brush& brush_;
   float scale_;
 };
 
@@ -164,7 +172,7 @@ class Spread {
 
 void erode(Field& field, const DropletPlan& plan, Rng rng, const Job& job) {
   const double radius = std::clamp(plan.radius, 1.0, 8.0);
-  const std::vector<BrushCell> brush = brush_of(radius);
+  const Brush brush = brush_of(radius);
   const std::size_t samples = static_cast<std::size_t>(field.width) * static_cast<std::size_t>(field.depth);
   const std::size_t batch = std::clamp(samples / samples_a_drop, least_batch, most_batch);
   const auto total = static_cast<std::size_t>(plan.droplets);
@@ -183,7 +191,7 @@ void erode(Field& field, const DropletPlan& plan, Rng rng, const Job& job) {
         drops.run(first + drop, changes[index]);
       }
     });
-    const Spread spread(field, range, brush, math::to_int32(std::ceil(radius)));
+    const Spread spread(field, range, brush);
     parallel_for(job, static_cast<std::size_t>(bands), 1, [&](std::size_t begin, std::size_t, std::size_t) {
       const std::int32_t top = static_cast<std::int32_t>(begin) * band;
       for (const Array<Change>& list : changes) {

@@ -88,6 +88,7 @@ class AreaFinder {
                               : has_works ? Ground::with_roads(world_, part, job_)
                                           : Ground(world_, part, job_);
         for (int j = row; j <= last_row; ++j) {
+          job_.check();
           for (int i = column; i <= last_column; ++i) add_sample(ground, i, j);
         }
       }

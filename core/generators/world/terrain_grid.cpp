@@ -29,6 +29,7 @@ TerrainGrid sample_grid(const World& world, const TileFrame& frame, int cells, i
                             : is_coarse ? Ground(world, box, job)
                                         : Ground::with_roads(world, box, job);
       for (int j = row; j < last_row; ++j) {
+        job.check();
         for (int i = column; i < last_column; ++i) {
           grid.samples[static_cast<std::size_t>(j * wide + i)] =
               ground.at(along(grid.west, i), along(grid.south, j));

@@ -56,4 +56,17 @@ struct CollapseCandidate {
   }
 };
 
+/// Whether a triangle whose first corner moves turns by less than 78 degrees and does not become a sliver.
+inline bool keeps_shape(const glm::dvec3& from, const glm::dvec3& to, const glm::dvec3& b,
+                        const glm::dvec3& d) {
+  constexpr double least_turn = 0.2;     // cosine between the face before and after
+  constexpr double least_height = 1e-3;  // of the triangle, to its longest side
+  const glm::dvec3 old = glm::cross(b - from, d - from), now = glm::cross(b - to, d - to);
+  const double now2 = glm::dot(now, now), turn = glm::dot(old, now);
+  const double longest =
+      std::max({glm::dot(b - to, b - to), glm::dot(d - to, d - to), glm::dot(b - d, b - d)});
+  return now2 > least_height * least_height * longest * longest && turn > 0 &&
+         turn * turn >= least_turn * least_turn * now2 * glm::dot(old, old);
+}
+
 }  // namespace seedmesh

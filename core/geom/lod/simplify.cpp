@@ -16,8 +16,6 @@ namespace {
 constexpr std::uint32_t none = 0xFFFFFFFFU;
 constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr double border_weight = 10;      ///< of planes perpendicular to a border, against those of faces
-constexpr double least_turn = 0.2;        ///< cosine between a face before and after
-constexpr double least_height = 1e-3;     ///< of a triangle, to its longest side
 constexpr std::uint32_t most_faces = 96;  ///< at a vertex; vertices with more stay
 
 /// All meshes as one surface. Vertices at the same position are one point. A corner is an entry of the index
@@ -38,13 +36,16 @@ class Net {
     is_waiting_.assign(head_.size(), false);
     bound_.resize(head_.size());
     for (std::uint32_t point = 0; point < head_.size(); ++point) {
-      if (point % 1024 == 0) job_.check();
+      look();
       bound_[point] = least_cost(point);
       if (!(bound_[point] < infinite)) continue;
       is_waiting_[point] = true;
       heap_.push_back({bound_[point], point, none, stamp_[point]});
     }
-    std::make_heap(heap_.begin(), heap_.end());
+    std::make_heap(heap_.begin(), heap_.end(), [&](const auto& a, const auto& b) {
+      look();
+      return a < b;
+    });
     for (std::uint64_t step = 1; left_ > target && heap_.size() > 0; ++step) {
       if (step % 1024 == 0) job_.check();
       std::pop_heap(heap_.begin(), heap_.end());
@@ -86,6 +87,11 @@ class Net {
  private:
   using Ring = std::array<std::uint32_t, 2 * most_faces>;
 
+  /// Checks the deadline at each 4,096th call.
+  void look() {
+    if (++looks_ % 4'096 == 0) job_.check();
+  }
+
   void read(std::span<Mesh* const> meshes, const std::vector<bool>& fixed) {
     for (std::size_t i = 0; i < meshes.size(); ++i) {
       job_.check();
@@ -93,11 +99,15 @@ class Net {
       const Mesh& mesh = *meshes[i];
       if (mesh.topology != Topology::triangles) continue;
       for (std::size_t v = 0; v < mesh.position.size(); ++v) {
+        look();
         position_.push_back(mesh.position[v] + 0.0F);
         normal_.push_back(mesh.normal.empty() ? glm::vec3(0) : mesh.normal[v]);
         locked_.push_back(fixed[i] ? 1 : 0);
       }
-      for (std::size_t c = 0; c < mesh.index.size(); ++c) corner_.push_back(first_.back() + mesh.index.at(c));
+      for (std::size_t c = 0; c < mesh.index.size(); ++c) {
+        look();
+        corner_.push_back(first_.back() + mesh.index.at(c));
+      }
     }
     left_ = corner_.size() / 3;
   }
@@ -107,17 +117,16 @@ class Net {
     Array<std::uint32_t> order(job_, position_.size());
     std::iota(order.begin(), order.end(), 0U);
     const auto key = [this](std::uint32_t v) {
-      const glm::vec3& p = position_[v];
-      return std::tie(p.x, p.y, p.z);
+      return std::tie(position_[v].x, position_[v].y, position_[v].z);
     };
-    std::size_t looks = 0;
     std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-      if (++looks % 32'768 == 0) job_.check();
+      look();
       return key(a) != key(b) ? key(a) < key(b) : a < b;
     });
     point_of_.resize(position_.size());
     Array<std::uint8_t> locked(job_);
     for (std::size_t i = 0; i < order.size(); ++i) {
+      look();
       if (i == 0 || key(order[i]) != key(order[i - 1])) {
         at_.push_back(glm::dvec3(position_[order[i]]));
         locked.push_back(0);
@@ -129,14 +138,13 @@ class Net {
   }
 
   void link() {
-    head_.resize(at_.size());
-    stamp_.resize(at_.size());
-    std::fill(head_.begin(), head_.end(), none);
-    std::fill(stamp_.begin(), stamp_.end(), 0U);
+    head_ = Array<std::uint32_t>(job_, at_.size(), none);
+    stamp_ = Array<std::uint32_t>(job_, at_.size(), 0U);
     next_.resize(corner_.size());
     point_.resize(corner_.size());
-    for (std::size_t c = 0; c < corner_.size(); ++c) point_[c] = point_of_[corner_[c]];
     for (std::size_t c = corner_.size(); c-- > 0;) {
+      look();
+      point_[c] = point_of_[corner_[c]];
       std::uint32_t& head = head_[point(c)];
       next_[c] = head;
       head = static_cast<std::uint32_t>(c);
@@ -155,11 +163,10 @@ class Net {
   }
 
   void measure() {
-    quadric_.resize(at_.size());
-    std::fill(quadric_.begin(), quadric_.end(), Quadric{});
+    quadric_ = Array<Quadric>(job_, at_.size(), Quadric{});
     border_.assign(at_.size(), false);
     for (std::size_t t = 0; t < corner_.size(); t += 3) {
-      if (t % 3072 == 0) job_.check();
+      look();
       const glm::dvec3 &a = at_[point(t)], &b = at_[point(t + 1)], &c = at_[point(t + 2)];
       const glm::dvec3 across = glm::cross(b - a, c - a);
       const double length = std::sqrt(glm::dot(across, across));
@@ -179,8 +186,7 @@ class Net {
     if (faces > 2) locked_[a] = locked_[b] = 1;
     if (faces != 1) return;
     border_[a] = border_[b] = true;
-    const glm::dvec3 edge = at_[b] - at_[a];
-    const glm::dvec3 out = glm::cross(edge, n);
+    const glm::dvec3 edge = at_[b] - at_[a], out = glm::cross(edge, n);
     const double length = std::sqrt(glm::dot(out, out));
     if (!(length > 0)) return;
     for (const std::uint32_t each : {a, b}) {
@@ -289,13 +295,8 @@ class Net {
   bool is_sound(std::uint32_t from, std::uint32_t to, std::pair<std::uint32_t, std::uint32_t> rest,
                 const std::array<std::uint32_t, 3>& corners) const {
     const glm::dvec3 &b = at_[rest.first], &d = at_[rest.second];
-    const glm::dvec3 old = glm::cross(b - at_[from], d - at_[from]),
-                     now = glm::cross(b - at_[to], d - at_[to]);
-    const double now2 = glm::dot(now, now), turn = glm::dot(old, now);
-    const double longest = std::max(
-        {glm::dot(b - at_[to], b - at_[to]), glm::dot(d - at_[to], d - at_[to]), glm::dot(b - d, b - d)});
-    if (!(now2 > least_height * least_height * longest * longest)) return false;
-    if (!(turn > 0) || turn * turn < least_turn * least_turn * now2 * glm::dot(old, old)) return false;
+    if (!keeps_shape(at_[from], at_[to], b, d)) return false;
+    const glm::dvec3 now = glm::cross(b - at_[to], d - at_[to]);
     for (const std::uint32_t corner : corners) {
       const glm::dvec3 n(normal_[corner]);
       if (n != glm::dvec3(0) && !(glm::dot(n, now) > 0)) return false;
@@ -380,6 +381,7 @@ class Net {
   std::vector<bool> is_waiting_;              ///< by point: the heap has its bound
   std::vector<std::uint32_t> seen_, beside_;  ///< by point: the last mark of neighbours()
   std::uint32_t mark_ = 0;
+  std::size_t looks_ = 0;
   std::vector<std::pair<std::uint32_t, std::uint32_t>> heirs_;  ///< new vertex of each corner that moves
   std::vector<std::uint32_t> gone_, first_;                     ///< triangles; vertex of each mesh
   std::uint64_t left_ = 0;

@@ -26,15 +26,18 @@ struct Pieces {
 };
 
 /// For each vertex the lowest vertex at the same position.
-std::vector<std::uint32_t> least_at_position(const Mesh& mesh) {
+std::vector<std::uint32_t> least_at_position(const Mesh& mesh, const Job& job) {
   std::vector<std::uint32_t> order(mesh.position.size()), least(mesh.position.size());
   std::iota(order.begin(), order.end(), 0U);
   const auto at = [&mesh](std::uint32_t v) {
     const glm::vec3& p = mesh.position[v];
     return std::tuple(p.x + 0.0F, p.y + 0.0F, p.z + 0.0F);
   };
-  std::sort(order.begin(), order.end(),
-            [&](std::uint32_t a, std::uint32_t b) { return at(a) != at(b) ? at(a) < at(b) : a < b; });
+  std::size_t looks = 0;
+  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+    if (++looks % look_every == 0) job.check();
+    return at(a) != at(b) ? at(a) < at(b) : a < b;
+  });
   for (std::size_t i = 0; i < order.size(); ++i) {
     least[order[i]] = i > 0 && at(order[i]) == at(order[i - 1]) ? least[order[i - 1]] : order[i];
   }
@@ -53,7 +56,7 @@ Pieces pieces_of(const Mesh& mesh, const Job& job) {
     b = root(b);
     parent[std::max(a, b)] = std::min(a, b);
   };
-  const std::vector<std::uint32_t> least = least_at_position(mesh);
+  const std::vector<std::uint32_t> least = least_at_position(mesh, job);
   std::vector<std::pair<std::uint64_t, std::uint32_t>> edges;  // two positions, a vertex at one of them
   edges.reserve(mesh.index.size());
   for (std::size_t i = 0; i < mesh.index.size(); ++i) {
@@ -63,13 +66,19 @@ Pieces pieces_of(const Mesh& mesh, const Job& job) {
     const std::uint64_t low = std::min(least[a], least[b]), high = std::max(least[a], least[b]);
     edges.emplace_back(low << 32U | high, a);
   }
-  std::sort(edges.begin(), edges.end());
+  std::size_t looks = 0;
+  std::sort(edges.begin(), edges.end(), [&](const auto& a, const auto& b) {
+    if (++looks % look_every == 0) job.check();
+    return a < b;
+  });
   for (std::size_t i = 1; i < edges.size(); ++i) {
+    if (i % look_every == 0) job.check();
     if (edges[i].first == edges[i - 1].first) join(edges[i].second, edges[i - 1].second);
   }
   Pieces pieces;
   pieces.of_vertex.resize(parent.size());
   for (std::uint32_t v = 0; v < parent.size(); ++v) {
+    if (v % look_every == 0) job.check();
     if (root(v) == v) {
       pieces.of_vertex[v] = static_cast<std::uint32_t>(pieces.first.size());
       pieces.first.push_back(v);
@@ -89,10 +98,11 @@ struct Areas {
   std::vector<glm::dvec3> sum;
 };
 
-Areas areas_of(const Mesh& mesh, const Pieces& pieces) {
+Areas areas_of(const Mesh& mesh, const Pieces& pieces, const Job& job) {
   Areas areas{std::vector<double>(pieces.first.size(), 0),
               std::vector<glm::dvec3>(pieces.first.size(), glm::dvec3(0))};
   for (std::size_t i = 0; i < mesh.index.size(); i += 3) {
+    if (i % (3 * look_every) == 0) job.check();
     const glm::dvec3 a(mesh.position[mesh.index.at(i)]);
     const glm::dvec3 across = glm::cross(glm::dvec3(mesh.position[mesh.index.at(i + 1)]) - a,
                                          glm::dvec3(mesh.position[mesh.index.at(i + 2)]) - a);
@@ -138,7 +148,7 @@ bool is_foliage(const Mesh& mesh, const Job& job) {
   const Pieces pieces = pieces_of(mesh, job);
   const auto all = static_cast<std::size_t>(
       std::count_if(pieces.triangles.begin(), pieces.triangles.end(), [](std::uint32_t n) { return n > 0; }));
-  return all >= fewest_pieces && count_leaves(pieces, areas_of(mesh, pieces)) * 10 >= all * 9;
+  return all >= fewest_pieces && count_leaves(pieces, areas_of(mesh, pieces, job)) * 10 >= all * 9;
 }
 
 void thin_sheets(Mesh& mesh, std::uint64_t target, const Job& job) {
@@ -174,7 +184,7 @@ void drop_smallest_pieces(Mesh& mesh, std::uint64_t target, const Job& job, doub
   if (mesh.topology != Topology::triangles || mesh.elements() <= target) return;
   const Pieces pieces = pieces_of(mesh, job);
   if (pieces.first.size() < fewest_pieces) return;
-  const Areas areas = areas_of(mesh, pieces);
+  const Areas areas = areas_of(mesh, pieces, job);
   std::vector<std::uint32_t> order(pieces.first.size());
   std::iota(order.begin(), order.end(), 0U);
   std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {

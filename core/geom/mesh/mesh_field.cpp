@@ -177,6 +177,7 @@ MeshField::Nearest MeshField::nearest(const glm::dvec3& point) const {
 }
 
 bool MeshField::holds(const glm::dvec3& point) const {
+  if (squared_distance(point, knot_[0].low, knot_[0].high) > 0) return false;
   bool inside = false;
   std::uint32_t waiting[64];
   int count = 0;

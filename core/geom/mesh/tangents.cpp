@@ -125,10 +125,11 @@ SEEDMESH_WIDE std::uint32_t least_of(std::span<const std::uint32_t> index) {
 }
 
 /// Cuts a mesh into parts that share no vertices: the beginning, the cuts, the end.
-std::vector<Cut> cuts_of(std::span<const std::uint32_t> index, std::size_t vertices) {
+std::vector<Cut> cuts_of(std::span<const std::uint32_t> index, std::size_t vertices, const Job& job) {
   std::vector<Cut> cuts(1);
   std::uint32_t most = 0;
   for (std::size_t at = 0; at < index.size();) {
+    job.check();
     const std::size_t next = std::min(index.size(), at + corners_a_part);
     most = std::max(most, largest_of(index.subspan(at, next - at)));
     for (at = next; at < index.size(); at += 3) {
@@ -154,13 +155,13 @@ std::vector<Cut> cuts_of(std::span<const std::uint32_t> index, std::size_t verti
 /// The tangents of one mesh, in parts that share no vertices.
 class MeshTangents {
  public:
-  MeshTangents(Mesh& mesh, const Array<glm::vec2>& uv) : mesh_(mesh), uv_(uv) {
+  MeshTangents(Mesh& mesh, const Array<glm::vec2>& uv, const Job& job) : mesh_(mesh), uv_(uv) {
     const std::size_t vertices = mesh.position.size();
     if (!mesh.index.small.empty()) return;
     if (const Repeats one = repeats_of(mesh.index.wide, vertices); one.corners > 0) {
       one_ = one;
     } else {
-      cuts_ = cuts_of(mesh.index.wide.span(), vertices);
+      cuts_ = cuts_of(mesh.index.wide.span(), vertices, job);
     }
   }
 
@@ -226,7 +227,7 @@ void add_tangents(Model& model, const Job& job) {
       if (uv.empty()) continue;
       // Allocated by this thread, which can reuse memory; other threads would get new pages from the kernel.
       mesh.tangent = Array<glm::vec4>(job, mesh.position.size());
-      wanted.emplace_back(mesh, uv);
+      wanted.emplace_back(mesh, uv, job);
     }
   }
   struct Part {

@@ -34,6 +34,8 @@ Pair product_of(double a, double b) {
           p.error * q.error - (((product - p.value * q.value) - p.error * q.value) - p.value * q.error)};
 }
 
+int sign_of_difference(double a, double b) { return a > b ? 1 : a < b ? -1 : 0; }
+
 /// The sign of a sum of products, exactly: the sum is kept as components that do not overlap.
 class ExactSum {
  public:
@@ -71,6 +73,15 @@ int orientation(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c) {
   const double area = left - right, bound = error_share * (std::abs(left) + std::abs(right));
   if (area > bound) return 1;
   if (area < -bound) return -1;
+  // Points on one line, as on the edges of a grid, mostly have exact differences. Their products round to two numbers
+  // in the order of the products, or to the same number with errors in this order.
+  const Pair along_x = sum_of(b.x, -a.x), along_y = sum_of(b.y, -a.y);
+  const Pair to_x = sum_of(c.x, -a.x), to_y = sum_of(c.y, -a.y);
+  if (along_x.error == 0 && along_y.error == 0 && to_x.error == 0 && to_y.error == 0) {
+    const Pair one = product_of(along_x.value, to_y.value), other = product_of(along_y.value, to_x.value);
+    return one.value != other.value ? sign_of_difference(one.value, other.value)
+                                    : sign_of_difference(one.error, other.error);
+  }
   ExactSum sum;
   sum.add_product(a.x, b.y);
   sum.add_product(-a.y, b.x);

@@ -2,6 +2,8 @@
 /// Pairs of segments that may be near each other.
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <glm/common.hpp>
 
 #include "core/base/job.h"
 #include "core/geom/polygon/cell_grid.h"
@@ -11,6 +13,17 @@ namespace seedmesh {
 struct Segment {
   glm::dvec2 from, to;
 };
+
+/// Whether all of another segment lies farther than `reach` to one side of the line through a segment.
+inline bool is_beside(const Segment& segment, const Segment& other, double reach) {
+  const glm::dvec2 along = segment.to - segment.from;
+  const double most = reach * std::sqrt(along.x * along.x + along.y * along.y);
+  const auto side_of = [&](const glm::dvec2& p) {
+    return along.x * (p.y - segment.from.y) - along.y * (p.x - segment.from.x);
+  };
+  const double one = side_of(other.from), two = side_of(other.to);
+  return std::min(one, two) > most || std::max(one, two) < -most;
+}
 
 /// Calls visit(i, k) for all pairs i < k of segments with points at most `reach` apart, and perhaps for others,
 /// until it returns false. i rises, and k rises for each i. Checks stop and deadline if `job` is not null.
@@ -33,6 +46,9 @@ void each_near_pair(std::span<const Segment> segments, double reach, const Job* 
     each_cell(i, [&](std::size_t cell) { grid.add(cell, static_cast<std::uint32_t>(i)); });
     if (job && i % 1024 == 0) job->check();
   }
+  // The reach with the rounding of positions.
+  const glm::dvec2 size = glm::max(glm::abs(low), glm::abs(high)) + (high - low);
+  const double far = reach + 1e-12 * (size.x + size.y);
   std::vector<std::size_t> mark(segments.size(), segments.size());
   std::vector<std::uint32_t> others;
   std::size_t looks = 0;
@@ -43,7 +59,9 @@ void each_near_pair(std::span<const Segment> segments, double reach, const Job* 
         ++looks;
         if (k <= i || mark[k] == i) return;
         mark[k] = i;
-        others.push_back(k);
+        ++looks;
+        if (!is_beside(segments[i], segments[k], far) && !is_beside(segments[k], segments[i], far))
+          others.push_back(k);
       });
     });
     std::sort(others.begin(), others.end());

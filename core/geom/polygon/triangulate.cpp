@@ -79,11 +79,13 @@ void Triangulator::link() {
   before_.resize(count);
   is_cut_.assign(count, 0);
   for (std::uint32_t i = 0; i < count; ++i) {
+    count_look();
     next_[i] = (i + 1) % count;
     before_[i] = (i + count - 1) % count;
   }
   reflex_.clear();
   for (std::uint32_t i = 0; i < count; ++i) {
+    count_look();
     if (corner(i) <= least_) reflex_.push_back(i);
   }
 }
@@ -103,12 +105,17 @@ void Triangulator::fill_grid() {
     cells_by_extent_[axis] = extent > 0 ? static_cast<double>(side_) / extent : 0;
   }
   first_.assign(side_ * side_ + 1, 0);
-  for (std::uint32_t point : reflex_) ++first_[cell_of(points_[point]) + 1];
+  for (std::uint32_t point : reflex_) {
+    count_look();
+    ++first_[cell_of(points_[point]) + 1];
+  }
   for (std::size_t i = 1; i < first_.size(); ++i) first_[i] += first_[i - 1];
   members_.resize(reflex_.size());
   // Backwards, so that the counter of each cell ends at its beginning.
-  for (std::size_t i = reflex_.size(); i-- > 0;)
+  for (std::size_t i = reflex_.size(); i-- > 0;) {
+    count_look();
     members_[--first_[cell_of(points_[reflex_[i]]) + 1]] = reflex_[i];
+  }
   first_.erase(first_.begin());
   first_.push_back(members_.size());
 }

@@ -118,9 +118,12 @@ class Separation {
     std::sort(merged_.begin(), merged_.end());
     merged_.erase(std::unique(merged_.begin(), merged_.end()), merged_.end());
     for (std::uint32_t vertex = 0; vertex < point_.size(); ++vertex) {
+      if (vertex % check_interval == 0) job_.check();
       if (is_merged(word(vertex))) occupants_.push_back({word(vertex), exact(vertex), vertex});
     }
-    std::sort(occupants_.begin(), occupants_.end(), [](const Occupant& a, const Occupant& b) {
+    std::size_t looks = 0;
+    std::sort(occupants_.begin(), occupants_.end(), [&](const Occupant& a, const Occupant& b) {
+      if (++looks % check_interval == 0) job_.check();
       return std::tie(a.at, a.exact, a.vertex) < std::tie(b.at, b.exact, b.vertex);
     });
   }
@@ -159,7 +162,9 @@ class Separation {
         if (is_merged(a) || is_merged(b)) edges.emplace_back(std::min(a, b), std::max(a, b));
       }
     }
+    job_.check();
     std::sort(edges.begin(), edges.end());
+    job_.check();
     std::vector<Word> pinched;
     for (std::size_t i = 0, end = 0; i < edges.size(); i = end) {
       for (end = i; end < edges.size() && edges[end] == edges[i];) ++end;

@@ -85,10 +85,11 @@ void quantize_lanes(Column& column, Job& job) {
   column.normalized = true;
 }
 
-float farthest_of(const Column& column, bool& inside) {
+float farthest_of(const Column& column, bool& inside, const Job& job) {
   float farthest = 0;
   inside = true;
   for (std::size_t i = 0; i < column.count * 2; ++i) {
+    if (i % check_interval == 0) job.check();
     const auto value = load<float>(column.slice, i);
     farthest = std::max(farthest, std::abs(value));
     inside = inside && value >= 0 && value <= 1;
@@ -98,10 +99,11 @@ float farthest_of(const Column& column, bool& inside) {
 
 void quantize_uv(Column& column, Job& job, Encoding encoding) {
   bool inside = true;
-  const float farthest = farthest_of(column, inside);
+  const float farthest = farthest_of(column, inside, job);
   if (inside) {
     Array<glm::u16vec2> shares(job, column.count);
     for (std::size_t i = 0; i < column.count; ++i) {
+      if (i % check_interval == 0) job.check();
       const glm::dvec2 uv(load<glm::vec2>(column.slice, i));
       shares[i] = glm::u16vec2(static_cast<std::uint16_t>(std::floor(uv.x * 65'535 + 0.5)),
                                static_cast<std::uint16_t>(std::floor(uv.y * 65'535 + 0.5)));
@@ -118,6 +120,7 @@ void quantize_uv(Column& column, Job& job, Encoding encoding) {
   exponent = std::max(exponent - mantissa_bits + 1, finest_exponent);
   Array<std::uint32_t> packed(job, column.count * 2);
   for (std::size_t i = 0; i < packed.size(); ++i) {
+    if (i % check_interval == 0) job.check();
     const double value = std::ldexp(static_cast<double>(load<float>(column.slice, i)), -exponent);
     const auto mantissa = static_cast<std::int32_t>(std::floor(value + 0.5));
     packed[i] =
@@ -162,9 +165,11 @@ Array<unsigned> firsts_of(const Part& part, std::span<const std::uint32_t> corne
   for (const Column& column : part.columns)
     streams.push_back({column.slice.bytes.data(), column.stride(), column.stride()});
   constexpr unsigned unused = 0xFFFFFFFFU;
+  job.check();
   Array<unsigned> place(job, vertices);
   kept = meshopt_generateVertexRemapMulti(place.data(), corners.data(), corners.size(), vertices,
                                           streams.data(), streams.size());
+  job.check();
   if (kept == vertices) return Array<unsigned>(job);
   Array<unsigned> first(job, vertices, unused);
   for (std::size_t i = 0; i < vertices; ++i) {
@@ -186,12 +191,14 @@ void rewrite(Part& part, Array<std::uint32_t>& corners, Job& job) {
     corner = place[corner];
   }
   for (Column& column : part.columns) {
+    job.check();
     column.slice = selected(column, vertices, job);
     column.count = vertices.size();
   }
   Column& position = part.columns.front();
   glm::u16vec4 low(65'535), high(0);
   for (std::size_t i = 0; i < position.count; ++i) {
+    if (i % check_interval == 0) job.check();
     low = glm::min(low, load<glm::u16vec4>(position.slice, i));
     high = glm::max(high, load<glm::u16vec4>(position.slice, i));
   }
@@ -234,6 +241,7 @@ void clean(Part& part, Job& job) {
   if (!first.empty()) {
     for (std::uint32_t& corner : corners) corner = first[corner];
   }
+  job.check();
   drop_flat_triangles(part.columns.front(), corners);
   if (corners.size() < before) drop_doubled_triangles(part.columns.front(), corners, job);
   rewrite(part, corners, job);

@@ -90,7 +90,9 @@ void repair_normals(Part& part, const std::vector<std::size_t>& inward, Job& job
   const std::size_t count = position->count, all = count + repaired.size();
   Array<std::uint32_t> vertices(job, all), corners(job, part.index->count);
   for (std::size_t i = 0; i < count; ++i) vertices[i] = static_cast<std::uint32_t>(i);
+  job.check();
   for (std::size_t i = 0; i < corners.size(); ++i) corners[i] = corner_at(*part.index, i);
+  job.check();
   for (std::size_t i = 0; i < repaired.size(); ++i) {
     vertices[count + i] = corners[repaired[i].corner];
     corners[repaired[i].corner] = static_cast<std::uint32_t>(count + i);
@@ -99,6 +101,7 @@ void repair_normals(Part& part, const std::vector<std::size_t>& inward, Job& job
   for (std::size_t i = 0; i < all; ++i)
     normals[i] = i < count ? load<OctahedralNormal>(normal->slice, i) : repaired[i - count].normal;
   for (Column& column : part.columns) {
+    job.check();
     column.slice = &column == normal ? keep(std::move(normals)) : selected(column, vertices, job);
     column.count = all;
   }

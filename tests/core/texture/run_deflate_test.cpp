@@ -15,7 +15,7 @@ using Bytes = std::vector<std::uint8_t>;
 
 Bytes deflated(const Bytes& data, std::size_t period) {
   Bytes out(run_deflate_bound(data.size()));
-  out.resize(run_deflate(data, period, out.data()));
+  out.resize(run_deflate(data, period, out.data(), Job(0, Job::Options{})));
   return out;
 }
 

@@ -29,7 +29,9 @@ Mesh part_with(const Mesh& mesh, const Array<std::uint8_t>& marked, const Job& j
   part.index.wide = Array<std::uint32_t>(job);
   const Array<std::uint32_t>& index = mesh.index.wide;
   Array<std::uint32_t> number(job, mesh.position.size(), Limbs::none);
+  constexpr std::size_t look_every = 3 * 16'384;
   const auto is_wanted = [&](std::size_t t) {
+    if (t % look_every == 0) job.check();
     return (marked[index[t]] | marked[index[t + 1]] | marked[index[t + 2]]) != 0;
   };
   for (std::size_t t = 0; t < index.size(); t += 3) {
@@ -50,6 +52,7 @@ Box box_of(std::span<const glm::vec3> points, const Job& job) {
   std::vector<Box> boxes(chunk_count(points.size(), points_a_chunk));
   parallel_for(job, points.size(), points_a_chunk,
                [&](std::size_t begin, std::size_t end, std::size_t chunk) {
+                 job.check();
                  boxes[chunk] = bounds_of(points.subspan(begin, end - begin));
                });
   Box box = boxes.empty() ? Box{} : boxes.front();
@@ -114,11 +117,15 @@ JoinedBark take_with_creases(BarkBuffers& bark, const std::vector<Crease>& creas
   JoinedBark joined = take_bark(bark, creases.size(), job);
   write_creases(creases, joined);
   Mesh& mesh = joined.mesh;
-  mesh.position.shrink_to_fit();
-  mesh.normal.shrink_to_fit();
-  mesh.tangent.shrink_to_fit();
-  mesh.uv[0].shrink_to_fit();
-  mesh.index.wide.shrink_to_fit();
+  const auto shrink = [&job](auto& array) {
+    job.check();
+    array.shrink_to_fit();
+  };
+  shrink(mesh.position);
+  shrink(mesh.normal);
+  shrink(mesh.tangent);
+  shrink(mesh.uv[0]);
+  shrink(mesh.index.wide);
   mesh.no_minus_zero = true;
   // A ring with more corners than a vertex cache has entries is loaded twice.
   mesh.cache_ordered =
