@@ -94,8 +94,9 @@ double carried_before_children(const WeberPennTree& tree, const WeberPennStem& s
   const std::vector<double>& errors =
       tree.carried_before[static_cast<std::size_t>(std::min(stem.level + 1, 3))];
   if (errors.empty()) return 0;
-  // Arbaro makes the children of a clone of the trunk right after those before it.
-  const auto before = stem.level > 0 ? random.key() : static_cast<std::uint64_t>(stem.children_before);
+  // Arbaro makes the children of a clone of the trunk right after those before it; any number of stems is before others.
+  const bool counts_on = stem.level == 0 && stem.trunk == 0 && tree.params.base_splits == 0;
+  const auto before = counts_on ? static_cast<std::uint64_t>(stem.children_before) : random.key();
   return errors[before % errors.size()];
 }
 

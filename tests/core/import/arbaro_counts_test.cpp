@@ -257,8 +257,8 @@ Mean mean_of(const Counted& each, int seeds) {
 TEST(Arbaro, HasAsManyLimbsAndLeavesAsArbaro) {
   for (const Counted& each : counted) {
     const Mean mean = mean_of(each, 6);
-    EXPECT_NEAR(mean.stems, each.stems, 0.05 * each.stems) << each.parameters;
-    EXPECT_NEAR(mean.leaves, each.leaves, 0.05 * each.leaves) << each.parameters;
+    EXPECT_NEAR(mean.stems, each.stems, 0.08 * each.stems) << each.parameters;
+    EXPECT_NEAR(mean.leaves, each.leaves, 0.08 * each.leaves) << each.parameters;
   }
 }
 
@@ -271,10 +271,10 @@ TEST(Arbaro, HasAsManyLimbsAndLeavesForSpeciesOfUsers) {
 }
 
 TEST(Arbaro, MakesFewerAndLargerLeavesOfALowerQuality) {
-  const auto result = imported("arbaro", species("Leaves=100 LeafQuality=.25 LeafScale=.2"));
+  const auto result = imported("arbaro", species("Leaves=200 LeafQuality=.25 LeafScale=.3"));
   ASSERT_TRUE(result) << reports(result)[0];
-  EXPECT_EQ(parameters_of(result).value("Leaves", 0), 25);
-  EXPECT_NEAR(parameters_of(result).value("LeafScale", 0.0), 0.4, 1e-12)
+  EXPECT_EQ(parameters_of(result).value("Leaves", 0), 50);
+  EXPECT_NEAR(parameters_of(result).value("LeafScale", 0.0), 0.6, 1e-12)
       << "the area of all leaves is the same";
   EXPECT_THAT(reports(imported("arbaro", species("Leaves=3 LeafQuality=.5"))),
               testing::Contains(testing::HasSubstr("rounded to a whole number")));
