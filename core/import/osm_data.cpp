@@ -199,10 +199,11 @@ class Assembler {
     feature.name = "way/" + std::to_string(way.id);
     feature.position = way.place;
     feature.tags = way.tags;
-    if (read.missing > 0)
+    if (read.missing > 0) {
       warn(wants_area ? "an area refers to nodes that the file lacks; it is left out"
                       : "a line refers to nodes that the file lacks; it is shorter",
            way.place);
+    }
     if (wants_area && is_closed && read.missing == 0) {
       read.points.pop_back();
       feature.polygons.push_back({std::move(read.points)});
@@ -349,10 +350,11 @@ class Assembler {
       best = &polygon;
       least = size;
     }
-    if (best)
+    if (best) {
       best->push_back(std::move(ring));
-    else
+    } else {
       warn("a hole of a multipolygon lies in none of its outer rings; it is left out", feature.position);
+    }
   }
 
   OsmFile file_;
