@@ -31,9 +31,8 @@ struct Idle {
   const char* name;
   double value;
 };
-constexpr Idle idle[] = {{"ZScale", 1},      {"ZScaleV", 0},  {"LeafStemLen", 0.5},
-                         {"LeafQuality", 1}, {"Smooth", 0.5}, {"0DownAngle", 0},
-                         {"0DownAngleV", 0}, {"0Rotate", 0},  {"0RotateV", 0}};
+constexpr Idle idle[] = {{"ZScale", 1},     {"ZScaleV", 0},     {"LeafStemLen", 0.5}, {"Smooth", 0.5},
+                         {"0DownAngle", 0}, {"0DownAngleV", 0}, {"0Rotate", 0},       {"0RotateV", 0}};
 
 bool contains(std::span<const char* const> list, std::string_view name) {
   return std::find(list.begin(), list.end(), name) != list.end();
@@ -115,12 +114,24 @@ class ArbaroReader {
     if (species_count_ == 0) source_.report(0, "found no species; expected `<species name=\"...\">`");
     set_defaults(species_);
     Imported imported = species_.made(0);
+    apply_leaf_quality(imported.request["parameters"]);
     imported.request["parameters"]["leaf"] = {{"shape", leaf_}};
     imported.request["parameters"]["counting"] = "arbaro";
     return imported;
   }
 
  private:
+  /// Arbaro makes only this share of the leaves, and makes them larger, so that their area is the same.
+  void apply_leaf_quality(Json& parameters) {
+    if (leaf_quality_ == 1) return;
+    const double leaves = parameters["Leaves"].get<double>() * leaf_quality_;
+    const double whole = leaves < 0 ? std::ceil(leaves - 0.5) : std::floor(leaves + 0.5);
+    if (std::abs(whole - leaves) > 1e-9)
+      source_.warn(leaf_quality_at_, "`Leaves` times `LeafQuality` is rounded to a whole number here");
+    parameters["Leaves"] = static_cast<std::int64_t>(std::clamp(whole, -1e9, 1e9));
+    parameters["LeafScale"] = parameters["LeafScale"].get<double>() / std::sqrt(leaf_quality_);
+  }
+
   /// The value of an attribute, and where it begins; nullopt without it.
   std::optional<Line> attribute(Line element, std::string_view name) const {
     const std::string_view inside = text_.substr(element.from, element.to - element.from);
@@ -168,6 +179,16 @@ class ArbaroReader {
       source_.report(value.from, "found " + lang::in_quotes(text) + ", expected a number");
       return;
     }
+    if (name == "LeafQuality") {
+      if (number > 0 && number <= 1) {
+        leaf_quality_ = number;
+      } else {
+        source_.report(value.from,
+                       "found " + std::string(text) + ", expected a number above 0 and at most 1");
+      }
+      leaf_quality_at_ = value.from;
+      return;
+    }
     for (const Idle& each : idle) {
       if (name != each.name) continue;
       if (number != each.value) source_.warn(value.from, "`" + name + "` has no counterpart");
@@ -197,6 +218,8 @@ class ArbaroReader {
   WeberPennSpecies species_;
   std::string leaf_ = "simple";
   int species_count_ = 0;
+  double leaf_quality_ = 1;
+  std::size_t leaf_quality_at_ = 0;
 };
 
 }  // namespace

@@ -274,6 +274,15 @@ class OsmJsonReader {
     return points;
   }
 
+  /// `center` of `out center`.
+  std::optional<glm::dvec2> center_of(const Json& json, const std::string& pointer) {
+    const auto found = json.find("center");
+    glm::dvec2 p{0};
+    if (found == json.end() || !found->is_object() || !position(*found, pointer + "/center", p))
+      return std::nullopt;
+    return p;
+  }
+
   /// `bounds` of the editing interface.
   void read_bounds(const Json& file) {
     const Json bounds = file.value("bounds", Json());
@@ -310,6 +319,7 @@ class OsmJsonReader {
       }
     }
     way.inline_points = geometry_of(json, pointer);
+    way.center = center_of(json, pointer);
     way.tags = tags_of(json);
     way.place.pointer = pointer;
     file_.ways.push_back(std::move(way));
@@ -332,6 +342,7 @@ class OsmJsonReader {
         relation.members.push_back(std::move(member));
       }
     }
+    relation.center = center_of(json, pointer);
     relation.tags = tags_of(json);
     relation.place.pointer = pointer;
     file_.relations.push_back(std::move(relation));

@@ -28,10 +28,12 @@ void merge(OsmNode&, const OsmNode&) {}
 void merge(OsmWay& way, const OsmWay& other) {
   if (way.nodes.empty()) way.nodes = other.nodes;
   if (way.inline_points.empty()) way.inline_points = other.inline_points;
+  if (!way.center) way.center = other.center;
 }
 
 void merge(OsmRelation& relation, const OsmRelation& other) {
   if (relation.members.empty()) relation.members = other.members;
+  if (!relation.center) relation.center = other.center;
 }
 
 /// Sorts, and joins elements that occur twice: Overpass can write tags and nodes of a way apart.
@@ -171,20 +173,37 @@ class Assembler {
     features_.push_back(std::move(feature));
   }
 
+  /// Adds a way or relation of which only the centre is known, as a point.
+  template <class Element>
+  void add_center(const Element& element, const char* type) {
+    warn(
+        "an element has no geometry but a centre (`out center`), which is its position; `out geom` gives "
+        "outlines",
+        element.place);
+    MapFeature feature;
+    feature.name = type + std::to_string(element.id);
+    feature.position = element.place;
+    feature.tags = element.tags;
+    feature.points.push_back(*element.center);
+    features_.push_back(std::move(feature));
+  }
+
   void add_way(const OsmWay& way) {
     count();
     if (way.tags.all().empty()) return;
     WayPoints read = points_of(way, file_.nodes);
+    if (way.center && read.points.empty()) return add_center(way, "way/");
     const bool is_closed = read.points.size() > 3 && read.points.front() == read.points.back();
     const bool wants_area = is_area(way.tags);
     MapFeature feature;
     feature.name = "way/" + std::to_string(way.id);
     feature.position = way.place;
     feature.tags = way.tags;
-    if (read.missing > 0)
+    if (read.missing > 0) {
       warn(wants_area ? "an area refers to nodes that the file lacks; it is left out"
                       : "a line refers to nodes that the file lacks; it is shorter",
            way.place);
+    }
     if (wants_area && is_closed && read.missing == 0) {
       read.points.pop_back();
       feature.polygons.push_back({std::move(read.points)});
@@ -243,6 +262,12 @@ class Assembler {
   void add_relation(const OsmRelation& relation) {
     count();
     const std::string_view type = relation.tags.get("type");
+    const bool has_lines =
+        std::any_of(relation.members.begin(), relation.members.end(), [this](const OsmMember& member) {
+          return !member.inline_points.empty() || find(file_.ways, member.way) != nullptr;
+        });
+    if (relation.center && !has_lines && !relation.tags.all().empty())
+      return add_center(relation, "relation/");
     if (type == "building") add_outline(relation);
     if (type != "multipolygon" && type != "boundary") return;
     if (type == "boundary" && !is_area(relation.tags)) return;
@@ -325,10 +350,11 @@ class Assembler {
       best = &polygon;
       least = size;
     }
-    if (best)
+    if (best) {
       best->push_back(std::move(ring));
-    else
+    } else {
       warn("a hole of a multipolygon lies in none of its outer rings; it is left out", feature.position);
+    }
   }
 
   OsmFile file_;

@@ -30,7 +30,8 @@ struct OsmWay {
   std::int64_t id = 0;
   std::vector<std::int64_t> nodes;
   std::vector<glm::dvec2>
-      inline_points;  ///< of `out geom`: by node; empty: the nodes are elements of the file
+      inline_points;                 ///< of `out geom`: by node; empty: the nodes are elements of the file
+  std::optional<glm::dvec2> center;  ///< of `out center`
   MapTags tags;
   MapPosition place;
 };
@@ -43,7 +44,8 @@ struct OsmMember {
 
 struct OsmRelation {
   std::int64_t id = 0;
-  std::vector<OsmMember> members;  ///< its ways
+  std::vector<OsmMember> members;    ///< its ways
+  std::optional<glm::dvec2> center;  ///< of `out center`
   MapTags tags;
   MapPosition place;
 };

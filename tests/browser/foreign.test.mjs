@@ -38,6 +38,8 @@ attr height = 9
 attr roof = "hip"
 @Group("Look", 2) @Color
 attr wall = "#ddccaa"
+@Color
+attr tiles = "DarkOrange"
 @Hidden
 attr secret = 4
 attr lit = false
@@ -54,13 +56,15 @@ test('annotations of a rule file become fields', { timeout: 300_000 }, async () 
   const attribute = (name) => field(page, `/parameters/attributes/${name}`);
   await attribute('height').waitFor();
   const names = await page.locator('[data-pointer^="/parameters/attributes/"]').evaluateAll((all) => all.map((each) => each.dataset.pointer.split('/').at(-1)));
-  assert.deepEqual(names, ['roof', 'height', 'wall', 'lit', 'free'], 'in the order of groups and @Order, without the hidden one');
+  assert.deepEqual(names, ['roof', 'height', 'wall', 'tiles', 'lit', 'free'], 'in the order of groups and @Order, without the hidden one');
   const number = attribute('height').locator('input[type=number], input[inputmode=decimal], input[type=text]').first();
   assert.equal(await number.inputValue(), '9');
   const slider = attribute('height').locator('input[type=range]');
   assert.deepEqual(await slider.evaluate((each) => [each.min, each.max, each.step]), ['3', '30', '0.5']);
   assert.deepEqual(await attribute('roof').locator('option').allTextContents(), ['flat', 'hip']);
   assert.equal(await attribute('wall').locator('input[type=color]').inputValue(), '#ddccaa');
+  assert.equal(await attribute('tiles').locator('input[type=color]').inputValue(), '#ff8c00', 'the name of a colour of CSS');
+  assert.equal(await attribute('tiles').locator('input[type=text]').inputValue(), 'DarkOrange');
   await number.fill('12');
   for (let turn = 0; turn < 200 && now(page).parameters.attributes === undefined; turn += 1) await page.waitForTimeout(50);
   assert.deepEqual(now(page).parameters.attributes, { height: 12 });

@@ -210,10 +210,12 @@ class TreeRunner {
       return array_value(here, std::move(out));
     }
     const double place = std::floor(row) * columns + std::floor(column);
-    if (!(row >= 0 && column >= 0 && column < columns && place < count))
-      reject(here, "found the index " + text_of_number(row) +
-                       (given.size() > 2 ? ", " + text_of_number(column) : std::string()) +
+    if (!(row >= 0 && column >= 0 && column < columns && place < count)) {
+      // Adding 0 turns -0 into 0.
+      reject(here, "found the index " + text_of_number(row + 0.0) +
+                       (given.size() > 2 ? ", " + text_of_number(column + 0.0) : std::string()) +
                        ", expected one inside the array of " + text_of_number(count) + " values");
+    }
     return array.values[static_cast<std::size_t>(place)];
   }
 

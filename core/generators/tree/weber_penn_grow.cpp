@@ -76,7 +76,7 @@ Walk begin(const WeberPennGrowth& growth, WeberPennStem& stem) {
   const Rng own = stem.level == 0 ? tree.random.branches.at(is_trunk ? 0 : stem.rng.key()) : stem.rng;
   walk.child_random = own.at(name_key("child"));
   const WeberPennLevel& next = tree.level(stem.level + 1);
-  if (stem.level > 0) walk.carried_splits = spread(stem.rng.at(name_key("child_splits")), 0.5);
+  walk.carried_splits = carried_before_children(tree, stem);
   walk.longest_child =
       std::max(0.0, next.length + spread(stem.rng.at(name_key("child_length")), next.length_v));
   // Children that the bark leaves out need no joints where they are closer together than the stem is thick.
@@ -159,11 +159,12 @@ void add_children(WeberPennGrowth& growth, Walk& walk, const Piece& piece) {
     child.carried_splits =
         tree.counts_as_arbaro() ? walk.carried_splits : spread(rng.at(name_key("splits")), 0.5);
     if (tree.counts_as_arbaro()) walk.carried_splits = carried_behind(level, walk.carried_splits, 0);
-    if (tree.params.PruneRatio > 0 && !prune(tree, child, growth.trial_frames)) {
+    const bool fits = !(tree.params.PruneRatio > 0) || prune(tree, child, growth.trial_frames);
+    child.radius = child_radius(tree, stem, offset, child.length);
+    if (!fits || is_too_small(tree, child)) {
       growth.waiting.pop_back();
       continue;
     }
-    child.radius = child_radius(tree, stem, offset, child.length);
     if (walk.marks_feet) growth.stops.push_back(offset);
   }
 }
@@ -311,7 +312,7 @@ void grow(WeberPennGrowth& growth, WeberPennStem& stem) {
   Frame frame = stem.frame;
   glm::dvec3 at = stem.position;
   for (int segment = stem.segment; segment < level.curve_res; ++segment) {
-    if (segment > stem.segment) {
+    if (segment > (tree.counts_as_arbaro() ? 0 : stem.segment)) {
       frame = next_frame(tree, stem, frame, segment);
       if (tree.sways()) frame = swayed_frame(tree, stem, frame, segment);
     }

@@ -73,7 +73,7 @@ double shape_ratio(const TreeParams& params, int shape, double ratio) {
   const double r = std::clamp(ratio, 0.0, 1.0);
   switch (shape) {
     case 0:
-      return 0.2 + 0.8 * r;
+      return params.counting == TreeParams::Counting::arbaro ? r : 0.2 + 0.8 * r;
     case 1:
       return 0.2 + 0.8 * math::sin(math::pi * r);
     case 2:

@@ -26,7 +26,7 @@ std::array<WeberPennLevel, 4> weber_penn_levels(const TreeParams& params);
 double power(double base, double exponent);
 
 /// Returns the length of branches as a share of the greatest length, for `ratio` from 1 at the base of the crown to 0
-/// at its top. Shape 8 is the envelope.
+/// at its top. Shape 8 is the envelope. Shape 0 of Arbaro ends in a point, that of the paper at a fifth.
 double shape_ratio(const TreeParams& params, int shape, double ratio);
 
 /// Returns the radius at share `z` of a stem of `length` with `radius` at its base, without flare and lobes.

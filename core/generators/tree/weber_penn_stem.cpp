@@ -10,14 +10,40 @@ namespace {
 // Pruning tries a stem at this share of its length again and again, and removes it below the least share.
 constexpr double prune_step = 0.9, prune_least = 0.15;
 // Arbaro shortens limbs to this share of the height of the tree, and leaves out those of less than half a millimetre.
-constexpr double prune_least_arbaro = 0.001, least_stem_arbaro = 0.0005;
+constexpr double prune_least_arbaro = 0.001, least_stem_arbaro = 0.0005, least_radius_arbaro = 0.00005;
 constexpr int most_prune_steps = 100'000;
 constexpr int most_split_steps = 10'000;
+// Rounding errors of this number of stems of a level are kept; they recur after few stems.
+constexpr std::size_t kept_errors = 32;
 
 /// Degrees between one segment and the next, without random variation.
 double curve_before(const WeberPennLevel& level, int segment) {
   if (level.curve_back == 0 || level.curve_res <= 1) return level.curve / level.curve_res;
   return (2 * segment <= level.curve_res ? level.curve : level.curve_back) / (0.5 * level.curve_res);
+}
+
+/// The frame of segment `segment` of Arbaro, from that of the segment before it. A random bend is about any axis across the
+/// stem, and the attraction to the sky about a horizontal one.
+Frame next_frame_of_arbaro(const WeberPennTree& tree, const WeberPennStem& stem, const Frame& frame,
+                           int segment) {
+  const WeberPennLevel& level = tree.level(stem.level);
+  double curve = level.curve / level.curve_res;
+  if (level.curve_back != 0)
+    curve = 2 * (segment < (level.curve_res + 1) / 2 ? level.curve : level.curve_back) / level.curve_res;
+  Frame bent = pitch(frame, math::quick_sincos_degrees(curve - stem.uncurve));
+  if (level.curve_v > 0) {
+    Rng random = stem.rng.at(name_key("curve")).at(static_cast<std::uint64_t>(segment));
+    const math::SinCos bend =
+        math::quick_sincos_degrees(random.uniform(-1, 1) * level.curve_v / level.curve_res);
+    bent = rotated(bent, roll(bent, math::quick_sincos_degrees(random.uniform(0, 360))).up, bend);
+  }
+  const glm::dvec3 across = glm::cross(bent.heading, glm::dvec3(0, 1, 0));
+  const double width = std::sqrt(glm::dot(across, across));
+  if (stem.level < 2 || tree.params.AttractionUp == 0 || !(width > 1e-9)) return bent;
+  // The width is the sine of the declination.
+  const double declination = approximate_acos(std::clamp(bent.heading.y, -1.0, 1.0));
+  const double up = math::degrees(tree.params.AttractionUp * declination * width) / level.curve_res;
+  return rotated(bent, across / width, math::quick_sincos_degrees(up));
 }
 
 /// Degrees by which the attraction to the sky bends each of `segments` segments.
@@ -50,7 +76,29 @@ int count_clones(const WeberPennLevel& level, WeberPennStem& stem) {
   return clones;
 }
 
+void keep_carried_errors(WeberPennTree& tree) {
+  for (std::size_t i = 0; i < tree.levels.size(); ++i) {
+    std::vector<double>& errors = tree.carried_before[i];
+    errors.clear();
+    if (!(tree.levels[i].seg_splits > 0)) continue;
+    errors.push_back(0);
+    while (errors.size() < kept_errors) errors.push_back(carried_behind(tree.levels[i], errors.back(), 0));
+  }
+}
+
 }  // namespace
+
+double carried_before_children(const WeberPennTree& tree, const WeberPennStem& stem) {
+  const Rng random = stem.rng.at(name_key("child_splits"));
+  if (!tree.counts_as_arbaro()) return stem.level > 0 ? spread(random, 0.5) : 0;
+  const std::vector<double>& errors =
+      tree.carried_before[static_cast<std::size_t>(std::min(stem.level + 1, 3))];
+  if (errors.empty()) return 0;
+  // Arbaro makes the children of a clone of the trunk right after those before it; any number of stems is before others.
+  const bool counts_on = stem.level == 0 && stem.trunk == 0 && tree.params.base_splits == 0;
+  const auto before = counts_on ? static_cast<std::uint64_t>(stem.children_before) : random.key();
+  return errors[before % errors.size()];
+}
 
 WeberPennStem make_trunk(WeberPennTree& tree, int number) {
   const TreeParams& p = tree.params;
@@ -70,7 +118,10 @@ WeberPennStem make_trunk(WeberPennTree& tree, int number) {
   stem.parent_length_max = 1;
   stem.frame = roll(Frame{}, math::quick_sincos_degrees(stem.rng.at("roll").uniform(0, 360)));
   if (tree.counts_as_arbaro()) {
-    if (number == 0) tree.carried_splits = 0;
+    if (number == 0) {
+      tree.carried_splits = 0;
+      keep_carried_errors(tree);
+    }
     stem.carried_splits = tree.carried_splits;
     for (int i = 0; i <= p.base_splits; ++i)
       tree.carried_splits = carried_behind(level, tree.carried_splits, p.base_splits > 0 ? 1 : 0);
@@ -89,6 +140,7 @@ double radius_at(const WeberPennTree& tree, const WeberPennStem& stem, double z)
 }
 
 Frame next_frame(const WeberPennTree& tree, const WeberPennStem& stem, const Frame& frame, int segment) {
+  if (tree.counts_as_arbaro()) return next_frame_of_arbaro(tree, stem, frame, segment);
   const WeberPennLevel& level = tree.level(stem.level);
   const double attraction = tree.params.AttractionUp;
   double curve = curve_before(level, segment);
@@ -165,7 +217,7 @@ int segment_outside(const WeberPennTree& tree, WeberPennStem stem, int& steps) {
   Frame frame = stem.frame;
   glm::dvec3 at = stem.position;
   for (int segment = stem.segment; segment < level.curve_res && steps > 0; ++segment, --steps) {
-    if (segment > stem.segment) frame = next_frame(tree, stem, frame, segment);
+    if (segment > 0) frame = next_frame(tree, stem, frame, segment);
     at += frame.heading * length;
     if (!is_in_envelope(tree.params, tree.scale, std::sqrt(at.x * at.x + at.z * at.z), at.y)) return segment;
     if (!(level.seg_splits > 0) || segment + 1 >= level.curve_res) continue;
@@ -205,6 +257,11 @@ bool prune(const WeberPennTree& tree, WeberPennStem& stem, std::vector<Frame>& f
   if (!(fitted > least)) fitted = 0;
   stem.length = whole - (whole - fitted) * tree.params.PruneRatio;
   return stem.length > 1e-6 * whole;
+}
+
+bool is_too_small(const WeberPennTree& tree, const WeberPennStem& stem) {
+  if (!tree.counts_as_arbaro()) return !(stem.length > 0);
+  return !(stem.length > least_stem_arbaro && stem.radius > least_radius_arbaro);
 }
 
 namespace {
@@ -288,7 +345,8 @@ void split(const WeberPennTree& tree, WeberPennStem& stem, Frame& frame, const g
     clone.carried_splits = carried[static_cast<std::size_t>(number - 1)];
   }
   const auto [own_frame, uncurve] = turned(0);
-  frame = own_frame;
+  // In Arbaro, only the clones turn away; the stem itself bends like them afterwards.
+  if (!tree.counts_as_arbaro()) frame = own_frame;
   stem.uncurve += uncurve;
 }
 

@@ -20,6 +20,8 @@ struct WeberPennTree {
   std::array<WeberPennLevel, 4> levels;
   double scale = 0;           ///< the height of the tree before 0Length
   double carried_splits = 0;  ///< rounding error of the splits of the trunks so far, where Arbaro counts
+  /// Rounding errors of the splits before one stem after another of a level, where Arbaro counts; empty: no splits.
+  std::array<std::vector<double>, 4> carried_before;
 
   const WeberPennLevel& level(int n) const { return levels[static_cast<std::size_t>(std::min(n, 3))]; }
   double bare_length() const { return params.BaseSize * scale; }
@@ -90,10 +92,17 @@ double child_radius(const WeberPennTree& tree, const WeberPennStem& stem, double
 /// is left. `frames` is memory that calls reuse.
 bool prune(const WeberPennTree& tree, WeberPennStem& stem, std::vector<Frame>& frames);
 
+/// Whether a child of this length and radius is not made: in Arbaro, one of half a millimetre or less, or a tenth of that
+/// thick.
+bool is_too_small(const WeberPennTree& tree, const WeberPennStem& stem);
+
 /// Returns the rounding error of splits behind the segments from `segment` on and the clones that split off there.
 /// Arbaro adds it up from stem to stem of a level, to each clone before the rest of its stem. Cost: that of the
 /// segments, at most 10,000.
 double carried_behind(const WeberPennLevel& level, double carried, int segment);
+
+/// Returns the rounding error of splits before the first child of a stem or of a clone.
+double carried_before_children(const WeberPennTree& tree, const WeberPennStem& stem);
 
 /// Divides a stem at the end of `segment`, which is at `position`: appends its clones, which grow from
 /// `joint`, to `clones`, and turns the frame of the stem itself. Does nothing where it does not split.

@@ -107,5 +107,35 @@ TEST(CpfgFiles, HaveEmptyLinesInStatements) {
   EXPECT_EQ(derived(result), "F(0)F(2)F(4)A(5)");
 }
 
+/// Signals that travel up and down an axis, with ignored modules, branches and cuts, as in models of flowering.
+constexpr const char* signals =
+    "Lsystem: 1\n"
+    "derivation length: 21\n"
+    "ignore: EF+-;\n"
+    "Axiom: ET(0)FA(0)\n"
+    "T(a) : a == 7 --> b\n"
+    "T(a) --> T(a+1)\n"
+    "b < a --> b\n"
+    "b < A(a) --> U(0)[;B(0)]\n"
+    "A(a) : a == 1 --> a[+Fx]F-A(0)\n"
+    "A(a) --> A(a+1)\n"
+    "U(a) : a == 1 --> cd\n"
+    "U(a) --> U(a+1)\n"
+    "b > c --> t(0)\n"
+    "c < x --> A(0)\n"
+    "c > d --> u\n"
+    "t(a) --> c\n"
+    "B(a) : a == 2 --> C[+F%F]F\n"
+    "B(a) --> B(a+1)\n"
+    "E --> ;E\n"
+    "endlsystem\n";
+
+TEST(CpfgFiles, DeriveTheWordOfASecondInterpreter) {
+  // The word is that of a program of its own, which has the rules of cpfg for contexts, `ignore` and `%`.
+  EXPECT_EQ(derived(imported("cpfg", signals)),
+            ";;;;;;;;;;;;;;;;;;;;;EbFb[+Fx]F-b[+Fx]F-b[+Fx]F-b[+Fx]F-b[+Fx]F-t(0)[+Fx]F-c[+FA(0)]F-"
+            "ud[;C[+F]F]");
+}
+
 }  // namespace
 }  // namespace seedmesh

@@ -175,6 +175,23 @@ TEST(Osm, ReadsTheTagsOfRelationsOfBuildings) {
   EXPECT_EQ(parameters["buildings"][0]["height"], 7);
 }
 
+TEST(Osm, TakesCentersOfOverpassForPositions) {
+  // `out center` gives a position, but no outline: that is enough for a tree, and not for a building.
+  const auto result = imported("osm", R"({"elements": [
+    {"type": "way", "id": 1, "tags": {"building": "yes"}, "center": {"lat": 47, "lon": 8}, "nodes": [1, 2, 3, 1]},
+    {"type": "way", "id": 2, "tags": {"natural": "tree"}, "center": {"lat": 47.001, "lon": 8}},
+    {"type": "relation", "id": 3, "tags": {"type": "multipolygon", "building": "yes"},
+     "center": {"lat": 47.0005, "lon": 8}, "members": [{"type": "way", "ref": 9, "role": "outer"}]},
+    {"type": "way", "id": 4, "tags": {"highway": "path"}, "center": {"lat": 1, "lon": 1},
+     "geometry": [{"lat": 47, "lon": 8}, {"lat": 47.001, "lon": 8}]}]})");
+  ASSERT_TRUE(result) << reports(result)[0];
+  EXPECT_THAT(reports(result), testing::Contains(testing::HasSubstr("a centre (`out center`)")));
+  const nlohmann::json parameters = nlohmann::json::parse(result->request.canonical()).at("parameters");
+  EXPECT_FALSE(parameters.contains("buildings"));
+  EXPECT_EQ(parameters.at("paths").size(), 1u);
+  EXPECT_EQ(parameters.at("layers").size(), 1u) << "the tree";
+}
+
 TEST(Osm, JoinsElementsThatOverpassWritesTwice) {
   OsmText osm;
   const std::vector<int> box = osm.box(0, 0, 12, 8);

@@ -113,10 +113,22 @@ export const switch_field: Draw = (spec) =>
     return drawn.element;
   });
 
+/** Returns the colour of a text as `#rrggbb`, which a picker needs: codes, names of CSS (`DarkOrange`) and codes without `#`. */
+function picker_color(text: string): string | undefined {
+  if (/^#[0-9a-f]{6}$/i.test(text)) return text;
+  const context = document.createElement('canvas').getContext('2d');
+  if (!context || text === '') return undefined;
+  const unknown = '#010203';
+  context.fillStyle = unknown;
+  context.fillStyle = /^[0-9a-f]{6}$/i.test(text) ? `#${text}` : text;
+  const found = String(context.fillStyle);
+  return found !== unknown && /^#[0-9a-f]{6}$/.test(found) ? found : undefined;
+}
+
 export const color_field: Draw = (spec) =>
   redrawable((redraw) => {
     const value = String(shown(spec) ?? '');
-    const well = el('input', { type: 'color', value: value || '#808080', class: value ? '' : 'unset', 'aria-label': `${spec.label}, picker` });
+    const well = el('input', { type: 'color', value: picker_color(value) ?? '#808080', class: value ? '' : 'unset', 'aria-label': `${spec.label}, picker` });
     const text = el('input', { type: 'text', value, size: 8, placeholder: 'not set', spellcheck: 'false', autocomplete: 'off' });
     const drawn = frame(spec, text, el('div', { class: 'color' }, well, text), redraw);
     const take = (next: string): void => {
@@ -127,7 +139,7 @@ export const color_field: Draw = (spec) =>
     };
     well.addEventListener('input', () => { text.value = well.value; take(well.value); });
     text.addEventListener('input', () => {
-      if (/^#[0-9a-f]{6}$/i.test(text.value)) well.value = text.value;
+      well.value = picker_color(text.value) ?? well.value;
       take(text.value);
     });
     return drawn.element;
