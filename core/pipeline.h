@@ -109,7 +109,7 @@ Result<std::string> validate(const Request& request, const Job::Options& options
 
 /// The input of import_request(): a file of another program. If `format` is empty, it is detected from the text. `entry`
 /// names one system of a file with several; empty means the only one.
-struct ImportQuestion {
+struct ImportInput {
   std::string_view format, entry, text;
   std::map<std::string, std::string> files = {};  ///< further files beside the text, by name
 };
@@ -121,9 +121,9 @@ struct ImportedRequest {
 /// Turns a file of another program into a request. Text that is not UTF-8 gives Code::malformed. An unknown
 /// format has the pointer "/format". What the reader does not understand is Code::invalid with pointer "" and
 /// its line and column.
-Result<ImportedRequest> import_request(const ImportQuestion& question, const Job::Options& options);
+Result<ImportedRequest> import_request(const ImportInput& question, const Job::Options& options);
 /// The same without a time limit.
-Result<ImportedRequest> import_request(const ImportQuestion& question, const Limits& limits);
+Result<ImportedRequest> import_request(const ImportInput& question, const Limits& limits);
 struct ImportFormatInfo {
   std::string name, title, text;
 };

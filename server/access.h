@@ -64,8 +64,9 @@ class Access {
   /// Denies with 401 without a credential, 403 with one that is not valid, 429 beyond a limit of the key.
   std::variant<Grant, Denial> admit(const http::Request& request);
 
-  /// Like admit(), for a file of a world. `segment` is the query of a signed "/v1/worlds/<world>", which stands in the
-  /// path after the name of the world. It admits to all files of that world. Empty: no signature.
+  /// Like admit(), for a file of a world. `segment` is the path segment after the name of the world. It has the
+  /// text of a query (`expires=...&key=...&signature=...`) that signs "/v1/worlds/<world>", and gives access to all files
+  /// of that world. Empty: no signature.
   std::variant<Grant, Denial> admit_world(const http::Request& request, std::string_view world,
                                           std::string_view segment);
 

@@ -13,8 +13,8 @@ struct CodedBody {
 };
 
 /// Returns the model in the best coding that the client accepts; nothing where the memory in flight does not suffice.
-/// It stays as it is where it is small, where compression would save less than 15 %, where the client asks for a
-/// range, and where the settings say so. Small models are encoded here, large ones while they are sent. The cache
+/// The model is not encoded if it is small, if compression would save less than 15 %, if the client asks for a range,
+/// or if the settings exclude it. Small models are encoded here, large ones while they are sent. The cache
 /// keeps the encoded form of models up to 64 MiB.
 std::optional<CodedBody> coded_body(const Call& call, const TaggedRequest& wanted, const Cache::Entry& model,
                                     Coding best);

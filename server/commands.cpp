@@ -138,7 +138,7 @@ int derive_command(const Config& config, const std::string& in) { return print_r
 int import_command(const Config& config, const ImportFiles& files) {
   const auto text = read_file(files.in);
   if (!text) return print_file_error(files.in);
-  ImportQuestion question{files.format, files.entry, *text};
+  ImportInput question{files.format, files.entry, *text};
   for (const std::string& each : files.with) {
     const auto further = read_file(each);
     if (!further) return print_file_error(each);

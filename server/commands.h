@@ -15,7 +15,7 @@ int derive_command(const Config& config, const std::string& in);
 
 struct ImportFiles {
   std::string in, out;
-  std::string format, entry;           ///< as in ImportQuestion
+  std::string format, entry;           ///< as in ImportInput
   std::vector<std::string> with = {};  ///< further files beside it
   std::string to = {};  ///< the program for which the request is written; empty: the request itself
 };

@@ -8,14 +8,16 @@
 
 namespace seedmesh {
 
-/// Makes the C library give large blocks back at once, the ends of its arenas from 4 MB on, and keep few
-/// arenas: by default it learns to keep up to 64 MB in each of eight arenas a core. To be called before
-/// threads are made; MALLOC_ variables that the operator has set hold.
+/// Configures glibc malloc: blocks of at least 1 MiB are unmapped when they are freed, more than 4 MiB of free memory
+/// at the end of an arena is returned to the system, and there are at most max(4, 2 * workers) arenas. By default
+/// glibc raises these thresholds while it runs, to up to 32 and 64 MiB, and uses up to eight arenas for each core.
+/// Call it before the first thread is started. A variable MALLOC_... of the environment takes precedence.
 void keep_little_memory(int workers);
 
-/// While this lives, a thread looks every second how much memory the process has, and gives the free part
-/// back: where it has grown, and where requests have been answered and none is in flight. What stays is what
-/// is used.
+/// While an object exists, its thread reads the resident memory of the process every second. It returns the free
+/// memory of the arenas to the system if the resident memory has grown by 4 MiB since the last time. It also does so
+/// if requests have been answered, the memory is 4 MiB above its minimum, and either none is in flight or ten seconds
+/// have passed.
 class GiveBack {
  public:
   struct Activity {
@@ -23,7 +25,8 @@ class GiveBack {
     std::int64_t in_flight = 0;
   };
 
-  /// `also` gives back what is kept elsewhere.
+  /// `also` is called before the memory of the arenas is returned; it empties other stores of free memory, such as
+  /// Reserve.
   GiveBack(std::function<Activity()> activity, std::function<void()> also);
   ~GiveBack();
   GiveBack(const GiveBack&) = delete;

@@ -22,8 +22,8 @@ http::Response answer_with(Call& call, Result<std::string> (*work)(const Request
 }
 
 /// The question of an import from its query; the response for an unknown key.
-std::variant<ImportQuestion, http::Response> import_question(Call& call, const Overrides& query) {
-  ImportQuestion question{{}, {}, call.request.body};
+std::variant<ImportInput, http::Response> import_question(Call& call, const Overrides& query) {
+  ImportInput question{{}, {}, call.request.body};
   std::vector<Issue> issues;
   for (const auto& [key, value] : query) {
     if (key == "format") {
@@ -88,7 +88,7 @@ http::Response post_import(Call& call) {
   }
   auto asked = import_question(call, std::get<Overrides>(query));
   if (auto* refusal = std::get_if<http::Response>(&asked)) return std::move(*refusal);
-  const auto question = std::get<ImportQuestion>(asked);
+  const auto question = std::get<ImportInput>(asked);
   std::optional<Result<ImportedRequest>> imported;
   const auto read = [&](const Job::Options& options) { imported = import_request(question, options); };
   if (const auto refused = with_worker(call, call.request.gone(), read)) return refuse(call, *refused);

@@ -1,5 +1,5 @@
 #pragma once
-/// Finds the request files below a directory, and which of their models are as a lock file says.
+/// Finds the request files below a directory, and which of their models agree with a lock file.
 #include <string>
 #include <vector>
 

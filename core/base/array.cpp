@@ -114,7 +114,7 @@ void Block::change(std::size_t bytes) {
   const bool is_shared = backing_ == Backing::shared || backing == Backing::shared;
   if (is_shared ? backing_ == backing && after <= before
                 : backing_ != Backing::heap && backing != Backing::heap) {
-    if (after > before) data_ = grown(data_, before, after);
+    if (after > before) data_ = remap(data_, before, after);
     if (after < before) unmap_or_recycle(data_ + after, before - after);
     if (budget_) budget_->give_back_slack(mapped_size(size_, backing_) - size_);
   } else if (backing_ == backing && backing == Backing::heap) {

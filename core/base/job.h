@@ -33,8 +33,8 @@ Issue iterations_issue(std::uint64_t found, const Limits& limits);
 
 /// The exception that ends a request: a limit is exceeded, the deadline has passed, the request is cancelled,
 /// or a value turns out to be unusable while the work runs. Only Job and MemoryBudget throw it. core/pipeline
-/// catches it for all requests, and the import of cpfg for the statements that it runs. Its pointer is
-/// relative to the parameters of the outermost request.
+/// catches it for all requests, the import of cpfg for the statements that it runs, and the writer of WebP to end its
+/// encoder. Its pointer is relative to the parameters of the outermost request.
 class Stop : public std::exception {
  public:
   Stop(Code code, Issue issue) : code_(code), issue_(std::move(issue)) {}
@@ -67,9 +67,9 @@ class MemoryBudget {
   void take_slack(std::uint64_t bytes) { slack_.fetch_add(bytes, std::memory_order_relaxed); }
   void give_back_slack(std::uint64_t bytes) { slack_.fetch_sub(bytes, std::memory_order_relaxed); }
 
-  /// From now on, big arrays take only the pages that they need. Once the request uses 8 MiB, each array also
-  /// returns its memory to the system. Later arrays then pay for page faults again. Meant for answers that are
-  /// much smaller than the data they are made of.
+  /// From now on, large arrays take only the pages that they need. Once the request uses 8 MiB (saves_memory()), a
+  /// freed array also returns its memory to the system, so that later arrays cause page faults again. Meant for
+  /// responses that are much smaller than the data that they are made of.
   void prefer_low_memory() { prefers_low_memory_.store(true, std::memory_order_relaxed); }
   bool prefers_low_memory() const { return prefers_low_memory_.load(std::memory_order_relaxed); }
   bool saves_memory() const { return saves_memory_.load(std::memory_order_relaxed); }

@@ -14,15 +14,15 @@ namespace {
 
 // The kernel aligns mappings of whole huge pages so that it can use them. So whole huge pages are mapped, and
 // the unwanted end is unmapped before it is touched.
-constexpr std::size_t asked_for(std::size_t room) {
-  return room < huge_page ? room : rounded(room, huge_page);
+constexpr std::size_t asked_for(std::size_t bytes) {
+  return bytes < huge_page ? bytes : rounded(bytes, huge_page);
 }
 
-std::byte* fitted(void* memory, std::size_t room) {
+std::byte* fitted(void* memory, std::size_t bytes) {
   if (memory == MAP_FAILED) throw std::bad_alloc();
   auto* first = static_cast<std::byte*>(memory);
-  if (asked_for(room) > room) munmap(first + room, asked_for(room) - room);
-  if (room >= huge_page) madvise(memory, room, MADV_HUGEPAGE);
+  if (asked_for(bytes) > bytes) munmap(first + bytes, asked_for(bytes) - bytes);
+  if (bytes >= huge_page) madvise(memory, bytes, MADV_HUGEPAGE);
   return first;
 }
 
@@ -35,12 +35,12 @@ std::byte* copied(std::byte* old, std::size_t before, std::size_t after) {
 
 }  // namespace
 
-std::byte* map(std::size_t room) {
+std::byte* map(std::size_t bytes) {
   constexpr int access = PROT_READ | PROT_WRITE, kind = MAP_PRIVATE | MAP_ANONYMOUS;
-  return fitted(mmap(nullptr, asked_for(room), access, kind, -1, 0), room);
+  return fitted(mmap(nullptr, asked_for(bytes), access, kind, -1, 0), bytes);
 }
 
-std::byte* grown(std::byte* old, std::size_t before, std::size_t after) {
+std::byte* remap(std::byte* old, std::size_t before, std::size_t after) {
 #if defined(__SANITIZE_THREAD__)  // ThreadSanitizer does not see memory that the kernel moves
   return copied(old, before, after);
 #else
@@ -50,10 +50,10 @@ std::byte* grown(std::byte* old, std::size_t before, std::size_t after) {
 #endif
 }
 
-void unmap(std::byte* memory, std::size_t room) { munmap(memory, room); }
+void unmap(std::byte* memory, std::size_t bytes) { munmap(memory, bytes); }
 #else
 std::byte* map(std::size_t) { return nullptr; }
-std::byte* grown(std::byte*, std::size_t, std::size_t) { return nullptr; }
+std::byte* remap(std::byte*, std::size_t, std::size_t) { return nullptr; }
 void unmap(std::byte*, std::size_t) {}
 #endif
 

@@ -16,13 +16,13 @@ constexpr std::size_t huge_page = 1, largest_page = 1;
 
 constexpr std::size_t rounded(std::size_t bytes, std::size_t to) { return (bytes + to - 1) / to * to; }
 
-/// Maps `room` bytes, a multiple of the page size. Mappings of at least huge_page bytes are advised to use
+/// Maps `bytes` bytes, a multiple of the page size. Mappings of at least huge_page bytes are advised to use
 /// huge pages (MADV_HUGEPAGE). Throws std::bad_alloc. Only where can_map; otherwise returns null.
-std::byte* map(std::size_t room);
+std::byte* map(std::size_t bytes);
 /// Enlarges a mapping from `before` to `after` bytes. The address may change; the content is kept. Only where
 /// can_map; otherwise returns null.
-std::byte* grown(std::byte* old, std::size_t before, std::size_t after);
+std::byte* remap(std::byte* old, std::size_t before, std::size_t after);
 /// Unmaps whole pages: a mapping or any part of one.
-void unmap(std::byte* memory, std::size_t room);
+void unmap(std::byte* memory, std::size_t bytes);
 
 }  // namespace seedmesh::pages

@@ -73,8 +73,9 @@ struct Generator {
   bool has_collision = false;  ///< makes collision shapes
   bool has_impostor = false;   ///< an impostor can replace its models
   bool keeps_budget = false;   ///< keeps Demand::most_triangles itself by choosing levels of detail
-  bool parts = false;          ///< repeats parts of one object; beyond 400 copies they are merged by material
-  bool joins_triangles = false;  ///< simplification fits a triangle budget better than a level of detail does
+  bool repeats_parts = false;  ///< repeats parts of one object; beyond 400 copies they are merged by material
+  bool prefers_simplification =
+      false;  ///< simplification fits a triangle budget better than a level of detail does
   /// How a request gives its model its own levels of detail: appended to warnings about missing levels.
   /// Empty: the model always has them, or never.
   std::string_view own_levels = {};

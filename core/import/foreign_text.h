@@ -35,7 +35,7 @@ class ForeignText {
  private:
   static constexpr std::size_t most = 100;  ///< errors, and warnings, that are kept
 
-  /// Moves the offset into the foreign text, and puts the name of an included file before the message.
+  /// Converts an offset of `text_` to one of `foreign_`. For an included file, also puts its name before the message.
   void trace(std::size_t& offset, std::string* message) const;
 
   std::string_view text_, foreign_;
@@ -51,12 +51,12 @@ struct Line {
 };
 std::vector<Line> lines_of(std::string_view text);
 
-/// Texts of more bytes are not taken for a JSON file of one tree, unless the request names the format: the formats are
-/// distinguished without reading a whole map.
+/// Bytes. The format of a longer text is never detected as that of a tree in JSON; the request has to name it. So the
+/// detection does not parse whole maps.
 constexpr std::size_t largest_tree_file = 256 * 1024;
 
-/// Returns an error for an entry that is chosen from a format without entries; nullopt without one. `what`: "a file of
-/// cpfg holds one system".
+/// Returns an error if `options` name an entry, for formats whose files have no entries; else nullopt. `what` begins
+/// the message: "a file of cpfg holds one system".
 std::optional<Error> entry_error(const ImportOptions& options, const std::string& what);
 
 bool is_blank(char c);

@@ -185,7 +185,7 @@ class GeoJsonReader {
          {"building", "building:part", "height", "building:levels", "roof:shape"}) {
       if (feature.tags.has(name)) return;
     }
-    if (is_area_tagged(feature.tags) || (feature.lines.empty() && feature.polygons.empty())) return;
+    if (has_ground_tag(feature.tags) || (feature.lines.empty() && feature.polygons.empty())) return;
     for (const std::string_view name : {"fclass", "subclass", "class", "subtype", "kind", "type"}) {
       const std::string value = lower(feature.tags.get(name));
       const std::string_view key = map_key_of(value, feature.polygons.empty());

@@ -10,11 +10,11 @@
 
 namespace seedmesh {
 
-/// [left <] center [> right] [: condition] = successor [: weight]. Empty parts begin where they end.
+/// [left <] center [> right] [: condition] = successor [: weight]. An absent part has `from` equal to `to`.
 struct HoudiniRule {
   Line head;  ///< left, center and right
   Line left, center, right, condition, successor, weight;
-  std::size_t equals = 0;  ///< line.to: there is none, and the parts are empty
+  std::size_t equals = 0;  ///< offset of the `=`; line.to if there is none, and then all parts are empty
   bool has_left = false, has_right = false;
 };
 

@@ -26,7 +26,7 @@ Role role_of(const MapFeature& feature, const MapData& data) {
   const MapTags& tags = feature.tags;
   if (tags.has("building:part")) return Role::part;
   if (tags.has("building")) return Role::outline;
-  if (tags.get("building") == "no" || !data.plain_polygons_are_buildings || is_area_tagged(tags))
+  if (tags.get("building") == "no" || !data.plain_polygons_are_buildings || has_ground_tag(tags))
     return Role::none;
   return Role::outline;
 }

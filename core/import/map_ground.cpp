@@ -297,7 +297,7 @@ class GroundWriter {
 
 }  // namespace
 
-bool is_area_tagged(const MapTags& tags) {
+bool has_ground_tag(const MapTags& tags) {
   constexpr std::array<std::string_view, 14> keys{
       "natural", "landuse", "leisure",      "waterway", "highway", "amenity", "boundary",
       "place",   "railway", "area:highway", "golf",     "aeroway", "barrier", "admin_level"};

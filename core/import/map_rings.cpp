@@ -123,7 +123,7 @@ std::size_t loop_around(const std::vector<PlanRing>& loops, std::size_t i) {
   return best;
 }
 
-bool has_errors(const Plan& plan, const Job* job) { return !faults_of(plan, job).empty(); }
+bool has_errors(const Plan& plan, const Job* job) { return !defects_of(plan, job).empty(); }
 
 /// Adds the holes that lie in the outer ring. Those with errors become smaller, and are left out if that does not help.
 Plan with_holes(PlanRing outer, const std::vector<PlanRing>& holes, const Job* job, SoundPlans& made) {
@@ -136,7 +136,7 @@ Plan with_holes(PlanRing outer, const std::vector<PlanRing>& holes, const Job* j
   for (int round = 0; round < most_rounds && plan.rings.size() > 1; ++round) {
     plan = read_plan(std::move(plan.rings));
     std::vector<bool> has_error(plan.rings.size(), false);
-    for (const PlanFault& fault : faults_of(plan, job)) {
+    for (const PlanDefect& fault : defects_of(plan, job)) {
       // The second of two rings that meet is named; the first can be the outer ring.
       if (fault.ring > 0) has_error[fault.ring] = true;
     }

@@ -33,8 +33,8 @@ struct MapConversion {
   double outline_work = 0;                      ///< the sum of the squared numbers of points of all outlines
   double reach = 0;  ///< the greatest distance of buildings and areas from the origin, along an axis
 
-  /// Returns the rings of a polygon in metres; empty, with a warning, if it has too many points or all polygons
-  /// together have. `what`: "a footprint".
+  /// Returns the rings of a polygon in metres. Empty, with a warning, if it has more than 5,000 points, or if
+  /// `outline_work` exceeds its limit. `what`: "a footprint".
   std::vector<PlanRing> outline(const std::vector<MapRing>& polygon, const char* what,
                                 const MapPosition& position);
 
@@ -49,9 +49,9 @@ struct MapConversion {
 constexpr double map_tree_height(bool is_needle) { return is_needle ? 12 : 10; }
 
 /// The kinds of features that are areas and lines of the ground.
-bool is_area_tagged(const MapTags& tags);
-/// Returns the key of a value that only one kind of line or area has, such as "leisure" of "park"; empty if there is
-/// none, or if it may be a building.
+bool has_ground_tag(const MapTags& tags);
+/// Returns the key to which a value without a key belongs, such as "leisure" for "park". Empty if no kind of line or
+/// area has the value, or if it can also be a kind of building.
 std::string_view map_key_of(std::string_view value, bool is_line);
 
 /// Buildings and parts of buildings (map_buildings.cpp). Returns whether each feature was one.

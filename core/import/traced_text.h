@@ -13,7 +13,7 @@ class TracedText {
  public:
   TracedText() = default;
 
-  /// source[from, to), byte for byte.
+  /// Copies source[from, to), byte for byte.
   TracedText(std::string_view source, std::size_t from, std::size_t to) { copy(source, from, to); }
 
   const std::string& text() const { return text_; }

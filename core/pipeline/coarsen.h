@@ -20,7 +20,7 @@ struct SimplifyLimits {
   /// Separate sheets are leaves: some may be removed and the others grow.
   bool leaves = true;
   /// How far a surface may move, as a share of the model's diagonal. Infinite: no limit, and pieces of any
-  /// size may be removed. Otherwise only pieces up to a hundredth of the squared diagonal.
+  /// size may be removed. Otherwise only pieces may be removed whose area is at most (diagonal / 100)^2.
   double detail = std::numeric_limits<double>::infinity();
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-/// The one place where a stopped request becomes an error.
+/// Turns the exception that stopped a request into an error.
 #include <new>
 #include <string>
 #include <utility>
@@ -20,7 +20,7 @@ inline Error in_request(Error error) {
   return error;
 }
 
-/// The only catch of Stop: returns the result of `work`, or the reason why it stopped.
+/// Returns the result of `work`, or the error of the Stop or std::bad_alloc that ended it.
 template <class T, class Work>
 Result<T> guarded(Work&& work) {
   try {

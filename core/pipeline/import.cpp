@@ -77,7 +77,7 @@ Error all_errors(std::vector<Issue> errors, std::vector<Issue> found, const Impo
 }
 
 /// The errors of a file whose format was guessed; the first one names the format.
-Error in_format(Error error, const ImportQuestion& question, const ImportFormat& format) {
+Error in_format(Error error, const ImportInput& question, const ImportFormat& format) {
   if (question.format.empty() && !error.issues.empty()) {
     error.issues[0].message = "read as " + std::string(format.name) + ": " + error.issues[0].message;
   }
@@ -115,7 +115,7 @@ std::optional<Error> append_appraisal(const Request& request, Imported& imported
 
 /// A body `{"files": {name: text, ...}}` holds several files. The one that looks most like a format is the text, the
 /// others are beside it. `main` owns its text.
-void unpack(ImportQuestion& question, std::string& main, const Job& job) {
+void unpack(ImportInput& question, std::string& main, const Job& job) {
   const std::size_t first = question.text.find_first_not_of(" \t\r\n");
   if (first == std::string_view::npos || question.text[first] != '{' ||
       question.text.find("\"files\"") == std::string_view::npos)
@@ -148,9 +148,9 @@ void unpack(ImportQuestion& question, std::string& main, const Job& job) {
 
 }  // namespace
 
-static Result<ImportedRequest> import_within(const ImportQuestion& asked, const Job::Options& options,
+static Result<ImportedRequest> import_within(const ImportInput& asked, const Job::Options& options,
                                              const Job& job) {
-  ImportQuestion question = asked;
+  ImportInput question = asked;
   std::string main;
   unpack(question, main, job);
   constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
@@ -188,11 +188,11 @@ static Result<ImportedRequest> import_within(const ImportQuestion& asked, const 
   return ImportedRequest{std::move(*request), canonical_text(answer), std::move(imported->warnings)};
 }
 
-Result<ImportedRequest> import_request(const ImportQuestion& question, const Job::Options& options) {
+Result<ImportedRequest> import_request(const ImportInput& question, const Job::Options& options) {
   return guarded<ImportedRequest>([&] { return import_within(question, options, Job(0, options)); });
 }
 
-Result<ImportedRequest> import_request(const ImportQuestion& question, const Limits& limits) {
+Result<ImportedRequest> import_request(const ImportInput& question, const Limits& limits) {
   Job::Options options;
   options.limits = limits;
   return import_request(question, options);

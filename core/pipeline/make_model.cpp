@@ -76,8 +76,8 @@ Result<Model> generate_all(const Request& request, Job& job) {
 /// Merges copies into meshes where the output asks for it, or where there are too many parts.
 void merge_where_wanted(Model& model, const Request& request, Job& job) {
   const OutputInstancing instancing = request.body().output.instancing;
-  const bool has_too_many = instancing == OutputInstancing::auto_ && request.body().generator->parts &&
-                            count_copies(model) > most_parts;
+  const bool has_too_many = instancing == OutputInstancing::auto_ &&
+                            request.body().generator->repeats_parts && count_copies(model) > most_parts;
   if (instancing == OutputInstancing::merge || has_too_many) merge_copies(model, job);
 }
 
@@ -109,7 +109,7 @@ std::optional<Issue> add_impostors(Model& model, const Request& request, Job& jo
 /// Walls are sheets too, and must not be thinned out like leaves.
 SimplifyLimits simplify_limits(const Generator& generator) {
   constexpr double detail = 0.004;
-  return generator.parts ? SimplifyLimits{.leaves = false, .detail = detail} : SimplifyLimits{};
+  return generator.repeats_parts ? SimplifyLimits{.leaves = false, .detail = detail} : SimplifyLimits{};
 }
 
 /// Adds how a request gets more levels to a message about a model that has one.
@@ -177,7 +177,7 @@ Json seed_json(std::uint64_t seed) {
 
 Demand demand_of(const OutputParams& output, const Generator& generator) {
   const bool budget_here = output.max_triangles && !generator.keeps_budget &&
-                           (level_count(output) > 1 || !generator.joins_triangles);
+                           (level_count(output) > 1 || !generator.prefers_simplification);
   const bool is_listed = has_listed_levels(output);
   return {
       .lods = budget_here || is_listed ? levels_to_choose_from : level_count(output),

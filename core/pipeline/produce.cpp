@@ -120,8 +120,8 @@ bool is_merged_as_a_row(const Appraisal& appraisal, const OutputParams& output) 
 WriteOptions write_options(const Request& request) {
   const OutputParams& output = request.body().output;
   const Profile& profile = profile_of(output.profile);
-  const bool profile_default =
-      output.instancing == OutputInstancing::auto_ && profile.prefers_gpu && !request.body().generator->parts;
+  const bool profile_default = output.instancing == OutputInstancing::auto_ && profile.prefers_gpu &&
+                               !request.body().generator->repeats_parts;
   return {.container = container_of(request.format()),
           .generator = "Seedmesh " + std::string(program_version()),
           .dialect = {.compressed = profile.compressed,
@@ -206,7 +206,7 @@ Result<std::string> validate(const Request& request, const Job::Options& options
     const Generator& generator = *request.body().generator;
     GenerateContext context{job, demand_of(output, generator), generators()};
     Result<Appraisal> appraisal = generator.appraise(request.body().params, context);
-    if (appraisal && generator.parts && is_merged_as_a_row(*appraisal, output)) {
+    if (appraisal && generator.repeats_parts && is_merged_as_a_row(*appraisal, output)) {
       context.demand.copies = CopyForm::merge;
       appraisal = generator.appraise(request.body().params, context);
     }

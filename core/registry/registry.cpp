@@ -150,13 +150,13 @@ constexpr Generator rows[] = {
     Row<BuildingParams, read_building, write_building, building::check, building::generate, building::derive,
         building::appraise, building::vocabulary>::prepared<building::prepare>({.name = "building",
                                                                                 .has_collision = true,
-                                                                                .parts = true,
+                                                                                .repeats_parts = true,
                                                                                 .own_levels =
                                                                                     levels_of_rules}),
     Row<TerrainParams, read_terrain, write_terrain, terrain::check, terrain::generate, terrain::derive,
         terrain::appraise, terrain::vocabulary>::row<terrain::encode,
                                                      terrain::check_format>(
-        {.name = "terrain", .joins_triangles = true, .formats = terrain_formats}),
+        {.name = "terrain", .prefers_simplification = true, .formats = terrain_formats}),
     Row<SceneParams, read_scene, write_scene, scene::check, scene::generate, scene::derive, scene::appraise,
         scene::vocabulary>::row<scene::encode>({.name = "scene",
                                                 .grows = true,

@@ -35,7 +35,7 @@ struct Plane {
   float at = 0;  ///< at the first sample of the box
   float across = 0, down = 0;
 
-  FourFloats of(FourFloats x, float y) const { return four_times(at + down * y) + four_times(across) * x; }
+  FourFloats of(FourFloats x, float y) const { return all_lanes(at + down * y) + all_lanes(across) * x; }
 };
 
 /// A triangle whose corners run clockwise with y down, and the box of samples that it may cover.
@@ -43,14 +43,15 @@ struct Cover {
   std::array<std::int32_t, 3> x, y;
   std::int64_t area = 0;                  ///< doubled, in fixed-point units
   std::int32_t left, right, top, bottom;  ///< of the box, in samples; inclusive; `left` is a multiple of 4
-  /// Of the edge opposite of each corner, at the first sample of the box: what it grows by to the right and downwards.
+  /// Edge function of the edge opposite of each corner: its value at the first sample of the box, and its increments
+  /// from sample to sample to the right and downwards.
   std::array<std::int64_t, 3> row, across, down;
 
   bool is_small() const {
     constexpr std::int32_t most = 512;  // samples, so that edge functions fit 32 bits
     return right - left < most && bottom - top < most;
   }
-  /// The same three as shares of the area, for planes.
+  /// The same, divided by `area`: barycentric coordinates, for plane().
   std::array<double, 3> row_share, across_share, down_share;
   Plane plane(double a, double b, double c) const {
     const auto mixed = [&](const std::array<double, 3>& e) {
@@ -163,7 +164,7 @@ void each_four_of_small(const Cover& c, const Part& part, const Visit& visit) {
       d += across[2] * skipped;
       for (std::size_t i = 0; i < 3; ++i) row[i] += c.down[i];
     }
-    FourFloats x = four_times(static_cast<float>(span.begin)) + lane_numbers;
+    FourFloats x = all_lanes(static_cast<float>(span.begin)) + lane_numbers;
     const auto from_top = static_cast<float>(y - c.top);
     for (std::int32_t column = span.begin; column < span.end; column += 4) {
       const FourFlags inside = (a | b | d) >= four_flags(0);
@@ -198,7 +199,7 @@ void each_four(const Cover& c, std::int32_t size, const Rows& rows, const Visit&
         inside[lane] = e >= 0 ? -1 : 0;
       }
       if (any_of(inside))
-        visit(c.left + x, y, inside, four_times(static_cast<float>(x)) + lane_numbers,
+        visit(c.left + x, y, inside, all_lanes(static_cast<float>(x)) + lane_numbers,
               static_cast<float>(y - c.top));
     }
   }

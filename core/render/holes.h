@@ -62,8 +62,8 @@ class Holes {
   FourFlags placed(FourFloats at, std::uint32_t size) const {
     constexpr float farthest = 1 << 24;
     const auto most = static_cast<std::int32_t>(size) - 1;
-    at = chosen(at > four_times(0), at, four_times(0));
-    at = chosen(at < four_times(farthest), at, four_times(farthest));
+    at = chosen(at > all_lanes(0), at, all_lanes(0));
+    at = chosen(at < all_lanes(farthest), at, all_lanes(farthest));
     const FourFlags whole = __builtin_convertvector(at, FourFlags);
     if (!repeat_) return chosen(whole < four_flags(most), whole, four_flags(most));
     if (is_power_) return whole & four_flags(most);

@@ -109,7 +109,7 @@ void each_nearer(const Triangle& t, const Surface& surface, const Array<glm::vec
   const std::uint32_t size = shown.eye.size();
   const std::size_t stride = stride_of(size);
   const auto [least, greatest] = std::minmax({t.depth[0], t.depth[1], t.depth[2]});
-  const FourFloats low = four_times(least), high = four_times(greatest);
+  const FourFloats low = all_lanes(least), high = all_lanes(greatest);
   const Plane plane = t.cover.plane(static_cast<double>(t.depth[0]), static_cast<double>(t.depth[1]),
                                     static_cast<double>(t.depth[2]));
   const auto scan = [&](const auto& filled) {

@@ -23,7 +23,8 @@ struct Samples {
 /// blend are drawn last, in the order of the items. Cost: about 50 ns a triangle and 1 ns a covered sample.
 Samples draw_samples(const Shown& shown, const Job& job);
 
-/// Returns a map of depths of the same form: of parallel light, without lines, points and sheets that blend.
+/// Returns the depths that parallel light sees, in rows of stride_of() numbers; greater is nearer, and `farthest`
+/// where nothing is. Lines, points and surfaces that blend are left out.
 Array<float> draw_depths(const Shown& shown, float farthest, const Job& job);
 
 /// Returns the length of a row of the map.

@@ -11,7 +11,7 @@ namespace seedmesh::texture {
 struct Bond {
   int columns = 8, rows = 24;
   float shift = 0.5F;
-  glm::dvec2 tile{1};  ///< metres
+  glm::dvec2 tile{1};  ///< width and height that the whole image covers, metres
 };
 
 /// The pieces under each texel of an image of `size` texels.

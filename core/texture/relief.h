@@ -62,8 +62,8 @@ struct Maps {
   }
 };
 
-/// Returns the width and height of the third image beside others of `size`: half of it, as light shows no more of it,
-/// and at least 16.
+/// Returns the width and height of the third image (occlusion, roughness, metallic) beside others of `size`: half of
+/// it, as more detail would not be visible; `size` itself below 32.
 constexpr int surface_size(int size) { return size < 32 ? size : size / 2; }
 
 /// Makes the images of a relief. Their names begin with `name`.

@@ -167,7 +167,7 @@ Result<std::string> validate(const Request&, const Job::Options&) {
 Result<std::shared_ptr<const Image>> make_texture(std::string_view, const Job::Options&, TextureStore*) {
   return Error{Code::invalid, {{IssueKind::not_available, "", "this pipeline has no textures"}}};
 }
-Result<ImportedRequest> import_request(const ImportQuestion&, const Job::Options&) {
+Result<ImportedRequest> import_request(const ImportInput&, const Job::Options&) {
   return invalid("/format", "There is no such format.");
 }
 std::vector<ImportFormatInfo> import_format_list() { return {}; }

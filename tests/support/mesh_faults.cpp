@@ -195,7 +195,7 @@ void say(std::vector<std::string>& out, std::uint64_t count, const char* what) {
   if (count) out.push_back(std::to_string(count) + " " + what);
 }
 
-std::vector<std::string> faults_of(const MeshMeasures& m) {
+std::vector<std::string> defects_of(const MeshMeasures& m) {
   std::vector<std::string> out;
   say(out, m.bad_indices, "indices beyond the vertices");
   say(out, m.not_finite, "numbers that are not finite");
@@ -249,7 +249,7 @@ MeshMeasures measure(const std::vector<const Mesh*>& primitives) {
   return m;
 }
 
-std::vector<std::string> faults(const Mesh& mesh) { return faults_of(measure({&mesh})); }
+std::vector<std::string> faults(const Mesh& mesh) { return defects_of(measure({&mesh})); }
 
 std::vector<std::string> faults(const Model& model) {
   std::vector<std::string> out;
@@ -277,7 +277,7 @@ std::vector<std::string> faults(const Model& model) {
         measure_triangles(*mesh, forgiven);
     }
     measures.flipped_corners -= std::min(measures.flipped_corners, forgiven.flipped_corners);
-    for (const std::string& fault : faults_of(measures)) out.push_back(group.name + ": " + fault);
+    for (const std::string& fault : defects_of(measures)) out.push_back(group.name + ": " + fault);
   }
   return out;
 }

@@ -17,7 +17,9 @@ class CoplanarRectangles {
   CoplanarRectangles(const Shapes& shapes, std::span<const std::uint32_t> drawn, double diagonal, Job& job);
 
   /// Returns the number of triangles of the i-th drawn shape beyond two.
-  std::size_t more_on(std::size_t i) const { return places_[i] == none ? 0 : rects_[places_[i]].more; }
+  std::size_t extra_triangles(std::size_t i) const {
+    return places_[i] == none ? 0 : rects_[places_[i]].more;
+  }
 
   /// The corners around a rectangle, counter-clockwise, in the world; empty if the shape is no rectangle.
   void outline(std::size_t i, std::vector<glm::dvec3>& points) const;

@@ -34,7 +34,7 @@ std::string text_of_number(double number) {
 }
 
 void reject(const Derivation& d, std::uint32_t offset, const std::string& message) {
-  if (d.guarded_steps > 0) throw StepFault{offset, message};
+  if (d.guarded_steps > 0) throw StepError{offset, message};
   d.job.refuse(issue_in_rules(d.task, IssueKind::evaluation, offset, message));
 }
 

@@ -17,7 +17,7 @@ struct Frame {
   std::uint32_t shape = 0;  ///< the shape that is replaced
   std::uint64_t key = 0;    ///< key of the successor, for random numbers
   ShapeState before;        ///< the state when the rule or the bracket began, for center()
-  bool is_carried = false;  ///< new shapes are, or stand on, a face of a mass, so they are no masses
+  bool is_carried = false;  ///< new shapes descend from a component of a closed solid, so they are not masses
 };
 
 /// Where one step is run: in its successor, with the key of its random numbers.
@@ -27,7 +27,7 @@ struct Site {
 };
 
 /// What makes a step impossible, where this is no error of the whole derivation.
-struct StepFault {
+struct StepError {
   std::uint32_t offset = 0;
   std::string message;
 };

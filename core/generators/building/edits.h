@@ -45,14 +45,15 @@ void check_edits(const BuildingParams& params, const Grammar& grammar, std::vect
 /// of the grammar.
 EditTree edits_of(const BuildingParams& params, const Grammar& grammar, Texts& texts);
 
-/// Counts shapes of one symbol below one predecessor while they are made, and finds those of a tree.
+/// Numbers the shapes of each symbol below each predecessor while they are made, and finds their edits in a tree.
 class EditSearch {
  public:
   /// `tree` may be null: nothing is found.
   explicit EditSearch(const EditTree* tree);
 
-  /// Visits a new shape, the number of its predecessor or `none`, and its symbol. The shapes come in the order of their
-  /// numbers, but may begin again from a lower one. Null: it has no edit.
+  /// Counts a new shape and returns its edit; null if it has none. `parent` is the number of its predecessor, or
+  /// `none` for the first shape. Shapes come in the order of their numbers; a lower number than before means that the
+  /// shapes from it on were taken back.
   const ShapeEdit* visit(std::uint32_t shape, std::uint32_t parent, std::uint32_t symbol);
 
   /// For each edit: was its shape made?
@@ -60,7 +61,8 @@ class EditSearch {
 
  private:
   const EditTree* tree_;
-  std::map<std::uint32_t, std::uint32_t> nodes_;     ///< of shapes on the way to an edit
+  std::map<std::uint32_t, std::uint32_t>
+      nodes_;  ///< index into EditTree::nodes, by shape on a path to an edit
   std::map<EditTree::Step, std::uint32_t> numbers_;  ///< by node and symbol
   std::vector<bool> found_;
 };

@@ -35,7 +35,7 @@ std::uint64_t more_by_neighbours(const Shapes& shapes, Job& job) {
   if (drawn.empty()) return 0;
   const CoplanarRectangles rectangles(shapes, drawn, glm::length(high - low), job);
   std::uint64_t sum = 0;
-  for (std::size_t i = 0; i < drawn.size(); ++i) sum += rectangles.more_on(i);
+  for (std::size_t i = 0; i < drawn.size(); ++i) sum += rectangles.extra_triangles(i);
   return sum;
 }
 

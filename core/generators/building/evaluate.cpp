@@ -151,7 +151,7 @@ lang::TaggedValue value_or_fault(Derivation& d, const Attribute& attribute) {
   ++d.guarded_steps;
   try {
     value = evaluate(d, attribute.value);
-  } catch (const StepFault& fault) {
+  } catch (const StepError& fault) {
     warn(d, fault.offset, fault.message + "; " + lang::in_quotes(attribute.name) + " is 0");
   }
   --d.guarded_steps;

@@ -212,7 +212,7 @@ void run_step(Derivation& d, const OperatorRow& row, const Step& step, ShapeStat
     const ShapeState face = state;
     row.run(d, step, state, site);
     if (is_theirs) stand_up(d, step, face, state);
-  } catch (const StepFault& fault) {
+  } catch (const StepError& fault) {
     state = before;
     d.depth_of_inline = depth;
     d.component = component;
@@ -291,7 +291,7 @@ bool expand(Derivation& d, std::uint32_t index) {
   if (d.grammar.is_cityengine) ++d.guarded_steps;
   try {
     choice = choose(d, index);
-  } catch (const StepFault& fault) {  // the shape stays as it is
+  } catch (const StepError& fault) {  // the shape stays as it is
     warn(d, fault.offset, fault.message + "; the rule is left out");
   }
   if (d.grammar.is_cityengine) --d.guarded_steps;

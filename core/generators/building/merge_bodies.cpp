@@ -54,7 +54,7 @@ class Merger {
       const DrawnBody& body = bodies_[i];
       const Shape& shape = merging_.source.shape_of(body);
       const BodyCost cost = merging_.source.cost_of(shape);
-      const std::size_t more = rectangles.more_on(i);
+      const std::size_t more = rectangles.extra_triangles(i);
       triangles += cost.triangles + more;
       if (merging_.source.is_asset(shape)) continue;
       Bucket& bucket = bucket_of(body, body.material);

@@ -3,8 +3,8 @@
 /// come from the shapes of the first pass of the derivation (derive.h), so that they do not depend on any
 /// order.
 ///
-/// Only closed shapes with a volume can occlude: leaves, and for "all", "noparent" and names also the shapes
-/// that they were made of. Ancestors and descendants of the querying shape never count. Boxes are tested as
+/// Only closed shapes with a volume can occlude: active ones, and for "all", "noparent" and names also those that
+/// rules have replaced. Ancestors and descendants of the querying shape never count. Boxes are tested as
 /// boxes; other closed solids (roofs, cut solids, cylinders) are cut to the box of the querying shape.
 /// touches() tests boxes only. visible("street") is true if the shortest line from the middle of the querying
 /// shape to the nearest shape of that name is free; flat shapes count as targets. Without such a shape it is
@@ -25,6 +25,7 @@ struct SnapPlane {
 
 enum class Cover : std::uint8_t { free, part, full };
 
+/// The shapes of the first pass, and an index that answers queries about them. Immutable.
 class Context {
  public:
   Context(Shapes shapes, std::vector<SnapPlane> snaps, const Grammar& grammar);

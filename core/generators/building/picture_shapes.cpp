@@ -89,7 +89,7 @@ class PictureWriter {
     if (kind == SolidKind::box) return box_geometry;
     std::uint32_t& made = geometry_[static_cast<std::size_t>(kind)];
     if (made != 0) return made;
-    constexpr Solid (*makers[])() = {unit_box, cylinder, cone, sphere, pyramid, prism, triangular_prism};
+    constexpr Solid (*makers[])() = {unit_box, cylinder, cone, sphere, pyramid, frustum, triangular_prism};
     out_.solids.push_back(std::make_unique<const Solid>(makers[static_cast<std::size_t>(kind)]()));
     made = static_cast<std::uint32_t>(out_.solids.size());
     return made;

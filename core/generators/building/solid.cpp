@@ -220,7 +220,7 @@ Solid cone() {
 
 Solid pyramid() { return tapered(square(1), 1); }
 
-Solid prism() {
+Solid frustum() {
   Solid solid = unit_box();
   for (glm::dvec3& p : solid.points) {
     if (p.y > 0.5) p = {0.25 + 0.5 * p.x, 1, 0.25 + 0.5 * p.z};

@@ -53,7 +53,7 @@ void add_face(Solid& solid, std::span<const std::uint32_t> corners, bool is_roun
 /// Returns the normal of a face times twice its area, in a scope of `size` (Newell).
 glm::dvec3 area_vector(const Solid& solid, const Face& face, const glm::dvec3& size);
 
-/// Returns the area of the surface in a scope of `size`, and below it the volume.
+/// Returns the area of the surface in a scope of `size`; volume_of() returns the volume.
 double area_of(const Solid& solid, const glm::dvec3& size);
 double volume_of(const Solid& solid, const glm::dvec3& size);  ///< 0 unless the solid is closed
 
@@ -62,8 +62,8 @@ double volume_of(const Solid& solid, const glm::dvec3& size);  ///< 0 unless the
 bool is_inside(const Solid& solid, std::span<const Loop> loops, const glm::dvec3& normal,
                const glm::dvec3& p);
 
-/// Moves and scales the points so that they fill the unit cube. `low` and `extent` say which part of the old
-/// cube they filled. Coordinates along an axis without extent become 0.
+/// Moves and scales the points so that they fill the unit cube. Sets `low` and `extent` to the corner and the sides
+/// of the part of the old cube that they filled. Coordinates along an axis without extent become 0.
 void fit(Solid& solid, glm::dvec3& low, glm::dvec3& extent);
 
 /// Returns the part of a solid below `at` on the axis (`sign` 1) or above it (`sign` -1). The cut through a closed
@@ -80,7 +80,7 @@ Solid square(int axis);
 Solid unit_box();
 Solid cylinder();
 Solid pyramid();
-Solid prism();             ///< a frustum: its top has half the size
+Solid frustum();           ///< a frustum: its top has half the size
 Solid triangular_prism();  ///< a gable: the ridge runs along z
 Solid sphere();
 Solid cone();

@@ -43,7 +43,7 @@ std::uint32_t named_solid(Derivation& d, std::string_view name) {
     Solid (*make)();
   };
   static constexpr Named bodies[] = {{"cylinder", cylinder}, {"pyramid", pyramid},
-                                     {"prism", prism},       {"triangular_prism", triangular_prism},
+                                     {"prism", frustum},     {"triangular_prism", triangular_prism},
                                      {"sphere", sphere},     {"cone", cone}};
   if (name == "cube" || name == "box") return box_geometry;
   const auto found = d.named_solids.find(name);

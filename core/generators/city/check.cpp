@@ -43,7 +43,7 @@ void check_area(const CityParams& params, const Job& job, std::vector<Issue>& is
         "found " + std::to_string(points) + " points, expected at most " + std::to_string(most_points));
     return;
   }
-  for (const PlanFault& each : faults_of(read_plan(std::move(rings)), &job)) {
+  for (const PlanDefect& each : defects_of(read_plan(std::move(rings)), &job)) {
     issues.emplace_back(IssueKind::invalid_value,
                         "/area/polygon/" + std::to_string(each.ring) + "/" + std::to_string(each.vertex),
                         each.message);

@@ -127,7 +127,7 @@ std::map<std::uint32_t, Generator::Prepared> prepared_rules(const std::vector<Sh
 bool has_parts(const Contents& each, const GenerateContext& context) {
   const Generator* generator =
       each.request ? find_generator(context.generators, each.request->generator) : nullptr;
-  return generator && generator->parts;
+  return generator && generator->repeats_parts;
 }
 
 /// Makes models on all threads and adds them in order.

@@ -1,6 +1,6 @@
 #pragma once
-/// The division of one block into lots. Every cut is refused that would leave a piece too small, too narrow, too
-/// pointed, or without its frontage, so that access is guaranteed by construction.
+/// The division of one block into lots. A cut is refused if one of its pieces would be too small, too narrow or too
+/// pointed, or would have too short a frontage. Every lot therefore has access to a street.
 #include <vector>
 
 #include "core/base/job.h"
@@ -24,7 +24,7 @@ struct SharedEdge {
   void append_between(const CmPoint& from, const CmPoint& to, CmRing& ring) const;
 };
 
-/// A piece of a block: corner i, and the edge from it to the next.
+/// A piece of a block. `edges[i]` is the index into Division::edges() of the edge from corner i to the next corner.
 struct Piece {
   CmRing ring;
   std::vector<std::uint32_t> edges;
@@ -48,19 +48,20 @@ class Division {
   const std::vector<SharedEdge>& edges() const { return edges_; }
   const Piece& whole() const { return whole_; }
 
-  /// Returns the outline of a piece with the corners of all neighbours.
+  /// Returns the outline of a piece, with the corners that cuts on the other sides of its edges have added.
   CmRing outline(const Piece& piece) const;
-  /// The same for a piece by its number, when all cuts are made. It can be taken once.
+  /// The same for the piece of this number, after cut(). Moves the outline out of the division: call it once a piece.
   CmRing take_outline(std::size_t piece);
 
-  /// Metres along streets times 100.
+  /// Returns the length of a piece along streets, in centimetres.
   double frontage(const Piece& piece) const;
-  /// Whether a piece has its least area, frontage, side and angle in degrees, and at most this aspect.
+  /// Whether a piece has at least the area, frontage and side that the request asks for, no corner sharper than
+  /// `angle` (degrees), and at most the aspect `aspect` (long side divided by short side).
   bool is_fit(const Piece& piece, double angle, double aspect) const;
 
  private:
   friend class Strips;
-  /// Where a line meets a piece: at a corner, or within the edge behind it.
+  /// A position where a line meets a piece: at a corner, or within the edge from this corner to the next one.
   struct Meeting {
     std::size_t corner = 0;
     bool is_corner = false;
@@ -96,7 +97,7 @@ class Division {
   std::vector<Piece> pieces_;
   std::vector<CmRing> outlines_;  ///< of the pieces, if they were checked last
   std::uint32_t inner_ = no_index;
-  double cut_aspect_ = 0;  ///< the greatest aspect of the pieces of the cut that is sought
+  double cut_aspect_ = 0;  ///< greatest aspect that a piece may have after the cut that is being searched
   // Kept for their memory: offsets of the corners from a cut, and where it meets the outline.
   std::vector<double> offsets_;
   std::vector<Meeting> meetings_;

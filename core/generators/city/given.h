@@ -16,16 +16,16 @@ namespace seedmesh::city {
 /// Returns the cross sections of the classes, by EdgeClass.
 std::vector<CrossSection> classes_of(const CityParams& params);
 
-/// A given line whose corners are the nodes where others meet it.
+/// A given line. It has a corner, which becomes a node, wherever another line of its level meets it.
 struct GivenLine {
   std::string pointer;  ///< pointer of its feature
   CmRing points;
-  std::uint32_t section = 0;  ///< index into the list of cross sections, from first_given on
+  std::uint32_t section = 0;  ///< index into the list of cross sections; at least first_given
   int level = 0;
 };
 
 /// Returns the lines of the given streets, joined where an end or corner of one lies within 3 m of another. Adds their
-/// cross sections to `sections`. Issues: properties out of range, geometries that cannot be read, lines below 3 m, and
+/// cross sections to `sections`. Issues: properties out of range, geometries that cannot be read, lines shorter than 3 m, and
 /// crossings without an end or corner.
 std::vector<GivenLine> given_lines(const CityParams& params, std::vector<CrossSection>& sections,
                                    std::vector<Issue>& issues);

@@ -113,8 +113,8 @@ void add_points(const CityPlan& plan, std::uint32_t edge, std::vector<ProfilePoi
   const CmPoint from = graph.nodes[graph.edges[edge].from], to = graph.nodes[graph.edges[edge].to];
   const double length = distance(from, to) / 100;
   const dvec2 along = (in_cm(to) - in_cm(from)) / (length * 100);
-  const double begin = plan.holds[2 * edge] + past_corners;
-  const double end = length - plan.holds[2 * edge + 1] - past_corners;
+  const double begin = plan.corner_reaches[2 * edge] + past_corners;
+  const double end = length - plan.corner_reaches[2 * edge + 1] - past_corners;
   points.push_back({from, 0, 0});
   if (end - begin >= shortest_slope) {
     const int count = std::max(1, math::to_int32(std::ceil((end - begin) / sample_spacing)));

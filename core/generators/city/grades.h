@@ -28,7 +28,7 @@ struct StreetHeights {
 };
 
 /// Computes the heights of nodes, streets and bridges from the natural ground. Streets are level as far as the corners
-/// at their nodes reach (CityPlan::holds), so that junctions are level. Between, they are sampled about every 10 m; bridges
+/// at their nodes reach (CityPlan::corner_reaches), so that junctions are level. Between, they are sampled about every 10 m; bridges
 /// have no samples. With the limit of each class as cost, two passes of Dijkstra's algorithm give the highest and the
 /// lowest heights that differ from the ground only where they must; their mean keeps all limits with the least
 /// possible greatest cut or fill. Heights are then smoothed along the streets and limited again. `least` is a lower bound

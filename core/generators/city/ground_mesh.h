@@ -37,7 +37,7 @@ class GroundMesh {
   Mesh take(Job& job);
 
  private:
-  /// A strip of a carriageway: the lines at both ends, and the shares of the way across where each has vertices.
+  /// A strip of a carriageway: the lines across it at both ends, and the vertices on each as shares of its length.
   struct StripSides {
     CrossLine start, end;
     std::vector<double> start_shares, end_shares;
@@ -49,7 +49,7 @@ class GroundMesh {
   void set_sides(const Part& part, std::size_t strip, double station);
   void add_strip(std::uint32_t part, const StripPiece& piece);
   void add_inner_points(const Part& part);
-  /// An edge of a part with its right side.
+  /// An edge of a part, and what lies to the right of it.
   struct WallEdge {
     std::uint32_t beyond = 0;  ///< part on the other side; no_index: none
     bool is_left_out = false, is_short = false;

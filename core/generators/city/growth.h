@@ -36,15 +36,17 @@ struct GrowthInput {
   std::vector<CrossSection> sections = {};     ///< by tag
   double least_height = -1e9;                  ///< of streets, m
 
-  /// Whether an obstacle is at a position in metres, or a given building beside it within the space of a street.
+  /// Whether an obstacle is at a position in metres, or a given building is nearer to it than 1 m plus half the width
+  /// of the widest class of streets with its sidewalk.
   bool is_blocked(const glm::dvec2& metres) const;
-  /// Whether the space of a street would reach a given building, sampled every metre.
+  /// Whether a given building is nearer to the piece than half the width of its street with the sidewalk. Samples the
+  /// piece every metre.
   bool is_on_footprint(const StreetPiece& piece) const;
   /// Whether an obstacle is on the segment between two positions in centimetres, sampled every 4 m, or the ground
   /// along it is too steep for a street of this grade limit.
   bool is_blocked(const glm::dvec2& a, const glm::dvec2& b, double grade_limit) const;
-  /// Whether the ground along a segment rises half more than a grade limit allows, or is more than 5 m above or
-  /// below the segment.
+  /// Whether the ground between the ends of a segment (cm) is more than 1.5 times as steep as `grade_limit`, or the
+  /// ground along it is more than 5 m above or below the straight line between the ends.
   bool is_too_steep(const glm::dvec2& a, const glm::dvec2& b, double grade_limit) const;
   /// Whether a piece meets given streets only where it crosses one of them at a wide angle.
   bool keeps_off_given(const StreetPiece& piece) const;
@@ -55,7 +57,7 @@ struct GrowthInput {
 /// Returns the major streets, or all streets of a raster, clipped to the area.
 Route grow_majors(const GrowthInput& input, Job& job);
 
-/// Points in centimetres of a lattice over the box around the land that are on land.
+/// Returns positions in centimetres that are on land, out of a lattice of 15 by 15 over the bounding box of the land.
 std::vector<glm::dvec2> lattice_of(const Region& region);
 
 /// Returns one straight street through a dense position, for areas in which the pattern has no street. Empty where the
@@ -73,15 +75,16 @@ std::vector<StreetPiece> grow_cell(const GrowthInput& input, const StreetGraph& 
 std::vector<StreetPiece> links_between_networks(const GrowthInput& input, const StreetGraph& graph,
                                                 const Job& job);
 
-/// Returns the whole street graph: majors, cells, and what is left after pieces outside of the area and loose
-/// components are removed.
+/// Returns the whole street graph: the major streets and the streets of all cells. Pieces outside of the area and
+/// loose components have been removed.
 StreetGraph grow_streets(const GrowthInput& input, Job& job);
 
 /// Removes the streets that grew where their cut or fill is deeper than 8 m, and what is loose without them. Returns
 /// false if there are none. `input` has a landform. Cost: linear.
 bool drop_deep_streets(const GrowthInput& input, const StreetHeights& heights, StreetGraph& graph, Job& job);
 
-/// Returns the directions of a pattern at a position: a unit vector; the others are its quarter turns.
+/// Returns one direction of a pattern at a position in centimetres, as a unit vector; the others are its quarter
+/// turns. Radial: away from `streets.centre`. Otherwise: `streets.angle`.
 glm::dvec2 frame_at(const CityStreets& streets, bool is_radial, const glm::dvec2& cm);
 
 }  // namespace seedmesh::city

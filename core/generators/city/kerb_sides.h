@@ -6,7 +6,7 @@
 
 namespace seedmesh::city {
 
-/// What is left of a half-edge, by its number.
+/// The kerb along the left side of a half-edge. Lists of kerb sides are indexed by half-edge.
 struct KerbSide {
   std::vector<CmPoint> corner;        ///< corner at its start, after the half-edge before it; the kerb
   std::vector<CmPoint> outer_corner;  ///< the same for the border of the block

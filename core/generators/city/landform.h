@@ -48,8 +48,8 @@ class Landform {
   std::optional<double> water_level_;
 };
 
-/// Whether the ground along a segment, in centimetres, rises half more than a grade limit allows, or is more than 5 m above
-/// or below the segment.
+/// Whether the ground between the ends of a segment (cm) is more than 1.5 times as steep as `grade_limit`, or the
+/// ground along it is more than 5 m above or below the straight line between the ends.
 bool is_too_steep(const Landform& landform, const glm::dvec2& a, const glm::dvec2& b, double grade_limit);
 
 /// What the schema cannot say about the ground of a request.

@@ -64,7 +64,7 @@ class Network {
  private:
   struct Hit {
     std::uint32_t edge = 0;
-    double share = 0;  ///< share of the piece
+    double share = 0;  ///< position along the piece, as a share of its length
     glm::dvec2 at{0};
   };
   std::optional<Hit> first_hit(std::uint32_t from, const glm::dvec2& end) const;

@@ -54,10 +54,10 @@ struct Bridge {
   std::uint64_t key = 0;
 };
 
-/// The planar graph of streets and of the border of the area. Edges are never removed ones.
+/// The planar graph of streets and of the border of the area. It contains no removed edges (PlanarEdge::is_removed).
 struct StreetGraph {
   std::vector<CmPoint> nodes;
-  std::vector<PlanarEdge> edges;  ///< the tag is an EdgeClass
+  std::vector<PlanarEdge> edges;  ///< the tag is an EdgeClass, or from first_given on that of a given street
   PlanarArms arms;
   std::vector<std::uint64_t> node_key, edge_key;  ///< identities by position
   std::vector<std::uint8_t> is_border;            ///< by node: on the border of the area or on a shore
@@ -76,11 +76,11 @@ struct StreetGraph {
   bool is_on_ring(std::uint32_t node) const {
     return std::binary_search(ring_nodes.begin(), ring_nodes.end(), nodes[node]);
   }
-  /// Ends of streets of all levels.
+  /// Returns the number of ends of streets of all levels at a node.
   std::uint32_t street_ends(std::uint32_t node) const {
     return degree(node) + (bridge_ends.empty() ? 0 : bridge_ends[node]);
   }
-  /// Ends of streets of level 0.
+  /// Returns the number of ends of streets of level 0 at a node.
   std::uint32_t degree(std::uint32_t node) const {
     std::uint32_t count = 0;
     for (const std::uint32_t half : arms.of(node)) count += is_street(half / 2) ? 1U : 0U;
@@ -113,7 +113,7 @@ struct Ward {
   CmRing ring;
   std::string zone;
 };
-/// Zones without minor streets: the first is a square, and the second one lot.
+/// Zones without minor streets. The square has no lots, and the citadel is one lot.
 constexpr const char *zone_square = "square", *zone_citadel = "citadel";
 
 /// A zone of the request: its polygons have a name.
@@ -136,7 +136,7 @@ struct Landmark {
   std::string pointer;
   glm::dvec2 position{0};  ///< metres east and north
   double turn = 0;         ///< degrees, counter-clockwise from above
-  double radius = 15;      ///< where no tree of a park stands
+  double radius = 15;      ///< metres around `position` in which no tree of a park stands
   bool is_block_whole = false, replaces_house = true;
   bool is_given = false;                          ///< a footprint of the request
   bool is_too_large = false;                      ///< for its lot, which then has no building in the plan
@@ -167,7 +167,7 @@ struct Lot {
   std::uint32_t landmark = no_index;  ///< into CityPlan::landmarks; such lots have no house
 
   bool is_built() const { return house.has_value() || landmark != no_index; }
-  /// Of its house, which it must have.
+  /// Returns the rectangle of the house. The lot must have a house.
   Footing footing() const { return {house->position, house->turn, house->width, house->depth, part}; }
 };
 
@@ -177,7 +177,8 @@ struct Block {
   std::vector<std::uint32_t> streets;  ///< edges around it, rising
 };
 
-/// Memory of a plan, which consists of many small lists, charged to the request by estimate.
+/// Charges the estimated memory of a plan, which consists of many small lists, to the budget of the request while it
+/// exists.
 class MemoryCharge {
  public:
   MemoryCharge(const Job& job, std::uint64_t bytes) : budget_(job.budget()), bytes_(bytes) {
@@ -212,7 +213,8 @@ struct CityPlan {
   StreetGraph graph;
   /// By edge: the start and end of the straight kerbs, left and then right; equal points without them.
   std::vector<std::array<CmPoint, 4>> kerbs;
-  std::vector<double> holds;  ///< by half-edge: how far the corners at its start reach along it, metres
+  std::vector<double>
+      corner_reaches;  ///< by half-edge: how far the corners at its start reach along it, metres
   std::shared_ptr<const Landform> landform;  ///< never null after plan_of()
   StreetHeights heights;
   std::vector<Part> parts;

@@ -51,7 +51,7 @@ class StreetSpace {
       for (std::size_t i = begin; i < end; ++i) lay_out_face(faces, faces.faces[i], layouts[i]);
     });
     cut_carriageways();
-    plan_.holds = corner_reaches(graph_, sides_);
+    plan_.corner_reaches = corner_reaches(graph_, sides_);
     add_junctions();
     add_carriageways();
     std::vector<BlockOutline> blocks;

@@ -41,7 +41,7 @@ class Surface {
   /// Returns the part on the other side of the edge from `a` to `b` of some part; no_index outside of the area.
   std::uint32_t part_beyond(const CmPoint& a, const CmPoint& b) const;
 
-  /// Returns the height of the floor of a building: the highest ground below it. `lowest` becomes the lowest.
+  /// Returns the height of the floor of a building: that of the highest ground below it. Sets `lowest` to the lowest.
   double floor_height(const Footing& footing, double& lowest) const;
 
  private:
@@ -58,7 +58,7 @@ class Surface {
 
   /// The further vertices of an edge of a carriageway, from the lesser of its ends to the greater.
   struct DividedEdge {
-    std::uint32_t first = 0, count = 0;  ///< into `edge_points_`
+    std::uint32_t first = 0, count = 0;  ///< range in `edge_points_`
   };
 
   void divide_carriageways(const Job& job);

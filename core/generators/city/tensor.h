@@ -52,7 +52,8 @@ class TensorField {
     glm::dvec2 position{0}, grid{1, 0};
     double weight = 1, size = 0;  ///< size in centimetres; 0: everywhere alike
     std::vector<CmRing> lines;
-    bool is_second = false;  ///< of a blend: its weight is that of the map
+    bool is_second =
+        false;  ///< belongs to the second pattern of a blend, whose weight is the value of the map
   };
   static Base base_of(CityPattern pattern, const CityStreets& streets);
   glm::dvec2 tensor_of(const Base& base, const glm::dvec2& cm, double& squared_distance) const;
@@ -70,8 +71,8 @@ class TensorField {
 CityPattern second_pattern_of(const CityStreets& streets);
 
 /// Returns the major streets: streamlines of both directions about `major_spacing` apart (Jobard and Lefer, "Creating
-/// evenly spaced streamlines of arbitrary density", 1997), cut where they cross, with the share `t_junctions` of the
-/// crossings less one arm. Draws depend on positions only.
+/// evenly spaced streamlines of arbitrary density", 1997), cut where they cross. At about the share `t_junctions` of the
+/// crossings one arm is removed. Random choices depend on positions only.
 Route trace_majors(const GrowthInput& input, const TensorField& field, Job& job);
 
 }  // namespace seedmesh::city

@@ -19,8 +19,8 @@ class FootprintIndex;
 /// Returns the rules of the request, or the built-in ones.
 const std::vector<CityBuildingRule>& rules_of(const CityParams& params);
 
-/// Gives each lot a house where one of the rules applies and fits, beside obstacles and given footprints. `obstacles` may
-/// be null.
+/// Gives each lot a house if one of the rules applies and fits. No house lies on an obstacle or a given footprint.
+/// `obstacles` may be null.
 void place_houses(CityPlan& plan, const CityParams& params, const FieldMap* obstacles,
                   const FootprintIndex& footprints, Job& job);
 

@@ -34,7 +34,7 @@ class StartPoints {
 /// Returns the first points of a request: on its element, or in the unit cube. Errors: those of the element's model.
 Result<StartPoints> start_of(const FractalParams& params, const GenerateContext& context);
 
-/// Gives `count` points. A chain begins at a point of `start`, and its first `drop` points are left out. Up to 65,536 points are one chain, in the order of the game. More are divided into chunks of
+/// Returns `count` points. A chain begins at a point of `start`, and its first `drop` points are left out. Up to 65,536 points are one chain, in the order of the game. More are divided into chunks of
 /// that size with four alternating chains each, so that their maps are computed at the same time. Chunks and
 /// chains do not depend on the number of threads. About 7 ns for each point on one core. The maps must
 /// contract.

@@ -58,8 +58,8 @@ class BitGrid {
 using Axes = std::array<int, 3>;
 
 /// Returns the cells after `rounds` rounds. Each round joins translated copies of the one before, so the cost is
-/// about that of writing the grid once. Throws Stop for a grid of more than 2^20 cells along a side. Spends
-/// the memory.
+/// about that of writing the grid once. Throws Stop for a grid of more than 2^20 cells along a side. Charges
+/// the grid to the memory budget.
 BitGrid grid_of(const Lattice& lattice, int rounds, const Axes& axes, const Job& job);
 
 /// The lower corner of cell 0, and the edges of a cell, in the frame of the unit element.

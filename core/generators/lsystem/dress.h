@@ -9,9 +9,9 @@
 
 namespace seedmesh::lsystem {
 
-/// A drawing that occurs at several places.
+/// A skeleton that occurs several times, with one transform each.
 struct SharedPart {
-  Skeleton* skeleton;  ///< is consumed
+  Skeleton* skeleton;  ///< not owned, never null; dress() moves its arrays out
   std::vector<Transform> places;
 };
 

@@ -9,8 +9,9 @@
 
 namespace seedmesh::lsystem {
 
-/// A sink may handle everything that a module derives to. takes(kind, step) is called for a module that was
-/// written at `step` and is due to be rewritten; it returns true where the sink handles it.
+/// A sink that can replace the derivation of a module by a result of its own. takes(kind, step) is called for a
+/// module that was written at `step`, before it is rewritten. It returns true if the sink has written all that the
+/// module derives to.
 template <class Sink>
 concept TakesWholes = requires(Sink& sink, KindId kind, std::uint32_t step) {
   { sink.takes(kind, step) } -> std::same_as<bool>;

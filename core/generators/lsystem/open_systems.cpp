@@ -250,7 +250,7 @@ void OpenSystems::grow(const Grammar& grammar, std::uint32_t steps) {
 void OpenSystems::answer_queries() {
   std::vector<Stretch> grown;
   for (auto& plant : plants_) draw_and_prune(*plant, grown);
-  surroundings_->settle(grown);
+  surroundings_->set_internodes(grown);
   for (auto& plant : plants_) write_answers(*plant);
 }
 
@@ -342,8 +342,9 @@ void OpenSystems::write_answers(Plant& plant) {
                              std::binary_search(plant.alive.begin(), plant.alive.end(), prober.joint);
         const double length = answer[0];
         set(0, remains && surroundings_->is_free(prober, length) ? 1 : 0);
-        if (kind.arity > 1) set(1, surroundings_->room_at(prober.position));
-        if (kind.arity > 2) set(2, surroundings_->room_at(prober.position + prober.heading * length));
+        if (kind.arity > 1) set(1, surroundings_->signed_distance_at(prober.position));
+        if (kind.arity > 2)
+          set(2, surroundings_->signed_distance_at(prober.position + prober.heading * length));
         if (kind.arity > 3) set(3, remains ? surroundings_->light_at(prober.position) : 0);
         if (kind.arity > 4) fill(4, surroundings_->toward_surface(prober.position));
       }

@@ -25,7 +25,7 @@ void check_rings(const Rings& rings, const std::string& pointer, const Job& job,
          "found " + std::to_string(points) + " points; expected at most " + std::to_string(most_points)});
     return;
   }
-  for (const PlanFault& fault : faults_of(plan_of_rings(rings), &job))
+  for (const PlanDefect& fault : defects_of(plan_of_rings(rings), &job))
     issues.push_back({IssueKind::invalid_value, pointer + "/" + std::to_string(fault.ring), fault.message});
 }
 

@@ -27,7 +27,7 @@ class Forecast {
   /// Sets the number of placements of each variant; a variant with 0 is not generated. Before this call all
   /// are. With `merges`, every placement has its own triangles.
   void set_counts(const std::vector<std::uint64_t>& placements, bool merges);
-  /// Counts the ground as spent from now on.
+  /// Removes the ground from the expected cost, because the job has spent it.
   void spend_ground() { ground_ = 0; }
   bool is_needed(std::size_t variant) const { return rows_[variant].placements > 0; }
 
@@ -37,16 +37,17 @@ class Forecast {
   /// others are predicted from them.
   std::vector<std::size_t> samples() const;
 
-  /// Records the cost of a variant with all levels of detail. Its siblings are expected to cost at least a
-  /// part of it.
+  /// Records the cost of a variant with all levels of detail. The other variants of its layer are then
+  /// expected to cost at least a fixed share of it, scaled by their estimates.
   void record(std::size_t variant, const Amounts& spent);
 
-  /// Throws Stop at the pointer of the variant with which spent and expected cost exceed a limit. Not to be
+  /// Throws Stop if the spent and the expected cost together exceed a limit. Its pointer is that of the variant at
+  /// which the sum passes the limit, or "/terrain" for the ground. Not to be
   /// called while models are generated.
   void refuse(const Job& job) const;
 
-  /// Same after a part of the variants has cost what the job has spent since `before`, with `parts` similar
-  /// parts to come. Does nothing where the variants of a layer differ in more than their seeds.
+  /// The same when one part of the variants is finished: it has cost what the job has spent beyond `before`, and
+  /// `parts` parts of about this cost follow. Does nothing where the variants of a layer differ in more than their seeds.
   void refuse(const Job& job, const Amounts& before, std::size_t parts) const;
 
   /// Returns the pointer for a limit that is exceeded during generation: among layers without exact estimate,

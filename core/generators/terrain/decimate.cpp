@@ -107,7 +107,7 @@ class Weave {
   }
 
   void triangle(GridPoint a, GridPoint b, GridPoint c) {
-    if (turn(a, b, c) < 0) std::swap(b, c);
+    if (doubled_area(a, b, c) < 0) std::swap(b, c);
     for (const GridPoint at : {a, b, c}) mesh_.index.push_back(name(at));
   }
 

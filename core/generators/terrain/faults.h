@@ -31,8 +31,8 @@ struct FaultPlan {
 };
 
 /// Returns the field of `window`. `world` is the ground that the lines cross, a square of world.width
-/// samples. Cost: about 2 ns for each of samples + rows * faults with hard steps; soft steps add the samples
-/// inside the slopes.
+/// samples. Cost: about 2 ns for each sample, and for each row of each fault. Soft steps add the samples inside their
+/// slopes for each fault.
 Field faulted(const FaultPlan& plan, const Window& world, const Window& window, double cell, Rng rng,
               const Job& job);
 

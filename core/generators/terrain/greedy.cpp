@@ -117,7 +117,8 @@ class Network {
   void insert(std::uint32_t t, GridPoint at) {
     const std::uint32_t added = add_sample(at);
     for (std::uint32_t k = 0; k < 3; ++k) {
-      if (turn(corner(3 * t + k), corner(next(3 * t + k)), at) == 0) return split_edge(3 * t + k, added);
+      if (doubled_area(corner(3 * t + k), corner(next(3 * t + k)), at) == 0)
+        return split_edge(3 * t + k, added);
     }
     split_triangle(t, added);
   }
@@ -128,7 +129,7 @@ class Network {
     auto t = static_cast<std::uint32_t>(corners_.size() / 3 - 1);
     for (std::uint32_t k = 0; k < 3;) {
       const std::uint32_t edge = 3 * t + k;
-      if (turn(corner(edge), corner(next(edge)), at) < 0 && twins_[edge] != none) {
+      if (doubled_area(corner(edge), corner(next(edge)), at) < 0 && twins_[edge] != none) {
         t = twins_[edge] / 3;
         k = 0;
       } else {
@@ -151,7 +152,7 @@ class Network {
   /// samples of the border where `with_border`.
   Queue::Entry scan(std::uint32_t t, double max_error, bool with_border) const {
     const GridPoint a = corner(3 * t), b = corner(3 * t + 1), c = corner(3 * t + 2);
-    if (turn(a, b, c) <= 1) return {0, t, {}};
+    if (doubled_area(a, b, c) <= 1) return {0, t, {}};
     const auto height = [&](GridPoint p) { return static_cast<double>(field_.at(p.x, p.z)); };
     const Plane plane = Plane::through(a, b, c, height(a), height(b), height(c));
     double most = max_error;

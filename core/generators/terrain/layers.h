@@ -16,7 +16,7 @@ namespace seedmesh::terrain {
 /// Returns the errors of `expression` and `layers`, with line and column in their texts.
 std::vector<Issue> layer_errors(const TerrainParams& params);
 
-/// Returns the heights of `expression` at the samples of a window, whose distance is `cell`. Stop: a value that is not
+/// Returns the heights of `expression` at the samples of a window, which are `cell` metres apart. Throws Stop: a value that is not
 /// finite, or above 10,000 km. Cost: about 6 ns a sample for ten arithmetic operations, and 27 ns for each octave of
 /// noise.
 Field expressed_field(const TerrainParams& params, const Window& window, double cell, Rng rng,
@@ -26,7 +26,8 @@ Field expressed_field(const TerrainParams& params, const Window& window, double 
 void add_layers(const TerrainParams& params, Field& field, const Window& window, double cell, Rng rng,
                 const Job& job);
 
-/// The same on a sphere, whose heights are those of the algorithm, or 0 for the algorithm expression.
+/// The same on a sphere. Before the call, `planet` has the heights of the algorithm, or 0 for the algorithm
+/// `expression`.
 void express_sphere(const TerrainParams& params, Planet& planet, Rng rng, const Job& job);
 void add_layers(const TerrainParams& params, Planet& planet, Rng rng, const Job& job);
 

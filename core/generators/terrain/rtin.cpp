@@ -214,7 +214,7 @@ double measured_error(const Field& field, const Triangulation& mesh, const Job& 
                      return static_cast<double>(field.at(at.x, at.z));
                    };
                    const GridPoint a = corner(0), b = corner(1), c = corner(2);
-                   if (turn(a, b, c) <= 1) continue;  // no samples except the corners
+                   if (doubled_area(a, b, c) <= 1) continue;  // no samples except the corners
                    const Plane plane = Plane::through(a, b, c, height(a), height(b), height(c));
                    each_row_inside(a, b, c, [&](std::int32_t z, std::int32_t first, std::int32_t last) {
                      const double off =

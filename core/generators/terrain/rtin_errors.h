@@ -20,8 +20,8 @@ constexpr std::int32_t stride_of(std::int32_t side) {
 }
 static_assert(stride_of(1025) / 16 % 2 == 1);
 
-/// For every sample, the largest error of the mesh if the triangles at this sample stay whole: of the sample
-/// and all below it.
+/// For every sample, the largest error of the mesh if the triangles that it would split stay whole: the maximum over
+/// the sample itself and all samples of finer levels inside of these triangles.
 class RtinErrors {
  public:
   /// error of samples that are in every mesh

@@ -21,7 +21,7 @@ inline GridPoint grid_point_of(std::uint32_t sample, std::int32_t width) {
 
 /// Returns twice the area of a triangle, positive for counter-clockwise order as seen from above (x east, z
 /// south).
-inline std::int64_t turn(GridPoint a, GridPoint b, GridPoint c) {
+inline std::int64_t doubled_area(GridPoint a, GridPoint b, GridPoint c) {
   return std::int64_t{b.z - a.z} * (c.x - a.x) - std::int64_t{b.x - a.x} * (c.z - a.z);
 }
 
@@ -29,7 +29,7 @@ inline std::int64_t turn(GridPoint a, GridPoint b, GridPoint c) {
 struct Plane {
   double base = 0, east = 0, south = 0;
   static Plane through(GridPoint a, GridPoint b, GridPoint c, double ha, double hb, double hc) {
-    const double area = static_cast<double>(turn(a, b, c));
+    const double area = static_cast<double>(doubled_area(a, b, c));
     const double bx = b.x - a.x, bz = b.z - a.z, cx = c.x - a.x, cz = c.z - a.z;
     Plane plane;
     plane.east = ((hc - ha) * bz - (hb - ha) * cz) / area;

@@ -31,9 +31,10 @@ Mesh far_leaf(const TreeParams& params, LeafDetail detail, int level, const Job&
 /// before all backs and does not share vertices between triangles.
 Mesh outer_sides(const Mesh& mesh, const Mesh& leaf, const glm::vec3& middle, const Job& job);
 
-/// By how much brighter the texture of single triangles has to be so that the crown looks as bright as all leaves with both
-/// sides: renderers turn the normals of back sides around, away from the sky. The quotient of the mean light on what is seen
-/// of both meshes in three level views, under a sky with a fifth of the sun. `all`: all leaves as `triangle` with backs;
+/// Returns the factor by which the texture of single triangles has to be brighter than that of leaves with two sides,
+/// so that both crowns look equally bright: renderers flip the normals of back sides, away from the sky. The factor
+/// is the mean light on `all` divided by that on `outer`, as seen in three horizontal views, under a sky with a fifth
+/// of the light of the sun. `all`: all leaves as `triangle` with backs;
 /// `outer`: those of the level after outer_sides(). Cost: about 0.5 us a triangle.
 float gain_of(const Mesh& all, const Mesh& outer, const Job& job);
 

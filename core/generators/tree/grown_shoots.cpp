@@ -57,11 +57,11 @@ glm::dvec3 next_heading(const GrownBud& bud, const glm::dvec3& position, const G
 
 /// Turns a heading along the surface of an obstacle that an internode of this length would enter. False: it cannot.
 bool avoid_obstacles(const glm::dvec3& position, double length, const GrownSite& site, glm::dvec3& heading) {
-  if (!site.obstacles || site.obstacles->room_at(position + heading * length) > 0) return true;
+  if (!site.obstacles || site.obstacles->signed_distance_at(position + heading * length) > 0) return true;
   const glm::dvec3 inward = site.obstacles->toward_surface(position);
   const double into = glm::dot(heading, inward);
   if (into > 0) heading = math::unit(heading - inward * into, heading);
-  return site.obstacles->room_at(position + heading * length) > 0;
+  return site.obstacles->signed_distance_at(position + heading * length) > 0;
 }
 
 /// Is a node on the part of a trunk without side buds?

@@ -52,7 +52,7 @@ class LeafFrames {
     ++count_;
   }
 
-  /// Computes the batch and writes it to `out`, which has room for size() organs.
+  /// Computes the batch and writes it to `out`, which has a capacity of at least size() organs.
   void write(const Options& options, const glm::vec3& scale, Organ* out);
 
  private:

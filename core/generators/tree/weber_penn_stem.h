@@ -46,11 +46,11 @@ struct WeberPennStem {
   double share = 1;
   double readiness = 1;           ///< readiness to split; halved by a split
   double carried_splits = 0;      ///< rounding error of the number of splits so far
-  double carried_children = 0.5;  ///< part of the way to the next child that is behind
+  double carried_children = 0.5;  ///< share of the distance to the next child that is already passed
   int children_before = 0;        ///< number of children on earlier segments
 };
 
-/// Gives trunk `number`, which has no joint yet; called for 0, 1, ... The first one draws the height of the tree.
+/// Returns trunk `number`, which has no joint yet; called for 0, 1, ... The first one draws the height of the tree.
 WeberPennStem make_trunk(WeberPennTree& tree, int number);
 
 /// Whether a stem is of the last level, which has no child stems.
@@ -96,7 +96,8 @@ bool prune(const WeberPennTree& tree, WeberPennStem& stem, std::vector<Frame>& f
 /// thick.
 bool is_too_small(const WeberPennTree& tree, const WeberPennStem& stem);
 
-/// Returns the rounding error of splits behind the segments from `segment` on and the clones that split off there.
+/// Returns the rounding error of the number of splits after the segments from `segment` on and after the clones that
+/// split off them.
 /// Arbaro adds it up from stem to stem of a level, to each clone before the rest of its stem. Cost: that of the
 /// segments, at most 10,000.
 double carried_behind(const WeberPennLevel& level, double carried, int segment);

@@ -9,7 +9,7 @@
 
 namespace seedmesh::world {
 
-/// The crowns of a class close over its woods, so that their surface shows and not single plants.
+/// Whether the crowns of a class are so large and dense that a wood of it is drawn as a surface.
 bool has_canopy(const WorldClass& plant);
 
 /// What covers a position: the mean of the classes by their cover.
@@ -18,11 +18,12 @@ struct Wood {
   double height = 0;              ///< metres, of the crowns
   std::array<double, 3> color{};  ///< linear, of the crowns
 };
-/// Returns what covers a position, given as metres east and north.
+/// Returns what covers a position, given as metres east and north. `spacing`: distance of the samples in metres;
+/// cover that varies over shorter distances is averaged.
 Wood wood_at(const World& world, const GroundSample& sample, const Climate& climate, double east,
              double north, double spacing);
 
-constexpr double wood_edge = 0.45;  ///< of the cover; woods begin here
+constexpr double wood_edge = 0.45;  ///< cover above which a position belongs to a wood
 
 /// `folder`: see tile_glb().
 void add_canopy(Glb& glb, const World& world, const TileFrame& frame, const TileGround& ground, Job& job,

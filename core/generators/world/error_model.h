@@ -1,6 +1,6 @@
 #pragma once
 /// How far the ground can be from triangles between samples of it: the sum of what each part of the ground adds, by
-/// the ratio of the distance of samples to the wavelength of the part and by its amplitude in the place.
+/// the ratio of the spacing of the samples to the wavelength of the part and by its amplitude at the position.
 ///
 /// The deviations of single octaves of noise were measured with 40 grids of 32 x 32 cells for each ratio. Parts do
 /// not reach their greatest deviation at one position, so they are added with a norm of degree 1.5.

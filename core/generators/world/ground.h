@@ -26,8 +26,8 @@ struct GroundSample {
   double road = std::numeric_limits<double>::infinity();   ///< metres to the edge of the nearest road
   double house = std::numeric_limits<double>::infinity();  ///< metres to the nearest house
   double cut = 0;                                          ///< metres that valleys lower the land
-  double works = 0;       ///< metres that roads are above or below the ground
-  int field = -1;         ///< of WorldFields::colors; -1 outside of fields
+  double works = 0;  ///< absolute difference of height between the earthworks of roads and the ground, metres
+  int field = -1;    ///< index into WorldFields::colors; -1 outside of fields
   bool is_hedge = false;  ///< at the border of a field
   double settled = 0;     ///< 1 in a settlement, 0 beyond its cleared land
   bool is_town = false;   ///< within the radius of a town
@@ -40,7 +40,7 @@ struct RoadPiece {
   double from_east = 0, from_north = 0, from_height = 0, to_east = 0, to_north = 0, to_height = 0;
   double width = 0;
   bool is_bridge = false;
-  double from_works = 0, to_works = 0;  ///< metres above or below the ground
+  double from_works = 0, to_works = 0;  ///< absolute difference of height from the ground, metres
 };
 
 /// Where a house stands, as a disc.
@@ -58,8 +58,8 @@ struct Farmland {
 struct Reach {
   RiverPoint from, to;
   double middle_east = 0, middle_north = 0,
-         far = 0;               ///< beyond this square of the distance from the middle is no effect
-  double x = 0, y = 0, by = 0;  ///< the piece as a vector, divided by its square
+         far = 0;               ///< squared distance from the middle beyond which the piece has no effect
+  double x = 0, y = 0, by = 0;  ///< vector from `from` to `to`, and 1 / its squared length (0 if it has none)
 };
 
 class Ground {
@@ -83,7 +83,7 @@ class Ground {
   const std::vector<RoadPiece>& road_pieces() const { return pieces_; }
 
  private:
-  /// The pieces that reach a square of the rectangle, by number.
+  /// For each square of a grid over the rectangle, the indices of the road pieces that reach it.
   struct Bins {
     double west = 0, south = 0, cell = 1;
     int count = 0;

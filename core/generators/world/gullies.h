@@ -11,8 +11,8 @@
 namespace seedmesh::world {
 
 constexpr double widest_gully = 420;   ///< metres between gullies of the first octave
-constexpr double gully_fall = 0.47;    ///< distance of gullies by that of the octave before
-constexpr double gully_depth = 0.055;  ///< depth of a gully by its distance from the next
+constexpr double gully_fall = 0.47;    ///< distance of gullies divided by that of the octave before
+constexpr double gully_depth = 0.055;  ///< depth of a gully divided by its distance from the next
 
 /// Metres to add to the ground, mostly negative. `slope`: the ground with its derivative. Discontinuous only where
 /// the slope is.

@@ -24,7 +24,7 @@ struct House {
   int front = 0;           ///< side of its front, seen along the ridge: -1 right, 1 left, 0 no side
   float wall_light = 1, roof_light = 1,
         warmth = 0;                 ///< of the colours; warmth shifts the walls to yellow or white
-  int model = -1;                   ///< of WorldSettlements::houses; -1: walls and a gable roof
+  int model = -1;                   ///< index into WorldSettlements::houses; -1: walls and a gable roof
   double scale = 1, floor = 0;      ///< of the model, and the height of its foot
   std::array<float, 2> turn{0, 1};  ///< of the model, as Instances::add() takes it
 };
@@ -53,8 +53,8 @@ std::shared_ptr<const Plan> plan_of(const World& world, const Site& site, Job& j
 std::vector<House> houses_near(const World& world, const Rectangle& box, double reach, Job& job);
 
 /// The houses whose middle is in the tile. Tiles of up to 128 m have the models of houses, or walls and a gable roof;
-/// up to 512 m all have walls and roof, up to 2 km boxes, up to 8 km one prism for the houses of each 64 m or 128 m.
-/// Towns have boxes in tiles of 512 m, and prisms for the houses of 40 m and 64 m in those of 1 km and 2 km.
+/// up to 512 m all have walls and roof, up to 2 km boxes, up to 8 km one prism for each square of side / 64.
+/// Towns have boxes in tiles of 512 m, and prisms for squares of 40 m in tiles of 1 km and of 64 m in tiles of 2 km.
 void add_houses(Glb& glb, const World& world, const TileFrame& frame, double base, Job& job,
                 std::string_view folder);
 

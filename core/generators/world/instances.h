@@ -22,7 +22,7 @@ class Instances {
   }
   std::size_t count() const { return scales_.size() / 3; }
 
-  /// A node for each mesh; all share the copies.
+  /// Adds a node for each mesh. All nodes have the same copies.
   void add_to(Glb& glb, const std::string& name, const std::vector<int>& meshes) const;
 
  private:

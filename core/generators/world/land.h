@@ -11,7 +11,7 @@
 namespace seedmesh::world {
 
 constexpr double range_wavelength = 22000;  ///< metres; of the widest mountain ridges
-constexpr double range_fall = 0.48;         ///< amplitude of a ridge by that of one twice as wide
+constexpr double range_fall = 0.48;         ///< amplitude of a ridge divided by that of one twice as wide
 constexpr double hill_wavelength = 5200;
 constexpr double detail_wavelength = 720;
 constexpr double land_rise = 170, sea_fall = 520;  ///< metres at a coast value of 1

@@ -9,11 +9,12 @@
 
 namespace seedmesh::world {
 
-/// Up to `lanes` octaves, a multiple of four. Add each of them, then compute all, then read them by their order.
+/// Up to `lanes` octaves; `lanes` is a multiple of four. Call add() for each, then compute() or compute_values()
+/// once, then read them by their number in the order of add().
 template <std::size_t lanes>
 class Octaves {
  public:
-  /// The octave of octave() with a wavelength of 1 / `by` metres.
+  /// Adds the octave that octave() of noise.h computes, with a wavelength of 1 / `by` metres.
   void add(std::uint64_t key, double east, double north, double by) {
     const double x = (turn_cosine * east - turn_sine * north) * by,
                  y = (turn_sine * east + turn_cosine * north) * by;

@@ -21,7 +21,7 @@ constexpr int region_cells = 16;     ///< along a side of a region
 constexpr double dry_spacing =
     8 * drain_cell;  ///< metres; samples this far apart are beyond the reach of water
 
-/// A position of a cell of nodes, absolute.
+/// Column (eastward) and row (northward) of a cell in a grid from the absolute origin: of nodes, sites or regions.
 struct CellKey {
   std::int64_t x = 0, y = 0;
   auto operator<=>(const CellKey&) const = default;
@@ -39,7 +39,7 @@ struct RiverPoint {
   double east = 0, north = 0;  ///< absolute
   double water = 0;            ///< height of the water; never rises along a river
   double width = 0;            ///< metres
-  double cut = 0;              ///< metres that the land would be above the water
+  double cut = 0;              ///< height of the uncut land above the water, at least 0, metres
 };
 struct River {
   std::string id;
@@ -50,7 +50,7 @@ struct River {
   void add_to_bounds(const RiverPoint& p);
 };
 
-/// A lake with the radius `radius` times a factor by direction.
+/// A lake. Its shore is at `radius` times a factor that depends on the direction (shore_distance()).
 struct Lake {
   std::string id;
   double east = 0, north = 0, level = 0, radius = 0;
@@ -68,7 +68,7 @@ struct Region {
   std::uint64_t bytes() const { return size; }
 };
 
-/// From the store, or made in about 1 ms.
+/// Returns the drainage of a region, from the store or computed in about 1 ms.
 std::shared_ptr<const Region> region_at(const World& world, const CellKey& region, Job& job);
 
 /// The regions whose water can lie within `reach` of a rectangle.

@@ -1,5 +1,6 @@
 #pragma once
-/// Variations that samples are too far apart to show fade from level to level, so that no level ends with a line.
+/// Variations fade from level to level before samples are too far apart to show them, so that no line shows where a
+/// level ends.
 #include "core/generators/world/noise.h"
 
 namespace seedmesh::world {

@@ -33,7 +33,7 @@ struct Site {
 struct RoadPoint {
   double east = 0, north = 0, height = 0;  ///< position of the carriageway
   bool is_bridge = false;
-  double works = 0;  ///< metres above or below the ground
+  double works = 0;  ///< absolute difference of height from the ground, metres
 };
 struct Road {
   std::string id;

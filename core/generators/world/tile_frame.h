@@ -1,5 +1,5 @@
 #pragma once
-/// The place of a tile on the plane, and its step of quantization.
+/// The position of a tile on the plane, and its step of quantization.
 #include <cstdint>
 
 #include "core/generators/world/world.h"

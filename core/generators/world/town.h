@@ -32,7 +32,7 @@ struct Town {
   std::uint64_t bytes() const;
 };
 
-/// Metres around the middle of a town, beyond its radius, that its plan reads.
+/// Metres by which the square of ground and roads that a town plan reads extends beyond the radius of the town.
 constexpr double town_margin = 60;
 constexpr double town_lattice = 10;  ///< metres between samples of the ground for the plan
 

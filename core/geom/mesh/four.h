@@ -36,7 +36,7 @@ inline FourFloats magnitude(FourFloats v) {
 
 /// `v` in the first three lanes, 0 in the last.
 inline FourFloats spread_out(const glm::vec3& v) { return FourFloats{v.x, v.y, v.z, 0}; }
-inline FourFloats four_times(float value) { return FourFloats{value, value, value, value}; }
+inline FourFloats all_lanes(float value) { return FourFloats{value, value, value, value}; }
 
 struct Four {
   static constexpr std::size_t size = 4;

@@ -9,7 +9,7 @@ namespace seedmesh {
 /// Returns a mesh with these four arrays, all empty.
 Mesh empty_sheet(const Job& job);
 
-/// Turns normals of corners that point to the back of one of their faces to its front.
+/// Rotates each vertex normal that points behind one of its faces to the front of this face.
 void settle_normals(Mesh& mesh);
 
 /// Removes triangles without area, unused vertices and duplicates of vertices.

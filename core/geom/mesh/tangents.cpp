@@ -65,8 +65,8 @@ void sum_all(const Mesh& mesh, const Piece<Index>& piece, const Array<glm::vec2>
     const float sign = area < 0 ? -1.0F : 1.0F;
     const EightFloats both_a = __builtin_shufflevector(a, a, 0, 1, 2, 3, 0, 1, 2, 3),
                       both_b = __builtin_shufflevector(b, b, 0, 1, 2, 3, 0, 1, 2, 3);
-    const FourFloats a_for_u = four_times(t.y), a_for_v = four_times(-t.x), b_for_u = four_times(-s.y),
-                     b_for_v = four_times(s.x);
+    const FourFloats a_for_u = all_lanes(t.y), a_for_v = all_lanes(-t.x), b_for_u = all_lanes(-s.y),
+                     b_for_v = all_lanes(s.x);
     // Along u: a t.y - b s.y; along v: b s.x - a t.x.
     const EightFloats along = (both_a * __builtin_shufflevector(a_for_u, a_for_v, 0, 1, 2, 3, 4, 5, 6, 7) +
                                both_b * __builtin_shufflevector(b_for_u, b_for_v, 0, 1, 2, 3, 4, 5, 6, 7)) *

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "core/base/math.h"
-#include "core/geom/plant/leaf_stand.h"
+#include "core/geom/plant/leaflet_placement.h"
 #include "core/geom/plant/leafy_twig.h"
 #include "core/geom/plant/needle_twig.h"
 

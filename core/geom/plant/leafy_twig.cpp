@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/base/math.h"
-#include "core/geom/plant/leaf_stand.h"
+#include "core/geom/plant/leaflet_placement.h"
 
 namespace seedmesh {
 namespace {
@@ -30,9 +30,9 @@ void add_shoot(LeafDrawing& drawing, const LeafDrawing& leaf, const Shoot& shoot
   const math::SinCos turn = math::sincos_degrees(shoot.degrees);
   const dvec2 along = dvec2{turn.sin, turn.cos} * shoot.length;
   drawing.stalks.push_back({shoot.at, shoot.at + along, 0.016, 0.007});
-  const auto add = [&](const Stand& stand) {
-    for (const LeafLine& line : leaf.stalks) drawing.stalks.push_back(moved(line, stand));
-    for (const LeafBlade& blade : leaf.blades) add_blade(drawing, blade, stand);
+  const auto add = [&](const LeafletPlacement& placement) {
+    for (const LeafLine& line : leaf.stalks) drawing.stalks.push_back(moved(line, placement));
+    for (const LeafBlade& blade : leaf.blades) add_blade(drawing, blade, placement);
   };
   const bool is_opposite = phyllotaxis == Phyllotaxis::opposite;
   for (int i = 0; i + 1 < shoot.leaves; ++i) {

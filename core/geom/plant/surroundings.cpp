@@ -65,7 +65,7 @@ void visit_cells(const glm::dvec3& low, const glm::dvec3& high, double size, Vis
 Surroundings::Surroundings(Options options, Job& job)
     : options_(std::move(options)), job_(job), cells_(job), shades_(job) {}
 
-double Surroundings::room_at(const glm::dvec3& point) const {
+double Surroundings::signed_distance_at(const glm::dvec3& point) const {
   double room = everywhere;
   if (!options_.guides.empty()) {
     room = -everywhere;
@@ -88,7 +88,7 @@ glm::dvec3 Surroundings::toward_surface(const glm::dvec3& point) const {
   return math::unit(to, glm::dvec3{0});
 }
 
-void Surroundings::settle(std::span<const Stretch> grown) {
+void Surroundings::set_internodes(std::span<const Stretch> grown) {
   grown_.assign(grown.begin(), grown.end());
   cells_.clear();
   double longest = 0, thickest = 0;
@@ -192,7 +192,7 @@ bool Surroundings::collides(const Prober& prober, const glm::dvec3& from, const 
 bool Surroundings::is_free(const Prober& prober, double length) const {
   if (bounds_growth()) {
     for (int i = 0; i <= probes; ++i) {
-      if (room_at(prober.position + prober.heading * (length * i / probes)) < 0) return false;
+      if (signed_distance_at(prober.position + prober.heading * (length * i / probes)) < 0) return false;
     }
   }
   if (grown_.empty()) return true;

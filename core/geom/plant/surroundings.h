@@ -28,11 +28,13 @@ struct Stretch {
   std::uint32_t system = 0;
   std::uint32_t joint = 0, parent = 0;  ///< joints in the system's Limbs
   std::uint32_t limb = 0,
-                limb_below = 0;  ///< any number for each limb: its own, and that of its parent joint
+                limb_below =
+                    0;  ///< identifiers of the limb of this internode, and of the limb of its parent joint
 };
 
-/// A tip that queries. Its own limb is ignored, behind and ahead, and so are the first internodes of side
-/// limbs ahead, what grows from the same joint or position, and the last internodes that it grows from.
+/// A tip that queries. A query ignores the limb of the tip and the limb that continues it, the first internodes of
+/// side limbs of the latter, internodes that start at the joint or the position of the tip, and the last internodes
+/// below it.
 struct Prober {
   glm::dvec3 position{0}, heading{0, 1, 0};
   double radius = 0;
@@ -54,13 +56,13 @@ class Surroundings {
 
   /// Returns the signed distance from a point to the surface of guides and obstacles, in metres: positive where
   /// growth is allowed. 1e9 where there are neither guides nor obstacles.
-  double room_at(const glm::dvec3& point) const;
+  double signed_distance_at(const glm::dvec3& point) const;
   /// Returns the unit vector to the nearest point of an obstacle, or of a guide where there are no obstacles; 0 on
   /// the surface or where there are neither.
   glm::dvec3 toward_surface(const glm::dvec3& point) const;
 
-  /// Replaces all limbs.
-  void settle(std::span<const Stretch> grown);
+  /// Replaces all internodes by copies of `grown`, and computes their shadows.
+  void set_internodes(std::span<const Stretch> grown);
   /// True where the tip may grow by `length` along its heading: inside guides, outside obstacles, and clear of
   /// other limbs.
   bool is_free(const Prober& prober, double length) const;

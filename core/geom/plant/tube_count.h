@@ -57,8 +57,8 @@ inline int inner_rings(const SkinOptions& options, const Scale& scale, glm::vec2
   return is_room && is_thick ? wanted : 0;
 }
 
-/// The ends of tubes at coarser levels: a flat face where a tube begins, inside its parent or on the ground,
-/// and also at its end where it has three corners, with which a cone would not be visible.
+/// Whether a tube begins or ends with a flat face, at coarser levels. It begins with one, inside its parent or on the
+/// ground. It ends with one if it has three corners, because a cone on three corners would not be visible.
 inline bool begins_flat(const SkinOptions& options) {
   return !options.corners.empty() && options.contours.empty();
 }
@@ -66,7 +66,7 @@ inline bool ends_flat(const SkinOptions& options, std::uint32_t sides) {
   return begins_flat(options) && sides == 3;
 }
 
-/// The same for a flat end: the outline keeps its area.
+/// Like tip_length() for a flat end: the outline has the same area as with a cone.
 inline float flat_tip_length(float radius, float free) { return 0.5F * tip_length(radius, free); }
 
 /// A sink of walk_limb() that counts for each slot of the palette.

@@ -41,8 +41,8 @@ struct MassOptions {
   double base = 0;         ///< height of the floor
   double eaves = 3;        ///< height where the walls end and the roof begins; above `base`
   double roof_height = 0;  ///< height of the highest point above the eaves; 0 for a flat roof
-  /// Unit vector of the plan down a slope, across the ridge. Without it: across the longer side of the smallest
-  /// rectangle, for a skillion roof outwards over the longest edge.
+  /// Unit vector in the plan that points down a slope, at a right angle to the ridge. Null: at a right angle to the
+  /// longer side of the smallest rectangle; for a skillion roof, outwards at a right angle to the longest edge.
   std::optional<glm::dvec2> direction;
   bool across = false;  ///< without a direction: the ridge runs along the shorter side
 };
@@ -50,7 +50,7 @@ struct MassOptions {
 enum class MassPart : std::uint8_t { wall, roof, floor };
 
 struct Mass {
-  /// Planar, with one normal: triangles [first, first of the next face).
+  /// A planar face with one normal. Its triangles are [first, `first` of the next face).
   struct Face {
     MassPart part = MassPart::wall;
     glm::dvec3 normal{0, 0, 1};
@@ -59,7 +59,8 @@ struct Mass {
   std::vector<glm::dvec3> point;  ///< x and y of the plan, and the height; shared by faces that meet
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< counter-clockwise seen from outside
   std::vector<Face> faces;
-  MassRoof made = MassRoof::flat;  ///< another roof than the one asked for where that fits the plan badly
+  MassRoof made =
+      MassRoof::flat;  ///< the roof that was built; another than that of the options if that one failed
 };
 
 /// The smallest rectangle around a plan that has a side along one of the edges of its convex hull.
@@ -71,7 +72,7 @@ struct PlanBox {
 /// Returns the smallest such rectangle by area.
 PlanBox smallest_box(const Plan& plan);
 
-/// Makes the body. `plan` has no errors (`faults_of`). Every edge of the surface belongs to one triangle in each
+/// Makes the body. `plan` has no defects (`defects_of`). Every edge of the surface belongs to one triangle in each
 /// direction, also with points in single precision; a roof for which this fails is replaced (`made`). Pyramidal roofs, domes and onions over a plan
 /// with courtyards, or that is not visible as a whole from its centroid, become hipped. Cost: that of the
 /// triangulation, and of the straight skeleton for hipped, mansard, and some gabled and gambrel roofs.

@@ -63,7 +63,7 @@ bool turns_back(const Side& side, const Side& next, double reach) {
          (distance_to(next.to, side) <= reach || distance_to(side.from, next) <= reach);
 }
 
-void find_ring_faults(const Plan& plan, double diagonal, std::vector<PlanFault>& faults) {
+void find_ring_faults(const Plan& plan, double diagonal, std::vector<PlanDefect>& faults) {
   for (std::uint32_t r = 0; r < plan.rings.size(); ++r) {
     const PlanRing& ring = plan.rings[r];
     const auto count = static_cast<std::uint32_t>(ring.size());
@@ -83,7 +83,7 @@ void find_ring_faults(const Plan& plan, double diagonal, std::vector<PlanFault>&
   }
 }
 
-void find_meetings(const Plan& plan, double reach, const Job* job, std::vector<PlanFault>& faults) {
+void find_meetings(const Plan& plan, double reach, const Job* job, std::vector<PlanDefect>& faults) {
   const std::vector<Side> sides = sides_of(plan);
   std::vector<std::size_t> order(sides.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -110,7 +110,7 @@ void find_meetings(const Plan& plan, double reach, const Job* job, std::vector<P
   });
 }
 
-void find_lost_holes(const Plan& plan, const Job* job, std::vector<PlanFault>& faults) {
+void find_lost_holes(const Plan& plan, const Job* job, std::vector<PlanDefect>& faults) {
   std::vector<Plan> rings;
   std::vector<std::pair<dvec2, dvec2>> boxes;
   for (const PlanRing& ring : plan.rings) {
@@ -145,8 +145,8 @@ void find_lost_holes(const Plan& plan, const Job* job, std::vector<PlanFault>& f
 
 }  // namespace
 
-std::vector<PlanFault> faults_of(const Plan& plan, const Job* job) {
-  std::vector<PlanFault> faults;
+std::vector<PlanDefect> defects_of(const Plan& plan, const Job* job) {
+  std::vector<PlanDefect> faults;
   if (plan.rings.empty()) return {{0, 0, "a plan needs at least one ring"}};
   for (std::uint32_t r = 0; r < plan.rings.size(); ++r) {
     for (std::uint32_t i = 0; i < plan.rings[r].size() && faults.size() < most_faults; ++i) {

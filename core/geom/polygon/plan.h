@@ -27,7 +27,7 @@ struct Plan {
 inline glm::dvec3 raised(const glm::dvec2& p, double height) { return {p.x, height, -p.y}; }
 
 /// An error at a point of a ring.
-struct PlanFault {
+struct PlanDefect {
   std::uint32_t ring = 0, vertex = 0;
   std::string message;  ///< "crosses the edge from point 3 of ring 0"
 };
@@ -36,7 +36,7 @@ struct PlanFault {
 /// a millionth of the diagonal, rings without an area, edges that cross or touch, holes outside of the outer
 /// ring or inside other holes. The direction of rings may be wrong, but a last point equal to the first is an
 /// error (see `read_plan`). Cost: about n log n in practice. Looks at stop and deadline where there is a job.
-std::vector<PlanFault> faults_of(const Plan& plan, const Job* job = nullptr);
+std::vector<PlanDefect> defects_of(const Plan& plan, const Job* job = nullptr);
 
 /// Returns a plan of rings in any direction. A last point equal to the first is removed, as GeoJSON has it. Points in
 /// the middle of straight edges stay.

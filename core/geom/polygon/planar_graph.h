@@ -70,7 +70,7 @@ struct PlanarFaces {
   static constexpr std::uint32_t none = 0xFFFFFFFFU;
   /// A closed walk of half-edges. A dead end is passed on both sides.
   struct Loop {
-    std::uint32_t first = 0, count = 0;  ///< into `half_edges`
+    std::uint32_t first = 0, count = 0;  ///< range in `half_edges`
     std::int64_t doubled_area = 0;       ///< positive: the outer loop of a face
     std::uint32_t face = none;           ///< none: the outside of everything
   };
@@ -104,7 +104,8 @@ inline std::uint32_t end_of(std::span<const PlanarEdge> edges, std::uint32_t hal
 
 /// The half-edges that leave each node, counter-clockwise from east.
 struct PlanarArms {
-  std::vector<std::uint32_t> first;  ///< by node, and one more
+  std::vector<std::uint32_t>
+      first;  ///< index into `half_edges` of the first one of each node; one more at the end
   std::vector<std::uint32_t> half_edges;
   std::span<const std::uint32_t> of(std::uint32_t node) const {
     return std::span(half_edges).subspan(first[node], first[node + 1] - first[node]);

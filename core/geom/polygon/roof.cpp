@@ -42,7 +42,7 @@ class RoofMaker {
     for (std::uint32_t i = 0; i < count_; ++i) base_.source.push_back(i);
   }
 
-  Roof make(const std::vector<PlanFault>& faults) {
+  Roof make(const std::vector<PlanDefect>& faults) {
     drop_ = 0;
     outward_.assign(count_, 0);
     std::optional<RoofSurface> body;
@@ -369,7 +369,7 @@ class RoofMaker {
 }  // namespace
 
 Roof roof(const Plan& plan, const RoofOptions& options, const Job& job) {
-  const std::vector<PlanFault> faults = faults_of(plan, &job);
+  const std::vector<PlanDefect> faults = defects_of(plan, &job);
   if (!faults.empty() || options.kind == RoofKind::flat)
     return RoofMaker(plan, options, attempts[0], job).make(faults);
   std::optional<Roof> bare;  // closed except for its cover

@@ -43,7 +43,7 @@ std::size_t count(const Json& answer, const std::string& symbol) {
       std::ranges::count_if(answer["shapes"], [&](const Json& shape) { return shape["symbol"] == symbol; }));
 }
 
-std::vector<std::string> faults_of(const std::string& text) {
+std::vector<std::string> defects_of(const std::string& text) {
   std::vector<std::string> out;
   for (const Issue& issue : check(read(text), Limits{})) out.push_back(issue.pointer + " " + issue.message);
   return out;
@@ -128,8 +128,8 @@ TEST(ShapeGrammar, RejectsWhatARestrictionForbidsByPointer) {
       R"({"pair":[{"shapes":[{"shape":"square"}],"markers":[{"name":"m","points":[[0,0]]}]},
                                         {"lines":[[[0,0],[1,0]]]}]})";
   const std::string initial = R"({"markers":[{"name":"m","points":[[0,0]]}]})";
-  EXPECT_THAT(faults_of(flat(erases, initial)), IsEmpty());
-  const std::vector<std::string> found = faults_of(flat(erases, initial, R"(,"restrict":"non_erasing")"));
+  EXPECT_THAT(defects_of(flat(erases, initial)), IsEmpty());
+  const std::vector<std::string> found = defects_of(flat(erases, initial, R"(,"restrict":"non_erasing")"));
   ASSERT_EQ(found.size(), 3U);
   EXPECT_EQ(
       found[0],
@@ -138,26 +138,26 @@ TEST(ShapeGrammar, RejectsWhatARestrictionForbidsByPointer) {
   const std::string doubles =
       R"({"pair":[{"markers":[{"name":"m","points":[[0,0],[1,0]]}]},
         {"markers":[{"name":"m","points":[[0,0],[0,1]]},{"name":"m","points":[[1,0],[1,1]]}]}]})";
-  EXPECT_THAT(faults_of(flat(doubles, initial, R"(,"restrict":"non_erasing")")), IsEmpty());
-  EXPECT_THAT(faults_of(flat(doubles, initial, R"(,"restrict":"unimarker")")),
+  EXPECT_THAT(defects_of(flat(doubles, initial, R"(,"restrict":"non_erasing")")), IsEmpty());
+  EXPECT_THAT(defects_of(flat(doubles, initial, R"(,"restrict":"unimarker")")),
               ElementsAre("/shape_grammar/rules/0/pair/1 found 2 markers, expected at most one in the right "
                           "shape of a unimarker grammar"));
 }
 
 TEST(ShapeGrammar, ReportsErrorsByPointer) {
   EXPECT_THAT(
-      faults_of(flat(R"({"pair":[{"markers":[{"name":"m","points":[[0,0]]}]},{}]})", "{}")),
+      defects_of(flat(R"({"pair":[{"markers":[{"name":"m","points":[[0,0]]}]},{}]})", "{}")),
       ElementsAre(HasSubstr("/shape_grammar/rules/0/pair/0 this shape does not determine a position")));
-  EXPECT_THAT(faults_of(flat(mark_square, R"({"shapes":[{"shape":"circle"}]})")),
+  EXPECT_THAT(defects_of(flat(mark_square, R"({"shapes":[{"shape":"circle"}]})")),
               ElementsAre(HasSubstr("/shape_grammar/initial/0/shapes/0/shape there is no family")));
-  EXPECT_THAT(faults_of(flat(mark_square, R"({"lines":[[[0,0],["2 *",1]]]})")),
+  EXPECT_THAT(defects_of(flat(mark_square, R"({"lines":[[[0,0],["2 *",1]]]})")),
               ElementsAre(HasSubstr("/shape_grammar/initial/0/lines/0/1/0")));
-  EXPECT_THAT(faults_of(flat(mark_square, R"({"lines":[[[0,0],[1,1,1]]]})")),
+  EXPECT_THAT(defects_of(flat(mark_square, R"({"lines":[[[0,0],[1,1,1]]]})")),
               ElementsAre(HasSubstr("found 3 coordinates, expected 2")));
-  EXPECT_THAT(faults_of(flat(mark_square, "{}", R"(,"rules":"A --> B.","start":"A")")),
+  EXPECT_THAT(defects_of(flat(mark_square, "{}", R"(,"rules":"A --> B.","start":"A")")),
               ElementsAre(HasSubstr("/rules has no meaning"), HasSubstr("/start has no meaning")));
-  EXPECT_THAT(faults_of(R"({"shape_grammar":{"shapes":{"a":{"shapes":[{"shape":"a"}]}},"rules":[)" +
-                        mark_square + R"(],"initial":[{"shapes":[{"shape":"a"}]}]}})"),
+  EXPECT_THAT(defects_of(R"({"shape_grammar":{"shapes":{"a":{"shapes":[{"shape":"a"}]}},"rules":[)" +
+                         mark_square + R"(],"initial":[{"shapes":[{"shape":"a"}]}]}})"),
               testing::Contains(HasSubstr("more than 16 deep")));
 }
 
@@ -180,7 +180,7 @@ TEST(ShapeGrammar, RefusesFamiliesThatExpandBeyondTheLimit) {
     shapes += std::string(",\"") + name + R"(":{"shapes":[)" + use + "," + use + "," + use + "," + use + "]}";
   }
   EXPECT_THAT(
-      faults_of(
+      defects_of(
           R"({"shape_grammar":{"shapes":{)" + shapes +
           R"(},"rules":[{"pair":[{"lines":[[[0,0],[1,0]]]},{}]}],"initial":[{"shapes":[{"shape":"o"}]}]}})"),
       testing::Contains(HasSubstr("more than 2000 elements")));

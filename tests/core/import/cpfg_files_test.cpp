@@ -11,7 +11,7 @@ using testing::HasSubstr;
 using testing::StartsWith;
 
 Result<ImportedRequest> with_files(std::string_view text, std::map<std::string, std::string> files) {
-  return import_request(ImportQuestion{"cpfg", "", text, std::move(files)}, Limits{});
+  return import_request(ImportInput{"cpfg", "", text, std::move(files)}, Limits{});
 }
 
 constexpr const char* plant =

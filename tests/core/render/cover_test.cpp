@@ -108,8 +108,8 @@ TEST(Cover, GivesTheBarycentricMeanOfThreeValues) {
   set_edges(c);
   const Plane plane = c.plane(1, 3, 5);
   // Corners at the centres of samples (0, 0), (40, 0) and (0, 20).
-  EXPECT_NEAR(plane.of(four_times(20), 0)[0], 2, 1e-6);
-  EXPECT_NEAR(plane.of(four_times(10), 10)[0], 0.25 * 1 + 0.25 * 3 + 0.5 * 5, 1e-6);
+  EXPECT_NEAR(plane.of(all_lanes(20), 0)[0], 2, 1e-6);
+  EXPECT_NEAR(plane.of(all_lanes(10), 10)[0], 0.25 * 1 + 0.25 * 3 + 0.5 * 5, 1e-6);
 }
 
 }  // namespace

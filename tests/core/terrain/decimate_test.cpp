@@ -34,7 +34,7 @@ void expect_cover(const Field& field, const Window& part, const Triangulation& m
     const auto at = [&](std::size_t k) {
       return grid_point_of(mesh.samples[mesh.index[i + k]], field.width);
     };
-    const std::int64_t own = turn(at(0), at(1), at(2));
+    const std::int64_t own = doubled_area(at(0), at(1), at(2));
     ASSERT_GT(own, 0);
     area += own;
   }

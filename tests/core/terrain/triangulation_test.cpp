@@ -41,7 +41,7 @@ void expect_cover(const Field& field, const Triangulation& mesh) {
     const auto at = [&](std::size_t k) {
       return grid_point_of(mesh.samples[mesh.index[i + k]], field.width);
     };
-    const std::int64_t own = turn(at(0), at(1), at(2));
+    const std::int64_t own = doubled_area(at(0), at(1), at(2));
     ASSERT_GT(own, 0);
     area += own;
   }
@@ -182,8 +182,8 @@ TEST(Scan, VisitsEverySampleOfATriangleOnce) {
       return GridPoint{static_cast<std::int32_t>(rng.below(40)), static_cast<std::int32_t>(rng.below(40))};
     };
     GridPoint a = place(), b = place(), c = place();
-    if (turn(a, b, c) < 0) std::swap(b, c);
-    if (turn(a, b, c) == 0) continue;
+    if (doubled_area(a, b, c) < 0) std::swap(b, c);
+    if (doubled_area(a, b, c) == 0) continue;
     std::multiset<std::pair<int, int>> seen, expected;
     each_row_inside(a, b, c, [&](std::int32_t z, std::int32_t first, std::int32_t last) {
       for (std::int32_t x = first; x <= last; ++x) seen.insert({x, z});
@@ -191,7 +191,8 @@ TEST(Scan, VisitsEverySampleOfATriangleOnce) {
     for (std::int32_t z = 0; z < 40; ++z) {
       for (std::int32_t x = 0; x < 40; ++x) {
         const GridPoint p{x, z};
-        if (turn(a, b, p) >= 0 && turn(b, c, p) >= 0 && turn(c, a, p) >= 0) expected.insert({x, z});
+        if (doubled_area(a, b, p) >= 0 && doubled_area(b, c, p) >= 0 && doubled_area(c, a, p) >= 0)
+          expected.insert({x, z});
       }
     }
     ASSERT_EQ(seen, expected);
@@ -199,7 +200,7 @@ TEST(Scan, VisitsEverySampleOfATriangleOnce) {
 }
 
 /// IssueList of a mesh as it goes out.
-std::vector<std::string> faults_of(Mesh mesh) {
+std::vector<std::string> defects_of(Mesh mesh) {
   Model model;
   model.nodes.emplace_back();
   model.nodes[0].mesh = 0;
@@ -215,11 +216,11 @@ TEST(Surface, IsSoundOnGentleAndOnRoughGround) {
   const Array<glm::u8vec4> plain;
   for (const Field& field : {hills(65), rough(65)}) {
     Job job = any_job();
-    EXPECT_EQ(faults_of(grid_mesh(field, {0, 0, 65, 65}, plain, {}, job)), std::vector<std::string>{});
-    EXPECT_EQ(faults_of(grid_mesh(field, {0, 0, 65, 65}, plain, Shading::upright, job)),
+    EXPECT_EQ(defects_of(grid_mesh(field, {0, 0, 65, 65}, plain, {}, job)), std::vector<std::string>{});
+    EXPECT_EQ(defects_of(grid_mesh(field, {0, 0, 65, 65}, plain, Shading::upright, job)),
               std::vector<std::string>{});
     for (const auto& [name, reduce] : reducers) {
-      EXPECT_EQ(faults_of(reduced_mesh(field, reduce(field, 0.4, Border::by_error, job), {}, {}, job)),
+      EXPECT_EQ(defects_of(reduced_mesh(field, reduce(field, 0.4, Border::by_error, job), {}, {}, job)),
                 std::vector<std::string>{})
           << name;
     }

@@ -12,7 +12,7 @@ namespace seedmesh {
 /// thickness gets a fork: three half rings that share two points, across the incoming limb, the outgoing limb
 /// and the crotch between them. A limb with at least this share of its parent's radius prefers a fork.
 constexpr float fork_share = 0.55F;
-/// A limb thinner than this number of least radii (Scale::thinnest) stays a closed tube.
+/// A limb with a radius below this number times Scale::thinnest stays a closed tube.
 constexpr float least_opened_radius = 3;
 
 /// A point of the loop. `phase` is its angle about the child's axis, measured from the side of the parent's
@@ -22,7 +22,7 @@ struct LoopPoint {
   float phase = 0;
   float angle = 0;   ///< about the parent's axis, from the middle of the junction
   float height = 0;  ///< height along the parent
-  float reach = 0;   ///< reach along the child
+  float reach = 0;   ///< distance from the joint along the axis of the child
 };
 
 struct Junction {
@@ -31,7 +31,7 @@ struct Junction {
   float at = 0, low = 0, high = 0;
   float middle = 0, half_width = 0;  ///< angles about the parent
   float radius = 0;                  ///< of the child at the loop
-  float child_reach = 0;             ///< the child's next ring lies farther from the joint than this
+  float child_reach = 0;             ///< greatest LoopPoint::reach; the next ring of the child lies beyond it
   bool is_fork = false;
   std::size_t piece = 0;  ///< piece of the parent; the angles are in its frame
   glm::vec3 child_u{0};   ///< the direction of phase 0 at the child

@@ -88,7 +88,7 @@ class FaceSums {
         face_->group[k] = group;
         // Selected without a branch, which would be mispredicted.
         GroupNormal& sum = sums[std::min(group, unused_ + static_cast<std::uint32_t>(i))];
-        sum.row += normal * four_times(block_.weight[k][i]);
+        sum.row += normal * all_lanes(block_.weight[k][i]);
       }
       ++face_;
     }

@@ -103,7 +103,7 @@ std::uint32_t add_ribbed_corner(LimbWriter& w, const RingPlane& plane, const Uni
   const float fall = factor != 1 ? depth * lobes * static_cast<float>(rib.cos) / factor : 0;
   const auto i = static_cast<std::size_t>(corner);
   const CornerBlock block =
-      corner_block(w, plane, four_times(circle.x[i]), four_times(circle.y[i]), factor, fall);
+      corner_block(w, plane, all_lanes(circle.x[i]), all_lanes(circle.y[i]), factor, fall);
   return add_vertex(w, block.position.at(0), block.normal.at(0),
                     {texture_width(w, plane.radius) * angle, plane.v_at}, none);
 }

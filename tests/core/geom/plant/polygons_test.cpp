@@ -26,7 +26,7 @@ class Drawing {
 };
 
 /// What the judge would say of the layers, each a mesh of its own with a double-sided material.
-std::vector<std::string> faults_of(const std::vector<Bark>& barks) {
+std::vector<std::string> defects_of(const std::vector<Bark>& barks) {
   std::vector<std::string> all;
   for (const Bark& bark : barks) {
     for (const std::string& fault : faults(bark.mesh)) all.push_back(fault);
@@ -52,7 +52,7 @@ TEST(Polygons, FillASquareWithUnitTextureCoordinates) {
   EXPECT_THAT(barks[0].mesh.normal, testing::Each(glm::vec3(0, 0, 1)));
   EXPECT_THAT(barks[0].mesh.uv[0],
               ElementsAre(glm::vec2(0, 0), glm::vec2(1, 0), glm::vec2(1, 1), glm::vec2(0, 1)));
-  EXPECT_THAT(faults_of(barks), IsEmpty());
+  EXPECT_THAT(defects_of(barks), IsEmpty());
   EXPECT_EQ(job.spent(Resource::triangles) > 0, true);
 }
 
@@ -61,7 +61,7 @@ TEST(Polygons, FillConcaveOutlinesExactly) {
   Drawing drawing(job);
   drawing.add({{0, 0, 0}, {4, 0, 0}, {4, 3, 0}, {3, 3, 0}, {3, 1, 0}, {1, 1, 0}, {1, 3, 0}, {0, 3, 0}});
   const auto barks = polygons(drawing.outlines, job);
-  EXPECT_THAT(faults_of(barks), IsEmpty());
+  EXPECT_THAT(defects_of(barks), IsEmpty());
   EXPECT_NEAR(area_of(barks), 4 * 3 - 2 * 2, 1e-5);
 }
 
@@ -70,7 +70,7 @@ TEST(Polygons, KeepPointsOnAStraightEdge) {
   Drawing drawing(job);
   drawing.add({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {2, 1, 0}, {2, 2, 0}, {0, 2, 0}, {0, 1, 0}});
   const auto barks = polygons(drawing.outlines, job);
-  EXPECT_THAT(faults_of(barks), IsEmpty());
+  EXPECT_THAT(defects_of(barks), IsEmpty());
   EXPECT_THAT(barks[0].mesh.position, SizeIs(7));
   EXPECT_NEAR(area_of(barks), 4, 1e-6);
 }
@@ -91,7 +91,7 @@ TEST(Polygons, PassOverRepeatedPoints) {
   Drawing drawing(job);
   drawing.add({{0, 0, 0}, {0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 0}});
   const auto barks = polygons(drawing.outlines, job);
-  EXPECT_THAT(faults_of(barks), IsEmpty());
+  EXPECT_THAT(defects_of(barks), IsEmpty());
   EXPECT_THAT(barks[0].mesh.position, SizeIs(4));
 }
 
@@ -110,7 +110,7 @@ TEST(Polygons, FillOutlinesThatTouchThemselves) {
                {3, 1, 0},
                {1, 1, 0}});
   const auto barks = polygons(drawing.outlines, job);
-  EXPECT_THAT(faults_of(barks), IsEmpty());
+  EXPECT_THAT(defects_of(barks), IsEmpty());
   EXPECT_NEAR(area_of(barks), 16 - 4, 1e-5);
 }
 
@@ -144,7 +144,7 @@ TEST(Polygons, TurnNeighboursSoThatTheyAgreeOnTheOutside) {
   drawing.add({{1, 0, 0}, {1, 1, 1}, {2, 0, 0}});
   const auto barks = polygons(drawing.outlines, job);
   ASSERT_THAT(barks, SizeIs(1));
-  EXPECT_THAT(faults_of(barks), IsEmpty());
+  EXPECT_THAT(defects_of(barks), IsEmpty());
   EXPECT_EQ(measure({&barks[0].mesh}).open_edges, 5U);
 }
 
@@ -157,7 +157,7 @@ TEST(Polygons, TurnWholeGroupsThatALaterPolygonJoins) {
   drawing.add({{1, 0, 0}, {2, 0, 0}, {2, 1, 0}, {1, 1, 0}});
   const auto barks = polygons(drawing.outlines, job);
   ASSERT_THAT(barks, SizeIs(1));
-  EXPECT_THAT(faults_of(barks), IsEmpty());
+  EXPECT_THAT(defects_of(barks), IsEmpty());
   EXPECT_NEAR(area_of(barks), 3.5, 1e-6);
 }
 
@@ -178,7 +178,7 @@ TEST(Polygons, TakeAnotherLayerToCloseAMoebiusStrip) {
   }
   const auto barks = polygons(drawing.outlines, job);
   EXPECT_THAT(barks, SizeIs(2));
-  EXPECT_THAT(faults_of(barks), IsEmpty());
+  EXPECT_THAT(defects_of(barks), IsEmpty());
 }
 
 TEST(Polygons, TakeAnotherLayerWhereAnEdgeIsUsedUp) {
@@ -190,7 +190,7 @@ TEST(Polygons, TakeAnotherLayerWhereAnEdgeIsUsedUp) {
   const auto barks = polygons(drawing.outlines, job);
   ASSERT_THAT(barks, SizeIs(3));
   EXPECT_EQ(barks[2].layer, 2);
-  EXPECT_THAT(faults_of(barks), IsEmpty());
+  EXPECT_THAT(defects_of(barks), IsEmpty());
 }
 
 TEST(Polygons, HaveNoDefectOnRandomDrawings) {

@@ -49,7 +49,7 @@ TEST(ShadowGrid, HasTheLightOfOpenLSystems) {
     grown.push_back(stretch);
     grid.add(stretch.to);
   }
-  surroundings.settle(grown);
+  surroundings.set_internodes(grown);
   for (const glm::dvec3 point : {glm::dvec3{0.25, 8.25, 0.75}, {0.25, 7.25, 1.25}, {1.25, 6.75, 0.25}}) {
     const double shade = grid.shade_at(point);
     EXPECT_NEAR(surroundings.light_at(point), std::clamp(1 - (shade - options.shade), 0.0, 1.0), 1e-4);

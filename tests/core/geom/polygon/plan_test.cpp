@@ -18,36 +18,36 @@ Job job_of() { return Job(1, Job::Options{}); }
 TEST(Plan, IsReadInAnyDirectionAndClosedOrNot) {
   const Plan plan = read_plan({{{0, 0}, {0, 4}, {4, 4}, {4, 0}, {0, 0}}, {{1, 1}, {2, 1}, {2, 2}, {1, 2}}});
   EXPECT_THAT(plan.rings[0], SizeIs(4));
-  EXPECT_THAT(faults_of(plan), IsEmpty());
+  EXPECT_THAT(defects_of(plan), IsEmpty());
   EXPECT_NEAR(area(plan), 16 - 1, 1e-12);
   EXPECT_LT(signed_area(plan.rings[1]), 0);
 }
 
 TEST(Plan, ReportsWhichEdgesCross) {
-  const auto faults = faults_of(Plan{{{{0, 0}, {4, 4}, {4, 0}, {0, 3}}}});
+  const auto faults = defects_of(Plan{{{{0, 0}, {4, 4}, {4, 0}, {0, 3}}}});
   ASSERT_THAT(faults, SizeIs(1));
   EXPECT_EQ(faults[0].vertex, 2U);
   EXPECT_THAT(faults[0].message, HasSubstr("point 0 of ring 0"));
 }
 
 TEST(Plan, ReportsEveryErrorOfItsRings) {
-  EXPECT_THAT(faults_of(Plan{}), SizeIs(1));
-  EXPECT_THAT(faults_of(Plan{{{{0, 0}, {1, 0}}}}), SizeIs(1));
-  EXPECT_THAT(faults_of(Plan{{{{0, 0}, {1, 0}, {2, 0}}}})[0].message, HasSubstr("no area"));
-  EXPECT_THAT(faults_of(Plan{{{{0, 0}, {1, 0}, {1, 0}, {0, 1}}}})[0].message, HasSubstr("repeats"));
-  EXPECT_THAT(faults_of(Plan{{{{0, 0}, {NAN, 0}, {INFINITY, 1}}}}), SizeIs(2));
+  EXPECT_THAT(defects_of(Plan{}), SizeIs(1));
+  EXPECT_THAT(defects_of(Plan{{{{0, 0}, {1, 0}}}}), SizeIs(1));
+  EXPECT_THAT(defects_of(Plan{{{{0, 0}, {1, 0}, {2, 0}}}})[0].message, HasSubstr("no area"));
+  EXPECT_THAT(defects_of(Plan{{{{0, 0}, {1, 0}, {1, 0}, {0, 1}}}})[0].message, HasSubstr("repeats"));
+  EXPECT_THAT(defects_of(Plan{{{{0, 0}, {NAN, 0}, {INFINITY, 1}}}}), SizeIs(2));
 }
 
 TEST(Plan, RefusesEdgesThatTouchAndSpikes) {
-  EXPECT_THAT(faults_of(plan_of({{0, 0}, {4, 0}, {4, 4}, {2, 0}, {0, 4}})), SizeIs(2));
-  EXPECT_THAT(faults_of(plan_of({{0, 0}, {4, 0}, {4, 4}, {4, 2}, {0, 4}})), testing::Not(IsEmpty()));
+  EXPECT_THAT(defects_of(plan_of({{0, 0}, {4, 0}, {4, 4}, {2, 0}, {0, 4}})), SizeIs(2));
+  EXPECT_THAT(defects_of(plan_of({{0, 0}, {4, 0}, {4, 4}, {4, 2}, {0, 4}})), testing::Not(IsEmpty()));
 }
 
 TEST(Plan, RefusesHolesOutsideAndInHoles) {
   const PlanRing outer{{0, 0}, {9, 0}, {9, 9}, {0, 9}};
-  EXPECT_THAT(faults_of(plan_of(outer, {{{20, 1}, {21, 1}, {20, 2}}}))[0].message, HasSubstr("outside"));
+  EXPECT_THAT(defects_of(plan_of(outer, {{{20, 1}, {21, 1}, {20, 2}}}))[0].message, HasSubstr("outside"));
   EXPECT_THAT(
-      faults_of(plan_of(outer, {{{1, 1}, {5, 1}, {5, 5}, {1, 5}}, {{2, 2}, {3, 2}, {2, 3}}}))[0].message,
+      defects_of(plan_of(outer, {{{1, 1}, {5, 1}, {5, 5}, {1, 5}}, {{2, 2}, {3, 2}, {2, 3}}}))[0].message,
       HasSubstr("inside of the hole of ring 1"));
 }
 
@@ -56,7 +56,7 @@ TEST(Plan, IsTriangulatedWithAllItsPoints) {
   for (std::uint64_t seed = 0; seed < 500; ++seed) {
     const Plan plan = seed % 2 ? random_star(rng.at(seed), 3 + static_cast<std::uint32_t>(seed % 20), true)
                                : random_blocks(rng.at(seed), 3 + static_cast<int>(seed % 6));
-    ASSERT_THAT(faults_of(plan), IsEmpty()) << seed;
+    ASSERT_THAT(defects_of(plan), IsEmpty()) << seed;
     PlanRing points;
     for (const PlanRing& ring : plan.rings) points.insert(points.end(), ring.begin(), ring.end());
     std::vector<bool> is_used(points.size(), false);

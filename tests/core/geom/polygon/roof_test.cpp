@@ -207,7 +207,7 @@ TEST(Roof, OverAPlanWithErrorsIsFlatWithAWarning) {
       for (std::uint32_t i = 0; i < here.below(9); ++i)
         plan.rings.back().emplace_back(here.below(5), here.below(5));
     }
-    if (plan.rings[0].empty() || faults_of(plan).empty()) continue;
+    if (plan.rings[0].empty() || defects_of(plan).empty()) continue;
     for (const RoofKind kind :
          {RoofKind::hip, RoofKind::gable, RoofKind::shed, RoofKind::pyramid, RoofKind::mansard}) {
       RoofOptions options = options_of(kind, 40);
@@ -308,7 +308,7 @@ TEST(Roof, IsClosedAndManifoldOverTenThousandPlansLikeRealOnes) {
   for (std::uint64_t i = 0; i < count; ++i) {
     Rng rng = Rng(77).at(i);
     const Plan plan = real_like_plan(rng.at(0), i);
-    if (!faults_of(plan).empty()) continue;
+    if (!defects_of(plan).empty()) continue;
     RoofOptions options = options_of(kinds[i / 7 % kinds.size()], rng.uniform(15, 70));
     options.upper_angle = math::radians(rng.uniform(10, 40));
     options.low_edge = rng.below(edge_count(plan));

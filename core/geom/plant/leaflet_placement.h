@@ -9,7 +9,7 @@ namespace seedmesh {
 
 /// The placement of a leaflet: its base, the direction of its tip in degrees to the right of +y, its length, and the
 /// factor of its width, below 1 for a leaflet that is seen from the side.
-struct Stand {
+struct LeafletPlacement {
   glm::dvec2 at{0};
   double degrees = 0, length = 1, width = 1;
 
@@ -21,19 +21,20 @@ struct Stand {
 };
 
 /// Returns the line in the frame of the drawing.
-inline LeafLine moved(LeafLine line, const Stand& stand) {
-  return {stand(line.from), stand(line.to), line.width * stand.length, line.end_width * stand.length};
+inline LeafLine moved(LeafLine line, const LeafletPlacement& placement) {
+  return {placement(line.from), placement(line.to), line.width * placement.length,
+          line.end_width * placement.length};
 }
 
 /// Adds a blade, given in the frame of the leaflet.
-inline void add_blade(LeafDrawing& drawing, const LeafBlade& blade, const Stand& stand) {
+inline void add_blade(LeafDrawing& drawing, const LeafBlade& blade, const LeafletPlacement& placement) {
   LeafBlade moved_blade = blade;
-  for (glm::dvec2& p : moved_blade.right) p = stand(p);
-  for (glm::dvec2& p : moved_blade.left) p = stand(p);
-  moved_blade.base = stand(blade.base);
-  moved_blade.tip = stand(blade.tip);
-  moved_blade.half_width *= stand.length * stand.width;
-  for (LeafLine& vein : moved_blade.veins) vein = moved(vein, stand);
+  for (glm::dvec2& p : moved_blade.right) p = placement(p);
+  for (glm::dvec2& p : moved_blade.left) p = placement(p);
+  moved_blade.base = placement(blade.base);
+  moved_blade.tip = placement(blade.tip);
+  moved_blade.half_width *= placement.length * placement.width;
+  for (LeafLine& vein : moved_blade.veins) vein = moved(vein, placement);
   drawing.blades.push_back(std::move(moved_blade));
 }
 
