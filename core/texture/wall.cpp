@@ -230,7 +230,7 @@ Relief panels(int size, Rng rng, const Job& job) {
 
 /// One piece of stone, as of sills, lintels and steps: fine grain and small pits, without joints.
 Relief dressed_stone(int size, Rng rng, const Job& job) {
-  const Noise grain_noise(size, {96, 96}, {2, 0.6F}, 0.6F, rng.at("grain"));
+  const Noise grain_noise(size, {64, 64}, {1, 1}, 0.6F, rng.at("grain"));
   const Noise patch_noise(size, {4, 4}, {4, 0.55F}, 0.7F, rng.at("patches"));
   const Noise pit_noise(size, {40, 40}, {2, 0.5F}, 1, rng.at("pits"));
   return paint_rows(size, Accent::none, job, [&](int begin, int end, const auto& row_at) {
@@ -240,8 +240,8 @@ Relief dressed_stone(int size, Rng rng, const Job& job) {
       const ReliefRow out = row_at(y);
       for (int x = 0; x < size; ++x) {
         const float pit = step_between(0.55F, 0.8F, pits[x]);
-        out.height[x] = clamp_share(0.75F + 0.2F * fine[x] - 0.4F * pit);
-        out.tone[x] = clamp_share(0.5F + 0.12F * large[x] + 0.14F * fine[x] - 0.2F * pit);
+        out.height[x] = clamp_share(0.75F + 0.12F * fine[x] - 0.4F * pit);
+        out.tone[x] = clamp_share(0.5F + 0.12F * large[x] + 0.1F * fine[x] - 0.2F * pit);
       }
     }
   });
