@@ -120,12 +120,13 @@ Json generate(Context& context, const Json& arguments) {
   structured.update(statistics_of(made));
   structured["engine"] = engine_version();
   Json result = result_of(structured);
-  if (!address.empty())
+  if (!address.empty()) {
     result["content"].push_back({{"type", "resource_link"},
                                  {"uri", address},
                                  {"name", file},
                                  {"mimeType", made.product.media_type},
                                  {"size", made.payload->size()}});
+  }
   if (std::optional<Json> picture = picture_content(context, wanted.request))
     result["content"].push_back(*std::move(picture));
   return result;

@@ -46,8 +46,9 @@ std::byte* heap(std::byte* old, std::size_t bytes) {
 
 }  // namespace
 
+// The other block stays usable, so it keeps its budget.
 Block::Block(Block&& other) noexcept
-    : budget_(other.budget_),
+    : budget_(other.budget_),  // NOLINT(performance-move-constructor-init)
       data_(std::exchange(other.data_, nullptr)),
       size_(std::exchange(other.size_, 0)),
       backing_(std::exchange(other.backing_, Backing::heap)) {}

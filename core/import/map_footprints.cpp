@@ -48,15 +48,17 @@ std::vector<MapBody> bodies_of(MapConversion& map, const MapData& data, std::vec
       const std::vector<PlanRing> rings = map.outline(polygon, "a footprint", feature.position);
       if (rings.empty()) continue;
       SoundPlans sound = sound_plans(rings, &map.job);
-      if (sound.lost_holes > 0)
+      if (sound.lost_holes > 0) {
         map.warnings.add("a courtyard crosses other edges of its footprint; it is left out",
                          feature.position);
-      if (sound.has_crossing)
+      }
+      if (sound.has_crossing) {
         map.warnings.add("a footprint crosses itself; it is left out in part or whole", feature.position);
-      else if (sound.is_divided && !sound.plans.empty())
+      } else if (sound.is_divided && !sound.plans.empty()) {
         map.warnings.add("a footprint crosses itself; it is divided at the crossings", feature.position);
-      else if (sound.plans.empty())
+      } else if (sound.plans.empty()) {
         map.warnings.add("a footprint has no area; it is left out", feature.position);
+      }
       for (Plan& plan : sound.plans) bodies.push_back({&feature, nullptr, std::move(plan), role, false});
     }
   }
@@ -151,9 +153,10 @@ void hide_outlines(MapConversion& map, std::vector<MapBody>& bodies) {
     covered[number] += area(body.plan);
   }
   for (std::size_t i = 0; i < bodies.size(); ++i) {
-    if (bodies[i].is_hidden && covered[i] < mostly_covered * area(bodies[i].plan))
+    if (bodies[i].is_hidden && covered[i] < mostly_covered * area(bodies[i].plan)) {
       map.warnings.add("a building is replaced by its parts, which cover less than 90 % of it",
                        bodies[i].feature->position);
+    }
   }
 }
 

@@ -179,8 +179,8 @@ class GroundWriter {
   }
 
   void finish() {
-    for (std::size_t kind = 0; kind < by_kind_.size(); ++kind) {
-      for (Json& area : by_kind_[kind]) {
+    for (auto& kind : by_kind_) {
+      for (Json& area : kind) {
         if (map_.areas.size() < most_items) map_.areas.push_back(std::move(area));
       }
     }
@@ -248,10 +248,11 @@ class GroundWriter {
       const std::vector<PlanRing> rings = map_.outline(polygon, "an area", feature.position);
       if (rings.empty()) continue;
       const SoundPlans sound = sound_plans(rings, &map_.job);
-      if (sound.has_crossing)
+      if (sound.has_crossing) {
         map_.warnings.add("an area crosses itself; it is left out in part or whole", feature.position);
-      else if (sound.is_divided)
+      } else if (sound.is_divided) {
         map_.warnings.add("an area crosses itself; it is divided at the crossings", feature.position);
+      }
       if (sound.lost_holes > 0)
         map_.warnings.add("a hole of an area crosses its edges; it is left out", feature.position);
       for (const Plan& plan : sound.plans) {

@@ -179,19 +179,21 @@ SoundPlans sound_plans(const std::vector<PlanRing>& rings, const Job* job) {
     }
     made.is_divided = true;
     for (PlanRing& part : divided(loop, job)) {
-      if (has_errors(read_plan({part}), job))
+      if (has_errors(read_plan({part}), job)) {
         made.has_crossing = true;
-      else
+      } else {
         loops.push_back(std::move(part));
+      }
     }
   }
   std::vector<PlanRing> outer, holes;
   for (std::size_t i = 0; i < loops.size(); ++i) {
     const std::size_t around = loop_around(loops, i);
-    if (around == loops.size())
+    if (around == loops.size()) {
       outer.push_back(loops[i]);
-    else if ((signed_area(loops[i]) > 0) != (signed_area(loops[around]) > 0))
+    } else if ((signed_area(loops[i]) > 0) != (signed_area(loops[around]) > 0)) {
       holes.push_back(loops[i]);
+    }
   }
   for (std::size_t i = 1; i < rings.size(); ++i) {
     for (PlanRing& loop : loops_of(clean(rings[i]))) holes.push_back(std::move(loop));

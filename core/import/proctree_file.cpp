@@ -1,6 +1,7 @@
 #include "core/import/proctree_file.h"
 
 #include <array>
+#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "core/schema/json.h"

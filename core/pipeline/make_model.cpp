@@ -93,9 +93,10 @@ std::optional<Issue> add_impostors(Model& model, const Request& request, Job& jo
   const OutputParams& output = request.body().output;
   const int size = texture_size(output);
   const bool is_scene = request.body().generator->keeps_budget;
-  if (output.impostor && !is_scene && is_empty(model))
+  if (output.impostor && !is_scene && is_empty(model)) {
     return Issue{IssueKind::not_available, "/output/impostor",
                  "the model is empty, and an empty model has no impostor"};
+  }
   if (output.impostor && !is_scene && texture::add_impostor_levels(model, job) == 0) {
     return Issue{
         IssueKind::not_available, "/output/impostor",

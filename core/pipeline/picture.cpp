@@ -160,8 +160,8 @@ Result<PictureOptions> read_picture_options(Overrides& query) {
     const auto times = std::ranges::count_if(query, is_key);
     if (times == 0) continue;
     if (times > 1) {
-      issues.push_back({IssueKind::duplicate_key, "/" + std::string(key.name),
-                        std::string(key.name) + " is given " + std::to_string(times) + " times"});
+      issues.emplace_back(IssueKind::duplicate_key, "/" + std::string(key.name),
+                          std::string(key.name) + " is given " + std::to_string(times) + " times");
     } else if (std::optional<Issue> issue = key.read(std::ranges::find_if(query, is_key)->second, picture)) {
       issues.push_back(*std::move(issue));
     }

@@ -198,9 +198,10 @@ void each_four(const Cover& c, std::int32_t size, const Rows& rows, const Visit&
                                (row[2] + c.across[2] * (x + lane));
         inside[lane] = e >= 0 ? -1 : 0;
       }
-      if (any_of(inside))
+      if (any_of(inside)) {
         visit(c.left + x, y, inside, all_lanes(static_cast<float>(x)) + lane_numbers,
               static_cast<float>(y - c.top));
+      }
     }
   }
 }

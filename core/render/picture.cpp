@@ -193,7 +193,7 @@ class Painter {
       group.corners |= 1U << corner;
       group.share += 0.25F;
       group.x += static_cast<float>(corner % 2);
-      group.y += static_cast<float>(corner / 2);
+      group.y += static_cast<float>(corner >> 1U);
     }
     const float each = 0.25F / group.share;
     group.x = whole.x - 0.5F + group.x * each;

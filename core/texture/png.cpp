@@ -318,9 +318,10 @@ Error refused(std::string message) {
 }
 
 Error damaged(const Reader& reader, std::size_t size) {
-  if (reader.ended)
+  if (reader.ended) {
     return refused("the PNG is truncated: it ends after " + std::to_string(size) +
                    " bytes, before the end of its data");
+  }
   return refused(std::string("the PNG is damaged: ") + reader.complaint.text.data());
 }
 

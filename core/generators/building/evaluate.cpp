@@ -45,9 +45,10 @@ void fill_slots(Derivation& d) {
     d.slots[d.grammar.first_parameter_slot + i] = d.out.parameters[shape.first_parameter + i];
   if (!d.locals.empty()) {
     const auto found = d.locals.find(d.seen_shape);
-    if (found != d.locals.end())
+    if (found != d.locals.end()) {
       std::ranges::copy(found->second,
                         d.slots.begin() + d.grammar.first_parameter_slot + shape.parameter_count);
+    }
   }
   d.is_filled = true;
   if (d.out.attribute_sets.empty()) return;
@@ -108,11 +109,12 @@ double number_of(Derivation& d, const Value& given) {
     reject_attribute(d, given.offset, result, message);
     reject(d, given.offset, message);
   }
-  if (std::isnan(result.number))
+  if (std::isnan(result.number)) {
     reject(
         d, given.offset,
         "the value is not a number: it divides 0 by 0, takes the root of a negative number or computes with "
         "a text");
+  }
   if (std::isinf(result.number)) reject(d, given.offset, "the value is infinite: something is divided by 0");
   if (std::abs(result.number) > longest) reject(d, given.offset, "the value is beyond 10,000 km");
   return result.number;

@@ -139,9 +139,10 @@ class TreeRunner {
                                     : std::max(a.values.size(), b.values.size());
       ValueArray out;
       out.columns = is_array(left) ? a.columns : b.columns;
-      for (std::size_t i = 0; i < count && !a.values.empty() && !b.values.empty(); ++i)
+      for (std::size_t i = 0; i < count && !a.values.empty() && !b.values.empty(); ++i) {
         out.values.push_back(
             binary(node, operation, a.values[is_array(left) ? i : 0], b.values[is_array(right) ? i : 0]));
+      }
       return array_value(here, std::move(out));
     }
     if (operation == lang::Operation::add && (left.is_text() || right.is_text()))
@@ -168,10 +169,11 @@ class TreeRunner {
     std::vector<double> out;
     const ValueArray list = array_in(here, given);
     for (std::size_t i = 0; i < list.values.size(); ++i) {
-      if (!is_mask)
+      if (!is_mask) {
         out.push_back(number_in(here, list.values[i]));
-      else if (holds(list.values[i]))
+      } else if (holds(list.values[i])) {
         out.push_back(static_cast<double>(i));
+      }
     }
     return out;
   }

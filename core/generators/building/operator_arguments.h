@@ -25,7 +25,7 @@ int uv_set_at(Derivation& d, const Step& step, std::uint32_t i);
 void use_image(Derivation& d, const Step& step, ShapeState& state, const std::string& path);
 
 /// Gives the shape a part, an asset or a solid by name, as i() does.
-void insert_named_geometry(Derivation& d, const Step& step, ShapeState& state, std::string name);
+void insert_named_geometry(Derivation& d, const Step& step, ShapeState& state, const std::string& name);
 
 /// Replaces an inserted part or asset by its box, with a warning: rules do not know its faces.
 void take_box_of_asset(Derivation& d, const Step& step, ShapeState& state);

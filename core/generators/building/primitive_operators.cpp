@@ -74,10 +74,11 @@ Solid sphere_of(std::uint32_t sides, std::uint32_t rows) {
   for (std::uint32_t i = 0; i < sides; ++i) {
     const std::uint32_t next = (i + 1) % sides;
     add_face(solid, std::array{next, i, low}, true);
-    for (std::uint32_t r = 0; r + 2 < rows; ++r)
+    for (std::uint32_t r = 0; r + 2 < rows; ++r) {
       add_face(solid,
                std::array{r * sides + i, r * sides + next, (r + 1) * sides + next, (r + 1) * sides + i},
                true);
+    }
     add_face(solid, std::array{last + i, last + next, high}, true);
   }
   return solid;

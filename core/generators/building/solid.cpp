@@ -165,9 +165,10 @@ Solid tapered(const Solid& face, int axis) {
   solid.points.push_back(middle);
   for (const Face& each : face.faces) add_end(solid, face, each, 0, true);
   for (const Loop& loop : face.loops) {
-    for (std::uint32_t i = 0; i < loop.count; ++i)
+    for (std::uint32_t i = 0; i < loop.count; ++i) {
       add_face(solid, std::array{face.corners[loop.first + i],
                                  face.corners[loop.first + (i + 1) % loop.count], tip});
+    }
   }
   return solid;
 }

@@ -137,10 +137,11 @@ bool insert_words(Derivation& d, const Step& step) {
     if (!is_word(d, step, i)) continue;
     has_words = true;
     const std::string& word = word_at(d, step, i);
-    if (word == "zUp" || word == "keepSizeAndPosition" || word == "keepSizeAlignPosition")
+    if (word == "zUp" || word == "keepSizeAndPosition" || word == "keepSizeAlignPosition") {
       warn(d, step.offset, lang::in_quotes(word) + " has no effect: assets have y up and fill their scope");
-    else if (word != "yUp" && word != "adjustSizeAndPosition")
+    } else if (word != "yUp" && word != "adjustSizeAndPosition") {
       reject(d, step.offset, "found " + lang::in_quotes(word) + ", expected yUp or adjustSizeAndPosition");
+    }
   }
   return has_words;
 }
@@ -151,9 +152,10 @@ void insert_geometry(Derivation& d, const Step& step, ShapeState& state, const s
   const auto& [geometry, low, own] = found;
   const bool is_part = (geometry & asset_bit) != 0 && (geometry & ~asset_bit) >= d.task.own_assets;
   const bool has_words = step.op != Op::insert_along_uv && insert_words(d, step);
-  if (step.argument_count > 1 && !is_part && !has_words && step.op != Op::insert_along_uv)
+  if (step.argument_count > 1 && !is_part && !has_words && step.op != Op::insert_along_uv) {
     warn(d, step.offset,
          "the numbers behind " + lang::in_quotes(name) + " have no effect: only built-in parts have options");
+  }
   const int given = dimension(state.size);
   glm::dvec3 size = state.size;
   if (given == 0) {
@@ -180,7 +182,7 @@ void insert_geometry(Derivation& d, const Step& step, ShapeState& state, const s
 
 }  // namespace
 
-void insert_named_geometry(Derivation& d, const Step& step, ShapeState& state, std::string name) {
+void insert_named_geometry(Derivation& d, const Step& step, ShapeState& state, const std::string& name) {
   insert_geometry(d, step, state, name);
 }
 
@@ -196,9 +198,10 @@ void extrude(Derivation& d, const Step& step, ShapeState& state, const Site&) {
   if (height == 0) return;
   if (dimension(state.size) == 3) {
     const bool is_box = state.geometry == box_geometry || d.out.solid_of(state.geometry).is_closed;
-    if (is_box)
+    if (is_box) {
       warn(d, step.offset,
            "extrude finds a closed solid, and extrudes each of its faces; use comp(f) to choose one");
+    }
     return extrude_in(d, step, state,
                       is_box     ? "face.normal"
                       : has_word ? direction
@@ -222,13 +225,15 @@ void extrude(Derivation& d, const Step& step, ShapeState& state, const Site&) {
 
 void taper(Derivation& d, const Step& step, ShapeState& state, const Site&) {
   const double height = number_of(d, d.grammar.arguments[step.first_argument].value);
-  if (dimension(state.size) != 2 || state.has_asset())
+  if (dimension(state.size) != 2 || state.has_asset()) {
     reject(d, step.offset,
            "found a shape of " + std::to_string(dimension(state.size)) +
                " dimensions, expected a face for taper");
-  if (!(height > 0))
+  }
+  if (!(height > 0)) {
     reject(d, step.offset,
            "found a height of " + text_of_number(height) + " for taper, expected a number above 0");
+  }
   const int axis = flat_axis(state.size);
   make_pyramid_of(d, state, axis);
   state.size[axis] = height;

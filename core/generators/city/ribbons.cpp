@@ -119,8 +119,7 @@ class StreetSpace {
       CmRing kerb, border;
       kerb.reserve(4 * outline.half_edges.size());
       if (layout.has_walks) border.reserve(2 * outline.half_edges.size());
-      for (std::size_t k = 0; k < outline.half_edges.size(); ++k) {
-        const std::uint32_t half = outline.half_edges[k];
+      for (unsigned int half : outline.half_edges) {
         const KerbSide& side = sides_[half];
         if (!advances(half, side.from(), side.to)) return false;
         for (const CmPoint& p : side.corner) append_new(kerb, p);
@@ -358,8 +357,8 @@ class StreetSpace {
   void add_block_edges(BlockOutline& block, std::uint32_t half, std::uint32_t part) const {
     const KerbSide& side = sides_[half];
     const std::uint32_t street = graph_.is_street(half / 2) ? half / 2 : no_index;
-    for (std::size_t i = 0; i < side.outer_corner.size(); ++i) {
-      block.ring.push_back(side.outer_corner[i]);
+    for (auto i : side.outer_corner) {
+      block.ring.push_back(i);
       block.edges.push_back({street, part});
     }
   }

@@ -291,8 +291,8 @@ void check_map(const FractalMap& given, const std::string& pointer, bool by_chan
   static const FractalMap plain;
   if (given.matrix &&
       !(given.scale == plain.scale && given.rotate == plain.rotate && given.translate == plain.translate)) {
-    issues.push_back({IssueKind::conflict, pointer,
-                      "found \"matrix\" beside scale, rotate or translate, expected either"});
+    issues.emplace_back(IssueKind::conflict, pointer,
+                        "found \"matrix\" beside scale, rotate or translate, expected either");
     return;
   }
   const Affine map = map_of(given);
@@ -301,19 +301,19 @@ void check_map(const FractalMap& given, const std::string& pointer, bool by_chan
   const bool flat = given.scale.index() == 0 ? std::get<0>(given.scale) == 0
                                              : std::ranges::count(std::get<1>(given.scale), 0.0) > 0;
   if (!given.matrix && flat) {
-    issues.push_back({IssueKind::invalid_value, member,
-                      "found a scale of 0, which leaves nothing of the element; a matrix may flatten it"});
+    issues.emplace_back(IssueKind::invalid_value, member,
+                        "found a scale of 0, which leaves nothing of the element; a matrix may flatten it");
   } else if (stretch == 0) {
-    issues.push_back(
-        {IssueKind::invalid_value, member, "found a matrix of zeros, which leaves nothing of the element"});
+    issues.emplace_back(IssueKind::invalid_value, member,
+                        "found a matrix of zeros, which leaves nothing of the element");
   } else if (by_chance && stretch >= 1 - norm_tolerance) {
-    issues.push_back(
-        {IssueKind::invalid_value, member,
-         "found a map that does not contract: its norm is " + number_text(stretch) + ", expected below 1"});
+    issues.emplace_back(
+        IssueKind::invalid_value, member,
+        "found a map that does not contract: its norm is " + number_text(stretch) + ", expected below 1");
   } else if (!by_chance && stretch > 1 + grow_tolerance) {
-    issues.push_back({IssueKind::invalid_value, member,
-                      "found a map that lets its copy grow: its norm is " + number_text(stretch) +
-                          ", expected at most 1"});
+    issues.emplace_back(
+        IssueKind::invalid_value, member,
+        "found a map that lets its copy grow: its norm is " + number_text(stretch) + ", expected at most 1");
   }
 }
 
@@ -358,7 +358,7 @@ std::vector<Issue> check_instructions(const FractalParams& params) {
                                 static_cast<std::size_t>(odd - params.text.begin()),
                                 "found a character that has no letter, expected A to Z, 0 to 9 or a space"));
     } else if (word_maps(params.text).empty()) {
-      issues.push_back({IssueKind::invalid_value, "/text", "found a word of spaces, expected letters"});
+      issues.emplace_back(IssueKind::invalid_value, "/text", "found a word of spaces, expected letters");
     }
     return issues;
   }
@@ -371,16 +371,17 @@ std::vector<Issue> check_instructions(const FractalParams& params) {
     sum += list[i].probability.value_or(1);
     copies += is_identity(map_of(list[i])) ? 0 : 1;
   }
-  if (issues.empty() && !by_chance && copies == 0)
-    issues.push_back({IssueKind::invalid_value, "/instructions",
-                      "found only the identity, expected a map that makes a smaller copy"});
+  if (issues.empty() && !by_chance && copies == 0) {
+    issues.emplace_back(IssueKind::invalid_value, "/instructions",
+                        "found only the identity, expected a map that makes a smaller copy");
+  }
   if (issues.empty() && by_chance && !(sum > 0))
-    issues.push_back({IssueKind::invalid_value, "/instructions", "found probabilities that are all 0"});
+    issues.emplace_back(IssueKind::invalid_value, "/instructions", "found probabilities that are all 0");
   const std::optional<double> odd = issues.empty() ? odd_sum_of_weights(params) : std::nullopt;
   if (odd && params.weights == FractalWeights::strict) {
-    issues.push_back({IssueKind::invalid_value, "/instructions",
-                      "the probabilities of the maps sum to " + number_text(std::round(*odd * 1e9) / 1e9) +
-                          ", expected 1 because `weights` is strict"});
+    issues.emplace_back(IssueKind::invalid_value, "/instructions",
+                        "the probabilities of the maps sum to " + number_text(std::round(*odd * 1e9) / 1e9) +
+                            ", expected 1 because `weights` is strict");
   }
   return issues;
 }

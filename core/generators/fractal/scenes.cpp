@@ -119,8 +119,9 @@ void each_stage(Model& model, const FractalParams& params, std::int64_t amount, 
     Node& node = model.nodes.emplace_back();
     node.name = "stage_" + std::to_string(params.stages[i]);
     node.parent = 0;
+    const std::size_t row = i / columns;
     node.transform.translation =
-        glm::vec3(glm::dvec3(static_cast<double>(i % columns), -static_cast<double>(i / columns), 0) * pitch);
+        glm::vec3(glm::dvec3(static_cast<double>(i % columns), -static_cast<double>(row), 0) * pitch);
     make(static_cast<int>(model.nodes.size()) - 1, params.stages[i]);
   }
 }
@@ -138,9 +139,10 @@ void add_cloud(Model& model, int parent, const FractalParams& params, Cloud clou
   const double edge = longest_side(box_of(cloud)) / params.voxels;
   MeshGroup group;
   group.name = "elements";
-  for (const Primitive& primitive : element)
+  for (const Primitive& primitive : element) {
     group.primitives.push_back(
         {scattered(primitive.mesh, cloud.position.span(), edge, job), primitive.material, {}});
+  }
   model.meshes.push_back(std::move(group));
   Node& node = model.nodes.emplace_back();
   node.name = "elements";

@@ -26,13 +26,13 @@ std::vector<WrittenConstant> written_constants(const LsystemParams& params) {
 
 void check_age(const LsystemParams& params, std::vector<Issue>& issues) {
   if (params.timed && params.constants.contains("age")) {
-    issues.push_back({IssueKind::conflict, "/constants/age",
-                      "with `timed`, the name `age` is reserved for the age of the plant"});
+    issues.emplace_back(IssueKind::conflict, "/constants/age",
+                        "with `timed`, the name `age` is reserved for the age of the plant");
   }
   if (!params.age || params.timed || *params.age <= static_cast<double>(params.iterations)) return;
-  issues.push_back({IssueKind::out_of_range, "/age",
-                    "found an age of " + number_text(*params.age) + "; the plant is derived for " +
-                        std::to_string(params.iterations) + " iterations"});
+  issues.emplace_back(IssueKind::out_of_range, "/age",
+                      "found an age of " + number_text(*params.age) + "; the plant is derived for " +
+                          std::to_string(params.iterations) + " iterations");
 }
 
 /// Between two steps, modules of the next word replace those of the present one. That needs fixed successors.
@@ -49,9 +49,9 @@ void check_between_steps(const LsystemParams& params, const Grammar& grammar, st
                       : std::any_of(rules.begin(), rules.end(), has_new_context) ? "contexts of the new word"
                                                                                  : nullptr;
   if (!found) return;
-  issues.push_back({IssueKind::conflict, "/age",
-                    "found a fractional age and a grammar with " + std::string(found) +
-                        "; such a grammar needs a whole number of iterations or `timed`"});
+  issues.emplace_back(IssueKind::conflict, "/age",
+                      "found a fractional age and a grammar with " + std::string(found) +
+                          "; such a grammar needs a whole number of iterations or `timed`");
 }
 
 }  // namespace
@@ -63,9 +63,10 @@ Compiler::Compiler(const LsystemParams& params, std::uint64_t seed, const Limits
   std::vector<WrittenConstant> written = written_constants(params);
   for (const auto& [name, value] : params.variables) {
     written.push_back({name, value});
-    if (params.constants.contains(name) || params.arrays.contains(name))
-      issues_.push_back(
-          {IssueKind::conflict, "/variables/" + name, "found a constant or an array of this name"});
+    if (params.constants.contains(name) || params.arrays.contains(name)) {
+      issues_.emplace_back(IssueKind::conflict, "/variables/" + name,
+                           "found a constant or an array of this name");
+    }
   }
   std::vector<Issue> found;
   const lang::Names values = resolve_constants(written, Rng::of_seed(seed).at("constants"), found);
@@ -104,12 +105,12 @@ void Compiler::bind_variables(const lang::Names& values) {
   for (const auto& [name, list] : params_.arrays) {
     elements += list.size();
     if (elements > most_elements) {
-      issues_.push_back({IssueKind::out_of_range, "/arrays",
-                         "found more than " + std::to_string(most_elements) + " elements of all arrays"});
+      issues_.emplace_back(IssueKind::out_of_range, "/arrays",
+                           "found more than " + std::to_string(most_elements) + " elements of all arrays");
       return;
     }
     if (params_.constants.contains(name))
-      issues_.push_back({IssueKind::conflict, "/arrays/" + name, "found a constant of this name"});
+      issues_.emplace_back(IssueKind::conflict, "/arrays/" + name, "found a constant of this name");
     names_.bind_array(name, static_cast<std::uint32_t>(grammar_.variables.size()),
                       static_cast<std::uint32_t>(list.size()));
     grammar_.variables.insert(grammar_.variables.end(), list.begin(), list.end());
@@ -262,10 +263,10 @@ void Compiler::read_tables() {
     std::vector<Production>& own = grammar_.tables.back().productions;
     count += own.size() + common.size();
     if (count > most_of_tables) {
-      issues_.push_back({IssueKind::out_of_range, "/tables",
-                         "found more than " + std::to_string(most_of_tables) +
-                             " productions in all tables, each with the productions of every "
-                             "step"});
+      issues_.emplace_back(IssueKind::out_of_range, "/tables",
+                           "found more than " + std::to_string(most_of_tables) +
+                               " productions in all tables, each with the productions of every "
+                               "step");
       return;
     }
     own.insert(own.end(), common.begin(), common.end());
@@ -277,8 +278,8 @@ void Compiler::read_tables() {
 void Compiler::check_alone(const Rules& rules, const char* what) {
   for (const Production& each : rules.productions) {
     if (!each.has_context()) continue;
-    issues_.push_back({IssueKind::invalid_value, each.pointer,
-                       std::string(what) + " cannot have a context, because it applies to one module"});
+    issues_.emplace_back(IssueKind::invalid_value, each.pointer,
+                         std::string(what) + " cannot have a context, because it applies to one module");
   }
 }
 
@@ -298,15 +299,15 @@ void Compiler::check_directions() {
   });
   grammar_.backward = right != nullptr;
   if (right && grammar_.strict) {
-    issues_.push_back(
-        {IssueKind::conflict, right->pointer,
-         "found a new right context and strict predecessors of several modules; a word is written in "
-         "one direction"});
+    issues_.emplace_back(
+        IssueKind::conflict, right->pointer,
+        "found a new right context and strict predecessors of several modules; a word is written in "
+        "one direction");
   }
   if (left && right) {
-    issues_.push_back({IssueKind::conflict, right->pointer,
-                       "found a new right context, but " + left->pointer +
-                           " has a new left one; a word is written in one direction"});
+    issues_.emplace_back(IssueKind::conflict, right->pointer,
+                         "found a new right context, but " + left->pointer +
+                             " has a new left one; a word is written in one direction");
   }
 }
 

@@ -103,36 +103,37 @@ void check_environment(const LsystemParams& params, std::vector<Issue>& issues) 
     const std::string pointer = "/environment/solids/" + std::to_string(i);
     const bool is_mesh = solid.solid_shape == LsystemParams::SolidShape::mesh;
     if (is_mesh && solid.model.has_value() == solid.glb.has_value()) {
-      issues.push_back({IssueKind::conflict, pointer, "a mesh has either `model` or `glb`"});
+      issues.emplace_back(IssueKind::conflict, pointer, "a mesh has either `model` or `glb`");
     } else if (!is_mesh && (solid.model || solid.glb)) {
-      issues.push_back({IssueKind::conflict, pointer, "found a model; only the shape mesh has one"});
+      issues.emplace_back(IssueKind::conflict, pointer, "found a model; only the shape mesh has one");
     }
     if (solid.glb && !is_glb_uri(*solid.glb)) {
-      issues.push_back({IssueKind::invalid_value, pointer + "/glb",
-                        "found no data URI of a GLB; expected data:model/gltf-binary;base64,..."});
+      issues.emplace_back(IssueKind::invalid_value, pointer + "/glb",
+                          "found no data URI of a GLB; expected data:model/gltf-binary;base64,...");
     }
-    if (solid.role == LsystemParams::Role::host && !is_mesh)
-      issues.push_back(
-          {IssueKind::conflict, pointer + "/shape", "a host is part of the model and must be a mesh"});
+    if (solid.role == LsystemParams::Role::host && !is_mesh) {
+      issues.emplace_back(IssueKind::conflict, pointer + "/shape",
+                          "a host is part of the model and must be a mesh");
+    }
   }
   for (std::size_t i = 0; i < params.environment->companions.size(); ++i) {
     const std::string pointer = "/environment/companions/" + std::to_string(i) + "/system";
     const Child& child = params.environment->companions[i].system;
     if (child.generator.empty()) continue;
     if (child.generator != own_name) {
-      issues.push_back({IssueKind::invalid_value, pointer + "/generator",
-                        "found " + child.generator + "; a companion must be an lsystem"});
+      issues.emplace_back(IssueKind::invalid_value, pointer + "/generator",
+                          "found " + child.generator + "; a companion must be an lsystem");
       continue;
     }
     IssueList errors;
     const LsystemParams system = read_lsystem(Json::parse(child.parameters), "", errors);
     if (errors.empty() && system.age && !system.timed && *system.age != std::floor(*system.age)) {
-      issues.push_back({IssueKind::invalid_value, pointer + "/parameters/age",
-                        "the age of a companion must be a whole number of iterations"});
+      issues.emplace_back(IssueKind::invalid_value, pointer + "/parameters/age",
+                          "the age of a companion must be a whole number of iterations");
     }
     if (errors.empty() && system.environment) {
-      issues.push_back({IssueKind::conflict, pointer + "/parameters/environment",
-                        "a companion uses this environment and cannot have its own"});
+      issues.emplace_back(IssueKind::conflict, pointer + "/parameters/environment",
+                          "a companion uses this environment and cannot have its own");
     }
   }
 }

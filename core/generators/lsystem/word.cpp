@@ -26,10 +26,11 @@ class Writer {
 
   /// Appends a module and returns the position of its parameters.
   double* add(KindId kind, std::uint64_t key, std::uint32_t step) {
-    if (word.size() >= limit_)
+    if (word.size() >= limit_) {
       job_.refuse(limit_issue({Resource::modules, limit_, limit_ + 1},
                               "needs more than " + std::to_string(limit_) +
                                   " modules, which is the limit, in step " + std::to_string(step)));
+    }
     word.kind.push_back(kind);
     word.born.push_back(static_cast<std::uint16_t>(step));
     if (keyed_) word.key.push_back(key);
@@ -91,9 +92,10 @@ class Writer {
     values.resize(first + grammar_.kinds[each.kind].arity);
     fill_arguments(grammar_, each, slots, key, values.data() + first, job_);
     list.push_back({each.kind, depth, key, first});
-    if (list.size() > limit_)
+    if (list.size() > limit_) {
       job_.refuse(limit_issue({Resource::modules, limit_, limit_ + 1},
                               "a decomposition needs more than " + std::to_string(limit_) + " modules"));
+    }
   }
 
   /// Decomposes a module and what comes of it, the leftmost first, without recursion. Decomposition has a separate
@@ -126,11 +128,12 @@ class Writer {
   /// Puts what a rule writes for the module on the stack, the last module first. False: no rule applies.
   bool split(const Pending& module, std::vector<double>& own, std::uint32_t step) {
     if ((++decomposed_ & 4095U) == 0) job_.check();
-    if (decomposed_ > 4 * limit_)
+    if (decomposed_ > 4 * limit_) {
       job_.refuse(limit_issue({Resource::modules, 4 * limit_, decomposed_},
                               "decomposes more than " + std::to_string(decomposed_ - 1) +
                                   " modules in step " + std::to_string(step) +
                                   "; the maximum is four times the limit of modules"));
+    }
     const Rules& rules = grammar_.decomposition;
     const std::uint64_t stream = keyed_ ? key_at(module.key, 40 + module.depth) : 0;
     const Draws draws(stream, module.depth);

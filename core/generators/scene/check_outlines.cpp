@@ -20,13 +20,13 @@ std::size_t points_of(const Rings& rings) {
 void check_rings(const Rings& rings, const std::string& pointer, const Job& job, std::vector<Issue>& issues) {
   const std::size_t points = points_of(rings);
   if (points > most_points) {
-    issues.push_back(
-        {IssueKind::out_of_range, pointer,
-         "found " + std::to_string(points) + " points; expected at most " + std::to_string(most_points)});
+    issues.emplace_back(
+        IssueKind::out_of_range, pointer,
+        "found " + std::to_string(points) + " points; expected at most " + std::to_string(most_points));
     return;
   }
   for (const PlanDefect& fault : defects_of(plan_of_rings(rings), &job))
-    issues.push_back({IssueKind::invalid_value, pointer + "/" + std::to_string(fault.ring), fault.message});
+    issues.emplace_back(IssueKind::invalid_value, pointer + "/" + std::to_string(fault.ring), fault.message);
 }
 
 void check_building(const SceneBuilding& building, const std::string& pointer, const Job& job,
@@ -38,14 +38,14 @@ void check_building(const SceneBuilding& building, const std::string& pointer, c
     return text.ends_with('.') ? text.substr(0, text.size() - 1) : text;
   };
   if (!(building.base < building.height)) {
-    issues.push_back(
-        {IssueKind::out_of_range, pointer + "/base",
-         "found " + number(building.base) + "; expected less than the height, " + number(building.height)});
+    issues.emplace_back(
+        IssueKind::out_of_range, pointer + "/base",
+        "found " + number(building.base) + "; expected less than the height, " + number(building.height));
     return;
   }
   const SceneRoof& roof = building.roof;
   const auto conflict = [&](bool is_given, const char* name, const char* message) {
-    if (is_given) issues.push_back({IssueKind::conflict, pointer + "/roof/" + name, message});
+    if (is_given) issues.emplace_back(IssueKind::conflict, pointer + "/roof/" + name, message);
   };
   if (roof.shape == SceneShape::flat) {
     const char* message = "has no effect on a flat roof";
@@ -57,10 +57,11 @@ void check_building(const SceneBuilding& building, const std::string& pointer, c
   conflict(roof.height && roof.angle, "angle", "found both `height` and `angle`; expected one of them");
   conflict(roof.direction && roof.orientation == SceneOrientation::across, "orientation",
            "found both `direction` and `orientation`; expected one of them");
-  if (roof.height && *roof.height > building.height - building.base + 1e-6)
-    issues.push_back({IssueKind::out_of_range, pointer + "/roof/height",
-                      "found " + number(*roof.height) + "; expected at most the height of the building, " +
-                          number(building.height - building.base)});
+  if (roof.height && *roof.height > building.height - building.base + 1e-6) {
+    issues.emplace_back(IssueKind::out_of_range, pointer + "/roof/height",
+                        "found " + number(*roof.height) + "; expected at most the height of the building, " +
+                            number(building.height - building.base));
+  }
 }
 
 }  // namespace
@@ -70,9 +71,10 @@ void check_outlines(const SceneParams& params, const Job& job, std::vector<Issue
   const auto is_too_much = [&](const Rings& rings, const std::string& pointer) {
     const double points = static_cast<double>(points_of(rings));
     work += points * points;
-    if (work > most_work)
-      issues.push_back(
-          {IssueKind::out_of_range, pointer, "the outlines up to this one have too many points together"});
+    if (work > most_work) {
+      issues.emplace_back(IssueKind::out_of_range, pointer,
+                          "the outlines up to this one have too many points together");
+    }
     return work > most_work;
   };
   for (std::size_t i = 0; i < params.buildings.size(); ++i) {
@@ -86,7 +88,7 @@ void check_outlines(const SceneParams& params, const Job& job, std::vector<Issue
     check_rings(params.areas[i].outline, pointer, job, issues);
   }
   if (!params.areas.empty() && params.terrain)
-    issues.push_back({IssueKind::conflict, "/areas", "found a terrain; areas lie on level ground"});
+    issues.emplace_back(IssueKind::conflict, "/areas", "found a terrain; areas lie on level ground");
 }
 
 }  // namespace seedmesh::scene

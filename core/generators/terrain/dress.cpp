@@ -126,10 +126,11 @@ class Dressing {
         static_cast<std::size_t>(field_.width) * static_cast<std::size_t>(field_.depth);
     if (params_.mesh == TerrainMesh::grid && !params_.base && samples > most_narrow) {
       add_pieces(model, ground);
-      if (params_.skirt > 0)
+      if (params_.skirt > 0) {
         add_child(model, "skirt",
                   add_mesh(model, "skirt", wall_mesh(border_samples(field_, job_)),
                            add_material(model, wall_material())));
+      }
       return write_levels(model);
     }
     const bool walled = params_.skirt > 0 || params_.base;
@@ -191,10 +192,11 @@ class Dressing {
       const std::string& name = names[i];
       Piece& made = pieces[i];
       const int node = add_child(model, name, -1);
-      for (std::size_t k = 0; k < made.meshes.size(); ++k)
+      for (std::size_t k = 0; k < made.meshes.size(); ++k) {
         show(
             model.nodes[static_cast<std::size_t>(node)],
             add_ground_mesh(model, level_name(name, static_cast<int>(k)), std::move(made.meshes[k]), ground));
+      }
       for (std::size_t k = 0; k < made.notes.size(); ++k) note(static_cast<int>(k), made.notes[k]);
     }
   }

@@ -79,8 +79,8 @@ void check_layer_algorithm(const TerrainParams& params, std::size_t index, std::
   const std::string own = "/layers/" + std::to_string(index) + "/";
   const auto belongs = [&](bool is_given, bool is_owner, const char* name, const char* owners) {
     if (is_given && !is_owner) {
-      issues.push_back({IssueKind::conflict, own + name,
-                        std::string("this algorithm has no ") + name + "; only " + owners + " have it"});
+      issues.emplace_back(IssueKind::conflict, own + name,
+                          std::string("this algorithm has no ") + name + "; only " + owners + " have it");
     }
   };
   belongs(layer.expression.has_value(), is_text, "expression", "layers of the algorithm expression");
@@ -93,14 +93,14 @@ void check_layer_algorithm(const TerrainParams& params, std::size_t index, std::
   belongs(layer.fault_min.has_value(), is_fault, "fault_min", "faults");
   if (!is_divided) return;
   if (params.shape == TerrainShape::sphere) {
-    issues.push_back({IssueKind::not_available, own + "algorithm",
-                      "a sphere has no subdivision; expected expression, fault_formation, poisson_faulting "
-                      "or fbm"});
+    issues.emplace_back(IssueKind::not_available, own + "algorithm",
+                        "a sphere has no subdivision; expected expression, fault_formation, poisson_faulting "
+                        "or fbm");
   }
   if (layer.iterations && *layer.iterations > most_rounds) {
-    issues.push_back({IssueKind::out_of_range, own + "iterations",
-                      "found " + std::to_string(*layer.iterations) + "; expected at most " +
-                          std::to_string(most_rounds) + " rounds of subdivision"});
+    issues.emplace_back(IssueKind::out_of_range, own + "iterations",
+                        "found " + std::to_string(*layer.iterations) + "; expected at most " +
+                            std::to_string(most_rounds) + " rounds of subdivision");
   }
 }
 

@@ -219,9 +219,10 @@ void each_block(const Ground& ground, const HeightExpression& expression, const 
           }
           const double* const values = rows.run(evaluator, block.count);
           const auto is_invalid = [](double value) { return !(std::abs(value) <= highest); };
-          if (std::any_of(values, values + block.count, is_invalid))
+          if (std::any_of(values, values + block.count, is_invalid)) {
             ground.job.refuse({IssueKind::evaluation, pointer,
                                "gives a value that is not finite, or beyond 10,000,000, at some samples"});
+          }
           use(block.first, block.count, values);
         }
       });
@@ -322,8 +323,8 @@ void check_layer(const TerrainParams& params, std::size_t index, std::vector<Iss
   const TerrainLayer& layer = params.layers[index];
   const bool is_text = layer.layer_algorithm == Source::expression;
   if (is_text && !layer.expression) {
-    issues.push_back({IssueKind::missing, "/layers/" + std::to_string(index),
-                      "\"expression\" is missing; the algorithm expression takes its heights from it"});
+    issues.emplace_back(IssueKind::missing, "/layers/" + std::to_string(index),
+                        "\"expression\" is missing; the algorithm expression takes its heights from it");
   }
   check_layer_algorithm(params, index, issues);
   if (layer.expression && is_text)

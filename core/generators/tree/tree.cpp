@@ -132,8 +132,8 @@ Json vector(const glm::vec3& v) { return Json::array({v.x + 0.0F, v.y + 0.0F, v.
 std::vector<Issue> check(const TreeParams& params, const Limits&) {
   std::vector<Issue> issues;
   if (params.mSegments % 2 != 0) {
-    issues.push_back({IssueKind::invalid_value, "/mSegments",
-                      "found " + std::to_string(params.mSegments) + ", expected an even number of corners"});
+    issues.emplace_back(IssueKind::invalid_value, "/mSegments",
+                        "found " + std::to_string(params.mSegments) + ", expected an even number of corners");
   }
   check_images(params, issues);
   return issues;
@@ -156,9 +156,10 @@ Result<Model> generate(const TreeParams& params, const GenerateContext& context)
   job.progress("mesh", 0);
   Model model = build_model(std::move(skeleton), params, context);
   model.warnings = warnings_of(params);
-  if (context.demand.wind && context.demand.share_organs && has_leaves(params))
+  if (context.demand.wind && context.demand.share_organs && has_leaves(params)) {
     model.warnings.push_back(
         {"/output/wind", "Leaves that share a mesh have no weights, so only bark moves.", 0, 0});
+  }
   return model;
 }
 

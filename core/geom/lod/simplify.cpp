@@ -128,7 +128,7 @@ class Net {
     for (std::size_t i = 0; i < order.size(); ++i) {
       look();
       if (i == 0 || key(order[i]) != key(order[i - 1])) {
-        at_.push_back(glm::dvec3(position_[order[i]]));
+        at_.emplace_back(position_[order[i]]);
         locked.push_back(0);
       }
       point_of_[order[i]] = static_cast<std::uint32_t>(at_.size() - 1);

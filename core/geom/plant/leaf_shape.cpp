@@ -195,7 +195,7 @@ LeafBlade blade_of(const Margin& margin, const LeafDetail& detail) {
   blade.right = curve_through(margin.points, detail.steps);
   if (margin.teeth > 0 && detail.teeth && detail.steps > 2) blade.right = saw(blade.right, margin.teeth);
   for (const dvec2& p : blade.right) {
-    blade.left.push_back({-p.x, p.y});
+    blade.left.emplace_back(-p.x, p.y);
     blade.half_width = std::max(blade.half_width, p.x);
   }
   blade.base = blade.right.front();

@@ -92,6 +92,7 @@ void find_meetings(const Plan& plan, double reach, const Job* job, std::vector<P
     return std::pair{low(a), a} < std::pair{low(b), b};
   });
   std::vector<Segment> segments;
+  segments.reserve(order.size());
   for (const std::size_t i : order) segments.push_back({sides[i].from, sides[i].to});
   each_near_pair(segments, reach, job, [&](std::size_t i, std::size_t k) {
     const Side &a = sides[std::min(order[i], order[k])], &b = sides[std::max(order[i], order[k])];

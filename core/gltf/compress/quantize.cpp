@@ -136,10 +136,11 @@ void quantize_columns(Part& part, const Grid& grid, Job& job, Encoding encoding)
     Column& column = part.columns[attribute.column];
     if (column.component != Component::f32 || column.filter != Filter::none) continue;
     if (attribute.semantic == "NORMAL" || attribute.semantic == "TANGENT") {
-      if (encoding == Encoding::filtered)
+      if (encoding == Encoding::filtered) {
         quantize_directions(column, job);
-      else
+      } else {
         quantize_lanes(column, job);
+      }
     } else if (attribute.semantic.starts_with("TEXCOORD")) {
       quantize_uv(column, job, encoding);
     }
