@@ -8,6 +8,7 @@
 import fs from 'node:fs';
 import path from 'node:path';
 import zlib from 'node:zlib';
+import sharp from 'sharp';
 import { program, serve } from '../http/support.mjs';
 import { launch, until_shown, until_state } from './chromium.mjs';
 
@@ -210,7 +211,11 @@ try {
   fs.mkdirSync(thumbnails, { recursive: true });
   fs.mkdirSync(pictures, { recursive: true });
   let bytes = 0;
-  for (const name of chosen) {
+  // Those of worlds are cut from the pictures of docs/worlds.md (tests/pictures/worlds.mjs).
+  const worlds = { alien_plateaus: 'alien_plane', alpine: 'alpine_hill', archipelago: 'archipelago_plane', boreal_plain: 'boreal_hill', desert_oases: 'desert_plane', temperate_land: 'temperate_hill' };
+  for (const [name, view] of Object.entries(worlds).filter(([name]) => chosen.includes(name)))
+    fs.writeFileSync(path.join(thumbnails, `${name}.webp`), await sharp(path.join(pictures, `worlds/${view}.webp`)).resize(192, 144).webp({ quality: 80 }).toBuffer());
+  for (const name of chosen.filter((each) => !(each in worlds))) {
     const { status, bytes: webp } = await server.get(`/v1/presets/${name}.webp?size=192x144`);
     if (status !== 200) throw new Error(`${name}: ${status}`);
     fs.writeFileSync(path.join(thumbnails, `${name}.webp`), webp);
