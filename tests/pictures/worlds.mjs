@@ -25,11 +25,11 @@ export const views = {
   desert_plane: before('desert_oases.4', [-9536, 4416], 110, 800, 240, -12),
   boreal_hill: before('boreal_plain.2', [-7872, -4928], 70, 520, 95, -8),
   boreal_plane: before('boreal_plain.2', [-7872, -4928], 160, 2400, 800, -16),
-  town_ground: ['temperate_land.7', 9144, 5136, 2.2, 337, 1],
+  town_ground: before('temperate_land.7', [-2240, -2624], 310, 300, 5, 0),
   town_hill: before('temperate_land.7', [-2240, -2624], 40, 520, 110, -10),
-  town_plane: before('temperate_land.7', [9152, 5184], 250, 1100, 500, -22),
+  town_plane: before('temperate_land.7', [-2240, -2624], 250, 1100, 500, -22),
   town_coast: before('archipelago.5', [-1472, -7872], 200, 650, 160, -11),
-  town_desert: before('desert_oases.4', [-21440, -7872], 60, 600, 180, -14),
+  town_desert: before('desert_oases.4', [8256, 9024], 60, 600, 180, -14),
   alien_plane: before('alien_plateaus.6', [10304, 2496], 330, 1800, 500, -13),
 };
 
