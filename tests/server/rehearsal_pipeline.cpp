@@ -3,6 +3,7 @@
 /// "rehearsal":
 ///   {"generator": "rehearsal", "seed": 1, "parameters": {"milliseconds": 50, "bytes": 1000, "end":
 ///   "product"}}
+/// With `blocked`, the work begins with this number of milliseconds without a look at stop and deadline.
 /// `end` is product, limit, internal or throw; it reports `progress` steps in between. With `bits`, each byte has
 /// this number of random bits, so that compression saves (8 - bits) / 8 of the answer.
 #include <cstring>
@@ -18,7 +19,7 @@ namespace seedmesh {
 struct Request::Body {
   std::string canonical, format;
   std::uint64_t seed = 0;
-  int milliseconds = 0, progress = 0, bits = 0;
+  int milliseconds = 0, blocked = 0, progress = 0, bits = 0;
   std::size_t bytes = 1'000;
   std::string end = "product";
 };
@@ -36,6 +37,7 @@ Request request_of(const Json& json) {
   body->format = json.value("output", Json::object()).value("format", "glb");
   body->seed = json.value("seed", std::uint64_t{0});
   body->milliseconds = parameters.value("milliseconds", 0);
+  body->blocked = parameters.value("blocked", 0);
   body->progress = parameters.value("progress", 0);
   body->bytes = parameters.value("bytes", std::size_t{1'000});
   body->bits = parameters.value("bits", 0);
@@ -49,6 +51,7 @@ Error invalid(std::string pointer, std::string message) {
 
 /// Sleeps in small steps, looking at stop and deadline as real work does.
 void work(const Request::Body& body, const Job& job) {
+  if (body.blocked > 0) std::this_thread::sleep_for(std::chrono::milliseconds(body.blocked));
   const int steps = body.progress > 0 ? body.progress : 1;
   for (int step = 0; step < steps; ++step) {
     if (body.progress > 0) job.progress("mesh", static_cast<double>(step) / steps);
