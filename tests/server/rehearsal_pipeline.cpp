@@ -196,6 +196,8 @@ std::shared_ptr<WorldMemory> make_world_memory(std::uint64_t) { return nullptr; 
 int OpenWorld::levels() const { return 0; }
 double OpenWorld::extent() const { return 0; }
 bool is_world(const Request&) { return false; }
+// The pipeline keeps the memory.
+// NOLINTNEXTLINE(performance-unnecessary-value-param)
 Result<OpenWorld> open_world(const Request&, std::shared_ptr<WorldMemory>) { return no_world(); }
 TileRange tiles_in(const OpenWorld&, int, const WorldBox&) { return {}; }
 Result<std::string> world_tileset(const OpenWorld&, const TileAddress&, std::string_view, const Job::Options&,
