@@ -8,6 +8,7 @@
 
 #include "core/base/math.h"
 #include "core/generators/fractal/chaos.h"
+#include "core/generators/fractal/check.h"
 #include "core/generators/fractal/element.h"
 #include "core/generators/fractal/escape.h"
 #include "core/generators/fractal/faces.h"
@@ -64,9 +65,16 @@ void scale_mesh(Solid& solid, double size) {
   solid.cell *= size;
 }
 
+/// What all stages of a copy machine have in common.
+struct CopyMachine {
+  const FractalParams& params;
+  Instructions instructions;
+  Element element;
+};
+
 /// Adds one stage of a copy machine. Returns the number of edges at which four faces meet.
-std::uint64_t add_stage(Model& model, int parent, const FractalParams& params,
-                        const Instructions& instructions, const Element& element, int rounds, Job& job) {
+std::uint64_t add_stage(Model& model, int parent, const CopyMachine& machine, int rounds, Job& job) {
+  const auto& [params, instructions, element] = machine;
   if (params.smallest > 0) {
     add_divided(model, parent, instructions, element, {rounds, params.size, params.smallest}, job);
     return 0;
@@ -90,7 +98,6 @@ std::uint64_t add_stage(Model& model, int parent, const FractalParams& params,
 
 Result<Model> generate_copies(const FractalParams& params, const GenerateContext& context) {
   Job& job = context.job;
-  const Instructions instructions = instructions_of(params);
   Result<Element> element = element_of(params, context);
   if (!element) return std::move(element).error();
   job.progress("mesh", 0);
@@ -98,6 +105,7 @@ Result<Model> generate_copies(const FractalParams& params, const GenerateContext
   model.name = "fractal";
   model.materials = std::move(element->materials);
   model.warnings = std::move(element->warnings);
+  const CopyMachine machine{params, instructions_of(params), *std::move(element)};
   std::uint64_t edges = 0;
   if (is_named(params, FractalElement::plate)) {
     each_stage(model, params, params.iterations, job, [&](int node, std::int64_t rounds) {
@@ -106,7 +114,7 @@ Result<Model> generate_copies(const FractalParams& params, const GenerateContext
     return model;
   }
   each_stage(model, params, params.iterations, job, [&](int node, std::int64_t rounds) {
-    edges = add_stage(model, node, params, instructions, *element, static_cast<int>(rounds), job);
+    edges = add_stage(model, node, machine, static_cast<int>(rounds), job);
   });
   if (edges > 0) model.extras.push_back({"non_manifold_edges", std::to_string(edges)});
   return model;
@@ -218,42 +226,6 @@ std::vector<std::int64_t> stages_of(const FractalParams& params, std::int64_t ot
   return {params.stages.begin(), params.stages.end()};
 }
 
-void check_stages(const FractalParams& params, std::vector<Issue>& issues) {
-  for (std::size_t i = 0; i < params.stages.size(); ++i) {
-    const std::string pointer = "/stages/" + std::to_string(i);
-    if (params.method == FractalMethod::mrcm && params.stages[i] > 1000)
-      issues.push_back({IssueKind::out_of_range, pointer,
-                        "found " + std::to_string(params.stages[i]) + " rounds, expected at most 1000"});
-    if (params.method == FractalMethod::frcm && params.stages[i] < 1)
-      issues.push_back({IssueKind::out_of_range, pointer, "found 0 points, expected at least 1"});
-    if (params.method == FractalMethod::escape)
-      issues.push_back({IssueKind::conflict, pointer, "found a stage, but method \"escape\" has none"});
-  }
-}
-
-void check_element(const FractalParams& params, std::vector<Issue>& issues) {
-  if (is_named(params, FractalElement::plate)) {
-    const bool snowflake = params.instructions.index() == 0 &&
-                           std::get<0>(params.instructions) == FractalInstructions::koch_snowflake;
-    if (!snowflake || params.method != FractalMethod::mrcm)
-      issues.push_back({IssueKind::conflict, "/element",
-                        "found \"plate\", which is the area inside the koch_snowflake of mrcm"});
-  }
-  if (is_named(params, FractalElement::plate) && params.smallest > 0)
-    issues.push_back({IssueKind::conflict, "/smallest",
-                      "found a smallest piece, but a \"plate\" is one area and has no pieces"});
-  if (params.element.index() == 0) return;
-  const FractalElementObject& given = std::get<1>(params.element);
-  if (given.model.has_value() == given.glb.has_value()) {
-    issues.push_back({IssueKind::conflict, "/element",
-                      std::string("found ") + (given.model ? "both" : "neither") +
-                          " of \"model\" and \"glb\", expected one of them"});
-  } else if (given.glb && !is_glb_uri(*given.glb)) {
-    issues.push_back(
-        {IssueKind::invalid_value, "/element/glb", "expected a GLB as \"data:model/gltf-binary;base64,…\""});
-  }
-}
-
 /// Does every map have a volume? Flat copies have fewer triangles than the element.
 bool presses_nothing_flat(const Instructions& instructions) {
   return std::ranges::none_of(instructions.maps,
@@ -312,11 +284,12 @@ Appraisal appraise_others(const FractalParams& params, const Job& job) {
     std::uint64_t points = 0;
     for (const std::int64_t count : stages_of(params, params.points))
       points += static_cast<std::uint64_t>(count);
-    if (points > job.limits().triangles)
+    if (points > job.limits().triangles) {
       job.refuse(limit_issue({Resource::points, job.limits().triangles, points},
                              "needs " + std::to_string(points) + " points; the limit is " +
                                  std::to_string(job.limits().triangles),
                              "/points"));
+    }
     appraisal.estimate = Estimate{0, 16 * points + 1000, true};
   }
   return appraisal;
@@ -339,9 +312,10 @@ std::vector<Warning> warnings_of(const FractalParams& params) {
   // Whether maps fill a lattice is more than x-applies-when can say.
   const bool is_merged = params.method == FractalMethod::mrcm && params.surface == FractalSurface::merged &&
                          params.smallest == 0;
-  if (is_merged && !visible_lattice(params, instructions_of(params)))
+  if (is_merged && !visible_lattice(params, instructions_of(params))) {
     warnings.push_back(
         {"/surface", "`surface` has no effect unless the maps fill cells of a lattice with cubes.", 0, 0});
+  }
   return warnings;
 }
 

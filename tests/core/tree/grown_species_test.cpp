@@ -5,9 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "core/generators/tree/grown.h"
 #include "tests/core/tree/support.h"
@@ -18,12 +15,7 @@ namespace {
 constexpr std::uint64_t seeds = 20;
 
 TreeParams species(const std::string& name) {
-  std::ifstream file(std::string(SEEDMESH_SOURCE_DIR) + "/api_schema/presets/tree/" + name + ".json");
-  std::stringstream text;
-  text << file.rdbuf();
-  IssueList faults;
-  TreeParams params = read_tree(Json::parse(text.str()).at("parameters"), "/parameters", faults);
-  EXPECT_TRUE(faults.empty());
+  TreeParams params = parameters_of_preset(name);
   params.roots.count = 0;
   return params;
 }

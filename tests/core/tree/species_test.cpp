@@ -1,26 +1,12 @@
 /// The four species of the paper, as shipped, against its formulas.
 #include <gtest/gtest.h>
 
-#include <fstream>
-#include <nlohmann/json.hpp>
-#include <sstream>
-
 #include "core/generators/tree/weber_penn_shape.h"
 #include "core/geom/plant/graft/graft.h"
 #include "tests/core/tree/support.h"
 
 namespace seedmesh::tree {
 namespace {
-
-TreeParams species(const std::string& name) {
-  std::ifstream file(std::string(SEEDMESH_SOURCE_DIR) + "/api_schema/presets/tree/" + name + ".json");
-  std::stringstream text;
-  text << file.rdbuf();
-  IssueList faults;
-  TreeParams params = read_tree(Json::parse(text.str()).at("parameters"), "/parameters", faults);
-  EXPECT_TRUE(faults.empty());
-  return params;
-}
 
 /// Every limb of one order: its length, where on its parent's length it stands.
 struct Stem {
@@ -50,7 +36,7 @@ std::vector<Stem> stems(const Limbs& limbs, int order) {
 
 TEST(Species, HaveTheHeightsOfThePaper) {
   for (const char* name : {"quaking_aspen", "black_tupelo", "weeping_willow", "black_oak"}) {
-    const TreeParams params = species(name);
+    const TreeParams params = parameters_of_preset(name);
     for (std::uint64_t seed = 1; seed <= 2; ++seed) {
       const Skeletons tree(params, seed);
       // Of the trunk alone: clones of a stem that splits begin on it.
@@ -67,7 +53,7 @@ TEST(Species, HaveTheHeightsOfThePaper) {
 
 TEST(Species, HaveAsManyLimbsAsTheFormulasGiveWhereStemsDoNotSplit) {
   for (const char* name : {"quaking_aspen", "black_tupelo"}) {
-    const TreeParams params = species(name);
+    const TreeParams params = parameters_of_preset(name);
     const Skeletons tree(params, 4);
     const auto levels = weber_penn_levels(params);
     EXPECT_EQ(stems(tree.limbs(), 0).size(), 1U);
@@ -97,7 +83,7 @@ TEST(Species, HaveAsManyLimbsAsTheFormulasGiveWhereStemsDoNotSplit) {
 
 TEST(Species, BearLeavesByThePositionOfTheirTwig) {
   for (const char* name : {"quaking_aspen", "black_tupelo"}) {
-    const TreeParams params = species(name);
+    const TreeParams params = parameters_of_preset(name);
     const Skeletons tree(params, 4);
     const std::vector<Stem> last = stems(tree.limbs(), params.Levels - 1);
     double leaves = 0;
@@ -121,7 +107,7 @@ std::size_t families(const Limbs& limbs, int order) {
 
 TEST(Species, ShareTheChildrenOfAStemAmongItsClones) {
   // The oak is not pruned: its stems bear what the formula says, but for the rounding of each clone's share.
-  const TreeParams oak = species("black_oak");
+  const TreeParams oak = parameters_of_preset("black_oak");
   const Skeletons tree(oak, 4);
   const auto levels = weber_penn_levels(oak);
   const auto stems_of_trunk = static_cast<double>(stems(tree.limbs(), 0).size());
@@ -138,7 +124,7 @@ TEST(Species, ShareTheChildrenOfAStemAmongItsClones) {
 }
 
 TEST(Species, LoseLimbsByPruningAlone) {
-  TreeParams willow = species("weeping_willow");
+  TreeParams willow = parameters_of_preset("weeping_willow");
   const Skeletons pruned(willow, 4);
   willow.PruneRatio = 0;
   const Skeletons free(willow, 4);
@@ -155,7 +141,7 @@ TEST(Species, LoseLimbsByPruningAlone) {
 
 TEST(Species, DivideTheTrunkOfTheWillowAndTheOakAtTheirFirstSegment) {
   for (const char* name : {"weeping_willow", "black_oak"}) {
-    const TreeParams params = species(name);
+    const TreeParams params = parameters_of_preset(name);
     EXPECT_EQ(params.base_splits, 2);
     const Skeletons tree(params, 4);
     EXPECT_GE(stems(tree.limbs(), 0).size(), 3U) << "the trunk and its two clones at least";
@@ -165,7 +151,7 @@ TEST(Species, DivideTheTrunkOfTheWillowAndTheOakAtTheirFirstSegment) {
 
 /// Limbs that are closed where they begin, for want of room, as a share of all.
 double closed_share(const std::string& name) {
-  const TreeParams params = species(name);
+  const TreeParams params = parameters_of_preset(name);
   Job job(4, Job::Options{});
   const Skeleton skeleton = skeleton_of(params, 4, job);
   GraftOptions options;
@@ -187,7 +173,7 @@ TEST(Species, GrowAlmostAllTheirLimbsOutOfTheirParents) {
 }
 
 TEST(Species, KeepTheWillowInsideItsEnvelope) {
-  const TreeParams params = species("weeping_willow");
+  const TreeParams params = parameters_of_preset("weeping_willow");
   const Skeletons tree(params, 4);
   // Twigs of the last level are tried as a whole before they are grown; the trunk is not pruned.
   std::size_t outside = 0, all = 0;

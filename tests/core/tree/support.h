@@ -1,7 +1,12 @@
 #pragma once
 /// Trees grown for tests, in figures.
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
 #include <vector>
 
 #include "core/generators/tree/ez_tree.h"
@@ -11,6 +16,15 @@
 #include "core/generators/tree/weber_penn.h"
 
 namespace seedmesh::tree {
+
+/// The parameters of a preset, as it ships.
+inline TreeParams parameters_of_preset(const std::string& name) {
+  std::ifstream file(std::string(SEEDMESH_SOURCE_DIR) + "/api_schema/presets/tree/" + name + ".json");
+  IssueList errors;
+  TreeParams params = read_tree(Json::parse(file).at("parameters"), "/parameters", errors);
+  EXPECT_TRUE(errors.empty());
+  return params;
+}
 
 /// Without limbs that begin thinner than `least_radius`, as far as the model knows that early.
 inline Skeleton skeleton_of(const TreeParams& params, std::uint64_t seed, Job& job, double least_radius = 0) {
