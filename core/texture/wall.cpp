@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <string_view>
 #include <vector>
 
 #include "core/model/model.h"
@@ -66,20 +67,48 @@ Relief ashlar(int size, Rng rng, const Job& job) {
   return laid({{2, 4, 0.5F, ashlar_tile}, 0.004F, 0.016F, 0.3F, 0.05F}, size, rng, job);
 }
 
-Relief plaster(int size, Rng rng, const Job& job) {
-  const Noise grain_noise(size, {40, 40}, {2, 0.6F}, 0.7F, rng.at("grain"));
-  const Noise patch_noise(size, {3, 3}, {4, 0.55F}, 0.7F, rng.at("patches"));
+/// A surface without joints: a fine and a large noise, and how much of each is in the height and in the tone.
+struct PlainSurface {
+  struct Part {
+    std::string_view name;  ///< of its randomness
+    Lattice lattice;
+    Octaves octaves;
+    float amplitude, in_height, in_tone;
+  };
+  float height;
+  Part fine, large;
+};
+
+Relief plain(const PlainSurface& surface, int size, Rng rng, const Job& job) {
+  const auto noise_of = [&](const PlainSurface::Part& part) {
+    return Noise(size, part.lattice, part.octaves, part.amplitude, rng.at(part.name));
+  };
+  const Noise fine_noise = noise_of(surface.fine), large_noise = noise_of(surface.large);
   return paint_rows(size, Accent::none, job, [&](int begin, int end, const auto& row_at) {
-    NoiseRows grain_rows(grain_noise), patch_rows(patch_noise);
+    NoiseRows fine_rows(fine_noise), large_rows(large_noise);
+    const auto& [height, of_fine, of_large] = surface;
     for (int y = begin; y < end; ++y) {
-      const float *fine = grain_rows.row(y), *large = patch_rows.row(y);
+      const float *fine = fine_rows.row(y), *large = large_rows.row(y);
       const ReliefRow out = row_at(y);
       for (int x = 0; x < size; ++x) {
-        out.height[x] = clamp_share(0.6F + 0.35F * fine[x] + 0.15F * large[x]);
-        out.tone[x] = clamp_share(0.5F + 0.08F * large[x] + 0.16F * fine[x]);
+        out.height[x] = clamp_share(height + of_fine.in_height * fine[x] + of_large.in_height * large[x]);
+        out.tone[x] = clamp_share(0.5F + of_large.in_tone * large[x] + of_fine.in_tone * fine[x]);
       }
     }
   });
+}
+
+Relief plaster(int size, Rng rng, const Job& job) {
+  const PlainSurface::Part grain{"grain", {40, 40}, {2, 0.6F}, 0.7F, 0.35F, 0.16F};
+  const PlainSurface::Part patches{"patches", {3, 3}, {4, 0.55F}, 0.7F, 0.15F, 0.08F};
+  return plain({0.6F, grain, patches}, size, rng, job);
+}
+
+/// Paint on planed wood: nearly flat, with faint marks of the brush.
+Relief paint(int size, Rng rng, const Job& job) {
+  const PlainSurface::Part brush{"brush", {96, 6}, {2, 0.6F}, 0.5F, 0.2F, 0.08F};
+  const PlainSurface::Part patches{"patches", {5, 5}, {3, 0.55F}, 0.6F, 0.1F, 0.1F};
+  return plain({0.7F, brush, patches}, size, rng, job);
 }
 
 /// Panels with the marks of their boards and pores.
@@ -242,23 +271,6 @@ Relief dressed_stone(int size, Rng rng, const Job& job) {
         const float pit = step_between(0.55F, 0.8F, pits[x]);
         out.height[x] = clamp_share(0.75F + 0.12F * fine[x] - 0.4F * pit);
         out.tone[x] = clamp_share(0.5F + 0.12F * large[x] + 0.1F * fine[x] - 0.2F * pit);
-      }
-    }
-  });
-}
-
-/// Paint on planed wood: nearly flat, with faint marks of the brush.
-Relief paint(int size, Rng rng, const Job& job) {
-  const Noise brush_noise(size, {96, 6}, {2, 0.6F}, 0.5F, rng.at("brush"));
-  const Noise patch_noise(size, {5, 5}, {3, 0.55F}, 0.6F, rng.at("patches"));
-  return paint_rows(size, Accent::none, job, [&](int begin, int end, const auto& row_at) {
-    NoiseRows brush_rows(brush_noise), patch_rows(patch_noise);
-    for (int y = begin; y < end; ++y) {
-      const float *brush = brush_rows.row(y), *large = patch_rows.row(y);
-      const ReliefRow out = row_at(y);
-      for (int x = 0; x < size; ++x) {
-        out.height[x] = clamp_share(0.7F + 0.2F * brush[x] + 0.1F * large[x]);
-        out.tone[x] = clamp_share(0.5F + 0.1F * large[x] + 0.08F * brush[x]);
       }
     }
   });
