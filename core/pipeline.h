@@ -87,7 +87,8 @@ struct PictureOptions {
   Ground ground = Ground::auto_;  ///< auto_: a plane below plants, buildings and fractals
   std::string text() const;       ///< equal options give the same text
 };
-/// Takes `size`, `view` and `ground` out of a query. Code::invalid holds every error, with the pointer "/<key>".
+/// Reads `size`, `view` and `ground` of a query and removes them from it. Code::invalid holds every error, with
+/// the pointer "/<key>".
 Result<PictureOptions> read_picture_options(Overrides& query);
 
 /// Returns a picture of the model of a request as WebP, drawn in software, with textures of at most 256 texels. The
