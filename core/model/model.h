@@ -141,7 +141,7 @@ struct Channel {
   int node = -1;
   Path path = Path::translation;
   Interpolation interpolation = Interpolation::linear;
-  int times = -1;             ///< into Animation::times; channels can share key times
+  int times = -1;             ///< index into Animation::times; channels can share key times
   std::vector<float> values;  ///< 3 (translation, scale) or 4 (rotation, xyzw) floats for each key
 };
 
