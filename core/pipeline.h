@@ -108,8 +108,8 @@ Result<std::string> derive(const Request& request, const Job::Options& options);
 /// `{valid, warnings, estimate}` as JSON text. Makes no model.
 Result<std::string> validate(const Request& request, const Job::Options& options);
 
-/// The input of import_request(): a file of another program. If `format` is empty, it is detected from the text. `entry`
-/// names one system of a file with several; empty means the only one.
+/// The input of import_request(): a file of another program. If `format` is empty, it is detected from the text.
+/// `entry` names one system of a file with several; empty means the only one.
 struct ImportInput {
   std::string_view format, entry, text;
   std::map<std::string, std::string> files = {};  ///< further files beside the text, by name

@@ -19,8 +19,8 @@ Solid convex_faces(const Solid& solid, const Job& job);
 /// Triangles of one face, as numbers of points. Checks stop and deadline.
 std::vector<std::uint32_t> triangles_of(const Solid& solid, const Face& face, const Job& job);
 
-/// Moves copies of all faces by a vector for each point. `base` turns over, and walls join both at edges with one face. Closed
-/// if each edge had at most two faces.
+/// Moves copies of all faces by a vector for each point. `base` turns over, and walls join both at edges with one
+/// face. Closed if each edge had at most two faces.
 Solid extruded_by(const Solid& faces, std::span<const glm::dvec3> by);
 
 /// Whether every edge has two faces that run along it in opposite directions.

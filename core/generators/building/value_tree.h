@@ -1,6 +1,6 @@
 #pragma once
-/// Expressions that lang::Program cannot hold, as trees of ValueNode: texts that are joined, arrays, functions that call
-/// themselves, and functions of the CGA reference on texts, arrays and geometry (value_functions.h).
+/// Expressions that lang::Program cannot hold, as trees of ValueNode: texts that are joined, arrays, functions
+/// that call themselves, and functions of the CGA reference on texts, arrays and geometry (value_functions.h).
 #include "core/generators/building/parser.h"
 
 namespace seedmesh::building {
