@@ -18,7 +18,7 @@ struct Outline {
   std::vector<std::pair<glm::dvec3, glm::dvec3>> segments;  ///< edges of a flat shape, or the line itself
 };
 
-/// Assets count as their boxes. Points have no outline.
+/// Returns the outline of a shape. Assets count as their boxes. Points have no outline.
 Outline outline_of(const Derivation& d, const ShapeState& state);
 
 /// Whether two shapes share a part of their borders. Volumes share a part of a face, with each on its own side; a

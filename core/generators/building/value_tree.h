@@ -7,7 +7,7 @@ namespace seedmesh::building {
 
 enum class TreeNeed : std::uint8_t {
   unneeded,  ///< lang::Program holds the expression
-  fallback,  ///< it does if all parameters are numbers
+  fallback,  ///< lang::Program holds it if all parameters are numbers
   always
 };
 

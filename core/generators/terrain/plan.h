@@ -53,7 +53,7 @@ std::vector<Issue> errors_between(const TerrainParams& params, const Limits& lim
 /// Generates the heights of the algorithm at the samples of a window, without layers and filters. Not for images.
 Field algorithm_field(const TerrainParams& params, const Window& window, double cell, Rng rng,
                       const Job& job);
-/// Writes those of a sphere.
+/// Writes the heights of the algorithm to the points of a sphere.
 void algorithm_sphere(const TerrainParams& params, Planet& planet, Rng rng, const Job& job);
 
 /// Generates the field with all filters; margin 1 for a tile, else 0. Issues: an unreadable image.
