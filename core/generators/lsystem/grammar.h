@@ -137,7 +137,7 @@ struct Grammar {
   std::vector<Rules> tables;  ///< each with the `productions` appended, which apply in every step
   std::vector<std::uint32_t> table_of_turn;  ///< table by step, repeated; empty: there are no tables
   std::uint32_t decomposition_depth = 0;
-  std::vector<double> variables;  ///< initial values of variables and elements of arrays; they are the first slots
+  std::vector<double> variables;  ///< initial values of variables and array elements: the first slots
   Range start_each, end_each;     ///< steps that run before and after every derivation step
   bool ring = false;              ///< true where the last module is the left neighbour of the first
   bool backward = false;          ///< words are written from right to left, for new right contexts
