@@ -345,7 +345,7 @@ export interface CityParametersGivenStreetsFeaturesItem {
   geometry: CityParametersGivenStreetsFeaturesItemGeometry;
 }
 
-/** Existing streets. Where two of them meet or cross on one level, an end or corner of one lies within 3 m of the other. */
+/** Existing streets. Where two of them meet or cross on one level, an end or corner of one has to lie within 3 m of the other. */
 export interface CityParametersGivenStreets {
   /** FeatureCollection. */
   type: "FeatureCollection";
@@ -391,7 +391,7 @@ export interface CityParametersGivenFootprints {
 
 /** Existing parts of the city as GeoJSON in local metres. They stay as they are, and the rest grows from them. */
 export interface CityParametersGiven {
-  /** Existing streets. Where two of them meet or cross on one level, an end or corner of one lies within 3 m of the other. */
+  /** Existing streets. Where two of them meet or cross on one level, an end or corner of one has to lie within 3 m of the other. */
   streets?: CityParametersGivenStreets;
   /** Existing water. */
   water?: CityParametersGivenWater;
@@ -975,7 +975,7 @@ export interface LsystemParametersEnvironment {
   companions?: LsystemParametersEnvironmentCompanionsItem[];
 }
 
-/** Bends the finished plant: each limb turns by the force on it and on everything beyond it, against its thickness, from the root to the tips. */
+/** Bends the finished plant: each limb turns because of the force on it and on everything beyond it, less if it is thicker, from the root to the tips. */
 export interface LsystemParametersWeather {
   /** Speed of the air. 5 moves leaves, 10 twigs, 20 bends trees. */
   wind?: number;
@@ -1112,7 +1112,7 @@ export interface LsystemParameters {
   tropism?: LsystemParametersTropismItem[];
   /** The surroundings of the plant: solids that bound it or stand in its way, light, and other L-systems that grow beside it step by step. Modules ?E query it. Limbs in forbidden space are cut away. */
   environment?: LsystemParametersEnvironment;
-  /** Bends the finished plant: each limb turns by the force on it and on everything beyond it, against its thickness, from the root to the tips. */
+  /** Bends the finished plant: each limb turns because of the force on it and on everything beyond it, less if it is thicker, from the root to the tips. */
   weather?: LsystemParametersWeather;
   /** Organs by name: ~leaf places the surface leaf, ~leaf(2) twice as large. Its base is at the turtle's position, its tip points along the heading, and its upper side points up. */
   surfaces?: { [key: string]: LsystemParametersSurfacesValue };
@@ -1417,7 +1417,7 @@ export interface SceneParameters {
   terrain?: Child;
   /** The level ground if there is no terrain. */
   ground?: SceneParametersGround;
-  /** Paths that nothing stands on. */
+  /** Paths, on which layers place nothing. */
   paths?: SceneParametersPathsItem[];
   /** Coloured areas on level ground, such as water, grass and squares. Those of one name and colour lie at one height, above those that the list has before them. */
   areas?: SceneParametersAreasItem[];
@@ -2102,7 +2102,7 @@ export interface TreeParameters {
   sway?: TreeParametersSway;
   /** Largest number of leaves on a limb of the last level. A negative number puts that many in a fan at its end. */
   Leaves?: number;
-  /** How the number of leaves of a limb depends on its place along the parent: the number of a crown shape (Shape). The paper has 4. */
+  /** How the number of leaves of a limb depends on its position along the parent: the number of a crown shape (Shape). The paper has 4. */
   LeafDistrib?: number;
   /** How stems that split are counted. paper: a stem and its clones share its branches and leaves, and a split makes further splits half as likely. arbaro: as Arbaro counts: a stem and its clones share its branches, but bear as many leaves per segment as before and split as often. Numbers of branches are rounded down, and pruned limbs stay. */
   counting?: "paper" | "arbaro";
@@ -2370,7 +2370,7 @@ export interface WorldParametersSettlementsHousesItem {
   share?: number;
 }
 
-/** Villages and farms where the ground is level, mild and near water. */
+/** Villages and farms on level ground near water, outside of cold and dry regions. */
 export interface WorldParametersSettlements {
   /** The share of suitable locations that have a village. There is at most one in 6 km. */
   density?: number;
@@ -2414,7 +2414,7 @@ export interface WorldParametersPlantsItem {
   class: string;
   /** The form of the plant where it has no model, and the width of crowns in woods seen from far away. */
   form?: "conifer" | "broadleaf" | "palm" | "shrub" | "cactus" | "fungus";
-  /** A request of the generator tree or lsystem. Its model is scaled to the height. Near the camera it has 1,500 triangles, or more where it cannot be simplified so far; farther away stands its impostor. */
+  /** A request of the generator tree or lsystem. Its model is scaled to the height. Near the camera it has 1,500 triangles, or more where it cannot be simplified so far; farther away, its impostor is shown. */
   model?: Child;
   /** The mean height. Copies have 0.7 to 1.3 times this height. */
   height?: number;
@@ -2438,11 +2438,11 @@ export interface WorldParametersPlantsItem {
   stem?: string;
 }
 
-/** A plane of land and sea by a seed, up to `extent` a side, streamed as OGC 3D Tiles 1.1. A tile depends on the request and its address alone. */
+/** A plane of land and sea that is generated from a seed and streamed as OGC 3D Tiles 1.1. A tile depends on the request and its address alone. */
 export interface WorldParameters {
   /** The side of the square that is streamed: a power of two from 2^15. Leaves have a side of 64 m. */
   extent?: number;
-  /** The position of the plane at the middle of the world, east and north, in regions of 32,768 m. */
+  /** The position of the middle of the world on the infinite plane, east and north, in regions of 32,768 m. */
   origin?: [number, number];
   /** The layers that tiles contain. */
   layers?: ("terrain" | "water" | "roads" | "buildings" | "plants")[];
@@ -2454,7 +2454,7 @@ export interface WorldParameters {
   climate?: WorldParametersClimate;
   /** The colours of the ground and of water. */
   colors?: WorldParametersColors;
-  /** Villages and farms where the ground is level, mild and near water. */
+  /** Villages and farms on level ground near water, outside of cold and dry regions. */
   settlements?: WorldParametersSettlements;
   /** Roads between villages, with a grade of at most 10 %. */
   roads?: WorldParametersRoads;
