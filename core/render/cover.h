@@ -178,9 +178,8 @@ void each_four_of_small(const Cover& c, const Part& part, const Visit& visit) {
   }
 }
 
-/// Calls visit(x, y, inside, across, down) for each group of four samples of a row of which at least one is
-/// covered. The arguments are the image position of the first sample, flags, and the positions of all four in the
-/// box. `size` is the width of the image; the last group may end beyond it.
+/// Calls visit(x, y, inside, across, down) for each four samples of the rows with a covered one: the image position of
+/// the first, flags, and their positions in the box. `size` is that of the image; the last four may end beyond it.
 template <class Visit>
 void each_four(const Cover& c, std::int32_t size, const Rows& rows, const Visit& visit) {
   const Part part = part_of(c, size, rows);

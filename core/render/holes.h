@@ -1,5 +1,5 @@
 #pragma once
-/// Projected triangles, and the samples where cut-out textures are empty on them. For core/render only.
+/// Triangles on their way to the samples, and where cut-out textures are empty on them. For core/render only.
 #include <algorithm>
 #include <cmath>
 
@@ -8,7 +8,7 @@
 
 namespace seedmesh::render {
 
-/// A projected triangle, with its corners in the order of Cover.
+/// A triangle on its way to the samples, with its corners in the order of Cover.
 struct Triangle {
   Cover cover;
   std::array<std::uint32_t, 3> vertex;
@@ -32,7 +32,7 @@ class Holes {
     v_ = plane_of(t, {at[0].y, at[1].y, at[2].y}, level_->height);
   }
 
-  /// Returns flags of those of the four samples that show the surface.
+  /// Those of the four samples that show the surface.
   FourFlags filled(FourFloats depth, FourFloats across, float down) const {
     FourFloats u = u_.of(across, down), v = v_.of(across, down);
     if (is_perspective_) {

@@ -14,9 +14,8 @@ enum class Joining : std::uint8_t {
   recompose,  ///< all faces, with shared corners
 };
 
-/// Returns the geometry of these shapes in metres of the scope of `state`. Edges and points are left out; assets
-/// are left out with a warning at byte `offset` of the rules. Rejects more than most_faces faces. The result has
-/// no faces if the shapes have no geometry.
+/// Returns the geometry of these shapes in metres of the scope of `state`. Edges and points are left out, assets with
+/// a warning at byte `offset` of the rules. Rejects more than most_faces. Without geometry it has no faces.
 Solid united_solid(Derivation& d, std::uint32_t offset, const ShapeState& state,
                    std::span<const Shape> shapes, Joining joining);
 
