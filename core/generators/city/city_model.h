@@ -12,7 +12,7 @@ namespace seedmesh::city {
 
 class Surface;
 
-/// Triangles of the ground of a plan and of its foundations, which are made for it.
+/// Returns the number of triangles of the ground of a plan and of its foundations. Builds these meshes to count them.
 std::uint64_t ground_triangles(const CityPlan& plan, const Surface& surface, bool has_textures, Job& job);
 
 /// Nodes: "city" > "ground" > one node and mesh for each kind of part ("asphalt", "junction", ..., "lot");

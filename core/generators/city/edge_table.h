@@ -23,7 +23,7 @@ class EdgeTable {
     slots_[at] = {a, b, value};
   }
 
-  /// Returns the value of the edge from a to b; `absent` without one.
+  /// Returns the value of the edge from a to b; `absent` if there is no such edge.
   std::uint32_t value_of(const CmPoint& a, const CmPoint& b) const {
     for (std::size_t at = start_of(a, b); slots_[at].value != absent; at = next(at)) {
       if (slots_[at].a == a && slots_[at].b == b) return slots_[at].value;

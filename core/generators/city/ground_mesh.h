@@ -18,9 +18,10 @@ class GroundMesh {
   /// Adds the surface of a part, with texture coordinates in metres east and north.
   void add_part(std::uint32_t part);
 
-  /// Adds a layer of the carriageway of a street: what has no marking, stop lines, pedestrian crossings, or the lines
-  /// between lanes. Texture coordinates are metres along and across; along lane lines, one for each dash and its gap, and
-  /// across crossings, one for each bar and its gap. Where it has no strips, add_part() adds it whole.
+  /// Adds a layer of the carriageway of a street: the surface without markings, stop lines, pedestrian crossings,
+  /// or the lines between lanes. Texture coordinates are metres along and across the street. Along lane lines
+  /// they increase by 1 for each dash and its gap, and across crossings for each bar and its gap. If the
+  /// carriageway has no strips, all of it belongs to the layer `asphalt`.
   enum class StreetLayer { asphalt, stop_lines, crossings, lane_lines };
   void add_carriageway(std::uint32_t part, StreetLayer layer);
 
@@ -28,7 +29,8 @@ class GroundMesh {
   /// coordinates are metres along the edge and upwards.
   void add_walls(std::uint32_t part);
 
-  /// The foundation below a building: upright faces from the lowest ground to its floor, 10 cm outside of its walls.
+  /// Adds the foundation below a building: upright faces from the lowest ground to its floor, 10 cm outside of
+  /// its walls.
   void add_foundation(const Footing& footing);
 
   std::uint64_t triangles() const { return mesh_.index.wide.size() / 3; }

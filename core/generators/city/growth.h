@@ -1,7 +1,7 @@
 #pragma once
 /// Streets that grow: major streets first, then the cells between them one by one, so that a change in one
-/// quarter stays there. Kelly and McCabe, "Citygen: an interactive system for procedural city generation", 2007,
-/// over the productions of Parish and Mueller (productions.h).
+/// quarter does not affect the others. Kelly and McCabe, "Citygen: an interactive system for procedural city
+/// generation", 2007, over the productions of Parish and Mueller (productions.h).
 #include <vector>
 
 #include "core/base/job.h"
@@ -21,7 +21,7 @@ class Landform;
 class TensorField;
 class FootprintIndex;
 
-/// What the growth reads.
+/// The input of the growth. Of its members it owns only `sections`.
 struct GrowthInput {
   const CityStreets& streets;
   const FieldMap& density;

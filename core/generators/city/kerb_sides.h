@@ -20,7 +20,7 @@ struct KerbSide {
 /// Returns the unit direction of a half-edge.
 glm::dvec2 unit_of(const StreetGraph& graph, std::uint32_t half);
 
-/// By half-edge: how far the corners at its start reach along it, on both sides, in metres.
+/// Returns, by half-edge, how far the corners at its start reach along it, on both sides, in metres.
 std::vector<double> corner_reaches(const StreetGraph& graph, const std::vector<KerbSide>& sides);
 
 }  // namespace seedmesh::city

@@ -33,7 +33,7 @@ class Landform {
   /// Returns the height of the natural ground; beyond the border of a terrain, that of its border.
   double at(const glm::dvec2& metres) const;
 
-  /// The rise per metre to the east and to the north, as the mean over 20 metres.
+  /// Returns the rise per metre to the east and to the north, as the mean over 20 metres.
   glm::dvec2 gradient(const glm::dvec2& metres) const;
 
   /// Returns the height of the water of a terrain that is partly below it.
@@ -52,7 +52,7 @@ class Landform {
 /// ground along it is more than 5 m above or below the straight line between the ends.
 bool is_too_steep(const Landform& landform, const glm::dvec2& a, const glm::dvec2& b, double grade_limit);
 
-/// What the schema cannot say about the ground of a request.
+/// Adds the errors of the ground of a request that the schema cannot express.
 void check_landform(const CityParams& params, const Job& job, std::vector<Issue>& issues);
 
 }  // namespace seedmesh::city

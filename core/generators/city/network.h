@@ -53,9 +53,10 @@ class Network {
   const std::vector<NetworkEdge>& edges() const { return edges_; }
   const std::vector<std::uint32_t>& arms(std::uint32_t node) const { return arms_[node]; }
 
-  /// The local constraints of a piece of road from a node to `end`: it ends at the first road that it meets or
-  /// reaches within the snapping distance, keeps its clearance otherwise, and is refused where it would make an
-  /// acute angle or a short edge. Adds the piece where it is not refused. Cost: linear in the edges.
+  /// Applies the local constraints to a piece of road from a node to `end`, and adds the piece unless it is
+  /// refused. The piece ends at the first road that it meets or reaches within the snapping distance. Otherwise
+  /// it must keep its clearance. It is refused if it would make an acute angle or a short edge. Cost: linear in
+  /// the edges.
   PieceResult build_piece(std::uint32_t from, const glm::dvec2& end, EdgeClass kind);
 
   /// Builds a straight piece along `direction` (a unit vector) to the first road within `reach`.

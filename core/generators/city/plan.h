@@ -102,7 +102,7 @@ struct Part {
   bool is_wall = false;  ///< a verge that a town wall fills
 };
 
-/// Carriageways, junctions and sidewalks, and town walls in their place.
+/// Whether a part is a carriageway, a junction or a sidewalk, or a town wall in its position.
 inline bool is_street_space(const Part& part) {
   return part.kind == PartKind::carriageway || part.kind == PartKind::junction ||
          part.kind == PartKind::sidewalk || part.is_wall;
@@ -127,7 +127,7 @@ struct Footing {
   glm::dvec2 position{0};       ///< of its centre, metres east and north
   double turn = 0;              ///< degrees, counter-clockwise from above
   double width = 0, depth = 0;  ///< along and across the front, metres
-  std::uint32_t part = 0;       ///< into CityPlan::parts
+  std::uint32_t part = 0;       ///< index into CityPlan::parts
 };
 
 /// A model at a given position.
@@ -155,7 +155,7 @@ struct House {
 
 struct Lot {
   std::uint64_t key = 0;
-  std::uint32_t part = 0;  ///< into CityPlan::parts
+  std::uint32_t part = 0;  ///< index into CityPlan::parts
   double area = 0, frontage = 0;
   std::uint32_t street = no_index;  ///< of its front: an edge of the graph
   bool is_corner = false, is_inner = false;
@@ -164,7 +164,7 @@ struct Lot {
   CmRing corners;    ///< without the corners of neighbours in between
   CmPoint front_start, front_end;
   std::optional<House> house;
-  std::uint32_t landmark = no_index;  ///< into CityPlan::landmarks; such lots have no house
+  std::uint32_t landmark = no_index;  ///< index into CityPlan::landmarks; such lots have no house
 
   bool is_built() const { return house.has_value() || landmark != no_index; }
   /// Returns the rectangle of the house. The lot must have a house.

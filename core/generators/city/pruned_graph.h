@@ -17,7 +17,7 @@ inline std::uint64_t key_of_point(const CmPoint& p) {
 
 inline bool is_boundary(const PlanarEdge& edge) { return !is_street_tag(edge.tag); }
 inline bool is_given(const PlanarEdge& edge) { return edge.tag >= first_given; }
-/// Returns the order in which streets stay where two of them are too near.
+/// Returns the rank of a street. Of two streets that are too near to each other, the one with the lower rank stays.
 inline std::uint32_t rank_of(const PlanarEdge& edge) { return is_given(edge) ? 0 : edge.tag + 1; }
 
 inline bool is_street(const PlanarEdge& edge) { return is_street_tag(edge.tag); }
@@ -54,7 +54,7 @@ class PrunedGraph {
     compact();
   }
 
-  /// Removes highways and majors that end nowhere, back to the last junction.
+  /// Removes highways and major streets with a loose end, back to the last junction.
   void drop_loose_majors() {
     bool goes_on = true;
     while (goes_on) {

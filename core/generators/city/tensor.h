@@ -38,7 +38,7 @@ class TensorField {
   /// Returns the share of an organic pattern at a position in centimetres; 0 without a blend.
   double organic_share_at(const glm::dvec2& cm) const;
 
-  /// R cos 2a and R sin 2a at a position in centimetres.
+  /// Returns R cos 2a and R sin 2a at a position in centimetres.
   glm::dvec2 tensor_at(const glm::dvec2& cm) const;
 
   /// Returns the major direction as a unit vector, of either sign; the minor one is its quarter turn. 0, 0 at
