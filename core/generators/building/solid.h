@@ -19,8 +19,8 @@ struct Loop {
 struct Face {
   std::uint32_t first_loop = 0, loop_count = 0;  ///< the outer loop first
   bool is_round = false;                         ///< part of a curved surface with smooth normals
-  std::uint8_t tag = 0;                          ///< set by an offset (face_is_inside, face_is_border) or a roof (face_is_covered)
-  std::uint32_t tags = 0;                        ///< index into Shapes::tag_sets
+  std::uint8_t tag = 0;    ///< face_is_inside, face_is_border (offset), face_is_covered (roof)
+  std::uint32_t tags = 0;  ///< index into Shapes::tag_sets
 };
 
 constexpr std::uint8_t face_is_inside = 1, face_is_border = 2;
