@@ -27,7 +27,8 @@ class ShapemlText {
   void expression(std::size_t from, std::size_t to, TracedText& out);
 
   ForeignText& source_;
-  std::string text_;  ///< without comments
+  std::string text_;                  ///< without comments
+  std::set<std::string> made_names_;  ///< to which tokens point
   std::vector<lang::Token> tokens_;
   std::vector<std::size_t> partner_;  ///< of brackets: the closing one
   TracedText declarations_;

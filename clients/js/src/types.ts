@@ -2104,7 +2104,7 @@ export interface TreeParameters {
   Leaves?: number;
   /** How the number of leaves of a limb depends on its position along the parent: the number of a crown shape (Shape). The paper has 4. */
   LeafDistrib?: number;
-  /** How stems that split are counted. paper: a stem and its clones share its branches and leaves, and a split makes further splits half as likely. arbaro: as Arbaro counts: a stem and its clones share its branches, but bear as many leaves per segment as before and split as often. Numbers of branches are rounded down, and pruned limbs stay. */
+  /** The program whose numbers of stems, branches and leaves the tree has. paper: the formulas of Weber and Penn (1995); a stem and its clones share its branches and leaves, and each split makes further splits half as likely. arbaro: the formulas of the program Arbaro, which imported species of Arbaro have; a stem and its clones share its branches, but each has as many leaves per segment as a stem without clones. Splits do not become rarer, numbers of branches are rounded down, and pruned limbs stay. */
   counting?: "paper" | "arbaro";
   /** Length of a leaf. */
   LeafScale?: number;

@@ -244,7 +244,7 @@ TaggedValue file_basename(Evaluation& at, ValueArguments a) {
 TaggedValue file_extension(Evaluation& at, ValueArguments a) {
   const std::string name = name_of_file(text_in(at, a[0]));
   const std::size_t dot = name.find_last_of('.');
-  return text_value(at, dot == std::string::npos ? "" : name.substr(dot));
+  return text_value(at, dot == std::string::npos ? "" : name.substr(dot + 1));
 }
 TaggedValue file_exists(Evaluation& at, ValueArguments a) {
   return truth_value(!files_that_fit(at, text_in(at, a[0])).empty());
@@ -351,7 +351,7 @@ constexpr ValueFunctionRow rows[] = {
      "A --> label(fileName(\"a/b.obj\")) B."},
     {"fileBasename", 1, 1, file_basename, "path", "The name of a file without its ending.",
      "A --> label(fileBasename(\"a/b.obj\")) B."},
-    {"fileExtension", 1, 1, file_extension, "path", "The ending of a file, with its point.",
+    {"fileExtension", 1, 1, file_extension, "path", "The ending of a file, without its point.",
      "A --> label(fileExtension(\"a/b.obj\")) B."},
     {"fileExists", 1, 1, file_exists, "path",
      "Whether the request has an asset, material or table of this name.",
