@@ -2358,6 +2358,8 @@ export interface WorldParametersSettlementsTowns {
   share?: number;
   /** The radius of the widest town. */
   radius?: number;
+  /** The share of towns with a wall around them. */
+  walls?: number;
   /** A request of the generator city. Its streets, lots and building rules are those of towns. The world gives area, ground, density and given streets, and draws the houses. */
   city?: Child;
 }

@@ -1445,6 +1445,7 @@ class WorldParametersColors(TypedDict, total=False):
 class WorldParametersSettlementsTowns(TypedDict, total=False):
     share: float
     radius: float
+    walls: float
     city: "Child"
 
 
