@@ -165,13 +165,16 @@ struct Facets {
   }
 };
 
-/// eave, hip, valley or ridge. `up` is the vertical in the scope.
+/// eave, hip, valley or ridge. `up` is the vertical in the scope. Where a roof has a cover, the edges of
+/// its body do not count.
 std::vector<std::uint32_t> roof_classes(const Solid& solid, const glm::dvec3& size,
                                         const std::vector<SharedEdge>& edges, const Facets& facets,
                                         const glm::dvec3& up) {
   std::vector<std::uint32_t> out(edges.size(), 0);
   std::vector<std::uint8_t> at_eave(solid.points.size(), 0);
-  const auto is_slope = [&](std::uint32_t face) { return glm::dot(facets.normal[face], up) > sine_low; };
+  const auto is_slope = [&](std::uint32_t face) {
+    return solid.faces[face].tag != face_is_covered && glm::dot(facets.normal[face], up) > sine_low;
+  };
   for (std::size_t e = 0; e < edges.size(); ++e) {
     const glm::dvec3 along = (solid.points[edges[e].to] - solid.points[edges[e].from]) * size;
     if (std::abs(glm::dot(math::unit(along, up), up)) > sine_low) continue;

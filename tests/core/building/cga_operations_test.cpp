@@ -85,6 +85,21 @@ TEST(Selectors, TakeFacesByTheWorldAndEdgesOfRoofs) {
   EXPECT_NEAR(answer["reports"]["ridge"]["sum"].get<double>(), 4, 1e-6);
 }
 
+TEST(Selectors, TakeTheEdgesOfTheCoverWhereARoofHasAnOverhang) {
+  // Half a metre along a slope of 45 degrees moves each eave outwards by half a metre times the cosine. The ridge stays.
+  const Json answer =
+      derived(with("A --> s('1, 0, '1) roofHip(45, 0.5) comp(e){ eave: report(\"eave\", scope.sx) E. | hip: "
+                   "report(\"hip\", scope.sx) H. | ridge: report(\"ridge\", scope.sx) R. | valley: "
+                   "report(\"valley\", 1) V. }",
+                   {10, 0, 6}));
+  EXPECT_EQ(answer["reports"]["eave"]["count"], 4);
+  EXPECT_NEAR(answer["reports"]["eave"]["sum"].get<double>(), 32 + 8 * 0.5 * std::cos(pi / 4), 1e-6);
+  EXPECT_EQ(answer["reports"]["hip"]["count"], 4);
+  EXPECT_EQ(answer["reports"]["ridge"]["count"], 1);
+  EXPECT_NEAR(answer["reports"]["ridge"]["sum"].get<double>(), 4, 1e-6);
+  EXPECT_FALSE(answer["reports"].contains("valley"));
+}
+
 TEST(Selectors, CanBeConditionsNumbersAndTags) {
   EXPECT_EQ(leaves("A --> comp(f){ top || bottom: T. | all: S. }"), "T T S S S S");
   EXPECT_EQ(leaves("A --> split(x){ ~1: tag(\"low\") B | ~1: B }  B --> comp(f){ isTagged(\"low\") && top: "
