@@ -41,7 +41,7 @@ struct HouseExtent {
 /// Returns the bounds of the houses of a world.
 HouseExtent house_extent(const World& world);
 
-/// Returns the model of a house, from the store or made now.
+/// Returns the model of a house from the store; makes it if the store has none.
 std::shared_ptr<const Asset> house_asset(const World& world, int number, Job& job);
 
 struct Plan {
@@ -58,9 +58,10 @@ std::shared_ptr<const Plan> plan_of(const World& world, const Site& site, Job& j
 /// Houses and pieces of walls with their middle within `reach` of a rectangle.
 std::vector<House> houses_near(const World& world, const Rectangle& box, double reach, Job& job);
 
-/// The houses whose middle is in the tile. Tiles of up to 128 m have the models of houses, or walls and a gable roof;
-/// up to 512 m all have walls and roof, up to 2 km boxes, up to 8 km one prism for each square of side / 64.
-/// Towns have boxes in tiles of 512 m, and prisms for squares of 40 m in tiles of 1 km and of 64 m in tiles of 2 km.
+/// Adds the houses whose middle is in the tile. In tiles of up to 128 m they are models, or walls and a gable
+/// roof. In tiles of up to 512 m all are walls and a roof. In tiles of up to 2 km they are boxes, and up to 8 km
+/// one prism for each square of side / 64. Towns have boxes in tiles of 512 m, and prisms for squares of 40 m in
+/// tiles of 1 km and of 64 m in tiles of 2 km.
 void add_houses(Glb& glb, const World& world, const TileFrame& frame, double base, Job& job,
                 std::string_view folder);
 

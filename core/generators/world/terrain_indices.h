@@ -18,11 +18,11 @@ struct TerrainIndices {
   std::uint64_t bytes() const { return 2 * corners.size() + file.size() + sizeof(TerrainIndices); }
 };
 
-/// Samples of a border in turn, counter-clockwise from above, starting in the south-west. The skirt has a vertex below
-/// each of them, in this order, after the vertices of the ground.
+/// Returns the samples of the border in order, counter-clockwise from above, starting in the south-west. The
+/// skirt has a vertex below each of them, in this order, after the vertices of the ground.
 std::vector<std::uint16_t> border_of_grid(int count);
 
-/// Triangles of a grid of `count` x `count` vertices with a skirt, counter-clockwise from outside.
+/// Returns the triangles of a grid of `count` x `count` vertices with a skirt, counter-clockwise from outside.
 TerrainIndices terrain_indices(int count);
 
 /// Those of tiles with `cells` cells along a side, from the store.
