@@ -303,12 +303,12 @@ export interface Polygons {
   coordinates: (((number | number[])[])[])[];
 }
 
-/** A name and its polygons. */
+/** A name and its area. */
 export interface CityParametersMapsZonesItem {
   /** The name. */
   zone: string;
-  /** The polygons of the zone. */
-  area: Polygons;
+  /** Where the zone is: an expression over x (east) and y (north), a PNG image as data URI, whose brightness covers the box around the area, or polygons. The zone is where the value is 0.5 or more. */
+  area: string | Polygons;
 }
 
 /** Quantities that vary over the area. */
@@ -321,10 +321,12 @@ export interface CityParametersMaps {
   obstacles?: string | Polygons;
   /** The share of streets.second_pattern in the pattern of the streets, from 0 to 1, as an expression, an image or polygons with the value 1. Between the two, directions are the weighted mean of those of both patterns, as a tensor. Only for the method growth. */
   pattern?: string | Polygons;
-  /** Named zones, which rules of buildings can use. Where polygons overlap, the first one counts. Wards have zones of their own. */
+  /** Named zones, which rules of buildings can use. Where zones overlap, the first one counts. Wards have zones of their own. */
   zones?: CityParametersMapsZonesItem[];
-  /** The height of the natural ground in metres, instead of a terrain: an expression over x (east) and y (north) in metres. */
-  height?: string;
+  /** The height of the natural ground, instead of a terrain: an expression over x (east) and y (north) with the height in metres, a PNG image as data URI, whose brightness covers the box around the area, or polygons. height_range has the heights of images and polygons. */
+  height?: string | Polygons;
+  /** The height of black and of white pixels if the height is an image; outside of and inside its polygons otherwise. An expression has metres of its own. */
+  height_range?: [number, number];
 }
 
 /** A LineString or MultiLineString in metres, east and north. */
@@ -409,6 +411,8 @@ export interface CityParametersStreetsClassesHighway {
   sidewalk?: number;
   /** The steepest grade of these streets, as rise over run. On a terrain the ground is cut and filled to keep it, and no street grows where the natural ground is half steeper. */
   grade?: number;
+  /** The distance between trees along each side of these streets. 0: no trees. Default: that of furniture.trees, if it is given. */
+  trees?: number;
 }
 
 /** The cross section of this class of streets. */
@@ -421,6 +425,8 @@ export interface CityParametersStreetsClassesMajor {
   sidewalk?: number;
   /** The steepest grade of these streets, as rise over run. On a terrain the ground is cut and filled to keep it, and no street grows where the natural ground is half steeper. */
   grade?: number;
+  /** The distance between trees along each side of these streets. 0: no trees. Default: that of furniture.trees, if it is given. */
+  trees?: number;
 }
 
 /** The cross section of this class of streets. */
@@ -433,6 +439,8 @@ export interface CityParametersStreetsClassesMinor {
   sidewalk?: number;
   /** The steepest grade of these streets, as rise over run. On a terrain the ground is cut and filled to keep it, and no street grows where the natural ground is half steeper. */
   grade?: number;
+  /** The distance between trees along each side of these streets. 0: no trees. Default: that of furniture.trees, if it is given. */
+  trees?: number;
 }
 
 /** The cross section of given streets of this class. */
@@ -445,6 +453,8 @@ export interface CityParametersStreetsClassesLane {
   sidewalk?: number;
   /** The steepest grade of these streets, as rise over run. On a terrain the ground is cut and filled to keep it, and no street grows where the natural ground is half steeper. */
   grade?: number;
+  /** The distance between trees along each side of these streets. 0: no trees. Default: that of furniture.trees, if it is given. */
+  trees?: number;
 }
 
 /** The cross sections of the streets. */
@@ -515,7 +525,7 @@ export interface CityParametersStreets {
   centre?: [number, number];
   /** The distance between neighbouring major streets. */
   major_spacing?: number;
-  /** The distance between highways, which are lines of the net of major streets: those through the centre and others at this distance. They are always built. 0: no highways. Not for tensor fields, wards and the pattern slope. */
+  /** The distance between highways. In a net they are the lines through the centre and others at this distance; along a tensor field they are streamlines about this far apart. They are always built. 0: no highways. */
   highway_spacing?: number;
   /** The spacing of the streets of a raster across and along its direction. */
   block?: [number, number];
@@ -569,6 +579,12 @@ export interface CityParametersLots {
   offset_width?: number;
   /** The spread of the cuts about the middle. */
   irregularity?: number;
+  /** The width of the cut across the corners of blocks, which becomes a part of the sidewalk. 0: corners stay. Blocks without space for it keep their corners. */
+  corner_width?: number;
+  /** Only corners of blocks with at most this inner angle are cut. */
+  corner_angle?: number;
+  /** Consecutive edges of a block that turn by at most this angle are one front: their lots form one strip. */
+  simplify?: number;
   /** The share of the blocks that become parks. */
   park_share?: number;
 }
@@ -2358,6 +2374,8 @@ export interface WorldParametersSettlementsTowns {
   share?: number;
   /** The radius of the widest town. */
   radius?: number;
+  /** The share of towns with a wall around them. */
+  walls?: number;
   /** A request of the generator city. Its streets, lots and building rules are those of towns. The world gives area, ground, density and given streets, and draws the houses. */
   city?: Child;
 }

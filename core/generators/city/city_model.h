@@ -17,7 +17,8 @@ std::uint64_t ground_triangles(const CityPlan& plan, const Surface& surface, boo
 
 /// Nodes: "city" > "ground" > one node and mesh for each kind of part ("asphalt", "junction", ..., "lot");
 /// "city" > "buildings" > one node for each shared building; "city" > "landmarks", "furniture", "trees", "borders". With
-/// chunks, these groups are below a node for each chunk. Spends Resource::triangles.
-Result<Model> city_model(const CityPlan& plan, const CityParams& params, const GenerateContext& context);
+/// chunks, these groups are below a node for each chunk. Spends Resource::triangles. Frees the outlines of parts that
+/// nothing needs after their meshes, so that large models take less memory.
+Result<Model> city_model(CityPlan& plan, const CityParams& params, const GenerateContext& context);
 
 }  // namespace seedmesh::city

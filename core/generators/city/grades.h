@@ -42,6 +42,10 @@ double height_on_street(const StreetHeights& heights, std::uint32_t edge, double
 /// Returns the steepest grade of a street, as rise over run.
 double steepest_grade(const StreetHeights& heights, std::uint32_t edge);
 
+/// Returns the points of a street of level 0 that a plan shows: its ends, and on a terrain the points where its grade
+/// changes, which are whole centimetres.
+std::vector<ProfilePoint> shown_profile(const CityPlan& plan, std::uint32_t edge);
+
 /// Returns the points of a street on another level: its corners and points about every 10 m between them. On level
 /// ground the heights are those above it.
 std::vector<ProfilePoint> bridge_profile(const CityPlan& plan, const Bridge& bridge);

@@ -33,9 +33,11 @@ class GroundMesh {
   /// its walls.
   void add_foundation(const Footing& footing);
 
-  std::uint64_t triangles() const { return mesh_.index.wide.size() / 3; }
-  bool is_empty() const { return mesh_.index.wide.size() == 0; }
+  std::uint64_t triangles() const { return (welded_.index.wide.size() + mesh_.index.wide.size()) / 3; }
+  bool is_empty() const { return triangles() == 0; }
 
+  /// Merges equal vertices of what was added last, once it is large, so that it takes less memory.
+  void weld_if_large(Job& job);
   Mesh take(Job& job);
 
  private:
@@ -68,6 +70,7 @@ class GroundMesh {
   double low_height(std::uint32_t part, std::uint32_t beyond, const glm::dvec2& at) const;
   std::uint32_t add_vertex(const glm::dvec2& p, double height, const glm::vec3& normal, const glm::vec2& uv);
   void add_triangles(std::uint32_t first);
+  void append_last();
 
   const CityPlan& plan_;
   const Surface& surface_;
@@ -76,7 +79,7 @@ class GroundMesh {
   /// Twice the area seen from above, in square metres, up to which a triangle is left out. Corners on a straight border
   /// make triangles without area, which cover nothing.
   float least_ = 0;
-  Mesh mesh_;
+  Mesh welded_, mesh_;  ///< what was added first, with common vertices; what was added last
   Triangulator triangulator_;
   // Memory that is kept from one part to the next.
   std::vector<glm::dvec2> points_, between_, inner_;

@@ -69,6 +69,9 @@ std::vector<StreetPiece> through_street(const GrowthInput& input, const Job& job
 std::vector<StreetPiece> grow_cell(const GrowthInput& input, const StreetGraph& majors,
                                    const std::vector<std::vector<std::uint32_t>>& loops, Job& job);
 
+/// Whether all streets, with those of other levels, are one network. Cost: linear.
+bool is_one_network(const StreetGraph& graph);
+
 /// Straight minor streets between networks that have no common node: for the shortest network first, the shortest link
 /// that meets streets at wide angles and crosses no street, shore, border or obstacle. Networks without such a link
 /// stay apart. Cost for each network: 64 times the edges.

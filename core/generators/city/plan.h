@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/base/job.h"
+#include "core/generators/city/density.h"
 #include "core/generators/city/grades.h"
 #include "core/generators/city/landform.h"
 #include "core/generators/city/network.h"
@@ -27,8 +28,9 @@ struct CrossSection {
   double width = 0;                         ///< of the carriageway
   std::array<double, 2> sidewalk = {0, 0};  ///< left and right
   int lanes = 0;
-  double grade_limit = 0.12;  ///< rise over run
-  bool has_wall = false;      ///< on the right side of its streets, in place of the sidewalk
+  double grade_limit = 0.12;                ///< rise over run
+  std::optional<double> tree_spacing = {};  ///< 0: no trees; none: that of the furniture
+  bool has_wall = false;                    ///< on the right side of its streets, in place of the sidewalk
   friend bool operator==(const CrossSection&, const CrossSection&) = default;
 };
 
@@ -116,10 +118,10 @@ struct Ward {
 /// Zones without minor streets. The square has no lots, and the citadel is one lot.
 constexpr const char *zone_square = "square", *zone_citadel = "citadel";
 
-/// A zone of the request: its polygons have a name.
+/// A zone of the request: where its map is 0.5 or more.
 struct NamedZone {
   std::string name;
-  std::vector<std::vector<CmRing>> polygons;
+  FieldMap map;
 };
 
 /// The rectangle below a building.

@@ -113,8 +113,12 @@ class PrunedGraph {
     }
   }
 
-  /// Keeps the component of streets with the greatest length, and given streets.
-  void keep_largest() {
+  /// Keeps the network of streets with the greatest length, and those with given streets.
+  void keep_largest() { keep_large(2); }
+
+  /// Keeps the network of streets with the greatest length, those of at least this share of its length, and those with
+  /// given streets.
+  void keep_large(double least_share) {
     drop_loose_bridges();
     std::vector<std::uint32_t> root(nodes_.size());
     for (std::uint32_t i = 0; i < root.size(); ++i) root[i] = i;
@@ -139,8 +143,11 @@ class PrunedGraph {
     }
     const auto longest =
         static_cast<std::uint32_t>(std::max_element(length.begin(), length.end()) - length.begin());
+    const double least = longest < length.size() ? least_share * length[longest] : 0;
     for (PlanarEdge& edge : edges_) {
-      if (is_street(edge) && find(edge.from) != longest && has_given[find(edge.from)] == 0) remove(edge);
+      if (!is_street(edge)) continue;
+      const std::uint32_t network = find(edge.from);
+      if (network != longest && length[network] < least && has_given[network] == 0) remove(edge);
     }
     compact();
     drop_loose_bridges();

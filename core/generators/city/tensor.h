@@ -70,7 +70,7 @@ class TensorField {
 /// Returns the pattern where the map of patterns is 1.
 CityPattern second_pattern_of(const CityStreets& streets);
 
-/// Returns the major streets: streamlines of both directions about `major_spacing` apart (Jobard and Lefer, "Creating
+/// Returns the highways and the major streets: streamlines of both directions about `highway_spacing` and `major_spacing` apart (Jobard and Lefer, "Creating
 /// evenly spaced streamlines of arbitrary density", 1997), cut where they cross. At about the share `t_junctions` of the
 /// crossings one arm is removed. Random choices depend on positions only.
 Route trace_majors(const GrowthInput& input, const TensorField& field, Job& job);

@@ -31,8 +31,7 @@ struct Area {
 struct Areas {
   std::vector<Area> links;  ///< the tiles of the lowest level
   double spacing = 0;       ///< metres between samples
-  /// By depth below the tile: the greatest distances of the samples from the triangles of each tile. Empty for links, and
-  /// where samples do not divide the cells of tiles.
+  /// By depth below the tile: deviations_of_tiles() of each tile.
   std::vector<std::vector<double>> deviations;
   bool has_valleys = false, has_detail = false;  ///< whether the samples have them
 };

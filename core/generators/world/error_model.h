@@ -18,6 +18,8 @@ struct MetDeviation {
   bool has_valleys = false, has_detail = false;  ///< whether the samples have them; detail includes roads
 };
 
+constexpr double sea_floor_coast = 0.05;  ///< coast of Land below which the ground is the floor of the sea
+
 /// What the ground of an area is like: the greatest values over the area.
 struct Roughness {
   double ruggedness = 0;                       ///< ruggedness of Land

@@ -27,6 +27,13 @@ struct TileMesh {
   std::vector<std::uint32_t> indices;  ///< triangles, counter-clockwise from outside
 };
 
+/// The name and the roughness of a material.
+struct Surface {
+  std::string_view name;
+  double roughness = 1;
+};
+inline constexpr Surface ground_surface{"ground", 1}, water_surface{"water", 0.15};
+
 class Glb {
  public:
   /// `translation`: of the root node.
@@ -40,13 +47,18 @@ class Glb {
   /// the texture, two for each vertex, or none.
   void add_mesh(std::string_view name, const TileMesh& mesh, int material, double step, double height,
                 const std::vector<float>& coordinates = {});
-  /// The same with an accessor of the corners of triangles.
-  void add_mesh(std::string_view name, const std::vector<TileVertex>& vertices, int order, int material,
-                double step, double height, const std::vector<float>& coordinates = {});
+  /// The same with accessors of the corners of triangles and of coordinates; -1: none.
+  struct SharedParts {
+    int order = -1, coordinates = -1;
+  };
+  void add_mesh(std::string_view name, const std::vector<TileVertex>& vertices, const SharedParts& parts,
+                int material, double step, double height);
   /// The accessor of corners of triangles among `vertices` vertices.
   int add_indices(const std::vector<std::uint32_t>& indices, std::size_t vertices);
   /// Like add_indices(), with corners of 16 bits in a file of their own.
   int add_shared_indices(std::string uri, std::size_t count);
+  /// The accessor of coordinates of textures in a file of their own.
+  int add_shared_coordinates(std::string uri, std::size_t count);
   /// A buffer in a file of its own, which tiles share.
   int add_shared_buffer(std::string uri, std::size_t bytes);
   /// Adds a shared model, whose file is in the directory "a" of `folder`, and returns the indices of its meshes.

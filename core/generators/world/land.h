@@ -10,6 +10,7 @@
 
 namespace seedmesh::world {
 
+constexpr double belt_wavelength = 64000;   ///< metres; of the belts in which mountains stand
 constexpr double range_wavelength = 22000;  ///< metres; of the widest mountain ridges
 constexpr double range_fall = 0.48;         ///< amplitude of a ridge divided by that of one twice as wide
 constexpr double hill_wavelength = 5200;

@@ -27,10 +27,17 @@ struct Town {
   std::vector<TownHouse> houses;
   bool has_church = false;
   double church_east = 0, church_north = 0;
+  bool has_square = false;
+  double square_east = 0, square_north = 0;    ///< the middle of the paved square
   std::vector<std::array<double, 2>> outline;  ///< counter-clockwise, absolute
   bool is_built() const { return !streets.empty(); }
   std::uint64_t bytes() const;
 };
+
+constexpr double square_radius = 19;  ///< metres; of the corners of the square of a town
+
+/// The corners of the square of a town, absolute, counter-clockwise.
+std::vector<std::array<double, 2>> square_of(const Town& town);
 
 /// Metres by which the square of ground and roads that a town plan reads extends beyond the radius of the town.
 constexpr double town_margin = 60;

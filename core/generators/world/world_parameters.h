@@ -17,7 +17,7 @@ namespace seedmesh::world {
 
 constexpr double leaf_side = 64;             ///< metres
 constexpr std::int64_t region_side = 32768;  ///< metres; the unit of the origin
-constexpr int tile_cells = 32;               ///< along a side of the terrain of a tile
+constexpr int tile_cells = 32;               ///< along a side of the terrain of most tiles
 
 enum class Layer : std::uint8_t { terrain, water, roads, buildings, plants };
 
