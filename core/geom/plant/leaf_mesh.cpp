@@ -191,7 +191,7 @@ void add_turned(Mesh& mesh, std::size_t vertices, std::size_t corners, math::Sin
   for (std::size_t i = 0; i < corners; ++i) mesh.index.wide.push_back(mesh.index.wide[i] + shift);
 }
 
-/// Triangles across a strongly bent part get their own normal at corners whose normal faces away from them.
+/// Triangles across a strongly bent part get their own normal at corners whose shared normal faces away from them.
 void give_own_normals(Mesh& mesh) {
   for (std::size_t first = 0; first < mesh.index.wide.size(); first += 3) {
     const glm::vec3 a = mesh.position[mesh.index.wide[first]];
@@ -254,9 +254,9 @@ Mesh leaf_mesh(const LeafForm& form, const Job& job) {
     for (const double degrees : {120.0, 240.0})
       add_turned(mesh, vertices, corners, math::sincos_degrees(degrees));
   }
-  if (form.build == LeafBuild::mesh) give_own_normals(mesh);
   drop_unused(mesh, job);
   settle_normals(mesh);
+  if (form.build == LeafBuild::mesh) give_own_normals(mesh);
   return mesh;
 }
 
