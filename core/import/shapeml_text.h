@@ -19,7 +19,7 @@ class ShapemlText {
   bool is_name(std::size_t i) const { return at(i).kind == lang::TokenKind::name; }
   void error(std::size_t i, const std::string& message) { source_.report(at(i).offset, message); }
 
-  /// The index of the next token `symbol` at the level of brackets of token i, or of the end token.
+  /// Returns the index of the next token `symbol` at the level of brackets of token i, or else that of the end token.
   std::size_t find(std::size_t i, std::string_view symbol) const;
   /// Returns the arguments of a call as ranges of tokens.
   std::vector<std::pair<std::size_t, std::size_t>> arguments(std::size_t i) const;

@@ -1,20 +1,12 @@
 #pragma once
-/// Triangles on their way to the samples, and where cut-out textures are empty on them. For core/render only.
+/// The samples of a triangle where its cut-out texture is empty. For core/render only.
 #include <algorithm>
 #include <cmath>
 
-#include "core/render/cover.h"
+#include "core/render/bins.h"
 #include "core/render/fragment.h"
 
 namespace seedmesh::render {
-
-/// A triangle on its way to the samples, with its corners in the order of Cover.
-struct Triangle {
-  Cover cover;
-  std::array<std::uint32_t, 3> vertex;
-  std::array<float, 3> depth;
-  std::uint32_t number;
-};
 
 /// The holes of a cut-out texture on one triangle. Coordinates are in texels, as planes that are linear in the image
 /// after they are multiplied by the depth.
@@ -32,19 +24,20 @@ class Holes {
     v_ = plane_of(t, {at[0].y, at[1].y, at[2].y}, level_->height);
   }
 
-  /// Those of the four samples that show the surface.
-  FourFlags filled(FourFloats depth, FourFloats across, float down) const {
-    FourFloats u = u_.of(across, down), v = v_.of(across, down);
+  /// Returns flags of those of the eight samples that show the surface.
+  Flags filled(Floats depth, Floats across, float down) const {
+    Floats u = u_.of(across, down), v = v_.of(across, down);
     if (is_perspective_) {
-      const FourFloats distance = 1.0F / depth;
+      const Floats distance = 1.0F / depth;
       u *= distance;
       v *= distance;
     }
-    const FourFlags at =
+    const Flags at =
         placed(v, level_->height) * static_cast<std::int32_t>(level_->width) + placed(u, level_->width);
-    const glm::u16vec4* const texels = level_->texels.data();
-    const FourFlags alpha = {texels[at[0]].w, texels[at[1]].w, texels[at[2]].w, texels[at[3]].w};
-    return alpha >= four_flags(std::max<std::int32_t>(level_->cutoff, 1));
+    const std::uint8_t* const filled = level_->filled.data();
+    const Flags found = {filled[at[0]], filled[at[1]], filled[at[2]], filled[at[3]],
+                         filled[at[4]], filled[at[5]], filled[at[6]], filled[at[7]]};
+    return found != all_lanes(0);
   }
 
  private:
@@ -59,16 +52,16 @@ class Holes {
     return t.cover.plane(q[0], q[1], q[2]);
   }
 
-  FourFlags placed(FourFloats at, std::uint32_t size) const {
+  Flags placed(Floats at, std::uint32_t size) const {
     constexpr float farthest = 1 << 24;
     const auto most = static_cast<std::int32_t>(size) - 1;
-    at = chosen(at > all_lanes(0), at, all_lanes(0));
+    at = chosen(at > all_lanes(0.0F), at, all_lanes(0.0F));
     at = chosen(at < all_lanes(farthest), at, all_lanes(farthest));
-    const FourFlags whole = __builtin_convertvector(at, FourFlags);
-    if (!repeat_) return chosen(whole < four_flags(most), whole, four_flags(most));
-    if (is_power_) return whole & four_flags(most);
-    FourFlags out{};
-    for (int lane = 0; lane < 4; ++lane) out[lane] = whole[lane] % (most + 1);
+    const Flags whole = __builtin_convertvector(at, Flags);
+    if (!repeat_) return chosen(whole < all_lanes(most), whole, all_lanes(most));
+    if (is_power_) return whole & all_lanes(most);
+    Flags out{};
+    for (int lane = 0; lane < lanes; ++lane) out[lane] = whole[lane] % (most + 1);
     return out;
   }
 

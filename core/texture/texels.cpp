@@ -2,6 +2,7 @@
 #include "core/texture/texels.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "core/base/math.h"
@@ -72,7 +73,8 @@ Texels::Texels(const Picture& picture, float cutoff, const Job& job) {
   const std::size_t size = std::size_t{picture.width} * picture.height;
   const auto channels = static_cast<std::size_t>(picture.channels);
   const bool has_alpha = channels == 2 || channels == 4, is_grey = channels < 3;
-  Level first{picture.width, picture.height, word_of(cutoff), Array<glm::u16vec4>(job, size)};
+  Level first{picture.width, picture.height, word_of(cutoff), Array<glm::u16vec4>(job, size),
+              Array<std::uint8_t>(job)};
   const std::array<std::uint16_t, 256> words = linear_words();
   std::size_t there = 0;
   for (std::size_t i = 0; i < size; ++i) {
@@ -90,7 +92,8 @@ Texels::Texels(const Picture& picture, float cutoff, const Job& job) {
   levels_.push_back(std::move(first));
   while (levels_.back().width > 1 || levels_.back().height > 1) {
     const Level& finer = levels_.back();
-    Level level{std::max(1U, finer.width / 2), std::max(1U, finer.height / 2), 0, Array<glm::u16vec4>(job)};
+    Level level{std::max(1U, finer.width / 2), std::max(1U, finer.height / 2), 0, Array<glm::u16vec4>(job),
+                Array<std::uint8_t>(job)};
     level.texels.resize(std::size_t{level.width} * level.height);
     for (std::uint32_t y = 0; y < level.height; ++y) {
       for (std::uint32_t x = 0; x < level.width; ++x) {
@@ -106,12 +109,22 @@ Texels::Texels(const Picture& picture, float cutoff, const Job& job) {
     level.cutoff = finer.cutoff == 0 ? std::uint16_t{0} : limit_for(level.texels, share);
     levels_.push_back(std::move(level));
   }
+  if (!has_holes_) return;
+  for (Level& level : levels_) {
+    level.filled.resize(level.texels.size());
+    const std::uint16_t least = std::max<std::uint16_t>(level.cutoff, 1);
+    for (std::size_t i = 0; i < level.texels.size(); ++i)
+      level.filled[i] = level.texels[i].w >= least ? 1 : 0;
+  }
 }
 
 std::size_t Texels::level_of(double texels) const {
-  std::size_t level = 0;
-  for (double covered = texels; covered > 2 && level + 1 < levels_.size(); covered /= 4) ++level;
-  return level;
+  if (!(texels > 2)) return 0;
+  // How often it can be divided by 4 until at most 2 are left. The exponent e: 2^e <= texels < 2^(e + 1).
+  const auto bits = std::bit_cast<std::uint64_t>(texels);
+  const std::size_t exponent = (bits >> 52U) - 1023;
+  const bool is_power = (bits & ((std::uint64_t{1} << 52U) - 1)) == 0;
+  return std::min((exponent + (is_power ? 0 : 1)) / 2, levels_.size() - 1);
 }
 
 glm::u16vec4 Texels::at(const glm::dvec2& uv, std::size_t level, bool repeat) const {

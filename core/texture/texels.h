@@ -30,6 +30,7 @@ class Texels {
     std::uint32_t width = 1, height = 1;
     std::uint16_t cutoff = 0;  ///< least alpha of texels that are not empty
     Array<glm::u16vec4> texels;
+    Array<std::uint8_t> filled;  ///< 0 for empty texels, else 1; without any holes, empty
   };
   const Level& level(std::size_t number) const { return levels_[number]; }
   std::size_t levels() const { return levels_.size(); }

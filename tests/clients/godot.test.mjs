@@ -35,6 +35,13 @@ async function call(place, ...args) {
   return out.toString() + err;
 }
 
+/** The longest side of the box around all meshes of a model whose nodes are not moved. */
+function longest_side(glb) {
+  const document = JSON.parse(glb.subarray(20, 20 + glb.readUInt32LE(12)).toString());
+  const boxes = document.meshes.flatMap(({ primitives }) => primitives.map((each) => document.accessors[each.attributes.POSITION]));
+  return Math.max(...[0, 1, 2].map((axis) => Math.max(...boxes.map(({ max }) => max[axis])) - Math.min(...boxes.map(({ min }) => min[axis]))));
+}
+
 /** The errors of a log that are about a request file or a script. */
 const errors_of = (log) => [...log.matchAll(/^(?:\x1b\[[\d;]*m)*(?:SCRIPT )?ERROR:?(?:\x1b\[[\d;]*m)* (.*)$/gm)].map((match) => match[1]);
 const oak = { $schema: 'request.json', preset: 'oak', seed: 3, output: { collision: 'godot', lods: 3 } };
@@ -56,6 +63,13 @@ test('request files become scenes with levels, bodies and textures, and the run-
   for (const each of result.oak.meshes) assert.equal(each.texture, 'CompressedTexture2D', 'pictures are textures of the project');
   assert.equal(levels[0][0].begin, 0);
   assert.ok(levels[0][0].end > 5 && levels[0][0].end === levels[1][1].begin && levels[1][0].end === levels[2][1].begin && levels[2][0].end === 0);
+  // A coarser level begins where the model is half (a quarter) as high as the picture of a camera of 75 degrees, and is left where it has
+  // grown by a tenth: docs/output.md. Godot adds the margin to the range, or takes it off, by what is visible.
+  const size = longest_side(whole.bytes);
+  for (const [level, share] of [[0, 0.5], [1, 0.25]]) {
+    const { end, margin } = levels[level][0], begins = size / (2 * share * Math.tan((37.5 * Math.PI) / 180));
+    assert.ok(Math.abs(end + margin - begins) < 0.02 * begins && Math.abs((end + margin) / (end - margin) - 1.1) < 1e-3, `${end} ${margin} ${begins}`);
+  }
   assert.ok(result.oak.shapes > 1 && result.oak.bodies === 1, JSON.stringify(result.oak));
   assert.ok(result.house.meshes.length > 0 && result.house.meshes.every((each) => each.end === 0));
 

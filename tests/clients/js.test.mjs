@@ -20,8 +20,7 @@ before(async () => {
   server = await serve(program, ['--cors-origins', '*']);
   fs.cpSync(path.join(root, 'clients/js'), source, { recursive: true });
   fs.symlinkSync(tools, path.join(source, 'node_modules'));
-  const built = await tsc('-p', source);
-  assert.equal(built.status, 0, built.out.toString());
+  // Packing compiles the package, as in a fresh checkout.
   const packed = await run('npm', ['pack', source, '--pack-destination', folder, '--silent', '--offline'], { env: { npm_config_cache: path.join(folder, 'cache') } });
   assert.equal(packed.status, 0, packed.err);
   fs.mkdirSync(project);

@@ -41,6 +41,7 @@ func _described(scene: Node) -> Dictionary:
 		var material: BaseMaterial3D = mesh.mesh.surface_get_material(0)
 		meshes.append({
 			"path": str(scene.get_path_to(mesh)), "triangles": triangles, "begin": mesh.visibility_range_begin, "end": mesh.visibility_range_end,
+			"margin": mesh.visibility_range_end_margin,
 			"texture": material.albedo_texture.get_class() if material.albedo_texture else "",
 		})
 	# The root of a file with GODOT_single_root is the body.

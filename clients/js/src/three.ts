@@ -113,7 +113,10 @@ export class SeedmeshObject {
   /** Replaces each node that names levels (MSFT_lod) by a LOD with the distances of its screen coverage. */
   private async make_levels(field_of_view: number): Promise<void> {
     const { parser } = this.gltf;
-    const json = parser.json as { nodes?: { extensions?: { MSFT_lod?: { ids: number[] } }; extras?: { MSFT_screencoverage?: number[] } }[] };
+    const json = parser.json as { nodes?: { extensions?: { MSFT_lod?: { ids: number[] } }; extras?: { MSFT_screencoverage?: number[]; levels?: { hysteresis: number } } }[] };
+    // A coarser level is left where the model has grown by the factor 1 + hysteresis. Three wants the part of the distance.
+    const grown = json.nodes?.find((node) => node.extras?.levels)?.extras?.levels?.hysteresis ?? 0;
+    const hysteresis = grown / (1 + grown);
     const radius = new Box3().setFromObject(this.scene).getBoundingSphere(new Sphere()).radius;
     const nodes = new Map<number, Object3D>();
     for (const [object, place] of parser.associations) {
@@ -131,7 +134,9 @@ export class SeedmeshObject {
       for (const [level, id] of ids.entries()) {
         // A level covers less of the screen's height than its threshold: twice the radius, seen from this distance.
         const share = coverage[level] ?? 0.5 ** (level + 1);
-        lod.addLevel(await parser.getDependency('node', id) as Object3D, radius / (share * Math.tan((field_of_view * Math.PI) / 360)));
+        const coarser = await parser.getDependency('node', id) as Object3D;
+        coarser.visible = false;  // until the first update, so that hysteresis does not hold it
+        lod.addLevel(coarser, radius / (share * Math.tan((field_of_view * Math.PI) / 360)), hysteresis);
       }
       this.levels.push(lod);
     }

@@ -5,7 +5,7 @@ import http from 'node:http';
 import { test } from 'node:test';
 import { Busy, Client, Refused } from '@seedmesh/client';
 import { load, plant as plant_scene, SeedmeshObject } from '@seedmesh/client/three';
-import { Box3, Mesh, PerspectiveCamera, Vector3 } from 'three';
+import { Box3, Mesh, PerspectiveCamera, Sphere, Vector3 } from 'three';
 
 const client = new Client(process.env.SEEDMESH_URL);
 const plant = { generator: 'lsystem', seed: 3, parameters: { axiom: 'F', productions: ['F -> F[+F]F'], iterations: 3 } };
@@ -119,6 +119,15 @@ test('three.js: levels of detail replace each other by distance', async () => {
     object.scene.traverseVisible((each) => { if (each instanceof Mesh) count += each.geometry.index.count / 3; });
     return count;
   };
+  // Levels begin where the model is half (a quarter) as high as the picture, and are left where it has grown by a tenth.
+  const { radius } = new Box3().setFromObject(object.levels[0].levels[0].object).getBoundingSphere(new Sphere());
+  for (const share of [0.5, 0.25]) {
+    const begins = radius / (share * Math.tan((new PerspectiveCamera().fov * Math.PI) / 360));
+    const finer = triangles_at(0.99 * begins), coarser = triangles_at(1.01 * begins);
+    assert.ok(coarser < finer);
+    assert.equal(triangles_at(begins / 1.09), coarser);
+    assert.equal(triangles_at(begins / 1.11), finer);
+  }
   const counts = [1, 70, 200].map(triangles_at);
   const finest = (await client.generate(bare({ preset: 'oak', seed: 3 }))).triangles;
   assert.equal(counts[0], finest);

@@ -16,7 +16,7 @@ namespace Seedmesh.Editor
                 if (model == null) continue;
                 var copy = (GameObject)PrefabUtility.InstantiatePrefab(model);
                 PrefabUtility.UnpackPrefabInstance(copy, PrefabUnpackMode.Completely, InteractionMode.AutomatedAction);
-                SeedmeshLevels.SetUp(copy);
+                SeedmeshLevels.SetUp(copy, SeedmeshFile.HeightsOf(path));
                 PrefabUtility.SaveAsPrefabAsset(copy, Path.ChangeExtension(path, ".prefab"));
                 Object.DestroyImmediate(copy);
             }

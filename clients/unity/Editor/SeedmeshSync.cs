@@ -39,16 +39,22 @@ namespace Seedmesh.Editor
             foreach (var path in Directory.EnumerateFiles("Assets", "*.seedmesh", SearchOption.AllDirectories))
             {
                 var text = File.ReadAllText(path, Encoding.UTF8);
-                var model = Path.ChangeExtension(path, SeedmeshPlacements.IsWanted(text) ? ".prefab" : ".glb");
-                var hash = path + ".sha256";
-                var digest = Digest(text);
-                if (File.Exists(model) && File.Exists(hash) && File.ReadAllText(hash) == digest) continue;
-                if (!Make(path, text, model)) { is_complete = false; continue; }
-                File.WriteAllText(hash, digest);
+                if (IsCurrent(path, text)) continue;
+                if (!Make(path, text, ModelOf(path, text))) { is_complete = false; continue; }
+                File.WriteAllText(HashFile(path), Digest(text));
+                AssetDatabase.ImportAsset(path); // takes back the warning of its importer
             }
             AssetDatabase.Refresh();
             return is_complete;
         }
+
+        /// <summary>True if the model of a request file is there and was made from this text.</summary>
+        public static bool IsCurrent(string path, string text) =>
+            File.Exists(ModelOf(path, text)) && File.Exists(HashFile(path)) && File.ReadAllText(HashFile(path)) == Digest(text);
+
+        static string HashFile(string path) => path + ".sha256";
+
+        static string ModelOf(string path, string text) => Path.ChangeExtension(path, SeedmeshPlacements.IsWanted(text) ? ".prefab" : ".glb");
 
         static bool Make(string path, string text, string model)
         {

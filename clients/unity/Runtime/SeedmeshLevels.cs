@@ -8,10 +8,8 @@ namespace Seedmesh
     /// <summary>Sets up an imported model: one LODGroup for all levels, and colliders of collision bodies.</summary>
     public static class SeedmeshLevels
     {
-        /// <summary>Shares of the screen's height at which a level ends, as MSFT_screencoverage of the service has them.</summary>
-        static readonly float[] Heights = { 0.5f, 0.25f, 0.12f, 0.06f, 0.01f };
-
-        public static void SetUp(GameObject root)
+        /// <summary>`heights`: shares of the screen's height below which the coarser levels begin, as SeedmeshFile reads them.</summary>
+        public static void SetUp(GameObject root, float[] heights)
         {
             foreach (var filter in root.GetComponentsInChildren<MeshFilter>(true).Where(each => IsCollision(each.name)))
             {
@@ -31,8 +29,9 @@ namespace Seedmesh
             // Groups that the importer made for single meshes change at different distances.
             foreach (var old in root.GetComponentsInChildren<LODGroup>(true)) Object.DestroyImmediate(old);
             var group = root.AddComponent<LODGroup>();
+            // Unity wants the height at which a level ends, falling; the coarsest has no end.
             group.SetLODs(levels.Values.Select((renderers, index) =>
-                new LOD(index == levels.Count - 1 ? 0 : Heights[Mathf.Min(index, Heights.Length - 1)], renderers.ToArray())).ToArray());
+                new LOD(index == levels.Count - 1 || index >= heights.Length ? 0 : heights[index], renderers.ToArray())).ToArray());
             group.RecalculateBounds();
         }
 

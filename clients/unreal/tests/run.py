@@ -57,6 +57,14 @@ class Editor:
         mesh.levels[level] = source.path
         return level
 
+    def get_lod_count(self, mesh):
+        return 1 + len(mesh.levels)
+
+    def set_lod_screen_sizes(self, mesh, sizes):
+        assert len(sizes) == self.get_lod_count(mesh) and all(a > b for a, b in zip(sizes, sizes[1:])), sizes
+        mesh.sizes = list(sizes)
+        return True
+
 
 class Quat:
     """Rotates by the quaternion product, which has no handedness; rotator() keeps the quaternion, to compare it."""
@@ -107,8 +115,14 @@ paths = seedmesh_unreal.import_model({"preset": "oak", "seed": 3, "output": {"lo
 assert paths and all(each.startswith("/Game/Seedmesh/oak_3/") for each in paths), paths
 visible = [mesh for mesh in assets.values() if mesh.levels]
 assert visible and all(set(mesh.levels) == {1, 2} for mesh in visible), [(mesh.path, mesh.levels) for mesh in assets.values()]
+assert all(mesh.sizes == [1, 0.5, 0.25] for mesh in visible), [mesh.sizes for mesh in visible]
 assert all(mesh.properties.get("enabled") for mesh in assets.values())
 assert not [each for each in assets if "/level_" in each]
+
+# Of a list, a level begins at the root of its share of the triangles.
+listed = seedmesh_unreal.import_model({"preset": "oak", "seed": 3, "output": {"lods": [1, 0.25, 0.04], "textures": 64}}, "oak_listed")
+sizes = [assets[path].sizes for path in listed if assets[path].levels]
+assert sizes and all(abs(a - b) < 0.02 for each in sizes for a, b in zip(each, [1, 0.5, 0.2])), sizes
 
 scene = {"preset": "orchard"}
 derived = seedmesh_unreal.seedmesh.Client().derive(scene)

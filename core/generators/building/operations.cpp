@@ -281,7 +281,7 @@ constexpr OperationRow rows[] = {
      "A --> comp(f){ front: tileUV(0, 1, 1) copyUV(0, 2) B. }"},
     {"deleteUV", Op::delete_uv, "n", Braces::absent, "set", "Removes the texture coordinates of a set.",
      "A --> comp(f){ front: tileUV(0, 1, 1) deleteUV(0) B. }"},
-    {"print", Op::print, "x", Braces::absent, "value", "Adds a warning with the value to the answer.",
+    {"print", Op::print, "x", Braces::absent, "value", "Adds a warning with the value to the response.",
      "A --> print(scope.sx) B."},
 };
 

@@ -92,8 +92,8 @@ double child_radius(const WeberPennTree& tree, const WeberPennStem& stem, double
 /// is left. `frames` is memory that calls reuse.
 bool prune(const WeberPennTree& tree, WeberPennStem& stem, std::vector<Frame>& frames);
 
-/// Whether a child of this length and radius is not made: in Arbaro, one of half a millimetre or less, or a tenth of that
-/// thick.
+/// Whether a child of this length and radius is not made: in Arbaro, one of half a millimetre or less, or a tenth
+/// of that thick.
 bool is_too_small(const WeberPennTree& tree, const WeberPennStem& stem);
 
 /// Returns the rounding error of the number of splits after the segments from `segment` on and after the clones that

@@ -42,6 +42,7 @@ namespace UnityEngine
     public class MeshCollider : Collider { public Mesh sharedMesh { get; set; } public bool convex { get; set; } }
     public struct LOD { public LOD(float screenRelativeTransitionHeight, Renderer[] renderers) { } }
     public class LODGroup : Component { public void SetLODs(LOD[] lods) { } public void RecalculateBounds() { } }
+    public class TextAsset : Object { public TextAsset(string text) { } }
     public static class Mathf { public static int Min(int a, int b) { return Math.Min(a, b); } }
     public static class Debug { public static void LogError(object message) { } }
     public static class JsonUtility { public static T FromJson<T>(string json) { return default(T); } }
@@ -55,6 +56,7 @@ namespace UnityEditor
     {
         public static T LoadAssetAtPath<T>(string path) where T : Object { return null; }
         public static void Refresh() { }
+        public static void ImportAsset(string path) { }
     }
     public enum PrefabUnpackMode { OutermostRoot, Completely }
     public enum InteractionMode { AutomatedAction, UserAction }
@@ -72,4 +74,18 @@ namespace UnityEditor
     }
     public static class EditorApplication { public static void Exit(int returnValue) { } }
     [AttributeUsage(AttributeTargets.Method)] public class MenuItem : Attribute { public MenuItem(string itemName) { } }
+}
+
+namespace UnityEditor.AssetImporters
+{
+    using UnityEngine;
+    [AttributeUsage(AttributeTargets.Class)] public class ScriptedImporterAttribute : Attribute { public ScriptedImporterAttribute(int version, string ext) { } }
+    public abstract class ScriptedImporter { public abstract void OnImportAsset(AssetImportContext ctx); }
+    public class AssetImportContext
+    {
+        public string assetPath { get { return ""; } }
+        public void AddObjectToAsset(string identifier, Object obj) { }
+        public void SetMainObject(Object obj) { }
+        public void LogImportWarning(string msg) { }
+    }
 }

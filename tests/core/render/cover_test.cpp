@@ -32,15 +32,14 @@ Cover triangle(std::array<std::int32_t, 3> x, std::array<std::int32_t, 3> y) {
 void add(Cover c, const Rows& rows, std::vector<int>& times) {
   if (c.area == 0 || !set_box(c, size, rows)) return;
   set_edges(c);
-  each_four(c, size, rows,
-            [&](std::int32_t x, std::int32_t y, FourFlags inside, FourFloats across, float down) {
-              EXPECT_EQ(x % 4, 0);
-              for (int lane = 0; lane < 4; ++lane) {
-                EXPECT_EQ(across[lane], static_cast<float>(x + lane - c.left));
-                if (inside[lane] != 0) ++times[static_cast<std::size_t>(y * size + x + lane)];
-              }
-              EXPECT_EQ(down, static_cast<float>(y - c.top));
-            });
+  each_eight(c, size, rows, [&](std::int32_t x, std::int32_t y, Flags inside, Floats across, float down) {
+    EXPECT_EQ(x % lanes, 0);
+    for (int lane = 0; lane < lanes; ++lane) {
+      EXPECT_EQ(across[lane], static_cast<float>(x + lane - c.left));
+      if (inside[lane] != 0) ++times[static_cast<std::size_t>(y * size + x + lane)];
+    }
+    EXPECT_EQ(down, static_cast<float>(y - c.top));
+  });
 }
 
 /// Whether the centre of a sample is inside, where it is not on an edge; -1: on an edge.
@@ -108,8 +107,8 @@ TEST(Cover, GivesTheBarycentricMeanOfThreeValues) {
   set_edges(c);
   const Plane plane = c.plane(1, 3, 5);
   // Corners at the centres of samples (0, 0), (40, 0) and (0, 20).
-  EXPECT_NEAR(plane.of(all_lanes(20), 0)[0], 2, 1e-6);
-  EXPECT_NEAR(plane.of(all_lanes(10), 10)[0], 0.25 * 1 + 0.25 * 3 + 0.5 * 5, 1e-6);
+  EXPECT_NEAR(plane.of(all_lanes(20.0F), 0)[0], 2, 1e-6);
+  EXPECT_NEAR(plane.of(all_lanes(10.0F), 10)[0], 0.25 * 1 + 0.25 * 3 + 0.5 * 5, 1e-6);
 }
 
 }  // namespace

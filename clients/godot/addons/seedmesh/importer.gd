@@ -35,7 +35,7 @@ func _import_scene(path: String, flags: int, _options: Dictionary) -> Object:
 		if scene == null:
 			return null
 		levels.append(scene)
-	Levels.join(levels, triangles)
+	Levels.join(levels, triangles, lods)
 	return root
 
 

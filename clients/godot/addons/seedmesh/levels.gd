@@ -4,14 +4,17 @@ extends EditorScenePostImportPlugin
 
 ## Shares of the triangles for a number of levels.
 const SHARES: Array[float] = [1.0, 0.4, 0.15, 0.05, 0.02]
-## The finest level ends where the model is as high as this share of a picture of the default camera (75 degrees). A coarser level
-## covers so much less of it that a triangle has the same size in the picture.
-const FINEST_COVERAGE := 0.5
-const HALF_FIELD := deg_to_rad(75.0) / 2.0
+## Shares of the picture's height below which the coarser levels of such a number begin, as in models of the service. Those of a list
+## follow from the triangles: the root of the share of the finest level.
+const SCREEN: Array[float] = [0.5, 0.25, 0.12, 0.06]
+const HALF_FIELD := deg_to_rad(75.0) / 2.0  # of the default camera
 const NOTE := "seedmesh_level_ends"
 const NODE := "level_%d"
-## Part of a distance within which a level does not change back.
-const HYSTERESIS := 0.05
+## A coarser level is left where the model has grown by the factor 1 + HYSTERESIS in the picture.
+const HYSTERESIS := 0.1
+## Godot changes to a coarser level at the range plus its margin, and back at the range less its margin.
+const MIDDLE := 0.5 * (1.0 + 1.0 / (1.0 + HYSTERESIS))
+const MARGIN := 0.5 * (1.0 - 1.0 / (1.0 + HYSTERESIS))
 
 
 ## Triangles of each level. `lods`: a number of levels, or a list of shares and numbers of triangles, of which the first stands for
@@ -25,13 +28,14 @@ static func triangles_of(lods: Variant, finest: int) -> Array[int]:
 
 
 ## Puts coarser scenes below the root of the first. The distances are notes on that root until the import is done, because Godot
-## does not keep those of meshes that it imports.
-static func join(levels: Array[Node], triangles: Array[int]) -> void:
+## does not keep those of meshes that it imports. `lods` is what the request asks for.
+static func join(levels: Array[Node], triangles: Array[int], lods: Variant) -> void:
 	var root := levels[0]
 	var size := _size_of(root)
 	var ends: Array[float] = []
-	for count: int in triangles.slice(0, -1):
-		ends.append(size / (2.0 * tan(HALF_FIELD) * FINEST_COVERAGE) * sqrt(float(triangles[0]) / count))
+	for index in range(1, levels.size()):
+		var screen := sqrt(float(triangles[index]) / triangles[0]) if lods is Array else SCREEN[index - 1]
+		ends.append(size / (2.0 * tan(HALF_FIELD) * screen))
 	for index in range(1, levels.size()):
 		levels[index].name = NODE % index
 		root.add_child(levels[index])
@@ -54,11 +58,11 @@ func _post_process(scene: Node) -> void:
 			if coarser[index].is_ancestor_of(mesh):
 				level = index + 1
 		if level > 0:
-			mesh.visibility_range_begin = ends[level - 1]
-			mesh.visibility_range_begin_margin = mesh.visibility_range_begin * HYSTERESIS
+			mesh.visibility_range_begin = ends[level - 1] * MIDDLE
+			mesh.visibility_range_begin_margin = ends[level - 1] * MARGIN
 		if level < ends.size():
-			mesh.visibility_range_end = ends[level]
-			mesh.visibility_range_end_margin = mesh.visibility_range_end * HYSTERESIS
+			mesh.visibility_range_end = ends[level] * MIDDLE
+			mesh.visibility_range_end_margin = ends[level] * MARGIN
 
 
 static func _own(node: Node, root: Node) -> void:

@@ -33,6 +33,7 @@ def import_model(request: Dict[str, Any], name: str, nanite: bool = False) -> Li
         for level in sorted(set(files) - {0}):
             add_level(meshes, import_file(files[level], f"{folder}/{name}/level_{level}"), level)
             unreal.EditorAssetLibrary.delete_directory(f"{folder}/{name}/level_{level}")
+        set_screen_sizes(meshes, files[0])
     for mesh in meshes:
         if nanite:
             settings = mesh.get_editor_property("nanite_settings")
@@ -67,6 +68,24 @@ def add_level(meshes: List[Any], coarser: List[Any], level: int) -> None:
         source = by_name.get(mesh.get_name())
         if source is not None and editor.set_lod_from_static_mesh(mesh, level, source, 0, True) < 0:
             raise RuntimeError(f"level {level} of {mesh.get_name()} could not be set")
+
+
+def screen_sizes(file: str) -> List[float]:
+    """The screen size below which each level of a glTF file is shown, the finest first; empty: it has one level. The service gives
+    shares of the screen's height. Unreal's screen size is the same of the sphere around the mesh, as the picture is wider than high."""
+    with open(file, encoding="utf-8") as opened:
+        document = json.load(opened)
+    levels = [node["extras"]["levels"] for node in document["nodes"] if "levels" in node.get("extras", {})]
+    return [each["screen"] for each in levels[0]["list"]] if levels else []
+
+
+def set_screen_sizes(meshes: List[Any], file: str) -> None:
+    """Sets at which screen size each level of the meshes begins."""
+    editor, sizes = unreal.get_editor_subsystem(unreal.StaticMeshEditorSubsystem), screen_sizes(file)
+    for mesh in meshes:
+        count = editor.get_lod_count(mesh)
+        if 1 < count <= len(sizes) and not editor.set_lod_screen_sizes(mesh, sizes[:count]):
+            raise RuntimeError(f"the screen sizes of {mesh.get_name()} could not be set")
 
 
 def plant(request: Dict[str, Any], name: str) -> int:
