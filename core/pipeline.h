@@ -87,7 +87,8 @@ struct PictureOptions {
   Ground ground = Ground::auto_;  ///< auto_: a plane below plants, buildings and fractals
   std::string text() const;       ///< equal options give the same text
 };
-/// Takes `size`, `view` and `ground` out of a query. Code::invalid holds every error, with the pointer "/<key>".
+/// Reads `size`, `view` and `ground` of a query and removes them from it. Code::invalid holds every error, with
+/// the pointer "/<key>".
 Result<PictureOptions> read_picture_options(Overrides& query);
 
 /// Returns a picture of the model of a request as WebP, drawn in software, with textures of at most 256 texels. The
@@ -107,8 +108,8 @@ Result<std::string> derive(const Request& request, const Job::Options& options);
 /// `{valid, warnings, estimate}` as JSON text. Makes no model.
 Result<std::string> validate(const Request& request, const Job::Options& options);
 
-/// The input of import_request(): a file of another program. If `format` is empty, it is detected from the text. `entry`
-/// names one system of a file with several; empty means the only one.
+/// The input of import_request(): a file of another program. If `format` is empty, it is detected from the text.
+/// `entry` names one system of a file with several; empty means the only one.
 struct ImportInput {
   std::string_view format, entry, text;
   std::map<std::string, std::string> files = {};  ///< further files beside the text, by name

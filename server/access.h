@@ -65,8 +65,8 @@ class Access {
   std::variant<Grant, Denial> admit(const http::Request& request);
 
   /// Like admit(), for a file of a world. `segment` is the path segment after the name of the world. It has the
-  /// text of a query (`expires=...&key=...&signature=...`) that signs "/v1/worlds/<world>", and gives access to all files
-  /// of that world. Empty: no signature.
+  /// text of a query (`expires=...&key=...&signature=...`) that signs "/v1/worlds/<world>", and gives access to
+  /// all files of that world. Empty: no signature.
   std::variant<Grant, Denial> admit_world(const http::Request& request, std::string_view world,
                                           std::string_view segment);
 

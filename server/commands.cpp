@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
-#include <cstring>
 #include <ctime>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -29,7 +28,7 @@ int print_refusal(const Error& error) {
 }
 
 int print_file_error(const std::string& name) {
-  std::fprintf(stderr, "seedmesh: %s: %s\n", name.c_str(), std::strerror(errno));
+  std::fprintf(stderr, "seedmesh: %s: %s\n", name.c_str(), system_error_text().c_str());
   return 2;
 }
 

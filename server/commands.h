@@ -8,8 +8,10 @@
 
 namespace seedmesh {
 
-/// Both names may be "-" for standard input and output. The extension of `out` selects the format, as in a URL.
+/// Generates the model of the request in the file `in` and writes it to the file `out`. Both names may be "-" for
+/// standard input and output. The extension of `out` selects the format, as in a URL.
 int generate_command(const Config& config, const std::string& in, const std::string& out);
+/// Print the response of POST /v1/validate and of POST /v1/derive for the request in a file.
 int validate_command(const Config& config, const std::string& in);
 int derive_command(const Config& config, const std::string& in);
 

@@ -5,8 +5,11 @@
 #include <cerrno>
 #include <cstdio>
 #include <filesystem>
+#include <system_error>
 
 namespace seedmesh {
+
+std::string system_error_text() { return std::generic_category().message(errno); }
 
 std::optional<std::string> read_file(const std::string& name) {
   std::FILE* file = name == "-" ? stdin : std::fopen(name.c_str(), "rb");

@@ -7,6 +7,9 @@
 
 namespace seedmesh {
 
+/// Returns what the present value of `errno` means. Any thread may call it, which is not true of std::strerror.
+std::string system_error_text();
+
 /// Returns the contents of a file; of standard input for "-". Nothing where it cannot be read.
 std::optional<std::string> read_file(const std::string& name);
 

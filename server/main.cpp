@@ -162,7 +162,7 @@ void add_commands(CLI::App& app, Arguments& arguments, Texts& texts) {
            arguments.sync, texts);
   add_tiles(*command("tiles", "Write a part of a world as a static tileset, on all cores; can be resumed."),
             arguments.tiles, texts);
-  CLI::App* agents = command("mcp", "Answer an agent program on standard input and output (MCP).");
+  CLI::App* agents = command("mcp", "Serve an agent program on standard input and output (MCP).");
   agents->add_option("-o,--out", arguments.models, "Folder for the models.");
   CLI::App* signing = command("sign", "Sign a URL with the first of the signing keys.");
   signing->add_option("target", arguments.target, "Path and query: /v1/presets/koch_island.glb?seed=3")

@@ -8,7 +8,6 @@
 #include <chrono>
 #include <condition_variable>
 #include <cstdio>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -149,7 +148,7 @@ class ManifestRun {
     if (!product && product.error().code == Code::cancelled) return;  // interrupted: neither made nor refused
     if (!product) return refuse(index, product.error());
     if (!write_file_atomically(path.string(), product->payload)) {
-      std::fprintf(stderr, "\nseedmesh: %s: %s\n", path.c_str(), std::strerror(errno));
+      std::fprintf(stderr, "\nseedmesh: %s: %s\n", path.c_str(), system_error_text().c_str());
       unwritable_ = true;
       return;
     }
@@ -261,7 +260,7 @@ int manifest_command(const Config& config, const ManifestOptions& options) {
     part = *given;
   }
   const auto text = read_file(options.file);
-  if (!text) return fail(options.file, std::strerror(errno));
+  if (!text) return fail(options.file, system_error_text());
   auto jobs = read_manifest(*text);
   if (!jobs) {
     for (const Issue& issue : jobs.error().issues) {

@@ -54,10 +54,10 @@ struct Context {
   std::string folder = {};
 };
 
-/// A message as JSON. A failure for text that is not JSON, nests deeper than 64, or is no request.
+/// Returns a message as JSON, or a failure for text that is not JSON, nests deeper than 64, or is no request.
 Answer read_message(const std::string& text);
 
-/// Whether the message asks for no answer.
+/// Whether the message is a notification, which gets no response.
 bool is_notification(const Json& message);
 
 /// Returns the era that the parameters of a message name; nothing where they name none.

@@ -36,11 +36,11 @@ constexpr Prompt prompts[] = {
     {"fix_errors", "Correct a request", "Corrects a request that was refused.", "request",
      "The request as JSON.",
      "This Seedmesh request is refused. Correct it with as few changes as possible:\n\n$\n\n"
-     "1. Call validate. Each line of the answer begins with the JSON Pointer of an error; line and column "
+     "1. Call validate. Each line of the result begins with the JSON Pointer of an error; line and column "
      "point "
      "into a grammar.\n"
      "2. Look up the parameter with describe_generator and the pointer's path as topic.\n"
-     "3. Change only what the pointers name, and call validate again until it answers valid.\n"
+     "3. Change only what the pointers name, and call validate again until the request is valid.\n"
      "4. Say what was wrong, and give the corrected request and its link from generate."},
 };
 

@@ -107,8 +107,8 @@ std::vector<Level> counters(const Metrics::Levels& l, const Process& p) {
       {"seedmesh_shared_cache_misses_total", "Models not found in the shared cache.", l.shared.misses},
       {"seedmesh_shared_cache_writes_total", "Models written to the shared cache.", l.shared.writes},
       {"seedmesh_shared_cache_errors_total", "Failed commands to the shared cache.", l.shared.errors},
-      {"seedmesh_shared_cache_skips_total", "Commands not sent, because the shared cache was away or busy.",
-       l.shared.skips},
+      {"seedmesh_shared_cache_skips_total",
+       "Commands not sent, because the shared cache was not available or busy.", l.shared.skips},
       {"process_cpu_seconds_total", "User and system time of the process.", p.cpu_seconds},
   };
 }

@@ -17,7 +17,7 @@ struct SourceAnswer {
     same,         ///< the model still has the validator that was given
     refused,      ///< `issues`, at least one
     stopped,      ///< stopped by the stop token
-    unreachable,  ///< `reason`; other requests have no chance either
+    unreachable,  ///< `reason`; other requests would fail, too
   };
   Kind kind = Kind::made;
   Payload payload;
@@ -46,8 +46,9 @@ class ModelSource {
 /// Makes models here. `config` has to outlive the source.
 std::unique_ptr<ModelSource> local_source(const Config& config);
 
-/// Asks a server: "http://127.0.0.1:8080", or https, with or without a path. Waits while it is busy, as long as its
-/// Retry-After says and at most a minute. Null where the address is none. `key`: an API key; "" for none.
+/// Asks a server: "http://127.0.0.1:8080", or https, with or without a path. Waits while it is busy, as long as
+/// its Retry-After says and at most a minute. Returns null where the address is not valid. `key`: an API key; ""
+/// for none.
 std::unique_ptr<ModelSource> remote_source(const std::string& url, const std::string& key);
 
 }  // namespace seedmesh

@@ -58,7 +58,7 @@ const std::vector<ProblemKind>& problem_kinds() {
       {413, "content-too-large", "The body is too large"},
       {414, "uri-too-long", "The URL is too long"},
       {415, "unsupported-media-type", "The media type of the body is not supported"},
-      {416, "range-not-satisfiable", "The range lies outside the answer"},
+      {416, "range-not-satisfiable", "The range lies outside the response"},
       {417, "expectation-failed", "The expectation cannot be met"},
       {422, "invalid-request", "The request is not valid"},
       {422, "limit-exceeded", "The request exceeds a limit"},

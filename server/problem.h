@@ -20,8 +20,8 @@ struct Problem {
   std::string log_text;       ///< for the operator only
 };
 
-/// Status 400 for malformed, 422 for invalid and for a limit, 504 for the deadline. Internal errors are 500 with only the
-/// request id. A cancelled request is 499, which appears only in the log.
+/// Status 400 for malformed, 422 for invalid and for a limit, 504 for the deadline. Internal errors are 500 with
+/// only the request id. A cancelled request is 499, which appears only in the log.
 Problem problem_of(const Error& error);
 
 /// Returns a problem without a list of errors, by status: 401, 403, 404, 405, 406, 411, 413, 414, 415, 416, 417,

@@ -21,7 +21,7 @@ std::string server_timing(const Call& call, std::string_view cache_use, const Ca
 
 /// Whether a query may have keys beside those of a picture.
 enum class RestOfQuery { refused, kept };
-/// Takes the keys of a picture out of a query. Returns the response on an error (routes_pictures.cpp).
+/// Reads the keys of a picture and removes them from the query. Returns the response on an error (routes_pictures.cpp).
 std::variant<PictureOptions, http::Response> read_options(const Call& call, Overrides& query,
                                                           RestOfQuery rest);
 /// Returns a picture of the model of a request.

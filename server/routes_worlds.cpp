@@ -271,8 +271,9 @@ http::Response answer(const Call& call, const NamedWorld& world, const Parts& pa
   if (!has_file(path, world.open.levels())) return refuse(call, problem(404, "The world has no such tile."));
   if (world.kind == NamedWorld::Kind::foreign) {
     if (path.is_root() && !world.token.empty()) return redirect_to_own(call, world, parts.file);
-    return refuse(call,
-                  problem(404, "Tiles stand under the token of this engine, which tileset.json names."));
+    return refuse(
+        call,
+        problem(404, "Tiles are only available under the token of this engine, which tileset.json names."));
   }
   WantedFile wanted{.world = world, .path = path};
   if (path.kind == Kind::map) {

@@ -3,11 +3,11 @@
 #include <signal.h>
 
 #include <cstdio>
-#include <cstring>
 #include <nlohmann/json.hpp>
 #include <thread>
 
 #include "server/cors.h"
+#include "server/files.h"
 #include "server/give_back.h"
 #include "server/http/server.h"
 #include "server/routes.h"
@@ -135,7 +135,7 @@ int serve(const Config& config, const std::vector<std::string>& warnings) {
   const int port = server.bind();
   if (port == 0) {
     log.write(Log::Level::error, "cannot listen",
-              {{"url", url_of(config, config.port)}, {"reason", std::strerror(errno)}});
+              {{"url", url_of(config, config.port)}, {"reason", system_error_text()}});
     return 1;
   }
   const std::string url = url_of(config, port);

@@ -170,7 +170,7 @@ bool wait_for_memory(const Call& call) {
 
 Problem too_much_in_flight(Service& service) {
   service.metrics.rejected("memory_in_flight");
-  return problem(503, "Responses in flight to other clients use all memory that they may use.");
+  return problem(503, "The responses that are being sent to other clients use all memory for responses.");
 }
 
 Cache::Answer model_of(const Call& call, const TaggedRequest& wanted, const Job::Progress& progress) {

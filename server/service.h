@@ -107,7 +107,7 @@ struct Service {
   std::atomic<bool> draining{false};
 };
 
-/// One request on its way through a route.
+/// One request, and the data that its route needs.
 struct Call {
   Service& service;
   const http::Request& request;

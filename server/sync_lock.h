@@ -1,6 +1,6 @@
 #pragma once
-/// The lock file of `seedmesh sync`: `seedmesh.lock` has, for each request file, its hash, and for each file made from it
-/// engine, size, validator and hash. The Python client reads and writes the same file, byte for byte.
+/// The lock file of `seedmesh sync`: `seedmesh.lock` has, for each request file, its hash, and for each file made
+/// from it engine, size, validator and hash. The Python client reads and writes the same file, byte for byte.
 #include <cstdint>
 #include <map>
 #include <optional>

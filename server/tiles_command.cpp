@@ -6,7 +6,6 @@
 #include <chrono>
 #include <condition_variable>
 #include <cstdio>
-#include <cstring>
 #include <filesystem>
 #include <mutex>
 #include <nlohmann/json.hpp>
@@ -144,7 +143,7 @@ class TilesRun {
     if (!bytes) return stop(print_refusal(problem_of(bytes.error())));
     if (is_tile) note_shared(*bytes);
     if (!write_file_atomically(path, payload_of(*std::move(bytes))))
-      return stop(fail(path, std::strerror(errno)));
+      return stop(fail(path, system_error_text()));
     ++made_;
   }
 

@@ -32,7 +32,7 @@ std::variant<std::shared_ptr<const NamedWorld>, Problem> read_world_name(
 /// Returns the token of a world's request; "" where it is too long.
 std::string world_token(const Request& request);
 
-/// The worlds that were asked for last, bounded in bytes, and the memory of their tiles.
+/// The worlds that were requested most recently, bounded in bytes, and the memory of their tiles.
 class Worlds {
  public:
   explicit Worlds(std::uint64_t memory_bytes) : memory_(make_world_memory(memory_bytes)) {}

@@ -4,10 +4,7 @@
 #include <cstring>
 #include <new>
 
-#if defined(__GLIBC__)
-#include <malloc.h>
-#endif
-
+#include "core/base/heap.h"
 #include "core/base/pages.h"
 #include "core/base/reserve.h"
 
@@ -30,13 +27,6 @@ constexpr std::uint64_t most_slack = std::uint64_t{12} << 20U;
 // Memory that is freed to the heap stays with the process. A request that saves memory therefore maps each
 // block from this size on: huge pages as far as it fills them, small pages for its end.
 constexpr std::size_t mapped_to_save = std::size_t{256} << 10U;
-
-/// Returns unused pages of the heap to the kernel.
-void trim_heap() {
-#if defined(__GLIBC__)
-  malloc_trim(0);
-#endif
-}
 
 std::byte* heap(std::byte* old, std::size_t bytes) {
   auto* memory = static_cast<std::byte*>(std::realloc(old, bytes));
@@ -135,7 +125,7 @@ void Block::resize(std::size_t bytes) {
   if (bytes > size_ && budget_) {
     const bool was_saving_memory = budget_->saves_memory();
     budget_->take(bytes - size_);
-    if (!was_saving_memory && budget_->saves_memory()) trim_heap();
+    if (!was_saving_memory && budget_->saves_memory()) return_unused_heap();
   }
   const std::size_t before = size_;
   if (bytes == 0) {

@@ -1,6 +1,6 @@
 #pragma once
-/// Growing arrays for big models. New elements are uninitialised. Every byte of capacity is charged to the
-/// memory budget of the request before it is allocated; the unused ends of pages are counted apart
+/// Growing arrays for big models. New elements are uninitialised. Every byte of capacity is charged to the memory
+/// budget of the request before it is allocated; the unused ends of pages are counted separately
 /// (MemoryBudget::slack). Big blocks come from the kernel as huge pages, because page faults cost more than
 /// arithmetic in big models. Move-only; not safe for use from two threads at once.
 #include <algorithm>
@@ -79,7 +79,7 @@ class Array {
     return *this;
   }
 
-  /// An empty array of other elements, charged to the same budget.
+  /// Returns an empty array of another element type, charged to the same budget.
   template <class Other>
   Array<Other> empty_array_of() const {
     return Array<Other>(block_.budget());

@@ -28,7 +28,7 @@ struct Limits {
   std::uint32_t expression_depth = 200;
 };
 
-/// For a request of `found` iterations, above limits.iterations, at the parameter "iterations".
+/// Returns the issue of a request with `found` iterations, more than limits.iterations. Its pointer is "/iterations".
 Issue iterations_issue(std::uint64_t found, const Limits& limits);
 
 /// The exception that ends a request: a limit is exceeded, the deadline has passed, the request is cancelled,
@@ -109,8 +109,8 @@ class Job {
   /// one thread and reports no progress.
   Job for_estimate() const;
 
-  /// While the scope lives, a limit of this job or of its children that has no pointer of its own is reported
-  /// at `pointer`. Not while other threads work with this job.
+  /// While the scope lives, a limit of this job or of its children that has no pointer of its own is reported at
+  /// `pointer`. Do not create or destroy a scope while other threads use this job.
   class PointerScope {
    public:
     PointerScope(Job& job, std::string_view pointer)

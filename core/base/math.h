@@ -32,8 +32,8 @@ SinCos sincos_degrees(double degrees);
 constexpr double radians(double degrees) { return degrees * (pi / 180); }
 constexpr double degrees(double radians) { return radians * (180 / pi); }
 
-/// `x` rounded toward zero and clamped to the range of the type; NaN gives 0. The plain cast is undefined out
-/// of range, and x86 and ARM then differ.
+/// Returns `x` rounded toward zero and clamped to the range of the type; NaN gives 0. The plain cast is undefined
+/// out of range, and its result then differs between x86 and ARM.
 std::int64_t to_int64(double x);
 std::int32_t to_int32(double x);
 std::uint32_t to_uint32(double x);

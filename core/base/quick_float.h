@@ -18,8 +18,8 @@ inline double nearest(double x) { return (x + 0x1.8p52) - 0x1.8p52; }
 
 namespace quick {
 
-/// Sine and cosine of rest + quarters * 90 degrees. |rest| is at most 45 degrees, in radians; `quarters` is
-/// -2, -1, 0, 1 or 2.
+/// Returns sine and cosine of the angle rest + quarters * pi / 2. `rest` is from -pi/4 to pi/4; `quarters` is -2,
+/// -1, 0, 1 or 2.
 inline FloatSinCos turned(float rest, float quarters) {
   const float z = rest * rest;
   const float sine = rest + rest * z * (-1.6666654611e-1F + z * (8.3321608736e-3F + z * -1.9515295891e-4F));

@@ -55,13 +55,13 @@ inline SinCos quick_sincos(double x) {
   return quick::turned(quick::kernel(rest), quarters);
 }
 
-/// Exact at multiples of 90 degrees.
+/// Returns sine and cosine of an angle in degrees; exact at multiples of 90 degrees.
 inline SinCos quick_sincos_degrees(double degrees) {
   const double quarters = std::floor(degrees / 90 + 0.5);
   return quick::turned(quick::kernel((degrees - 90 * quarters) * (pi / 180)), quarters);
 }
 
-/// In (-pi, pi]; 0 for (0, 0).
+/// Returns the angle of (x, y) in (-pi, pi]; 0 for (0, 0).
 inline double quick_atan2(double y, double x) {
   const double a = std::abs(x), b = std::abs(y), most = a > b ? a : b, least = a > b ? b : a;
   const double share = least / (most > 0 ? most : 1);
@@ -85,13 +85,13 @@ inline double quick_atan2(double y, double x) {
   return most > 0 ? (y < 0 ? -angle : angle) : 0;
 }
 
-/// `x` from -1 to 1.
+/// Returns the angle in [0, pi] whose cosine is `x`, from -1 to 1.
 inline double quick_acos(double x) {
   const double rest = 1 - x * x;
   return quick_atan2(std::sqrt(rest > 0 ? rest : 0), x);
 }
 
-/// math::unit inline, with the same bits; calls `otherwise()` only where it is needed.
+/// The same as math::unit, inline and with the same bits. Calls `otherwise()` only where `v` is zero or not finite.
 template <class Vec, class Otherwise>
 Vec unit_or(const Vec& v, const Otherwise& otherwise) {
   const auto largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});

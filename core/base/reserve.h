@@ -19,10 +19,10 @@ class Reserve {
   Reserve(const Reserve&) = delete;
   Reserve& operator=(const Reserve&) = delete;
 
-  /// `room` bytes in whole huge pages with unspecified content. Null where the reserve has none.
+  /// Returns `room` bytes in whole huge pages with unspecified content, or null where the reserve has none.
   std::byte* take(std::size_t room);
-  /// `room` bytes in pages of the largest small size (pages.h), cut from huge pages that several blocks share.
-  /// Maps a new huge page where none has enough space. Throws std::bad_alloc.
+  /// Returns `room` bytes, a multiple of largest_page (pages.h), from huge pages that several blocks share, with
+  /// unspecified content. Maps a new huge page where none has enough space. Throws std::bad_alloc.
   std::byte* share(std::size_t room);
   /// Keeps pages that a request frees. `used` and `peak` are those of its budget, `memory` included in `used`.
   /// Keeps them only while all kept pages and `used` together are at most max(most / 2, peak), so that the

@@ -61,7 +61,7 @@ class Rng {
   std::uint64_t count_ = 0;
 };
 
-/// Normal deviate by Marsaglia's polar method over the deterministic math of math.h.
+/// Returns a normally distributed number, by Marsaglia's polar method with the deterministic functions of math.h.
 double normal(Rng& rng, double mean, double deviation);
 
 }  // namespace seedmesh

@@ -122,7 +122,7 @@ struct GenerateContext {
   Generator::Prepared prepared = {};  ///< of this generator, perhaps of other parameters; may be null
 };
 
-/// Null: the list has no generator of this name.
+/// Returns null where the list has no generator of this name.
 const Generator* find_generator(GeneratorList generators, std::string_view name);
 
 }  // namespace seedmesh

@@ -26,15 +26,16 @@ Generator::Params read_parameters(const Generator& generator, const Json& json, 
 Result<Model> generate_child(const Child& child, const std::string& pointer, Rng stream,
                              const GenerateContext& around, const Demand& demand = {});
 
-/// What children with some equal parameters have in common; null if there is nothing.
+/// Returns the result of Generator::prepare for the child, which generate_prepared() can use for similar
+/// children; null if there is none.
 Generator::Prepared prepare_child(const Child& child, const GenerateContext& around);
 
-/// The same model as that of generate_child(), sooner if `prepared` fits.
+/// Makes the same model as generate_child(), in less time if `prepared` was made from fitting parameters.
 Result<Model> generate_prepared(const Child& child, const std::string& pointer, Rng stream,
                                 const GenerateContext& around, const Demand& demand,
                                 Generator::Prepared prepared);
 
-/// The same for the result of derive(), whose warnings stay as they are.
+/// The same for the result of derive(). The pointers of its warnings stay relative to the child.
 Result<Json> derive_child(const Child& child, const std::string& pointer, Rng stream,
                           const GenerateContext& around);
 

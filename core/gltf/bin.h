@@ -28,7 +28,7 @@ enum class Pool {
   image
 };
 
-/// Bytes of one element; 0 for pools of neither vertices nor indices.
+/// Returns the bytes of one element; 0 for pools of neither vertices nor indices.
 std::uint32_t stride_of(Pool pool);
 
 /// Returns the bufferView target (a number of OpenGL); 0 for neither vertices nor indices.
@@ -38,7 +38,7 @@ int target_of(Pool pool);
 Pool vertex_pool(const Column& column);
 Pool index_pool(const Column& column);
 
-/// Do arrays that share a view start at multiples of 4, or follow each other without gaps?
+/// Whether arrays that share a view start at multiples of 4 (aligned) or follow each other without gaps (tight).
 enum class Packing { aligned, tight };
 
 class Bin {
@@ -54,7 +54,7 @@ class Bin {
     std::uint32_t stride = 0;  ///< 0 unless vertex attributes share the view
   };
 
-  /// Does an array of this size always get a view of its own?
+  /// Whether an array of this size always gets a view of its own.
   static bool has_own_view(std::uint64_t bytes);
 
   /// Adds an array and returns its number. Call it before arrange().

@@ -11,7 +11,7 @@
 
 namespace seedmesh::gltf {
 
-/// Eight characters that follow from the bytes: a letter from a to f, then hexadecimal digits. No decimal
+/// Returns eight characters that follow from the bytes: a letter from a to f, then hexadecimal digits. No decimal
 /// number has this form.
 std::string short_hash(std::string_view bytes);
 
@@ -30,7 +30,7 @@ struct ContentNames {
 /// To be called after finish(). Reads each array once (about 10 GB/s).
 void name_by_content(Model& model, const ContentNames& names, const Job& job);
 
-/// The names of Model::textures in a file: as above.
+/// Returns the names of Model::textures in a file: `<stem>_<name>_<hash of the content>`.
 std::vector<std::string> image_names(const Model& model, std::string_view stem);
 
 }  // namespace seedmesh::gltf

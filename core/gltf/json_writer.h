@@ -9,7 +9,7 @@
 
 namespace seedmesh::gltf {
 
-/// The shortest decimal that reads back as the same float: 0.1 and not 0.10000000149011612. `value` is
+/// Appends the shortest decimal that reads back as the same float: 0.1 and not 0.10000000149011612. `value` is
 /// finite; -0 becomes 0. Does not depend on the locale.
 void append_number(std::string& out, float value);
 
@@ -22,7 +22,7 @@ void append_decimal(std::string& out, float value);
 
 void append_integer(std::string& out, long long value);
 
-/// In quotes and escaped. Bytes that are not UTF-8 become U+FFFD.
+/// Appends a text in quotes and with escapes. Bytes that are not UTF-8 become U+FFFD.
 void append_string(std::string& out, std::string_view text);
 
 /// Returns the double whose shortest decimal is that of `value`, for libraries that print only doubles.
@@ -34,14 +34,14 @@ class JsonWriter {
  public:
   explicit JsonWriter(std::string& out) : out_(out) {}
 
-  /// The name of the member that comes next.
+  /// Writes the name of the next member.
   void key(std::string_view name) {
     separate();
     append_string(out_, name);
     out_ += ':';
   }
 
-  /// A bool, an integer, a float or a text.
+  /// Writes a bool, an integer, a float or a text.
   template <class T>
   void value(const T& given) {
     separate();
@@ -56,7 +56,7 @@ class JsonWriter {
     }
   }
 
-  /// A value that is JSON already.
+  /// Writes a value that is JSON text already.
   void json(std::string_view text) {
     separate();
     out_ += text;
@@ -68,7 +68,8 @@ class JsonWriter {
     value(given);
   }
 
-  /// The argument writes the members or values. The forms without a name write a value of a list.
+  /// Write an object or an array, whose members or values the argument writes. The forms without a name write a
+  /// value of a list, the others a member.
   template <class Members>
   void object(const Members& write_members) {
     open('{');
@@ -92,7 +93,7 @@ class JsonWriter {
     array(write_values);
   }
 
-  /// A member that is an array of all values of a range.
+  /// Writes a member that is an array of all values of a range.
   template <class Range>
   void values(std::string_view name, const Range& range) {
     array(name, [&] {
@@ -100,7 +101,7 @@ class JsonWriter {
     });
   }
 
-  /// A member that is an array, from a list without brackets; nothing where the list is empty.
+  /// Writes a member that is an array, from a list without brackets. Writes nothing where the list is empty.
   void list(std::string_view name, std::string_view elements) {
     if (elements.empty()) return;
     array(name, [&] { out_ += elements; });

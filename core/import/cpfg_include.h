@@ -1,5 +1,5 @@
 #pragma once
-/// `#include "name"` of cpfg files: the text of the named file stands in the place of the line.
+/// Replaces each line `#include "name"` of a cpfg file by the text of the named file.
 #include <map>
 #include <string>
 #include <string_view>
@@ -15,8 +15,8 @@ struct JoinedText {
   std::vector<std::string> included;  ///< names of the files that were used
 };
 
-/// `text` with the files that it includes, and those that they include, at most 16 deep and 16 MiB in all. A directory
-/// before the name is ignored. Lines that name no given file stay as they are.
+/// Returns `text` with the files that it includes, and those that they include, at most 16 deep and 16 MiB in
+/// all. A directory before the name is ignored. Lines that name no given file stay as they are.
 JoinedText with_cpfg_includes(std::string_view text, const std::map<std::string, std::string>& files);
 
 }  // namespace seedmesh

@@ -24,8 +24,8 @@ class CpfgMacros {
   /// Decides which macros are constants or functions. Call it after the last define().
   void sort();
 
-  /// `text` with its macros expanded, except for constants and for functions whose arguments are single operands. Empty,
-  /// with an error, if macros contain themselves or the result is too long.
+  /// Returns `text` with its macros expanded, except for constants and for functions whose arguments are single
+  /// operands. Reports an error and returns an empty text if macros contain themselves or the result is too long.
   TracedText expanded(const TracedText& text);
 
   struct Expression {

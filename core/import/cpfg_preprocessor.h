@@ -8,8 +8,8 @@
 
 namespace seedmesh {
 
-/// Defines the macros of `text` and replaces the lines that a choice leaves out by blanks. An error for an #include
-/// whose file is not given, and for a choice that is not closed.
+/// Defines the macros of `text` and replaces the lines that a choice leaves out by blanks. Reports an error for
+/// an #include whose file is not given, and for a choice that is not closed.
 void preprocess_cpfg(ForeignText& source, std::string& text, CpfgMacros& macros);
 
 }  // namespace seedmesh

@@ -18,17 +18,17 @@ struct CpfgRule {
   bool has_context() const { return is_strict || left.size() > 0 || right.size() > 0; }
   bool is_for_one_letter() const { return !is_strict && (predecessor.size() == 1 || predecessor[1] == '('); }
 
-  /// left < predecessor > right : condition --> successor : weight
+  /// Returns the rule as text: left < predecessor > right : condition --> successor : weight.
   TracedText written() const;
 };
 
-/// The names in a text, numbers too.
+/// Returns the names in a text, numbers included.
 std::set<std::string> cpfg_names_in(std::string_view text);
 
 /// Contexts have a meaning in productions and decompositions; cpfg ignores those of a homomorphism.
 enum class CpfgContexts { used, ignored };
 
-/// Nullopt after an error, which was reported.
+/// Reads a rule. Reports errors, and then returns nullopt.
 std::optional<CpfgRule> read_cpfg_rule(const TracedText& text, CpfgContexts contexts, ForeignText& source,
                                        CpfgWords& words, CpfgStatements& statements);
 

@@ -6,6 +6,7 @@
 #include "core/base/job.h"
 #include "core/generators/lsystem/word.h"
 #include "core/import/cpfg_reader.h"
+#include "core/import/cpfg_view.h"
 #include "generated/params/lsystem.h"
 
 namespace seedmesh {
@@ -145,7 +146,9 @@ bool CpfgReader::put_constants() {
     if (!is_simple) return false;
     const Line value = trimmed(start_.text(), {equals + 1, end});
     TracedText text = words_.expression(start_, {value.from, value.to});
-    if (text.text().find("fopen") != std::string::npos) return false;
+    // Constants have no functions of files.
+    if (text.text().find("fopen") != std::string::npos || text.text().find("func") != std::string::npos)
+      return false;
     if (!found.emplace(start_.text().substr(at, stop - at), std::move(text)).second) return false;
     at = skip(start_, end + 1, start_.size());
   }
@@ -167,6 +170,13 @@ void CpfgReader::run_start(const TracedText& start) {
     if (!arrays_.contains(name) && !params.constants.contains(name)) params.variables[name] = 0.0;
   }
   params.arrays = arrays_;
+  ForeignText unheard(source_.text());  // put_cpfg_files reports again when the request is complete
+  Json of_files = Json::object();
+  put_cpfg_files(options_.files, of_files, unheard);
+  for (const Json& each : of_files.value("functions", Json::array()))
+    params.functions.push_back(each.get<std::string>());
+  const Json samples = of_files.value("arrays", Json::object());
+  for (const auto& [name, values] : samples.items()) params.arrays[name] = values.get<std::vector<double>>();
   params.start_each = start.text();
   const std::uint64_t seed = out_.request.value("seed", std::uint64_t{0});
   Limits limits;
@@ -193,9 +203,14 @@ void CpfgReader::run_start(const TracedText& start) {
   std::size_t at = 0;
   Json& variables = parameters_["variables"] = Json::object();
   for (auto& [name, value] : params.variables) variables[name] = derivation.word.variables[at++];
-  for (auto& [name, values] : arrays_) {
-    for (double& value : values) value = derivation.word.variables[at++];
-    parameters_["arrays"][name] = values;
+  for (const auto& [name, all] : params.arrays) {
+    const auto own = arrays_.find(name);
+    if (own == arrays_.end()) {
+      at += all.size();
+      continue;
+    }
+    for (double& value : own->second) value = derivation.word.variables[at++];
+    parameters_["arrays"][name] = own->second;
   }
 }
 

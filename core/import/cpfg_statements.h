@@ -29,7 +29,7 @@ class CpfgStatements {
   /// Adds names that exist in all following rules.
   void share(const std::set<std::string>& names) { shared_.insert(names.begin(), names.end()); }
 
-  /// The names that statements so far assign.
+  /// Returns the names that the statements read so far assign.
   const std::set<std::string>& assigned() const { return assigned_; }
 
   /// Returns the argument of the last srand(); empty if there was none.

@@ -6,9 +6,10 @@
 
 namespace seedmesh {
 
-/// The text with blanks for comments, and for backslashes at line ends together with their line ends, so that
-/// continued lines are joined. Every byte keeps its offset. `//` begins a comment at the beginning of a line
-/// or between blanks; elsewhere it is two modules `/` (roll right), because cpfg itself has no such comments.
+/// Returns the text with comments replaced by blanks. Backslashes at line ends, together with their line ends,
+/// are replaced too, so that continued lines are joined. Every byte keeps its offset. `//` begins a comment at
+/// the beginning of a line or between blanks; elsewhere it is two modules `/` (roll right), because cpfg itself
+/// has no such comments.
 std::string cpfg_without_comments(ForeignText& source);
 
 /// Whether the trimmed line is a directive: `#` and a known word, or `#` directly before any word that has no

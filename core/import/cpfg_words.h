@@ -23,8 +23,8 @@ class CpfgWords {
   /// pattern it is an error.
   TracedText modules(const TracedText& text, lsystem::Slice slice, Role role);
 
-  /// An expression or statements. In cpfg a sign binds closer than `^`, which is left associative, and `a ? b : c`
-  /// chooses.
+  /// Converts an expression or statements to our notation. In cpfg a sign binds closer than `^`, which is left
+  /// associative, and `a ? b : c` selects a value.
   TracedText expression(const TracedText& text, lsystem::Slice slice) const;
 
   /// Returns the number of modules in our notation.
@@ -45,7 +45,7 @@ class CpfgWords {
   /// longer symbol belongs to the list if its first character does.
   std::string listed(std::string_view characters) const;
 
-  /// Returns the characters behind the first of such a symbol, with the symbol.
+  /// Returns the further characters of symbols with more than one character, each with its symbol.
   const std::map<char, std::string>& inside() const { return inside_; }
 
   void warn_once(std::size_t at, const std::string& symbol, const std::string& text);

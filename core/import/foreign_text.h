@@ -9,8 +9,8 @@
 
 namespace seedmesh {
 
-/// Bytes of a joined text from `from` on. They come from `origin` of the foreign text; with a file name, they all stand
-/// for the line at `origin` that includes that file.
+/// The bytes of a joined text from `from` on. They come from byte `origin` of the foreign text. With a file name,
+/// all of them map to the line at `origin` that includes that file.
 struct TextPart {
   std::size_t from = 0, origin = 0;
   std::string file;
@@ -20,7 +20,8 @@ struct TextPart {
 class ForeignText {
  public:
   explicit ForeignText(std::string_view text) : text_(text), foreign_(text) {}
-  /// `text` is joined from `foreign` and further files. Offsets are those of `text`, positions those of `foreign`.
+  /// `text` is joined from `foreign` and further files. Offsets refer to `text`; reported lines and columns refer
+  /// to `foreign`.
   ForeignText(std::string_view text, std::string_view foreign, std::vector<TextPart> parts)
       : text_(text), foreign_(foreign), parts_(std::move(parts)) {}
 
@@ -29,7 +30,7 @@ class ForeignText {
   void warn(std::size_t offset, std::string message, std::string pointer = "");
   std::size_t error_count() const { return issues_.size() + unlisted_; }
 
-  /// `imported` with the errors and warnings, in the order of the text.
+  /// Returns `imported` with the errors and warnings, in the order of the text.
   Imported finish(Imported imported);
 
  private:
@@ -51,8 +52,8 @@ struct Line {
 };
 std::vector<Line> lines_of(std::string_view text);
 
-/// Bytes. The format of a longer text is never detected as that of a tree in JSON; the request has to name it. So the
-/// detection does not parse whole maps.
+/// Greatest size in bytes of a JSON text that is detected as a tree; the request has to name the format of a
+/// longer one. Detection therefore does not parse whole maps.
 constexpr std::size_t largest_tree_file = 256 * 1024;
 
 /// Returns an error if `options` name an entry, for formats whose files have no entries; else nullopt. `what` begins
@@ -65,11 +66,11 @@ bool is_digit(char c);
 char lower(char c);
 std::string lower(std::string_view text);
 
-/// `line` without blanks at both ends.
+/// Returns `line` without blanks at both ends.
 Line trimmed(std::string_view text, Line line);
 
-/// Reads the unsigned number at text[at, to) (digits and at most one point) and moves `at` behind it. False if there
-/// is none.
+/// Reads the unsigned number at text[at, to) (digits and at most one point) and moves `at` behind it. Returns
+/// false if there is none.
 bool take_number(std::string_view text, std::size_t& at, std::size_t to, double& number);
 
 }  // namespace seedmesh

@@ -13,7 +13,7 @@ struct FractintEntry {
   std::vector<Line> lines;  ///< without comments and blanks at their ends
 };
 
-/// Reports text between entries that is no comment, and braces without their partner.
+/// Returns the entries of a file. Reports text between entries that is not a comment, and braces without a partner.
 std::vector<FractintEntry> fractint_entries(ForeignText& source);
 
 }  // namespace seedmesh

@@ -54,7 +54,7 @@ void HoudiniNames::put(double gravity, Json& parameters, ForeignText& source) co
     parameters["end_each"] = "t = t + 1;";
   }
   if (names_.contains("T")) parameters["constants"]["T"] = gravity;
-  for (const char* each : {"J", "K", "M", "x", "y", "z", "A", "W", "L", "U", "V", "g"}) {
+  for (const char* each : {"i", "J", "K", "M", "x", "y", "z", "A", "W", "L", "U", "V", "g"}) {
     const auto found = names_.find(each);
     if (found == names_.end()) continue;
     source.warn(found->second,

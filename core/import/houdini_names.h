@@ -1,6 +1,6 @@
 #pragma once
-/// Names in the expressions of a Houdini L-System: variables of the node, and what rules for symbols with several
-/// parameters need.
+/// Names in the expressions of a Houdini L-System: the variables of the node. HoudiniArities writes the rules that
+/// symbols with several numbers of parameters need.
 #include <map>
 #include <set>
 #include <string>
@@ -23,7 +23,7 @@ class HoudiniNames {
 
   /// Notes the names of an expression at byte `at` of the file.
   void note(std::string_view text, std::size_t at);
-  /// `i`, the number of a module in its successor, as a number.
+  /// Returns the arguments with `i`, the index of a module in its successor, replaced by its value.
   std::string with_index(const std::string& arguments, std::size_t index) const;
 
   /// Puts variables of the node into the parameters: t counts generations, T is `gravity`. Others are 0, with a warning.
@@ -41,7 +41,7 @@ class HoudiniNames {
 class HoudiniArities {
  public:
   void note(char symbol, const std::string& arguments);
-  /// Rules for H, which is half of F, and for F(l,w,s,d), which has its own width.
+  /// Returns interpretation rules for H, which is half of F, and for F(l,w,s,d), which has its own width.
   Json interpretation() const;
 
  private:

@@ -15,7 +15,7 @@ struct HoudiniSetting {
 };
 std::span<const HoudiniSetting> houdini_settings();
 
-/// The name of a parameter in lower case, without blanks.
+/// Returns the name of a parameter in lower case, without blanks.
 std::string houdini_name(std::string_view text);
 
 }  // namespace seedmesh

@@ -60,8 +60,8 @@ struct ImportFormat {
   std::string_view text;        ///< one sentence on the result
   std::string_view media_type;  ///< "text/plain", "application/json" or "application/xml"
 
-  /// The text with each byte of its comments replaced by a blank, because they can have any encoding. Null: the
-  /// format has no comments.
+  /// Returns the text with each byte of its comments replaced by a blank, because comments can have any encoding.
+  /// Null if the format has no comments.
   std::string (*without_comments)(std::string_view text);
 
   /// Returns how well the keywords of a text match this format; 0: not at all. `text` is valid UTF-8.
@@ -74,7 +74,7 @@ struct ImportFormat {
 
 std::span<const ImportFormat> import_formats();
 
-/// The format of this name; null if there is none.
+/// Returns the format of this name; null if there is none.
 const ImportFormat* find_import_format(std::string_view name);
 
 /// Returns the format with the greatest score; null if all are 0.

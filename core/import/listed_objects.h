@@ -1,6 +1,7 @@
 #pragma once
-/// The objects of the list in a large JSON file (features of GeoJSON, elements of Overpass) as texts, so that they are parsed
-/// one after the other: a whole map as JSON values takes many times the memory of its text.
+/// Splits the list in a large JSON file (features of GeoJSON, elements of Overpass) into the texts of its
+/// objects, which are then parsed one after the other. A whole map as JSON values takes many times the memory of
+/// its text.
 #include <optional>
 #include <string>
 #include <string_view>
@@ -11,7 +12,7 @@
 
 namespace seedmesh {
 
-/// Larger files are parsed object by object.
+/// Size in bytes above which files are parsed object by object.
 constexpr std::size_t largest_whole_file = 1024 * 1024;
 
 struct ListedObjects {
@@ -20,8 +21,8 @@ struct ListedObjects {
   std::vector<std::string_view> texts;  ///< of the objects, in the file
 };
 
-/// Divides the text of an object with one member `name`, a list of objects. nullopt: the text is something else or has
-/// errors, which parse_json reports. Cost: linear.
+/// Divides the text of an object with one member `name`, a list of objects. Returns nullopt if the text is
+/// something else or has errors, which parse_json() reports. Cost: linear.
 std::optional<ListedObjects> listed_objects(std::string_view text, std::string_view name);
 
 /// Parses object `index`; errors have the position in the whole text.

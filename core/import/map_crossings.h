@@ -4,9 +4,9 @@
 
 namespace seedmesh {
 
-/// A ring with a point, rounded to millimetres, on both edges wherever two of its edges cross, and on an edge wherever
-/// another of its points lies on it. Cost: the square of the number of points. Checks stop and deadline where there is a
-/// job.
+/// Returns the ring with further points, rounded to millimetres. Where two of its edges cross, both get a point.
+/// Where one of its points lies on an edge, that edge gets a point. Cost: the square of the number of points.
+/// Checks stop and deadline if `job` is not null.
 PlanRing with_crossings(const PlanRing& ring, const Job* job = nullptr);
 
 }  // namespace seedmesh

@@ -1,6 +1,6 @@
 #pragma once
-/// Maps as the readers of GeoJSON and OpenStreetMap give them, before they become a scene: features with tags and
-/// geographic geometry, and the warnings that many features share.
+/// Maps as the readers of GeoJSON and OpenStreetMap return them, before they are converted to a scene. A map has
+/// features with tags and geographic geometry, and the warnings that many features share.
 #include <cstddef>
 #include <glm/vec2.hpp>
 #include <map>
@@ -19,9 +19,9 @@ namespace seedmesh {
 class MapTags {
  public:
   void add(std::string name, std::string value) { tags_.emplace_back(std::move(name), std::move(value)); }
-  /// The value of a name; empty where there is none.
+  /// Returns the value of a name; empty if there is none.
   std::string_view get(std::string_view name) const;
-  /// The first value of several names that is not empty.
+  /// Returns the first value of several names that is not empty.
   std::string_view get(std::initializer_list<std::string_view> names) const;
   bool is(std::string_view name, std::string_view value) const { return get(name) == value; }
   /// Whether the name has a value other than "no".
@@ -34,7 +34,7 @@ class MapTags {
 
 using MapRing = std::vector<glm::dvec2>;  ///< x is the longitude in degrees, or the easting in metres
 
-/// Where a feature stands in the file: a byte of XML, or a pointer into JSON.
+/// The position of a feature in the file: a byte of XML, or a pointer into JSON.
 struct MapPosition {
   std::size_t offset = 0;
   std::string pointer;
@@ -52,7 +52,7 @@ struct MapFeature {
 
 enum class MapUnit { degrees, web_mercator, metres };
 
-/// Warnings with the number of times that they apply. The first position stays.
+/// Warnings, each with its number of occurrences and the position of the first one.
 class MapWarnings {
  public:
   void add(std::string message, const MapPosition& position);
@@ -77,7 +77,7 @@ struct MapBounds {
 struct MapData {
   std::vector<MapFeature> features;
   MapUnit unit = MapUnit::degrees;
-  /// Bounds of the part of the world that the file covers, where it says so.
+  /// Bounds of the part of the world that the file covers, if the file states them.
   std::optional<MapBounds> bounds;
   /// Polygons that no tag describes are buildings, as in files of footprints.
   bool plain_polygons_are_buildings = false;

@@ -1,5 +1,5 @@
 #pragma once
-/// Names of files of footprints, and what OpenStreetMap calls them.
+/// Names of properties in files of footprints, and their keys in OpenStreetMap.
 #include <string_view>
 #include <vector>
 
@@ -10,8 +10,8 @@ struct FootprintName {
   std::string_view unit;  ///< unit that the values lack: "" or " ft"
 };
 
-/// The keys of OpenStreetMap for a name such as "numFloors", "HEIGHT", or "building_l", as shape files shorten it; empty
-/// if it has none. Case and the signs between words do not matter.
+/// Returns the keys of OpenStreetMap for a name such as "numFloors" or "HEIGHT", or for a name that shape files
+/// shorten, such as "building_l". Empty if there is none. Case and the characters between words are ignored.
 std::vector<FootprintName> footprint_names(std::string_view name);
 
 }  // namespace seedmesh

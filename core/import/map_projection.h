@@ -10,10 +10,10 @@ namespace seedmesh {
 /// Abbildung des Erdellipsoids in der Ebene", 1912, to the fourth order (0.001 mm within 1,000 km).
 class TransverseMercator {
  public:
-  /// Degrees.
+  /// Makes the projection about an origin in degrees.
   TransverseMercator(double longitude, double latitude);
 
-  /// East and north of the origin, of a longitude and latitude in degrees.
+  /// Returns the metres to the east and north of the origin, for a longitude and latitude in degrees.
   glm::dvec2 forward(const glm::dvec2& position) const;
 
   /// Returns the projection as PROJ writes it.
@@ -25,7 +25,7 @@ class TransverseMercator {
   double north_ = 0;  ///< distance of the origin from the equator
 };
 
-/// Longitude and latitude in degrees of a position of Web Mercator (EPSG:3857) in metres.
+/// Returns the longitude and latitude in degrees of a position of Web Mercator (EPSG:3857) in metres.
 glm::dvec2 of_web_mercator(const glm::dvec2& position);
 
 }  // namespace seedmesh

@@ -11,12 +11,12 @@
 
 namespace seedmesh {
 
-/// Turns the features into a scene. `text`: the file, for the lines of warnings; empty for JSON. An error if nothing
-/// has a counterpart or the map is too large.
-/// Works within the limits, stop and deadline of `options.job`.
+/// Converts the features to a scene. `text`: the file, for the lines of warnings; empty for JSON. Returns an
+/// error if no feature has a counterpart or the map is too large. Works within the limits, stop and deadline of
+/// `options.job`.
 Result<Imported> scene_of_map(MapData data, std::string_view text, const ImportOptions& options = {});
 
-/// What the parts of the conversion share.
+/// The data that the parts of the conversion share.
 struct MapConversion {
   MapConversion(MapWarnings& warnings_of_file, const Job& job_of_file, MapUnit unit_of_file)
       : warnings(warnings_of_file), job(job_of_file), unit(unit_of_file) {}
@@ -40,7 +40,7 @@ struct MapConversion {
 
   glm::dvec2 local(const glm::dvec2& position) const;
   PlanRing local(const MapRing& ring) const;
-  /// Positions of a scene: east and south, in whole millimetres.
+  /// Returns a position of a scene: metres east and south, rounded to whole millimetres.
   static Json point(const glm::dvec2& p);
   Json rings(const Plan& plan);
 };
@@ -48,16 +48,16 @@ struct MapConversion {
 /// Returns the height in metres of the models of trees at scale 1.
 constexpr double map_tree_height(bool is_needle) { return is_needle ? 12 : 10; }
 
-/// The kinds of features that are areas and lines of the ground.
+/// Whether the tags are those of an area or a line of the ground.
 bool has_ground_tag(const MapTags& tags);
 /// Returns the key to which a value without a key belongs, such as "leisure" for "park". Empty if no kind of line or
 /// area has the value, or if it can also be a kind of building.
 std::string_view map_key_of(std::string_view value, bool is_line);
 
-/// Buildings and parts of buildings (map_buildings.cpp). Returns whether each feature was one.
+/// Adds buildings and parts of buildings (map_buildings.cpp). Returns for each feature whether it is one.
 std::vector<bool> add_buildings(MapConversion& map, const MapData& data);
 
-/// Areas, streets, waterways and trees (map_ground.cpp); areas in the order in which they cover each other.
+/// Adds areas, streets, waterways and trees (map_ground.cpp); areas in the order in which they cover each other.
 void add_ground(MapConversion& map, const MapData& data, const std::vector<bool>& is_building);
 
 }  // namespace seedmesh

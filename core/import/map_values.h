@@ -15,16 +15,17 @@ std::optional<double> map_number(std::string_view text);
 /// Returns a number of degrees, with or without the sign.
 std::optional<double> map_degrees(std::string_view text);
 
-/// Degrees clockwise from north: a number, or a point of the compass such as "NNE" or "south".
+/// Returns degrees clockwise from north, for a number or a point of the compass such as "NNE" or "south".
 std::optional<double> map_direction(std::string_view text);
 
-/// "#rrggbb" of "#rgb", "#rrggbb", "rrggbb", "rgb(r, g, b)" or a name of CSS, whose words "_", "-" and blanks may separate.
+/// Returns "#rrggbb" for "#rgb", "#rrggbb", "rrggbb", "rgb(r, g, b)" or a name of CSS, whose words "_", "-" and
+/// blanks may separate.
 std::optional<std::string> map_color(std::string_view text);
 
 /// Returns the usual colour of a building material, as #rrggbb; empty for an unknown one.
 std::string_view map_material_color(std::string_view material);
 
-/// "glass", "metal" or "plain", the surfaces of a scene.
+/// Returns the surface of a scene for a material: "glass", "metal" or "plain".
 std::string_view map_surface(std::string_view material);
 
 }  // namespace seedmesh

@@ -10,10 +10,11 @@
 
 namespace seedmesh {
 
-/// `outline` is one of relations `building`. `unknown`: no role, as in old files, or another; the geometry decides then.
+/// The role of a member of a relation. `outline` occurs in relations of the type `building`. `unknown` is a
+/// missing role, as in old files, or any other; then the geometry decides.
 enum class OsmRole { outer, inner, outline, unknown };
 
-/// The role of a member by its name.
+/// Returns the role of a member by its name.
 OsmRole osm_role(std::string_view name);
 
 /// Widens `bounds` to a further box: a file of several downloads states one for each.
@@ -58,10 +59,10 @@ struct OsmFile {
   MapWarnings warnings;
 };
 
-/// Joins ways and multipolygons to features. Elements that occur twice count once, with the tags and nodes of both. The
-/// only outer way of a multipolygon that is the same thing as it gives it its further tags. What refers to nodes or ways that the
-/// file lacks is left out or shortened, with a warning. Checks stop and deadline of the job of `options`. Cost: about
-/// n log n.
+/// Joins ways and multipolygons to features. Elements that occur twice count once, with the tags and nodes of
+/// both. If the only outer way of a multipolygon describes the same object, the multipolygon also gets the tags
+/// of that way. Elements that refer to nodes or ways that the file lacks are left out or shortened, with a
+/// warning. Checks stop and deadline of the job of `options`. Cost: about n log n.
 MapData map_of(OsmFile file, const ImportOptions& options = {});
 
 }  // namespace seedmesh

@@ -1,5 +1,5 @@
 #pragma once
-/// The words of ShapeML's notation and what they are in rules of buildings.
+/// The words of ShapeML's notation and their counterparts in rules of buildings.
 #include <span>
 #include <string_view>
 
@@ -10,7 +10,7 @@ struct ShapemlOperation {
   std::string_view name;
   int least, most;  ///< number of arguments; -1: any
   std::string_view rules;
-  bool is_left_out = false;  ///< without a counterpart, but the geometry is the same: a warning
+  bool is_left_out = false;  ///< gives a warning; the geometry is the same without it
 };
 std::span<const ShapemlOperation> shapeml_operations();
 

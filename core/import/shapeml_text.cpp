@@ -35,7 +35,7 @@ ShapemlText::ShapemlText(ForeignText& source) : source_(source), text_(without_c
   std::vector<lang::TextError> errors;
   tokens_ = lang::tokenize(text_, 0, text_.size(), errors);
   for (const lang::TextError& error : errors) source_.report(error.offset, error.message);
-  expand_shapeml_operations(tokens_, source_);
+  expand_shapeml_operations(tokens_, made_names_, source_);
   for (std::size_t i = 0; i + 2 < tokens_.size(); ++i) {
     const std::string_view word = at(i).text;
     if (!is_name(i)) continue;

@@ -19,7 +19,7 @@ class ShapemlText {
   bool is_name(std::size_t i) const { return at(i).kind == lang::TokenKind::name; }
   void error(std::size_t i, const std::string& message) { source_.report(at(i).offset, message); }
 
-  /// The index of the next token `symbol` at the level of brackets of token i, or of the end token.
+  /// Returns the index of the next token `symbol` at the level of brackets of token i, or else that of the end token.
   std::size_t find(std::size_t i, std::string_view symbol) const;
   /// Returns the arguments of a call as ranges of tokens.
   std::vector<std::pair<std::size_t, std::size_t>> arguments(std::size_t i) const;
@@ -27,7 +27,8 @@ class ShapemlText {
   void expression(std::size_t from, std::size_t to, TracedText& out);
 
   ForeignText& source_;
-  std::string text_;  ///< without comments
+  std::string text_;                  ///< without comments
+  std::set<std::string> made_names_;  ///< to which tokens point
   std::vector<lang::Token> tokens_;
   std::vector<std::size_t> partner_;  ///< of brackets: the closing one
   TracedText declarations_;

@@ -15,7 +15,7 @@ class WeberPennSpecies {
 
   /// Sets a parameter by the name of the schema, such as "Shape" or "2Curve". `at`: the offset of its value.
   void set(const std::string& name, double value, std::size_t at);
-  /// Sets it where the file does not.
+  /// Sets a parameter unless the file has set it.
   void set_default(const std::string& name, double value) { values_.emplace(name, Value{value, none}); }
 
   /// Returns the value of a parameter; `otherwise` where the file has none.
@@ -24,11 +24,10 @@ class WeberPennSpecies {
     return found == values_.end() ? otherwise : found->second.value;
   }
 
-  /// Returns the request. Parameters of levels that do not exist are left out; there, files have 0 where no value
-  /// counts.
+  /// Returns the request. Parameters of levels that do not exist are left out, because files have 0 there.
   Imported made(std::uint64_t seed) const;
 
-  /// The parameters with a digit of a level before their names.
+  /// Whether a name has the digit of a level before it.
   static bool is_of_levels(const std::string& name);
 
  private:
@@ -41,7 +40,7 @@ class WeberPennSpecies {
   std::map<std::string, Value> values_;
 };
 
-/// The shapes of leaves by the numbers of a program; "simple" for others.
+/// Returns the shape of leaves for a number of a program; "simple" for other numbers.
 std::string leaf_shape_of(double number, std::array<const char*, 11> names);
 
 }  // namespace seedmesh

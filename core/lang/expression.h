@@ -32,7 +32,7 @@
 
 namespace seedmesh::lang {
 
-/// A number, or a text of a table of the caller, by its number from 1.
+/// A number, or a reference to a text in a table of the caller: the number of the text, from 1.
 struct TaggedValue {
   double number = 0;
   std::uint32_t text = 0;  ///< 0: the value is a number

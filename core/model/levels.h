@@ -15,8 +15,9 @@ std::size_t levels_of(const Model& model);
 /// levels shows its coarsest.
 int mesh_at(const Node& node, std::size_t level);
 
-/// Shares of the screen's height below which each of the `coarser` levels of a node is shown, falling; the coarsest is
-/// shown from 0 on. An impostor takes over where it is about as large as its texture is sharp.
+/// Shares of the screen's height below which each of the `coarser` levels of a node is shown, falling; the
+/// coarsest is shown from 0 on. An impostor is shown from 12 % of the screen's height at the earliest, because
+/// its texture is not sharp enough for larger sizes.
 std::vector<float> screen_shares(const Node& node, std::size_t coarser);
 
 /// Triangles of all primitives of `group`.

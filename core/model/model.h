@@ -117,7 +117,7 @@ struct Node {
   Transform transform;
   int mesh = -1;          ///< index into Model::meshes
   std::vector<int> lods;  ///< coarser meshes than `mesh`, finest first; -1: the node is hidden there
-  /// Shares of the screen's height below which each of `lods` is shown, falling; empty: the usual ones.
+  /// Shares of the screen's height below which each of `lods` is shown, falling; empty: the default shares (levels.h).
   std::vector<float> screen;
   bool has_impostor = false;  ///< at the last of `lods`, an impostor replaces the model
   int skin = -1;
@@ -141,7 +141,7 @@ struct Channel {
   int node = -1;
   Path path = Path::translation;
   Interpolation interpolation = Interpolation::linear;
-  int times = -1;             ///< into Animation::times; channels can share key times
+  int times = -1;             ///< index into Animation::times; channels can share key times
   std::vector<float> values;  ///< 3 (translation, scale) or 4 (rotation, xyzw) floats for each key
 };
 

@@ -9,7 +9,8 @@
 
 namespace seedmesh {
 
-/// Pointers of generators are relative to their parameters; only those that begin with "/output/" are not.
+/// Converts the pointer of a generator, which is relative to its parameters, to one into the request. Empty
+/// pointers and those that begin with "/output/" stay.
 inline std::string in_request(std::string pointer) {
   return pointer.empty() || pointer.starts_with("/output/") ? pointer : "/parameters" + pointer;
 }

@@ -27,7 +27,8 @@ const Profile& profile_of(OutputProfile name);
 std::string profiles_where(bool Profile::*reads);
 
 /// Changes the names of a finished model to those that the profile's program understands. Names stay unique.
-/// - Collision shapes become UCX_bark_00 and similar (by shape) for Unreal, and bark_collision_00-convcolonly for
+/// - Collision shapes are called UCX_bark_00 and similar (by shape) for Unreal, and
+///   bark_collision_00-convcolonly for Godot.
 /// - Unity: the finest of several levels is called bark_LOD0.
 /// - Godot: no `. : @ / " %`; the wind animation is called "wind-loop", which makes it repeat.
 /// - Unreal: letters, digits, `-` and `_` only.

@@ -28,7 +28,7 @@ using BoundsOf = std::function<Bounds(const Address&)>;
 constexpr int levels_a_tileset = 4;
 constexpr int levels_a_subtree = 5;
 
-/// What a file names the others by: `<prefix>c/3/1/7.glb`, `<prefix>e/4/0/2.json`, `<prefix>s/5/3/3.subtree`.
+/// How a file names the other files: `<prefix>c/3/1/7.glb`, `<prefix>e/4/0/2.json`, `<prefix>s/5/3/3.subtree`.
 struct Naming {
   std::string_view prefix;  ///< relative to the address of the file; ends with "/" or is empty
   int levels = 0;           ///< levels of the tree; its last level has no children
@@ -44,10 +44,11 @@ std::string explicit_tileset(const Address& root, const Naming& naming, const Bo
 /// exactly the square of side `extent` in plan, and `error`, halved `level` times, is never below the error of a tile.
 std::string implicit_tileset(double extent, double error, const Naming& naming, const BoundsOf& bounds_of);
 
-/// Bit of a tile among those of its level in a subtree: the bits of x at even places, those of y at odd ones.
+/// Returns the Morton index of a tile within its level of a subtree: bits of x at even positions, bits of y at
+/// odd ones.
 std::uint32_t morton(std::uint32_t x, std::uint32_t y);
 
-/// Bits of all tiles of the first `levels` levels of a subtree: (4^levels - 1) / 3.
+/// Returns the number of tiles of the first `levels` levels of a subtree: (4^levels - 1) / 3.
 std::uint32_t tiles_of(int levels);
 
 /// Returns a binary subtree of five levels without metadata, whose tiles are those of a tree of `levels` levels

@@ -11,7 +11,8 @@
 
 namespace seedmesh {
 
-/// What the tiles of all worlds remember (regions, sites, roads), bounded in bytes. It changes times and no bytes.
+/// A cache of values that tiles share (regions, sites, roads), bounded in bytes. It affects the time and never
+/// the result.
 class WorldMemory;
 std::shared_ptr<WorldMemory> make_world_memory(std::uint64_t bytes);
 
@@ -90,8 +91,9 @@ Result<std::optional<WorldFile>> world_file(const OpenWorld& world, std::string_
 Result<WorldBox> read_world_box(const OpenWorld& world, std::string_view text,
                                 double longest = longest_world_box);
 
-/// Settlements, rivers, lakes, roads and plants of a box as JSON text; with heights where they are wanted.
+/// Whether world_map() adds a grid of heights.
 enum class WorldHeights { none, grid };
+/// Returns settlements, rivers, lakes, roads and plants of a box as JSON text.
 Result<std::string> world_map(const OpenWorld& world, const WorldBox& box, WorldHeights heights,
                               const Job::Options& options);
 

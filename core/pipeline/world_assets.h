@@ -5,8 +5,12 @@
 
 namespace seedmesh {
 
-/// Makes assets within `options`. near: the model with 1,500 triangles, or more where it cannot be simplified so far, and textures of 128 texels. far: an
-/// impostor of 12 triangles with a texture of 128 texels. A request that cannot be made ends the job by Stop.
+/// Returns a function that makes assets within `options`.
+/// - near: the model with at most 1,500 triangles, or more where it cannot be simplified so far, and textures
+///   of 128 texels.
+/// - far: an impostor of 12 triangles with a texture of 128 texels.
+///
+/// A request that cannot be made ends the job by Stop.
 world::MakeAsset asset_maker(const Job::Options& options);
 
 }  // namespace seedmesh

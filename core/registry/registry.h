@@ -4,10 +4,10 @@
 
 namespace seedmesh {
 
-/// In the order of the menu.
+/// Returns all generators, in the order of the page's menu.
 GeneratorList generators();
 
-/// Null: there is no generator of this name.
+/// Returns null where there is no generator of this name.
 inline const Generator* find_generator(std::string_view name) { return find_generator(generators(), name); }
 
 }  // namespace seedmesh

@@ -1,5 +1,5 @@
 #pragma once
-/// Where a picture is taken from, and where its light comes from.
+/// The camera of a picture, and the axes of a view.
 #include <glm/glm.hpp>
 #include <span>
 
@@ -27,8 +27,8 @@ struct Camera {
   double half = 0.2;  ///< half the width of the image at distance 1
 };
 
-/// Returns the camera in whose picture all of the items is visible, with a small margin. The picture has the `share` of the
-/// square image in width and height, each at most 1.
+/// Returns a camera that shows all of the items, with a small margin. The picture has the `share` of the square
+/// image in width and height, each at most 1.
 Camera camera_for(const Model& model, const Items& items, const Frame& frame, const glm::dvec2& share);
 
 }  // namespace seedmesh::render

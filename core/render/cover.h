@@ -69,7 +69,7 @@ struct Cover {
   }
 };
 
-/// Sets the box. False: no sample's centre is inside of it, or it is outside of the image.
+/// Sets the box. Returns false if no centre of a sample is inside the box, or the box is outside of the image.
 inline bool set_box(Cover& c, std::int32_t size, const Rows& rows) {
   constexpr std::int32_t half = fixed_one / 2;
   const auto [low_x, high_x] = std::minmax({c.x[0], c.x[1], c.x[2]});

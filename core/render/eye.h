@@ -1,5 +1,5 @@
 #pragma once
-/// How vertices appear to a camera or to the sun. For core/render only.
+/// Projection of vertices to the image of a camera or to the map of the sun. For core/render only.
 #include <algorithm>
 
 #include "core/render/camera.h"

@@ -1,5 +1,5 @@
 #pragma once
-/// What a triangle looks like at a position of the image. For core/render only.
+/// The colour and normal of a triangle at a position of the image. For core/render only.
 #include <array>
 #include <cmath>
 
@@ -12,7 +12,7 @@ struct Fragment {
   glm::vec3 color{0};   ///< linear
   float alpha = 1;      ///< 0: a hole of a cut-out texture
   glm::vec3 normal{0};  ///< of the visible side, in the frame of the model, unit; 0 for lines and points
-  std::uint32_t surface = 0;  ///< into Surfaces
+  std::uint32_t surface = 0;  ///< index into Surfaces
 };
 
 /// Reads fragments of a scene, one thread at a time. Neighbours of one triangle are cheaper.
@@ -20,9 +20,9 @@ class FragmentReader {
  public:
   explicit FragmentReader(const Shown& shown) : shown_(shown) {}
 
-  /// `number` is that of the triangle in its drawing, or of the vertex where lines or points are drawn. The position
-  /// is in fixed-point numbers and inside of the triangle. `samples`: over how many of them textures are averaged. Cost:
-  /// about 40 ns.
+  /// `number` is that of the triangle in its drawing, or of the vertex where lines or points are drawn. The
+  /// position is in fixed-point numbers and inside of the triangle. `samples`: over how many of them textures are
+  /// averaged. Cost: about 40 ns.
   Fragment at(std::uint32_t drawing, std::uint32_t number, float x, float y, float samples = 1);
 
  private:

@@ -11,7 +11,7 @@ namespace seedmesh::render {
 
 /// A mesh of the model at a position.
 struct Item {
-  std::uint32_t group = 0;  ///< into Model::meshes
+  std::uint32_t group = 0;  ///< index into Model::meshes
   glm::mat4 at{1};
 };
 

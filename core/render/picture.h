@@ -12,9 +12,9 @@ struct PictureOptions {
   bool ground = true;  ///< the model stands on a plane that catches its shadow
 };
 
-/// RGB with 8 bits a channel, opaque. Textures are those of the model: its recipes were painted. Coarser levels and
-/// collision shapes are not shown, and a skin is in its rest pose. Cost at 512 pixels on one thread: about
-/// 20 ms, and 0.3 us a triangle of leaves.
+/// Returns the picture as RGB with 8 bits a channel, opaque. paint() (core/texture/paint.h) has been called for
+/// the model. Coarser levels and collision shapes are not shown, and a skin is in its rest pose. Cost at 512
+/// pixels on one thread: about 20 ms, and 0.3 us a triangle of leaves.
 texture::Picture draw_picture(const Model& model, const PictureOptions& options, const Job& job);
 
 }  // namespace seedmesh::render

@@ -4,15 +4,15 @@
 
 namespace seedmesh::render {
 
-/// The samples of a picture, row 0 at the top. Each holds which triangle is nearest; what it looks like is read from the
-/// triangle later (fragment.h), so that hidden surfaces cost little.
+/// The samples of a picture, row 0 at the top. Each holds the number of the nearest triangle. Colour and normal
+/// are computed from the triangle later (fragment.h), so that hidden surfaces cost little.
 struct Samples {
   static constexpr std::uint32_t nothing = ~0U, blended = ~0U - 1;
 
   std::uint32_t size = 0;        ///< samples a side
   std::size_t stride = 0;        ///< of a row, a multiple of 8
   Array<float> near;             ///< 1 / distance along the axis of the camera; 0: nothing
-  Array<std::uint32_t> drawing;  ///< into Scene::drawings, or one of the two constants
+  Array<std::uint32_t> drawing;  ///< index into Scene::drawings, or one of the two constants
   Array<std::uint32_t> number;   ///< of the triangle, or of the vertex where lines or points are drawn
   Array<Fragment> fragment;      ///< of blended samples; empty where no surface blends
 

@@ -9,8 +9,8 @@ namespace seedmesh::render {
 /// A primitive of an item.
 struct Drawing {
   const Mesh* mesh = nullptr;
-  std::uint32_t item = 0;     ///< into Items::list
-  std::uint32_t surface = 0;  ///< into Surfaces
+  std::uint32_t item = 0;     ///< index into Items::list
+  std::uint32_t surface = 0;  ///< index into Surfaces
   std::size_t first = 0;      ///< its first vertex in Shown::vertices
 };
 

@@ -1,6 +1,5 @@
 #pragma once
-/// How far the light of the sun reaches: a shadow map (Williams 1978) with percentage-closer filtering (Reeves and others
-/// 1987).
+/// Shadows of the sun: a shadow map (Williams 1978) with percentage-closer filtering (Reeves and others 1987).
 #include "core/render/scene.h"
 
 namespace seedmesh::render {
@@ -24,7 +23,7 @@ struct ShadowMap {
   struct Place {
     float x, y, depth;
   };
-  /// `offset` is added along the normal, in texels.
+  /// Returns the position in the map of a point in the frame of the model.
   Place place_of(const glm::vec3& position) const {
     const auto form = [&position](const glm::vec4& row) {
       return (row.x * position.x + row.y * position.y) + (row.z * position.z + row.w);
@@ -37,7 +36,8 @@ struct ShadowMap {
     if (!(x >= 0 && y >= 0 && x < side && y < side)) return false;
     return depth[static_cast<std::size_t>(y) * stride + static_cast<std::size_t>(x)] > at.depth;
   }
-  /// 1 or 0 where is_dark() has one answer for all offsets up to `reach`; -1 where that is not known.
+  /// Returns 1 (light) or 0 (dark) where is_dark() has the same result for all offsets up to `reach`, and -1
+  /// where that is not known.
   float common_light(const Place& at) const {
     if (!(at.x >= reach && at.y >= reach && at.x < side - reach && at.y < side - reach)) return -1;
     const Range& range =
@@ -52,8 +52,8 @@ struct ShadowMap {
   std::size_t stride = 0, blocks = 0;
 };
 
-/// `sun` has axes towards the sun. Cost: about 50 ns a triangle and 1 ns a covered texel. Sheets that blend cast no shadow,
-/// and sheets of one side none where they face away from the sun.
+/// `sun` has axes towards the sun. Cost: about 50 ns a triangle and 1 ns a covered texel. Sheets that blend cast
+/// no shadow, and sheets of one side none where they face away from the sun.
 ShadowMap draw_shadows(const Scene& scene, const Frame& sun, std::uint32_t size, const Job& job);
 
 }  // namespace seedmesh::render

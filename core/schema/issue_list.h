@@ -10,7 +10,7 @@
 
 namespace seedmesh {
 
-/// Collects the errors of one request. It keeps the first hundred and counts the rest, so that the answer to a
+/// Collects the errors of one request. It keeps the first hundred and counts the rest, so that the response to a
 /// body with a million wrong values stays short.
 class IssueList {
  public:

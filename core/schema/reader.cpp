@@ -343,7 +343,7 @@ bool check_map(const Location& location, const CountRule& rule) {
 
 void check_key(const Location& entry, std::string_view key, const CountRule& rule) {
   if (!rule.names || rule.names->accepts(key)) return;
-  entry.report(IssueKind::invalid_value, "\"" + shortened(key, quoted) + "\" is not a good name; expected " +
+  entry.report(IssueKind::invalid_value, "\"" + shortened(key, quoted) + "\" is not a valid name; expected " +
                                              std::string(rule.names->expected));
 }
 

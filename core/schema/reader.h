@@ -121,8 +121,8 @@ bool check_list(const Location& location, const CountRule& rule);
 bool check_map(const Location& location, const CountRule& rule);
 void check_key(const Location& entry, std::string_view key, const CountRule& rule);
 
-/// For a list of lists of lists of numbers. False, with one error for the whole value, if the outermost list was
-/// left out. `entry` and `inner` name the entries of the two outer lists, for the message.
+/// Checks a list of lists of lists of numbers. Returns false, after one error for the whole value, if the
+/// outermost list is missing. `entry` and `inner` name the entries of the two outer lists, for the message.
 bool check_nesting(const Location& location, std::string_view entry, std::string_view inner);
 
 /// Reads each entry. An entry with an error keeps its default value, so that indices stay the same; entries beyond

@@ -6,7 +6,7 @@
 
 namespace seedmesh {
 
-/// [{pointer, message, line?, column?}], as every answer of the service lists its warnings.
+/// [{pointer, message, line?, column?}], as every response of the service lists its warnings.
 Json warning_list(std::span<const Warning> warnings);
 
 }  // namespace seedmesh

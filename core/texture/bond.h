@@ -1,5 +1,5 @@
 #pragma once
-/// Patterns of equal pieces in rows, such as bricks, tiles and boards, row of texels by row of texels.
+/// Patterns of equal pieces in rows, such as bricks, tiles and boards. They are computed one row of texels at a time.
 #include <glm/vec2.hpp>
 #include <vector>
 
@@ -19,8 +19,8 @@ class Courses {
  public:
   Courses(const Bond& bond, int size);
 
-  /// A row of texels. Positions in a piece are from 0 to 1, y down; distances are metres to the nearest upright and
-  /// level border.
+  /// A row of texels. Positions in a piece are from 0 to 1, y down; distances are metres to the nearest vertical
+  /// and horizontal border.
   struct Row {
     int row;
     float y, to_bed;

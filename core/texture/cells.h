@@ -19,7 +19,7 @@ class Cells {
   struct Point {
     float x, y, shade;
   };
-  /// In lattice squares, with those that repeat on all sides.
+  /// Returns the points of the lattice, in units of lattice squares, with copies beyond all four sides.
   const std::vector<Point>& points() const { return points_; }
 
  private:

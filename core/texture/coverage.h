@@ -25,7 +25,7 @@ class Coverage {
     for (std::size_t i = 0; i < outline.size(); ++i) add(outline[i], outline[(i + 1) % outline.size()]);
   }
 
-  /// The coverage of one row, from the left of the window.
+  /// Writes the coverage of one row to `out`, from the left of the window.
   void read(int y, std::vector<float>& out) const {
     double sum = 0;
     const double* change = change_.data() + row(y);

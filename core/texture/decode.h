@@ -1,7 +1,7 @@
 #pragma once
-/// Files of pictures as pixels: PNG, JPEG, WebP and TIFF, recognised by their first bytes. Files may be hostile: sizes are
-/// checked before pixels are allocated, and all memory is charged to the request. decode.cpp lists the formats; each has
-/// one file, the only one that includes its library (libpng, libjpeg-turbo, libwebp, libtiff).
+/// Files of pictures as pixels: PNG, JPEG, WebP and TIFF, recognised by their first bytes. Files may be hostile:
+/// sizes are checked before pixels are allocated, and all memory is charged to the request. decode.cpp lists the
+/// formats; each has one file, the only one that includes its library (libpng, libjpeg-turbo, libwebp, libtiff).
 #include <optional>
 
 #include "core/texture/png.h"

@@ -18,14 +18,14 @@ struct Code {
   std::uint32_t length = 0;
 };
 
-/// Codes of one length are consecutive (RFC 1951, 3.2.2).
+/// Returns the code of each symbol. Codes of one length are consecutive (RFC 1951, 3.2.2).
 std::vector<Code> codes_of(std::span<const std::uint8_t> lengths);
 
 class BitWriter {
  public:
   /// `out` has 8 bytes more than are written.
   explicit BitWriter(std::uint8_t* out) : out_(out) {}
-  /// Between two calls of flush(), at most 56 bits.
+  /// Adds bits; at most 56 between two calls of flush().
   void put(std::uint64_t bits, std::uint32_t length) {
     held_ |= bits << count_;
     count_ += length;

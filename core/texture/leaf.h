@@ -36,7 +36,7 @@ float leaf_cutoff(std::string_view kind);
 /// leaves (Jacquemoud and Baret, 1990).
 void let_light_through(Material& material, LeafShape shape);
 
-/// `kind` is one of leaf_kinds(). Cost: 10 to 30 ns a texel.
+/// Paints a leaf texture. `kind` is one of leaf_kinds(). Cost: 10 to 30 ns a texel.
 Painting paint_leaf(std::string_view kind, int size, std::uint64_t seed, const Tint& tint, const Job& job);
 
 }  // namespace seedmesh::texture

@@ -27,7 +27,7 @@ struct Link {
   Channel channel = Channel::color;
 };
 
-/// The name of a texture; 100 characters at most.
+/// Returns the name of a texture; 100 characters at most.
 std::string name_of(const Link& link);
 
 /// Reads a name. Nothing for a text that name_of() cannot have made: an unknown kind or channel, a size that is no

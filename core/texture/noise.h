@@ -64,7 +64,7 @@ class NoiseRows {
   std::vector<float> values_[2];
 };
 
-/// All rows at once.
+/// Returns all rows of a noise as one field.
 Field field_of(const Noise& noise, int size, const Job& job);
 
 }  // namespace seedmesh::texture

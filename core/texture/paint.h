@@ -23,7 +23,7 @@ bool is_repeating_kind(std::string_view name);
 /// leaves and petals, which few pixels show; not below 64.
 int painted_size(std::string_view kind, int size);
 
-/// `kind` is one of texture_kinds().
+/// Paints a texture. `kind` is one of texture_kinds().
 Painting paint_kind(std::string_view kind, int size, std::uint64_t seed, const Tint& tint, const Job& job);
 
 /// Returns the images of a recipe as PNG, from `store` or made now. `store` may be null.
@@ -33,22 +33,23 @@ std::shared_ptr<const Maps> maps_of(const TextureRecipe& recipe, int size, Textu
 /// How generated images are written: as PNG, as WebP, or as both, where the WebP is Image::webp.
 enum class ImageForm { png, webp, both };
 
-/// What a model holds of its generated textures: their bytes in a form, or only their names (core/texture/link.h) after
-/// `prefix` and before ".png".
+/// How a model contains its generated textures. Either it holds their bytes in one of the forms, or it links them
+/// by the address `prefix`, name (core/texture/link.h) and ".png".
 struct ImageStyle {
   ImageForm form = ImageForm::png;
   bool is_linked = false;
   std::string prefix = {};
 };
 
-/// Writes all generated images of a model that are still PNG in another form: impostors, and maps of terrains. Images of
-/// the request stay as they are. In parallel. Cost: about 60 ns a pixel.
+/// Writes all generated images of a model that are still PNG in another form: impostors, and maps of terrains.
+/// Images of the request stay as they are. In parallel. Cost: about 60 ns a pixel.
 void form_images(Model& model, ImageForm form, const Job& job);
 
 /// Makes the textures of all recipes, `size` texels wide and high (a power of two from 16 to 4096), once for
 /// equal recipes, and sets them in the materials: base colour, normals, occlusion and roughness. Leaves and
-/// petals are cut out by alpha, at the cutoff of their kind unless they are cut out already, and double-sided. `store` may be null. Size 0 removes all textures of the
-/// model instead, and keeps the colours. Linked images are not drawn: they get a uri and no bytes.
+/// petals are cut out by alpha, at the cutoff of their kind unless they are cut out already, and double-sided.
+/// `store` may be null. Size 0 removes all textures of the model instead, and keeps the colours. Linked images
+/// are not drawn: they get a uri and no bytes.
 void paint(Model& model, int size, const ImageStyle& style, TextureStore* store, const Job& job);
 
 }  // namespace seedmesh::texture

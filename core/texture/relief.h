@@ -1,5 +1,5 @@
 #pragma once
-/// The relief that painters make, and the images that are made of it.
+/// Reliefs, the results of the painters, and the images that are made of a relief.
 #include <functional>
 #include <glm/vec3.hpp>
 #include <memory>

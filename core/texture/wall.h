@@ -1,7 +1,7 @@
 #pragma once
 /// Textures of surfaces by seed: brick, plaster, roof tiles, slate, planks, ashlar, concrete, sheet metal, metal
-/// panels, dressed stone and paint of buildings, and the grounds of ground.h. They tile seamlessly in both directions and have a size in metres. Up the wall or the slope
-/// is up in the image.
+/// panels, dressed stone and paint of buildings, and the grounds of ground.h. They tile seamlessly in both
+/// directions and have a size in metres. Up the wall or the slope is up in the image.
 #include <glm/vec2.hpp>
 #include <span>
 #include <string_view>
@@ -21,16 +21,16 @@ struct WallKind {
 /// Returns all kinds of walls.
 std::span<const WallKind> wall_kinds();
 
-/// Null if no kind has this name.
+/// Returns the kind of this name; null if there is none.
 const WallKind* wall_kind(std::string_view name);
 
-/// The mean grey of such textures, linear.
+/// Returns the mean grey of the textures with WallKind::is_grey, linear.
 glm::vec3 wall_grey();
 
 /// Returns the main grey of one kind that is grey, linear.
 float grey_of(std::string_view name);
 
-/// `name` is the name of one of wall_kinds(). Cost: about 30 ns a texel.
+/// Paints a texture. `name` is the name of one of wall_kinds(). Cost: about 30 ns a texel.
 Painting paint_wall(std::string_view name, int size, std::uint64_t seed, const Tint& tint, const Job& job);
 
 }  // namespace seedmesh::texture

@@ -49,7 +49,7 @@ class TlsSession {
   Transfer handshake();  ///< `bytes` is 1 once the handshake is complete
   Transfer read(std::span<char> to);
   Transfer write(std::string_view from);
-  void close();  ///< tells the client that no more data follows; does not wait
+  void close();  ///< sends the close notice to the client; does not wait
 
  private:
   Transfer outcome(int result);

@@ -160,14 +160,17 @@ void bench_flight() {
 void bench_tilesets() {
   const OpenWorld world = opened(full, 7);
   tile(world, {14, 8192, 8192});
-  std::vector<double> seconds;
-  for (const TileAddress& each : around(12, 10)) {
-    seconds.push_back(once([&] {
-      if (!world_tileset(world, each, "../../../", one_thread())) std::abort();
-    }));
+  for (const int level : {4, 8, 12}) {
+    std::vector<double> seconds;
+    for (const TileAddress& each : around(level, level == 4 ? 6 : 10)) {
+      seconds.push_back(once([&] {
+        if (!world_tileset(world, each, "../../../", one_thread())) std::abort();
+      }));
+    }
+    const std::string name = "nested tileset of level " + std::to_string(level);
+    percentile(name + ", p50", seconds, 0.5);
+    percentile(name + ", p99", seconds, 0.99);
   }
-  percentile("nested tileset, p50", seconds, 0.5);
-  percentile("nested tileset, p99", seconds, 0.99);
 }
 
 }  // namespace

@@ -23,7 +23,7 @@ CityParams params_of(std::string_view text) {
     const std::string_view line = text.substr(0, end);
     text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
     if (line.starts_with("density ")) {
-      params.maps.density = line.substr(8);
+      params.maps.density = std::string(line.substr(8));
     } else if (!line.empty()) {
       params.streets.productions.emplace_back(line);
     }

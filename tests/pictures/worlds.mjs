@@ -19,7 +19,7 @@ export const views = {
   temperate_plane: before('temperate_land.7', [9152, 3904], 330, 2600, 900, -17),
   temperate_orbit: ['temperate_land.7', 0, -20_000, 60_000, 0, -60],
   alpine_hill: before('alpine.3', [-3776, 4800], 120, 750, 160, -6),
-  alpine_plane: ['alpine.3', 8000, 16000, 900, 20, -8],
+  alpine_plane: before('alpine.3', [13312, 17408], 35, 7500, 500, -2),
   archipelago_plane: before('archipelago.5', [2752, -3520], 240, 2000, 600, -14),
   archipelago_orbit: ['archipelago.5', 0, -20_000, 70_000, 0, -65],
   desert_plane: before('desert_oases.4', [-9536, 4416], 110, 800, 240, -12),

@@ -303,12 +303,12 @@ export interface Polygons {
   coordinates: (((number | number[])[])[])[];
 }
 
-/** A name and its polygons. */
+/** A name and its area. */
 export interface CityParametersMapsZonesItem {
   /** The name. */
   zone: string;
-  /** The polygons of the zone. */
-  area: Polygons;
+  /** Where the zone is: an expression over x (east) and y (north), a PNG image as data URI, whose brightness covers the box around the area, or polygons. The zone is where the value is 0.5 or more. */
+  area: string | Polygons;
 }
 
 /** Quantities that vary over the area. */
@@ -321,10 +321,12 @@ export interface CityParametersMaps {
   obstacles?: string | Polygons;
   /** The share of streets.second_pattern in the pattern of the streets, from 0 to 1, as an expression, an image or polygons with the value 1. Between the two, directions are the weighted mean of those of both patterns, as a tensor. Only for the method growth. */
   pattern?: string | Polygons;
-  /** Named zones, which rules of buildings can use. Where polygons overlap, the first one counts. Wards have zones of their own. */
+  /** Named zones, which rules of buildings can use. Where zones overlap, the first one counts. Wards have zones of their own. */
   zones?: CityParametersMapsZonesItem[];
-  /** The height of the natural ground in metres, instead of a terrain: an expression over x (east) and y (north) in metres. */
-  height?: string;
+  /** The height of the natural ground, instead of a terrain: an expression over x (east) and y (north) with the height in metres, a PNG image as data URI, whose brightness covers the box around the area, or polygons. height_range has the heights of images and polygons. */
+  height?: string | Polygons;
+  /** The height of black and of white pixels if the height is an image; outside of and inside its polygons otherwise. An expression has metres of its own. */
+  height_range?: [number, number];
 }
 
 /** A LineString or MultiLineString in metres, east and north. */
@@ -345,7 +347,7 @@ export interface CityParametersGivenStreetsFeaturesItem {
   geometry: CityParametersGivenStreetsFeaturesItemGeometry;
 }
 
-/** Existing streets. Where two of them meet or cross on one level, an end or corner of one lies within 3 m of the other. */
+/** Existing streets. Where two of them meet or cross on one level, an end or corner of one has to lie within 3 m of the other. */
 export interface CityParametersGivenStreets {
   /** FeatureCollection. */
   type: "FeatureCollection";
@@ -391,7 +393,7 @@ export interface CityParametersGivenFootprints {
 
 /** Existing parts of the city as GeoJSON in local metres. They stay as they are, and the rest grows from them. */
 export interface CityParametersGiven {
-  /** Existing streets. Where two of them meet or cross on one level, an end or corner of one lies within 3 m of the other. */
+  /** Existing streets. Where two of them meet or cross on one level, an end or corner of one has to lie within 3 m of the other. */
   streets?: CityParametersGivenStreets;
   /** Existing water. */
   water?: CityParametersGivenWater;
@@ -409,6 +411,8 @@ export interface CityParametersStreetsClassesHighway {
   sidewalk?: number;
   /** The steepest grade of these streets, as rise over run. On a terrain the ground is cut and filled to keep it, and no street grows where the natural ground is half steeper. */
   grade?: number;
+  /** The distance between trees along each side of these streets. 0: no trees. Default: that of furniture.trees, if it is given. */
+  trees?: number;
 }
 
 /** The cross section of this class of streets. */
@@ -421,6 +425,8 @@ export interface CityParametersStreetsClassesMajor {
   sidewalk?: number;
   /** The steepest grade of these streets, as rise over run. On a terrain the ground is cut and filled to keep it, and no street grows where the natural ground is half steeper. */
   grade?: number;
+  /** The distance between trees along each side of these streets. 0: no trees. Default: that of furniture.trees, if it is given. */
+  trees?: number;
 }
 
 /** The cross section of this class of streets. */
@@ -433,6 +439,8 @@ export interface CityParametersStreetsClassesMinor {
   sidewalk?: number;
   /** The steepest grade of these streets, as rise over run. On a terrain the ground is cut and filled to keep it, and no street grows where the natural ground is half steeper. */
   grade?: number;
+  /** The distance between trees along each side of these streets. 0: no trees. Default: that of furniture.trees, if it is given. */
+  trees?: number;
 }
 
 /** The cross section of given streets of this class. */
@@ -445,6 +453,8 @@ export interface CityParametersStreetsClassesLane {
   sidewalk?: number;
   /** The steepest grade of these streets, as rise over run. On a terrain the ground is cut and filled to keep it, and no street grows where the natural ground is half steeper. */
   grade?: number;
+  /** The distance between trees along each side of these streets. 0: no trees. Default: that of furniture.trees, if it is given. */
+  trees?: number;
 }
 
 /** The cross sections of the streets. */
@@ -515,7 +525,7 @@ export interface CityParametersStreets {
   centre?: [number, number];
   /** The distance between neighbouring major streets. */
   major_spacing?: number;
-  /** The distance between highways, which are lines of the net of major streets: those through the centre and others at this distance. They are always built. 0: no highways. Not for tensor fields, wards and the pattern slope. */
+  /** The distance between highways. In a net they are the lines through the centre and others at this distance; along a tensor field they are streamlines about this far apart. They are always built. 0: no highways. */
   highway_spacing?: number;
   /** The spacing of the streets of a raster across and along its direction. */
   block?: [number, number];
@@ -569,6 +579,12 @@ export interface CityParametersLots {
   offset_width?: number;
   /** The spread of the cuts about the middle. */
   irregularity?: number;
+  /** The width of the cut across the corners of blocks, which becomes a part of the sidewalk. 0: corners stay. Blocks without space for it keep their corners. */
+  corner_width?: number;
+  /** Only corners of blocks with at most this inner angle are cut. */
+  corner_angle?: number;
+  /** Consecutive edges of a block that turn by at most this angle are one front: their lots form one strip. */
+  simplify?: number;
   /** The share of the blocks that become parks. */
   park_share?: number;
 }
@@ -975,7 +991,7 @@ export interface LsystemParametersEnvironment {
   companions?: LsystemParametersEnvironmentCompanionsItem[];
 }
 
-/** Bends the finished plant: each limb turns by the force on it and on everything beyond it, against its thickness, from the root to the tips. */
+/** Bends the finished plant: each limb turns because of the force on it and on everything beyond it, less if it is thicker, from the root to the tips. */
 export interface LsystemParametersWeather {
   /** Speed of the air. 5 moves leaves, 10 twigs, 20 bends trees. */
   wind?: number;
@@ -1112,7 +1128,7 @@ export interface LsystemParameters {
   tropism?: LsystemParametersTropismItem[];
   /** The surroundings of the plant: solids that bound it or stand in its way, light, and other L-systems that grow beside it step by step. Modules ?E query it. Limbs in forbidden space are cut away. */
   environment?: LsystemParametersEnvironment;
-  /** Bends the finished plant: each limb turns by the force on it and on everything beyond it, against its thickness, from the root to the tips. */
+  /** Bends the finished plant: each limb turns because of the force on it and on everything beyond it, less if it is thicker, from the root to the tips. */
   weather?: LsystemParametersWeather;
   /** Organs by name: ~leaf places the surface leaf, ~leaf(2) twice as large. Its base is at the turtle's position, its tip points along the heading, and its upper side points up. */
   surfaces?: { [key: string]: LsystemParametersSurfacesValue };
@@ -1417,7 +1433,7 @@ export interface SceneParameters {
   terrain?: Child;
   /** The level ground if there is no terrain. */
   ground?: SceneParametersGround;
-  /** Paths that nothing stands on. */
+  /** Paths, on which layers place nothing. */
   paths?: SceneParametersPathsItem[];
   /** Coloured areas on level ground, such as water, grass and squares. Those of one name and colour lie at one height, above those that the list has before them. */
   areas?: SceneParametersAreasItem[];
@@ -2102,9 +2118,9 @@ export interface TreeParameters {
   sway?: TreeParametersSway;
   /** Largest number of leaves on a limb of the last level. A negative number puts that many in a fan at its end. */
   Leaves?: number;
-  /** How the number of leaves of a limb depends on its place along the parent: the number of a crown shape (Shape). The paper has 4. */
+  /** How the number of leaves of a limb depends on its position along the parent: the number of a crown shape (Shape). The paper has 4. */
   LeafDistrib?: number;
-  /** How stems that split are counted. paper: a stem and its clones share its branches and leaves, and a split makes further splits half as likely. arbaro: as Arbaro counts: a stem and its clones share its branches, but bear as many leaves per segment as before and split as often. Numbers of branches are rounded down, and pruned limbs stay. */
+  /** The program whose numbers of stems, branches and leaves the tree has. paper: the formulas of Weber and Penn (1995); a stem and its clones share its branches and leaves, and each split makes further splits half as likely. arbaro: the formulas of the program Arbaro, which imported species of Arbaro have; a stem and its clones share its branches, but each has as many leaves per segment as a stem without clones. Splits do not become rarer, numbers of branches are rounded down, and pruned limbs stay. */
   counting?: "paper" | "arbaro";
   /** Length of a leaf. */
   LeafScale?: number;
@@ -2358,6 +2374,8 @@ export interface WorldParametersSettlementsTowns {
   share?: number;
   /** The radius of the widest town. */
   radius?: number;
+  /** The share of towns with a wall around them. */
+  walls?: number;
   /** A request of the generator city. Its streets, lots and building rules are those of towns. The world gives area, ground, density and given streets, and draws the houses. */
   city?: Child;
 }
@@ -2370,7 +2388,7 @@ export interface WorldParametersSettlementsHousesItem {
   share?: number;
 }
 
-/** Villages and farms where the ground is level, mild and near water. */
+/** Villages and farms on level ground near water, outside of cold and dry regions. */
 export interface WorldParametersSettlements {
   /** The share of suitable locations that have a village. There is at most one in 6 km. */
   density?: number;
@@ -2414,7 +2432,7 @@ export interface WorldParametersPlantsItem {
   class: string;
   /** The form of the plant where it has no model, and the width of crowns in woods seen from far away. */
   form?: "conifer" | "broadleaf" | "palm" | "shrub" | "cactus" | "fungus";
-  /** A request of the generator tree or lsystem. Its model is scaled to the height. Near the camera it has 1,500 triangles, or more where it cannot be simplified so far; farther away stands its impostor. */
+  /** A request of the generator tree or lsystem. Its model is scaled to the height. Near the camera it has 1,500 triangles, or more where it cannot be simplified so far; farther away, its impostor is shown. */
   model?: Child;
   /** The mean height. Copies have 0.7 to 1.3 times this height. */
   height?: number;
@@ -2438,11 +2456,11 @@ export interface WorldParametersPlantsItem {
   stem?: string;
 }
 
-/** A plane of land and sea by a seed, up to `extent` a side, streamed as OGC 3D Tiles 1.1. A tile depends on the request and its address alone. */
+/** A plane of land and sea that is generated from a seed and streamed as OGC 3D Tiles 1.1. A tile depends on the request and its address alone. */
 export interface WorldParameters {
   /** The side of the square that is streamed: a power of two from 2^15. Leaves have a side of 64 m. */
   extent?: number;
-  /** The position of the plane at the middle of the world, east and north, in regions of 32,768 m. */
+  /** The position of the middle of the world on the infinite plane, east and north, in regions of 32,768 m. */
   origin?: [number, number];
   /** The layers that tiles contain. */
   layers?: ("terrain" | "water" | "roads" | "buildings" | "plants")[];
@@ -2454,7 +2472,7 @@ export interface WorldParameters {
   climate?: WorldParametersClimate;
   /** The colours of the ground and of water. */
   colors?: WorldParametersColors;
-  /** Villages and farms where the ground is level, mild and near water. */
+  /** Villages and farms on level ground near water, outside of cold and dry regions. */
   settlements?: WorldParametersSettlements;
   /** Roads between villages, with a grade of at most 10 %. */
   roads?: WorldParametersRoads;

@@ -109,7 +109,7 @@ TaggedValue set_elements(Evaluation& at, ValueArguments a) {
   const ValueArray values = array_in(at, a[a.size() - 1]);
   if (!(place >= 0) ||
       place + static_cast<double>(values.values.size()) > static_cast<double>(out.values.size()))
-    reject(at, "found a place of setElems outside of the array of " + std::to_string(out.values.size()) +
+    reject(at, "found a position of setElems outside of the array of " + std::to_string(out.values.size()) +
                    " values");
   std::ranges::copy(values.values, out.values.begin() + static_cast<std::ptrdiff_t>(place));
   return array_value(at, std::move(out));
@@ -117,7 +117,7 @@ TaggedValue set_elements(Evaluation& at, ValueArguments a) {
 
 constexpr ValueFunctionRow rows[] = {
     {"setElems", 3, 4, set_elements, "array, index or row and column, values",
-     "The array with other values from a place on.",
+     "The array with other values from a position on.",
      "const a = setElems([1, 2, 3], 1, 7)  A --> s(a[1], '1, '1) B."},
     {"size", 1, 1, size, "array", "The number of values of an array.",
      "const a = [1, 2, 3]  A --> s(size(a), '1, '1) B."},
@@ -128,9 +128,9 @@ constexpr ValueFunctionRow rows[] = {
     {"sum", 1, 1, sum, "array", "The sum of the values.", "const a = [1, 2, 3]  A --> s(sum(a), '1, '1) B."},
     {"transpose", 1, 1, transpose, "array", "Rows as columns.",
      "const a = transpose([1, 2; 3, 4])  A --> s(a[0, 1], '1, '1) B."},
-    {"index", 2, 2, index_of, "array, value", "The place of a value, or -1.",
+    {"index", 2, 2, index_of, "array, value", "The position of a value, or -1.",
      "const a = [5, 7]  A --> case index(a, 7) == 1: B. else: C."},
-    {"sortIndices", 1, 1, sort_indices, "array", "The places of the values in rising order.",
+    {"sortIndices", 1, 1, sort_indices, "array", "The positions of the values in rising order.",
      "const a = [5, 3]  const o = sortIndices(a)  A --> s(a[o[0]], '1, '1) B."},
     {"sortRowIndices", 1, 2, sort_row_indices, "array, column", "The rows in the rising order of a column.",
      "const a = [5, 1; 3, 2]  const o = sortRowIndices(a, 0)  A --> s(a[o[0], 1], '1, '1) B."},

@@ -5,10 +5,9 @@
 ///
 /// Out:    metres, +Y up. The first scope stands on the ground: a box is centred on the origin, a footprint lies
 ///         at its coordinates. One node "building" has the bodies below it.
-/// Errors: /rules with line and column: all errors of the text; and, found during derivation, numbers that
-/// are
-///         not finite and endless recursion. /start, /attributes/..., /footprint, /assets/..., /materials/...
-/// Cost:   about 0.3 us a shape and 0.5 us a body. See docs/buildings.md.
+/// Errors: /rules with line and column: all errors of the text; and, found during derivation, numbers that are
+/// not finite and endless recursion. /start, /attributes/..., /footprint, /assets/..., /materials/... Cost:
+/// about 0.3 us a shape and 0.5 us a body. See docs/buildings.md.
 #include <nlohmann/json_fwd.hpp>
 #include <vector>
 
@@ -29,7 +28,7 @@ std::vector<Issue> check(const BuildingParams& params, const Limits& limits, con
 /// or a shape grammar.
 Generator::Prepared prepare(const BuildingParams& params, const CheckContext& context);
 
-/// Reads no rules if the context has prepared ones of equal parameters. The model is the same.
+/// Makes the model. If the context has prepared rules of equal parameters, they are used instead of being read again.
 Result<Model> generate(const BuildingParams& params, const GenerateContext& context);
 
 /// {shapes: [{id, parent, symbol, parameters, active, scope: {origin, axes, size}}], count, truncated,

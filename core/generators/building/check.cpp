@@ -140,7 +140,8 @@ void check_start(const BuildingParams& params, const RuleText& rules, Grammar& g
     return;
   }
   const Symbol& start = grammar.symbols[grammar.start];
-  if (start.rules.empty()) {
+  // A rule file without rules makes the first shape alone.
+  if (start.rules.empty() && (!grammar.rules.empty() || params.start)) {
     issues.emplace_back(IssueKind::unknown_name, "/start",
                         "there is no rule for the symbol \"" + start.name + "\"");
     return;

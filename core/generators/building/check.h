@@ -46,8 +46,8 @@ std::vector<std::string> file_names(const BuildingParams& params);
 /// Returns the value of an attribute as expressions see it; true is 1, false is 0.
 lang::TaggedValue value_of(Texts& texts, const AttributeValue& given);
 
-/// Checks a value for an attribute of the rules. `base` is the pointer of the object of values, with a slash at its end.
-/// Texts of values are added to `texts`, which begin with those of the grammar.
+/// Checks a value for an attribute of the rules. `base` is the pointer of the object of values, with a slash at
+/// its end. Texts of values are added to `texts`, which begin with those of the grammar.
 void check_attribute_value(const Grammar& grammar, Texts& texts,
                            const std::pair<const std::string, AttributeValue>& given, const std::string& base,
                            std::vector<Issue>& issues);
@@ -55,7 +55,7 @@ void check_attribute_value(const Grammar& grammar, Texts& texts,
 /// Returns a warning if nothing is drawn and no NIL removed shapes.
 std::optional<Warning> nothing_drawn(const Shapes& shapes);
 
-/// Within what check_all works.
+/// The limits of the request and the job in whose time check_all() works.
 struct Bounds {
   const Limits& limits;
   const Job* job = nullptr;  ///< checked for stop and deadline; may be null

@@ -138,7 +138,13 @@ std::uint32_t least_parameters(const Grammar& grammar, std::uint32_t symbol) {
 
 void check_grammar(Parser& p, std::string_view start) {
   if (p.grammar.rules.empty()) {
-    if (p.faults.empty()) add_error(p, p.tokens.at(0), "found no rule, expected at least one");
+    if (!p.faults.empty()) return;
+    const bool has_declarations = !p.grammar.attributes.empty() || !p.functions.empty();
+    if (!p.grammar.is_cityengine && !has_declarations)
+      return add_error(p, p.tokens.at(0), "found no rule, expected at least one");
+    // A file of values for other files.
+    add_warning(p, 0, "found no rule, so that the first shape is the result");
+    p.grammar.start = symbol_index(p, start.empty() ? "Lot" : start, 0);
     return;
   }
   if (p.grammar.queries.size() > most_queries)

@@ -262,7 +262,11 @@ void write_tokens(Parser& p, Writing& writing, std::span<const Token> tokens,
       i = write_call(p, writing, tokens, i, function->second, replacements);
       continue;
     }
-    if (dotted == "true" || dotted == "false") {
+    if (dotted == "rand" && !is_call && p.names.find(dotted) == nullptr) {
+      for (const Token& each : {token, made_token(p, TokenKind::symbol, "(", token),
+                                made_token(p, TokenKind::symbol, ")", token)})
+        writing.out.push_back(each);
+    } else if (dotted == "true" || dotted == "false") {
       Token number = token;
       number.kind = TokenKind::number;
       number.number = dotted == "true" ? 1 : 0;

@@ -9,8 +9,8 @@ namespace seedmesh::building {
 /// Returns the index of a query to other shapes in Grammar::queries; adds the query if it is new.
 std::uint32_t query_index(Parser& p, Query::Kind kind, std::string target);
 
-/// Where the value that begins at token i ends: an expression, or the cases of a function or attribute. i if
-/// no value begins there.
+/// Returns the end of the value that begins at token i: an expression, or the cases of a function or attribute.
+/// Returns i if no value begins there.
 std::size_t end_of_value(const Parser& p, std::size_t i);
 
 /// Compiles the tokens from `from` to before `to`.

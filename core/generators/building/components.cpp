@@ -165,13 +165,16 @@ struct Facets {
   }
 };
 
-/// eave, hip, valley or ridge. `up` is the vertical in the scope.
+/// eave, hip, valley or ridge. `up` is the vertical in the scope. Where a roof has a cover, the edges of
+/// its body do not count.
 std::vector<std::uint32_t> roof_classes(const Solid& solid, const glm::dvec3& size,
                                         const std::vector<SharedEdge>& edges, const Facets& facets,
                                         const glm::dvec3& up) {
   std::vector<std::uint32_t> out(edges.size(), 0);
   std::vector<std::uint8_t> at_eave(solid.points.size(), 0);
-  const auto is_slope = [&](std::uint32_t face) { return glm::dot(facets.normal[face], up) > sine_low; };
+  const auto is_slope = [&](std::uint32_t face) {
+    return solid.faces[face].tag != face_is_covered && glm::dot(facets.normal[face], up) > sine_low;
+  };
   for (std::size_t e = 0; e < edges.size(); ++e) {
     const glm::dvec3 along = (solid.points[edges[e].to] - solid.points[edges[e].from]) * size;
     if (std::abs(glm::dot(math::unit(along, up), up)) > sine_low) continue;
@@ -248,6 +251,7 @@ void add_edges(Derivation& d, const ShapeState& state, std::vector<Component>& o
     made.state = straight(d, state, solid.points[edges[e].from] * state.size,
                           solid.points[edges[e].to] * state.size, math::unit(normal, glm::dvec3(0, 1, 0)));
     made.classes[0] = made.classes[1] = classes[e];
+    made.state.style = style_of_edge(d, solid, edges[e].faces, state.style);
     out.push_back(std::move(made));
   }
 }
@@ -319,41 +323,6 @@ void add_holes(Derivation& d, const ShapeState& state, std::vector<ShapeState>& 
 
 }  // namespace
 
-ShapeState merged_faces(Derivation& d, const ShapeState& state, std::span<const ShapeState> faces) {
-  Solid all;
-  const glm::dmat3 back = glm::transpose(d.out.axes[state.axes]);
-  std::map<std::array<std::int64_t, 3>, std::uint32_t> points;  // corners that faces share are one point
-  for (const ShapeState& face : faces) {
-    const Solid& solid = flat_solid(d, face);
-    for (const Face& each : solid.faces) {
-      Face copy{static_cast<std::uint32_t>(all.loops.size()), each.loop_count, false};
-      for (const Loop& loop : loops_of(solid, each)) {
-        all.loops.push_back({static_cast<std::uint32_t>(all.corners.size()), loop.count});
-        for (std::uint32_t i = 0; i < loop.count; ++i) {
-          const glm::dvec3 p =
-              back * (face.origin +
-                      d.out.axes[face.axes] * (solid.points[solid.corners[loop.first + i]] * face.size) -
-                      state.origin);
-          const std::array<std::int64_t, 3> key = {math::to_int64(p.x * 1e7 + 0.5),
-                                                   math::to_int64(p.y * 1e7 + 0.5),
-                                                   math::to_int64(p.z * 1e7 + 0.5)};
-          const auto [found, is_new] = points.try_emplace(key, static_cast<std::uint32_t>(all.points.size()));
-          if (is_new) all.points.push_back(p);
-          all.corners.push_back(found->second);
-        }
-      }
-      all.faces.push_back(copy);
-    }
-  }
-  glm::dvec3 low, extent;
-  fit(all, low, extent);
-  ShapeState out = state;
-  out.origin = state.origin + d.out.axes[state.axes] * low;
-  out.size = extent;
-  out.geometry = add_solid(d, std::move(all));
-  return out;
-}
-
 std::vector<Component> components_of(Derivation& d, const ShapeState& state, std::uint8_t kind) {
   std::vector<Component> out;
   std::vector<ShapeState> faces;
@@ -382,6 +351,8 @@ std::vector<Component> components_of(Derivation& d, const ShapeState& state, std
         add_solid_faces(d, state, faces);
   }
   for (const ShapeState& face : faces) out.push_back({face, {0, 0}});
+  const bool is_closed =
+      state.geometry == box_geometry ? dimension(state.size) == 3 : d.out.solid_of(state.geometry).is_closed;
   const bool is_whole = kind == component_groups || kind == component_materials;
   for (Component& each : out) {
     const std::uint32_t own = each.classes[0];
@@ -391,6 +362,7 @@ std::vector<Component> components_of(Derivation& d, const ShapeState& state, std
     std::uint32_t in_world = is_whole ? std::uint32_t{face_all} : classes_of(normal);
     if (each.state.tag == face_is_inside) in_scope |= face_inside;
     if (each.state.tag == face_is_border) in_scope |= face_border;
+    if (kind == component_faces && each.state.tag == 0) in_scope |= is_closed ? face_inside : face_border;
     each.classes[frame_scope] = in_scope | own;
     each.classes[frame_world] = in_world | own;
   }

@@ -1,5 +1,5 @@
 #pragma once
-/// The faces, edges and vertices of a shape as shapes, and the classes that selectors take them by.
+/// The faces, edges and vertices of a shape as shapes, and the classes by which selectors select them.
 #include <span>
 #include <vector>
 
@@ -18,16 +18,17 @@ struct Component {
 /// faces. Cost: linear; edges n log n.
 std::vector<Component> components_of(Derivation& d, const ShapeState& state, std::uint8_t kind);
 
-/// Whether a selector takes a component that is the `number`th of those of its classes.
+/// Whether a selector selects a component. `number` is the position of the component among those of its classes.
 bool is_selected(Derivation& d, const Part& part, const Component& component, std::int32_t number,
                  std::uint32_t shape);
 
 /// Returns the bits of a selector such as front or eave; 0 for other words.
 std::uint32_t class_named(std::string_view name);
-/// Reads the words of a selector, perhaps with a frame: front, world.up, street.front. False: it is none.
+/// Reads the words of a selector, perhaps with a frame: front, world.up, street.front. Returns false if the text
+/// is no selector.
 bool read_selector(std::string_view dotted, std::uint32_t& classes, std::uint8_t& frame);
 
-/// Several flat shapes as one, in the scope of `state`, with shared corners.
+/// Returns several flat shapes as one, in the scope of `state`, with shared corners.
 ShapeState merged_faces(Derivation& d, const ShapeState& state, std::span<const ShapeState> faces);
 
 }  // namespace seedmesh::building

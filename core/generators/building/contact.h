@@ -1,6 +1,6 @@
 #pragma once
-/// Which shapes are neighbours: a set grammar joins and divides connected shapes (Stiny, "Spatial relations and grammars",
-/// 1982; Wonka et al., "Instant architecture", 2003).
+/// Which shapes are neighbours: a set grammar joins and divides connected shapes (Stiny, "Spatial relations and
+/// grammars", 1982; Wonka et al., "Instant architecture", 2003).
 #include <array>
 #include <utility>
 
@@ -18,11 +18,12 @@ struct Outline {
   std::vector<std::pair<glm::dvec3, glm::dvec3>> segments;  ///< edges of a flat shape, or the line itself
 };
 
-/// Assets count as their boxes. Points have no outline.
+/// Returns the outline of a shape. Assets count as their boxes. Points have no outline.
 Outline outline_of(const Derivation& d, const ShapeState& state);
 
-/// Whether two shapes share a part of their borders. Volumes share a part of a face, with each on its own side; a flat shape lies
-/// on a face of a volume; flat shapes share a part of an edge; lines share an end. Cost: the product of the numbers of triangles.
+/// Whether two shapes share a part of their borders. Volumes share a part of a face, with each on its own side; a
+/// flat shape lies on a face of a volume; flat shapes share a part of an edge; lines share an end. Cost: the
+/// product of the numbers of triangles.
 bool are_neighbours(const Outline& a, const Outline& b);
 
 }  // namespace seedmesh::building

@@ -20,13 +20,13 @@ struct Frame {
   bool is_carried = false;  ///< new shapes descend from a component of a closed solid, so they are not masses
 };
 
-/// Where one step is run: in its successor, with the key of its random numbers.
+/// The context of one step: its successor, and the key of its random numbers.
 struct Site {
   const Frame& frame;
   std::uint64_t key;
 };
 
-/// What makes a step impossible, where this is no error of the whole derivation.
+/// The reason why a step is impossible, where this is no error of the whole derivation.
 struct StepError {
   std::uint32_t offset = 0;
   std::string message;
@@ -95,9 +95,9 @@ std::uint32_t style_with(Derivation& d, Style style);
 /// Applies the edit of the request to a new shape, if it has one: its style, symbol and activity.
 void edit_shape(Derivation& d, std::uint32_t index);
 
-/// Total area of the faces, in square metres.
+/// Returns the total area of the faces, in square metres.
 double area_of(const Derivation& d, const ShapeState& state);
-/// Volume in cubic metres; 0 if the geometry is not closed.
+/// Returns the volume in cubic metres; 0 if the geometry is not closed.
 double volume_of(const Derivation& d, const ShapeState& state);
 
 /// Returns the geometry of a flat state; it lies in the unit square of its scope.
@@ -110,7 +110,7 @@ void take_solid(Derivation& d, ShapeState& state, Solid solid);
 /// Gives the state another scope around the same geometry. The columns of `axes` are its axes in the world.
 void reframe(Derivation& d, ShapeState& state, const glm::dmat3& axes);
 
-/// As few digits as the number needs: 3, 0.25, 1e+09.
+/// Returns a number as text with as few digits as it needs: 3, 0.25, 1e+09.
 std::string text_of_number(double number);
 
 }  // namespace seedmesh::building

@@ -56,7 +56,7 @@ class EditSearch {
   /// shapes from it on were taken back.
   const ShapeEdit* visit(std::uint32_t shape, std::uint32_t parent, std::uint32_t symbol);
 
-  /// For each edit: was its shape made?
+  /// For each edit, whether its shape was made.
   const std::vector<bool>& found() const { return found_; }
 
  private:

@@ -28,7 +28,8 @@ double length_of(Derivation& d, const Argument& argument, double whole);
 /// Returns a text, or its number in the table of texts; a number is rejected.
 std::uint32_t text_id_of(Derivation& d, const Argument& argument);
 const std::string& text_of(Derivation& d, const Argument& argument);
-/// Whatever an argument of a rule, an attribute or `set` may be: a text, or a number as number_of() has it.
+/// Returns the value of an argument of a rule, of an attribute or of `set`: a text, or a number as number_of()
+/// returns it.
 lang::TaggedValue number_or_text(Derivation& d, const Value& value);
 
 /// Evaluates all attributes for the first shape, those that others need first. Each has random numbers of its

@@ -23,7 +23,7 @@ struct FacePlane {
   }
 };
 
-/// Each face of a flat solid as a plan, in metres of the scope of this size.
+/// Returns each face of a flat solid as a plan, in metres of the scope of this size.
 std::vector<Plan> plans_of(const Solid& solid, const glm::dvec3& size, const FacePlane& plane);
 
 /// Adds a plan as a face. Its points are in metres, not in shares of the scope; fit() (solid.h) converts them

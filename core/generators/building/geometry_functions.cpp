@@ -219,23 +219,32 @@ TaggedValue uv_high(Evaluation& at, ValueArguments a) {
   return number_value(uv_range(at.d, seen(at), set_in(at, a)).high[axis]);
 }
 
+/// The tags of a shape and of its faces.
+std::uint32_t tags_of(Derivation& d, const ShapeState& state) {
+  std::uint32_t set = d.out.styles[state.style].tags;
+  if (state.geometry == box_geometry || state.has_asset()) return set;
+  // A copy: a new set of tags moves the solids of the derivation nowhere, but may add sets.
+  for (const Face& face : std::vector<Face>(d.out.solid_of(state.geometry).faces))
+    set = joined_tags(d, set, face.tags);
+  return set;
+}
+
 TaggedValue is_tagged(Evaluation& at, ValueArguments a) {
   const std::string name = text_in(at, a[0]);
-  const std::uint32_t set = at.d.component != nullptr ? at.d.out.styles[at.d.component->state.style].tags
-                                                      : at.d.out.styles[seen(at).style].tags;
-  return truth_value(has_tag(at.d, set, name));
+  const ShapeState& state = at.d.component != nullptr ? at.d.component->state : seen(at);
+  return truth_value(has_tag(at.d, tags_of(at.d, state), name, std::min(dimension(state.size), 2)));
 }
 
 TaggedValue tags(Evaluation& at, ValueArguments) {
   ValueArray out;
-  for (const std::uint32_t id : at.d.out.tag_sets[at.d.out.styles[seen(at).style].tags])
-    out.values.push_back({0, id});
+  for (const std::uint32_t id : at.d.out.tag_sets[tags_of(at.d, seen(at))])
+    out.values.push_back(text_value(at, std::string(name_of_tag(*at.d.out.texts.find(id)))));
   return array_value(at, std::move(out));
 }
 
 TaggedValue has_tags(Evaluation& at, ValueArguments a) {
   if (!a.empty()) return is_tagged(at, a);
-  return truth_value(!at.d.out.tag_sets[at.d.out.styles[seen(at).style].tags].empty());
+  return truth_value(!at.d.out.tag_sets[tags_of(at.d, seen(at))].empty());
 }
 
 TaggedValue has_uvs(Evaluation& at, ValueArguments a) {

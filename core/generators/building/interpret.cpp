@@ -9,6 +9,7 @@
 #include "core/generators/building/operators.h"
 #include "core/generators/building/raised_solids.h"
 #include "core/generators/building/slabs.h"
+#include "core/generators/building/tags.h"
 
 namespace seedmesh::building {
 namespace {
@@ -273,7 +274,9 @@ void run_choice(Derivation& d, const Choice& choice, const ShapeState& given, co
       look_at(d, state, frame.shape);
       d.random = Rng(key);
       if (row.rest != Rest::same) is_pending = row.rest == Rest::open;
+      const ShapeState before = state;
       run_step(d, row, step, state, {own, key});
+      if (d.grammar.uses_tags) add_auto_tags(d, step.op, before, state);
       last = step.offset;
     }
   }

@@ -10,7 +10,8 @@ bool has_rule(const Derivation& d, const Shape& shape);
 /// Replaces a shape by what its rule makes. False: no rule holds, and the shape becomes a leaf.
 bool expand(Derivation& d, std::uint32_t shape);
 
-/// Replaces the shapes from `first` on until none has a rule, the newest first; those of left sides of several shapes last.
+/// Replaces the shapes from `first` on until none has a rule, the newest first; those of left sides of several
+/// shapes last.
 void finish_from(Derivation& d, std::uint32_t first);
 
 /// Runs a body that is nested in a successor, for a shape that an operation made: its first branch whose

@@ -1,10 +1,10 @@
 #pragma once
-/// Rules whose left side has several shapes, as in `pane + [door] ~> wide.`: a set grammar (Stiny 1982; Kogovšek 2014, 4.1 and
-/// 4.2), whose left sides are connected shapes of the whole figure, at any position and rotation.
+/// Rules whose left side has several shapes, as in `pane + [door] ~> wide.`: a set grammar (Stiny 1982; Kogovšek
+/// 2014, 4.1 and 4.2), whose left sides are connected shapes of the whole figure, at any position and rotation.
 ///
-/// Shapes of such left sides wait until no other shape can be replaced. The left sides are then searched in the order of the
-/// rules, and their shapes in that of the tree of shapes, so that the result does not depend on the order of the derivation.
-/// What no left side matches is replaced by the rules of its own symbol.
+/// Shapes of such left sides wait until no other shape can be replaced. The left sides are then searched in the
+/// order of the rules, and their shapes in that of the tree of shapes, so that the result does not depend on the
+/// order of the derivation. What no left side matches is replaced by the rules of its own symbol.
 #include "core/generators/building/derivation.h"
 
 namespace seedmesh::building {
@@ -12,13 +12,14 @@ namespace seedmesh::building {
 /// Whether the shape has to be left out until no other can be replaced.
 bool waits(const Derivation& d, const Shape& shape);
 
-/// Searches the shapes from `first` on. The result is to be replaced next: joined shapes if a left side matches, else the
-/// waiting shapes that have a rule of their own, in the order of the tree.
+/// Searches the shapes from `first` on. The result is to be replaced next: joined shapes if a left side matches,
+/// else the waiting shapes that have a rule of their own, in the order of the tree.
 ///
-/// Shapes match where their symbols and numbers of parameters agree, each is a neighbour of another one (contact.h), and a
-/// rule for them holds. Those that are not kept become inactive. The joined shape, a child of the first of them, has their
-/// union as its geometry and the parameters of all. It is a box if they fill one, in the axes of the first. Spends
-/// Resource::shapes. Cost of a search: n log² n for n waiting shapes and their neighbours, for left sides of two shapes.
+/// Shapes match where their symbols and numbers of parameters agree, each is a neighbour of another one
+/// (contact.h), and a rule for them holds. Those that are not kept become inactive. The joined shape, a child of
+/// the first of them, has their union as its geometry and the parameters of all. It is a box if they fill one, in
+/// the axes of the first. Spends Resource::shapes. Cost of a search: n log² n for n waiting shapes and their
+/// neighbours, for left sides of two shapes.
 std::vector<std::uint32_t> take_waiting(Derivation& d, std::uint32_t first);
 
 }  // namespace seedmesh::building

@@ -5,8 +5,8 @@
 
 namespace seedmesh::building {
 
-/// Makes the geometry of a flat state an open solid at the low side of the scope along `axis`, the axis of its normal. The
-/// caller gives the scope its depth.
+/// Makes the geometry of a flat state an open solid at the low side of the scope along `axis`, the axis of its
+/// normal. The caller gives the scope its depth.
 void lift_face(Derivation& d, ShapeState& state, int axis);
 /// Takes the depth of the scope away if all geometry lies in one plane across an axis. Other states stay as they are.
 void lower_face(Derivation& d, ShapeState& state);

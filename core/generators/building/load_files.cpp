@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <map>
 
+#include "core/generators/building/rule_statements.h"
+
 namespace seedmesh::building {
 namespace {
 
@@ -12,122 +14,6 @@ using Range = std::pair<std::size_t, std::size_t>;
 
 constexpr int deepest_import = 16;
 constexpr std::size_t most_instances = 200;  ///< of imported files
-
-bool is_name(const Token& token, std::string_view text) {
-  return token.kind == TokenKind::name && token.text == text;
-}
-
-/// A declaration of a file: an attribute, a constant, a function or a rule, with its annotations.
-struct Statement {
-  enum class Kind : std::uint8_t { definition, rule, import, style, other };
-  Kind kind = Kind::other;
-  std::size_t first = 0, last = 0;  ///< tokens
-  std::size_t name = 0;             ///< token of its name
-  std::size_t name_end = 0;         ///< behind its name, which has points if it replaces a rule of an import
-  std::size_t value = 0;            ///< of an attribute: token of its value; 0 for other declarations
-  bool is_start = false, is_extension = false;
-
-  bool is_foreign() const { return name_end > name + 1; }  ///< a rule of an imported file
-};
-
-/// The tokens of one file, and how its brackets fit together.
-struct File {
-  std::vector<Token> tokens;
-  std::vector<std::size_t> partner;
-
-  const Token& at(std::size_t i) const { return tokens[std::min(i, tokens.size() - 1)]; }
-  bool is(std::size_t i, std::string_view symbol) const { return lang::is_symbol(at(i), symbol); }
-};
-
-File read_file(std::string_view plain, const RuleText::Part& part, std::vector<lang::TextError>& faults) {
-  File file;
-  file.tokens = lang::tokenize(plain, part.first, part.first + part.count, faults);
-  file.partner.assign(file.tokens.size(), file.tokens.size() - 1);
-  std::vector<std::size_t> open;
-  for (std::size_t i = 0; i < file.tokens.size(); ++i) {
-    if (file.is(i, "(") || file.is(i, "[") || file.is(i, "{")) open.push_back(i);
-    if ((file.is(i, ")") || file.is(i, "]") || file.is(i, "}")) && !open.empty()) {
-      file.partner[open.back()] = i;
-      open.pop_back();
-    }
-  }
-  return file;
-}
-
-/// Whether a token follows the one before it without a blank.
-bool touches(const File& file, std::size_t i) {
-  return i > 0 && file.at(i).offset == file.at(i - 1).offset + file.at(i - 1).length;
-}
-
-/// Whether a token still belongs to an expression, as `style` in `look = style`.
-bool is_operand(const File& file, std::size_t i) {
-  constexpr std::string_view signs[] = {"=", ":", "==", "!=", "<", ">",  "<=", ">=", "+",
-                                        "-", "*", "/",  "%",  ",", "&&", "||", "!"};
-  if (i == 0) return false;
-  const Token& before = file.at(i - 1);
-  return (before.kind == TokenKind::symbol && std::ranges::find(signs, before.text) != std::end(signs)) ||
-         is_name(before, "case");
-}
-
-/// The declaration that begins at token i, if one does.
-Statement statement_at(const File& file, std::size_t i) {
-  Statement out;
-  out.first = i;
-  while (file.is(i, "@") && file.at(i + 1).kind == TokenKind::name) {
-    i += 2;
-    if (file.is(i, "(")) i = file.partner[i] + 1;
-  }
-  const bool names_next = file.at(i + 1).kind == TokenKind::name && !is_operand(file, i);
-  if (names_next && is_name(file.at(i), "import")) out.kind = Statement::Kind::import;
-  if (names_next && is_name(file.at(i), "style")) out.kind = Statement::Kind::style;
-  if (out.kind != Statement::Kind::other) {
-    out.name = i + 1;
-    return out;
-  }
-  if (names_next && (is_name(file.at(i), "attr") || is_name(file.at(i), "const"))) {
-    out.kind = Statement::Kind::definition;
-    out.name = i + 1;
-    const bool is_attribute = file.at(i).text == "attr";
-    i += 2;
-    if (is_attribute && file.is(i, "=")) out.value = i + 1;
-    return out;
-  }
-  out.is_start = names_next && is_name(file.at(i), "start");
-  out.is_extension = names_next && is_name(file.at(i), "extension");
-  if (out.is_start || out.is_extension) ++i;
-  if (file.at(i).kind != TokenKind::name) return out;
-  std::size_t behind = i + 1;
-  while (touches(file, behind) && file.is(behind, ".") && touches(file, behind + 1) &&
-         file.at(behind + 1).kind == TokenKind::name)
-    behind += 2;
-  const std::size_t name_end = behind;
-  if (file.is(behind, "(")) behind = file.partner[behind] + 1;
-  if (is_name(file.at(behind), "with") && file.is(behind + 1, "(")) behind = file.partner[behind + 1] + 1;
-  out.name = i;
-  out.name_end = name_end;
-  if (file.is(behind, "=") && !out.is_foreign()) out.kind = Statement::Kind::definition;
-  if (file.is(behind, "-->") || file.is(behind, "~>")) out.kind = Statement::Kind::rule;
-  return out;
-}
-
-std::vector<Statement> statements_of(const File& file) {
-  std::vector<Statement> out;
-  for (std::size_t i = 0; i + 1 < file.tokens.size();) {
-    Statement found = statement_at(file, i);
-    const bool is_marked = file.is(i, "@") || is_name(file.at(i), "version");
-    if (found.kind != Statement::Kind::other || is_marked || out.empty()) {
-      if (!out.empty()) out.back().last = i;
-      out.push_back(found);
-    }
-    const std::size_t name = found.kind == Statement::Kind::other ? i : found.name;
-    i = std::max(i, name) + 1;
-    if (found.kind == Statement::Kind::rule) i = std::max(i, found.name_end);
-    if (file.is(i - 1, "(") || file.is(i - 1, "[") || file.is(i - 1, "{")) i = file.partner[i - 1] + 1;
-    if (found.kind != Statement::Kind::other && file.is(i, "(")) i = file.partner[i] + 1;
-  }
-  if (!out.empty()) out.back().last = file.tokens.size() - 1;
-  return out;
-}
 
 /// What an import says about attributes and rules of the imported file.
 struct Overrides {
@@ -143,20 +29,28 @@ class Loader {
       : files_(files), plain_(plain), style_(style), faults_(faults) {}
 
   void load(const RuleText::Part& part, const std::string& prefix, const Overrides& overrides, int depth) {
-    File file = read_file(plain_, part, faults_);
-    const std::vector<Statement> all = statements_of(file);
+    RuleTokens file = read_tokens(plain_, part, faults_);
+    include_files(file, depth);
+    std::vector<Statement> all = statements_of(file);
+    drop_replaced(file, all);
     const std::vector<Statement> statements =
         in_style(file, all, prefix.empty() ? style_ : std::string_view());
     Names names;
     names.prefix = prefix;
+    const bool has_own_start = std::ranges::any_of(all, [&](const Statement& each) {
+      return file.is_own(each) && (each.is_start || each.has_start_note);
+    });
     for (const Statement& each : all) {
       if (each.kind == Statement::Kind::import) {
+        if (!included_path(file, each).empty()) continue;
         names.aliases.emplace(file.at(each.name).text);
       } else if ((each.kind == Statement::Kind::definition || each.kind == Statement::Kind::rule) &&
                  !each.is_foreign()) {
         names.own.emplace(file.at(each.name).text);
       }
-      if (each.is_start) names.start = file.at(each.name).text;
+      const bool is_included_start = !file.is_own(each) && (each.is_start || each.has_start_note);
+      if ((each.is_start && file.is_own(each)) || (is_included_start && !has_own_start))
+        names.start = file.at(each.name).text;
     }
     if (prefix.empty()) out.start = names.start;
     starts_[prefix] = names.start;
@@ -179,20 +73,47 @@ class Loader {
     std::set<std::string, std::less<>> own, aliases;
   };
 
+  /// Appends the tokens of files that are imported without a name.
+  void include_files(RuleTokens& file, int depth) {
+    for (const Statement& each : statements_of(file)) {
+      const std::string path = included_path(file, each);
+      if (path.empty()) continue;
+      const Token& token = file.at(each.name);
+      const RuleText::Part* const part = files_.find(path);
+      if (part == nullptr) {
+        warn(token, "the request has no rule file " + lang::in_quotes(path) + ": give it in \"rules\"");
+        continue;
+      }
+      if (depth >= deepest_import || ++instances_ > most_instances) {
+        error(token, "rule files import each other more than 16 deep or 200 times, perhaps in a circle");
+        return;
+      }
+      warn(token, "`import` has no name, so that the names of " + lang::in_quotes(path) + " get no prefix");
+      RuleTokens other = read_tokens(plain_, *part, faults_);
+      include_files(other, depth + 1);
+      const std::size_t begin = file.tokens.size() - 1;
+      file.included.push_back(begin);
+      for (const std::size_t inner : other.included) file.included.push_back(begin + inner);
+      file.tokens.insert(file.tokens.end() - 1, other.tokens.begin(), other.tokens.end() - 1);
+      if (file.tokens.size() > lang::max_tokens) return error(token, "the rule files have too many words");
+    }
+    match_brackets(file);
+  }
+
   Token renamed(Token token, const std::string& text) {
     token.text = *out.texts.emplace(text).first;
     return token;
   }
 
   /// The name of a rule of an imported file, with the names of the imports.
-  static std::string dotted(const File& file, const Statement& each) {
+  static std::string dotted(const RuleTokens& file, const Statement& each) {
     std::string text;
     for (std::size_t i = each.name; i < each.name_end; ++i) text += file.at(i).text;
     return text;
   }
 
   /// The declarations of a style: those before the first style, and those of the style itself, which replace them.
-  static std::vector<Statement> in_style(const File& file, const std::vector<Statement>& all,
+  static std::vector<Statement> in_style(const RuleTokens& file, const std::vector<Statement>& all,
                                          std::string_view style) {
     std::vector<Statement> base, own;
     std::set<std::string_view> replaced;
@@ -216,7 +137,7 @@ class Loader {
   }
 
   /// Appends tokens, with names of the file and of what it imports in their full form.
-  void append(const File& file, Range range, const Names& names, std::vector<Token>& to) {
+  void append(const RuleTokens& file, Range range, const Names& names, std::vector<Token>& to) {
     for (std::size_t i = range.first; i < range.second; ++i) {
       const Token& token = file.tokens[i];
       if (to.size() > lang::max_tokens) return;
@@ -249,7 +170,7 @@ class Loader {
     }
   }
 
-  void copy(const File& file, const Statement& each, const Names& names, const Overrides& overrides) {
+  void copy(const RuleTokens& file, const Statement& each, const Names& names, const Overrides& overrides) {
     const bool is_named = each.kind != Statement::Kind::other;
     const std::string_view name = is_named ? file.at(each.name).text : std::string_view();
     if (each.kind == Statement::Kind::rule &&
@@ -270,9 +191,10 @@ class Loader {
   }
 
   /// import id ( styles ) : "file.cga" ( attributes, values and rules )
-  void load_import(const File& file, const Statement& each, const Names& names,
+  void load_import(const RuleTokens& file, const Statement& each, const Names& names,
                    const std::vector<Statement>& statements, const Overrides& outer, int depth) {
     out.has_imports = true;
+    if (!included_path(file, each).empty()) return;
     const Token& alias = file.at(each.name);
     std::size_t i = each.name + 1;
     if (file.is(i, "(")) i = file.partner[i] + 1;
@@ -322,7 +244,7 @@ class Loader {
   }
 
   /// attr = value, attr (kept as it is), Rule(a) --> operations
-  void read_list(const File& file, Range range, const Names& names, const std::string& prefix,
+  void read_list(const RuleTokens& file, Range range, const Names& names, const std::string& prefix,
                  Overrides& overrides, std::set<std::string_view>& kept) {
     for (std::size_t i = range.first; i < range.second;) {
       std::size_t end = i;
@@ -355,6 +277,10 @@ class Loader {
     for (Token& token : out.tokens) {
       if (token.text == prefix + "start") token = renamed(token, prefix + start);
     }
+  }
+
+  void warn(const Token& token, std::string message) {
+    if (out.warnings.size() < lang::max_errors) out.warnings.push_back({token.offset, std::move(message)});
   }
 
   void error(const Token& token, std::string message) {

@@ -67,7 +67,40 @@ TaggedValue read_material(Evaluation& at, ValueArguments a) {
   return array_value(at, std::move(out));
 }
 
+/// Attributes of materials that the model does not have: always as CityEngine begins with them.
+TaggedValue nothing(Evaluation&, ValueArguments) { return number_value(0); }
+TaggedValue whole(Evaluation&, ValueArguments) { return number_value(1); }
+TaggedValue no_map(Evaluation& at, ValueArguments) { return text_value(at, ""); }
+
+#define SEEDMESH_UNUSED(name, value, number)                                                          \
+  {                                                                                                   \
+    name, 0, 0, value, "", number ": set has no effect on it, and materials of the request have it.", \
+        "A --> print(" name ") B."                                                                    \
+  }
 constexpr ValueFunctionRow rows[] = {
+    SEEDMESH_UNUSED("material.ambient.r", nothing, "0"),
+    SEEDMESH_UNUSED("material.ambient.g", nothing, "0"),
+    SEEDMESH_UNUSED("material.ambient.b", nothing, "0"),
+    SEEDMESH_UNUSED("material.specular.r", nothing, "0"),
+    SEEDMESH_UNUSED("material.specular.g", nothing, "0"),
+    SEEDMESH_UNUSED("material.specular.b", nothing, "0"),
+    SEEDMESH_UNUSED("material.emissive.r", nothing, "0"),
+    SEEDMESH_UNUSED("material.emissive.g", nothing, "0"),
+    SEEDMESH_UNUSED("material.emissive.b", nothing, "0"),
+    SEEDMESH_UNUSED("material.shininess", nothing, "0"),
+    SEEDMESH_UNUSED("material.reflectivity", nothing, "0"),
+    SEEDMESH_UNUSED("material.bumpValue", nothing, "0"),
+    SEEDMESH_UNUSED("material.metallic", nothing, "0"),
+    SEEDMESH_UNUSED("material.roughness", whole, "1"),
+    SEEDMESH_UNUSED("material.bumpmap", no_map, "The empty text"),
+    SEEDMESH_UNUSED("material.dirtmap", no_map, "The empty text"),
+    SEEDMESH_UNUSED("material.specularmap", no_map, "The empty text"),
+    SEEDMESH_UNUSED("material.opacitymap", no_map, "The empty text"),
+    SEEDMESH_UNUSED("material.normalmap", no_map, "The empty text"),
+    SEEDMESH_UNUSED("material.emissivemap", no_map, "The empty text"),
+    SEEDMESH_UNUSED("material.occlusionmap", no_map, "The empty text"),
+    SEEDMESH_UNUSED("material.roughnessmap", no_map, "The empty text"),
+    SEEDMESH_UNUSED("material.metallicmap", no_map, "The empty text"),
     {"material.color.r", 0, 0, red, "", "The red channel of the colour, from 0 to 1.",
      "A --> report(\"x\", material.color.r) B."},
     {"material.color.g", 0, 0, green, "", "The green channel.", "A --> report(\"x\", material.color.g) B."},
@@ -88,6 +121,7 @@ constexpr ValueFunctionRow rows[] = {
      "The material of the request that has the name of the file, as such an array.",
      "A --> setMaterial(readMaterial(\"walls/brick.cgamat\")) B."},
 };
+#undef SEEDMESH_UNUSED
 
 }  // namespace
 

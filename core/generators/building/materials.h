@@ -76,7 +76,7 @@ class MaterialTable {
 /// Adds an issue for each image of a material that is not a valid data URI.
 void check_materials(const BuildingParams& params, std::vector<Issue>& issues);
 
-/// The names of built-in materials.
+/// Returns the names of built-in materials.
 std::vector<std::string_view> built_in_materials();
 
 }  // namespace seedmesh::building

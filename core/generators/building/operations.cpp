@@ -247,11 +247,13 @@ constexpr OperationRow rows[] = {
      "A --> subtract { B | t(2, 2, 2) B } C.  B --> primitiveCube(4, 4, 4)"},
     {"intersect", Op::intersect, "", Braces::operands, "", "What two solids have in common.",
      "A --> intersect { B | t(2, 2, 2) B } C.  B --> primitiveCube(4, 4, 4)"},
-    {"tag", Op::tag, "t|t", Braces::absent, "name",
-     "Gives all components of the shape a tag, which isTagged selects.",
+    {"tag", Op::tag, "t|w", Braces::absent, "name, auto | faces | edges | vertices",
+     "Gives all components of the shape a tag, which isTagged selects; edges have the tags of their faces, "
+     "too.",
      "A --> tag(\"wall\") comp(f){ isTagged(\"wall\"): B. }"},
     {"deleteTags", Op::delete_tags, "|t", Braces::absent, "name",
-     "Removes a tag, or those of a pattern as a*, or all tags.", "A --> tag(\"wall\") deleteTags(\"w*\") B."},
+     "Removes a tag and those below it, those of a pattern (? is one part between points, * any), or all.",
+     "A --> tag(\"wall\") deleteTags(\"w*\") B."},
     {"setTagsFromEdgeAttrs", Op::edge_tags, "|xx", Braces::absent, "prefix",
      "Tags from attributes of edges, which footprints of a request do not have.",
      "A --> setTagsFromEdgeAttrs(\"e\") B.", Status::ignored},
@@ -279,7 +281,7 @@ constexpr OperationRow rows[] = {
      "A --> comp(f){ front: tileUV(0, 1, 1) copyUV(0, 2) B. }"},
     {"deleteUV", Op::delete_uv, "n", Braces::absent, "set", "Removes the texture coordinates of a set.",
      "A --> comp(f){ front: tileUV(0, 1, 1) deleteUV(0) B. }"},
-    {"print", Op::print, "x", Braces::absent, "value", "Adds a warning with the value to the answer.",
+    {"print", Op::print, "x", Braces::absent, "value", "Adds a warning with the value to the response.",
      "A --> print(scope.sx) B."},
 };
 

@@ -22,7 +22,7 @@ enum class Braces : std::uint8_t {
 /// What the service does with a name of the CGA reference.
 enum class Status : std::uint8_t {
   done,
-  ignored,  ///< a warning, and no shape: it serves textures or editing alone
+  ignored,  ///< it gives a warning and has no effect
   error,
 };
 /// Returns the name of a status.
@@ -44,7 +44,8 @@ struct OperationRow {
 /// Returns all operations.
 std::span<const OperationRow> operations();
 
-/// scope, cut, mass, roof, part, material, texture, attribute or report: a group for the reader.
+/// Returns the group of an operation in the vocabulary: scope, cut, mass, roof, part, material, texture,
+/// attribute or report.
 std::string_view kind_of(Op op);
 
 /// Null if no operation has this name.

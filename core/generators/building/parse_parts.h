@@ -1,6 +1,5 @@
 #pragma once
-/// What stands in the braces of an operation (cells of a split, selectors of a component split), and its
-/// axis.
+/// Readers for the braces of an operation (cells of a split, selectors of a component split) and for its axis.
 #include "core/generators/building/operations.h"
 #include "core/generators/building/parser.h"
 

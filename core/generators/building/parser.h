@@ -24,7 +24,7 @@ struct LocalValue {
   std::size_t from = 0, to = 0;  ///< tokens of the value
 };
 
-/// How far the search for the attributes that a value needs has got.
+/// The state of the search for the attributes that a value needs.
 enum class Progress : std::uint8_t { untouched, in_progress, done };
 
 /// A function of the rules: name(a, b) = value.
@@ -58,7 +58,7 @@ struct Parser {
   std::vector<Declaration> declarations;
   std::map<std::string, std::size_t, std::less<>> declared;
   std::vector<std::string> attribute_order;  ///< those that others need come first
-  std::set<std::string> made_texts;          ///< what made tokens point to
+  std::set<std::string> made_texts;          ///< texts of tokens that are not in the rules
   lang::Names names;
   std::set<std::string, std::less<>> symbols_with_rules;
   std::uint32_t start = none;  ///< the symbol after @StartRule
@@ -73,16 +73,16 @@ inline const lang::Token& here(const Parser& p) { return p.tokens.at(p.at); }
 inline bool is_here(const Parser& p, std::string_view symbol) { return p.tokens.is(p.at, symbol); }
 inline std::uint32_t offset_here(const Parser& p) { return static_cast<std::uint32_t>(here(p).offset); }
 
-/// Skips the next token if it is this symbol.
+/// Skips the next token if it is this symbol, and returns whether it is.
 bool take(Parser& p, std::string_view symbol);
 /// The same; everything else is an error.
 void expect(Parser& p, std::string_view symbol, std::string_view after);
 
 /// Adds an error at a token: one for each token, and at most lang::max_errors.
 void add_error(Parser& p, const lang::Token& token, std::string message, IssueKind kind = IssueKind::syntax);
-/// The next token is not what the rules need.
+/// Adds the error that the next token is not what the rules need.
 void add_unexpected(Parser& p, std::string_view expected);
-/// A word that was just read is not what the operation needs.
+/// Adds the error that a word that was just read is not what the operation needs.
 void add_wrong_word(Parser& p, std::string_view word, std::string_view expected);
 void add_warning(Parser& p, std::uint32_t offset, std::string message);
 

@@ -9,11 +9,12 @@ void make_prism_of(Derivation& d, ShapeState& state, int axis);
 /// The same with a pyramid of a flat rectangle or solid.
 void make_pyramid_of(Derivation& d, ShapeState& state, int axis);
 
-/// Turns the scope of a face over if the face points away from its axis, as after reverseNormals: extrude and roofs follow the
-/// normal of the face.
+/// Turns the scope of a face over if the face points away from its axis, as after reverseNormals: extrude and
+/// roofs follow the normal of the face.
 void face_forward(Derivation& d, const Step& step, ShapeState& state);
-/// Turns the scope of a shape that an operation has made of a face, as the CGA reference has it: y along the normal of the
-/// face, or along the direction of an extrusion, and x as it was, but at right angles to y. `before` is the face.
+/// Turns the scope of a shape that an operation has made of a face, as the CGA reference has it: y along the
+/// normal of the face, or along the direction of an extrusion, and x as it was, but at right angles to y.
+/// `before` is the face.
 void stand_up(Derivation& d, const Step& step, const ShapeState& before, ShapeState& state);
 
 /// extrude(direction, height): world.up, world.up.flatTop, vertex.normal, face.normal, x, y or z.

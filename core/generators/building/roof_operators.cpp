@@ -109,9 +109,11 @@ void add_roof(Solid& solid, const Roof& roof, const FacePlane& plane) {
         {static_cast<std::uint32_t>(solid.corners.size()), static_cast<std::uint32_t>(corners.size())});
     for (const std::uint32_t corner : corners) solid.corners.push_back(base + corner);
   };
+  const bool has_cover = std::ranges::any_of(roof.faces, &RoofFace::is_cover);
   for (const RoofFace& each : roof.faces) {
+    const std::uint8_t tag = has_cover && !each.is_cover ? face_is_covered : std::uint8_t{0};
     solid.faces.push_back({static_cast<std::uint32_t>(solid.loops.size()),
-                           static_cast<std::uint32_t>(1 + each.holes.size()), false, 0});
+                           static_cast<std::uint32_t>(1 + each.holes.size()), false, tag});
     add_loop(each.outline);
     for (const auto& hole : each.holes) add_loop(hole);
   }

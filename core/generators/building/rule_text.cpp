@@ -37,6 +37,11 @@ FileNotes notes_of(std::string_view text) {
   for (std::size_t i = 0; i + 1 < tokens.size(); ++i) {
     const lang::Token& token = tokens[i];
     if (token.kind == TokenKind::name && token.text == "import") {
+      // import file.cga, without a name and quotes
+      if (i + 3 < tokens.size() && is_symbol(tokens[i + 2], ".") && tokens[i + 3].text == "cga") {
+        notes.imports.emplace_back(tokens[i + 1].text);
+        continue;
+      }
       for (std::size_t k = i + 1; k < std::min(i + 40, tokens.size()); ++k) {
         if (tokens[k].kind == TokenKind::string) {
           notes.imports.push_back(lang::string_value(tokens[k]));
@@ -74,6 +79,8 @@ std::string without_comments(std::string_view text) {
         if (out[i] != '\n') out[i] = ' ';
       }
       --i;
+    } else if (text.substr(i).starts_with("\xEF\xBB\xBF")) {
+      out.replace(i, 3, 3, ' ');  // the byte order mark of a file
     } else if (out[i] == '\xE2') {
       for (const auto& [sign, meant] : typographical_signs) {
         if (text.substr(i).starts_with(sign)) out.replace(i, sign.size(), meant);

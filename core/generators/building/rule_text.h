@@ -1,6 +1,6 @@
 #pragma once
-/// The rules of one request as one text: one rule file, or several that import each other. Errors are bytes of the joined
-/// text; they are reported in the file that they belong to.
+/// The rules of one request as one text: one rule file, or several that import each other. Errors are bytes of
+/// the joined text; they are reported in the file that they belong to.
 #include <cstdint>
 #include <map>
 #include <string>
@@ -46,7 +46,7 @@ Issue issue_at(IssueKind kind, const RuleText& text, std::size_t offset, std::st
 /// language. No byte moves.
 std::string without_comments(std::string_view text);
 
-/// A name as a token of a JSON Pointer.
+/// Returns a name as a token of a JSON Pointer.
 std::string pointer_token(std::string_view name);
 
 }  // namespace seedmesh::building

@@ -1,6 +1,6 @@
 #pragma once
-/// Counts the shapes of one derivation. Thousands of small buildings of a city share one limit, so the portions that are
-/// taken from the job begin small.
+/// Counts the shapes of one derivation. Thousands of small buildings of a city share one limit, so the portions
+/// that are taken from the job begin small.
 #include <algorithm>
 #include <cstdint>
 

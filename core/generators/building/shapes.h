@@ -27,7 +27,7 @@ constexpr std::uint8_t no_roof = 3;
 /// of the unit cube, which the scope scales.
 struct ShapeState {
   glm::dvec3 origin{0}, size{0};
-  std::uint32_t axes = 0, geometry = box_geometry, style = 0;  ///< into the tables of Shapes
+  std::uint32_t axes = 0, geometry = box_geometry, style = 0;  ///< indices into the tables of Shapes
   std::uint32_t split_index = 0, split_total = 0, comp_index = 0, comp_total = 0;
   std::uint8_t tag = 0;            ///< class of a face (front, side, ...) during a component split, else 0
   std::uint8_t roof_up = no_roof;  ///< the axis of the scope of a roof that is up
@@ -119,7 +119,7 @@ struct Shapes {
   Texts texts;
   std::vector<Warning> warnings;
   bool takes_away = false;        ///< a rule or an edit has removed a shape (NIL)
-  std::vector<bool> found_edits;  ///< for each edit of Task::edits: was its shape made?
+  std::vector<bool> found_edits;  ///< for each edit of Task::edits, whether its shape was made
   std::map<std::uint32_t, std::uint32_t> symbols_before_edits;  ///< of shapes whose rule an edit has changed
   /// For each shape the choice of Grammar::choices that replaced it, or `none`. It may have fewer rows than
   /// `shapes`. Only with Task::keeps_choices.

@@ -1,5 +1,5 @@
 #pragma once
-/// The result of a derivation as JSON, for the answer of derive.
+/// The result of a derivation as JSON, for the response of derive.
 #include <nlohmann/json.hpp>
 #include <string_view>
 

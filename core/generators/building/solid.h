@@ -19,11 +19,13 @@ struct Loop {
 struct Face {
   std::uint32_t first_loop = 0, loop_count = 0;  ///< the outer loop first
   bool is_round = false;                         ///< part of a curved surface with smooth normals
-  std::uint8_t tag = 0;                          ///< set by an offset: face_is_inside or face_is_border
-  std::uint32_t tags = 0;                        ///< index into Shapes::tag_sets
+  std::uint8_t tag = 0;    ///< face_is_inside, face_is_border (offset), face_is_covered (roof)
+  std::uint32_t tags = 0;  ///< index into Shapes::tag_sets
 };
 
 constexpr std::uint8_t face_is_inside = 1, face_is_border = 2;
+/// A face of the body of a roof below its cover. Its edges are not edges of the roof.
+constexpr std::uint8_t face_is_covered = 3;
 
 struct Solid {
   std::vector<glm::dvec3> points;

@@ -13,14 +13,14 @@ Solid with_joined_faces(const Solid& solid, double distance);
 Solid without_straight_corners(const Solid& solid, double distance);
 /// Puts corners that lie on an edge of another face into that edge, so that faces meet edge to edge.
 Solid with_shared_corners(const Solid& solid, double distance, const Job& job);
-/// Every face as convex faces: triangles joined while they stay convex (Hertel and Mehlhorn, 1983).
-/// Checks stop and deadline.
+/// Returns each face as convex faces: triangles that are joined while they stay convex (Hertel and Mehlhorn,
+/// 1983). Checks stop and deadline.
 Solid convex_faces(const Solid& solid, const Job& job);
-/// Triangles of one face, as numbers of points. Checks stop and deadline.
+/// Returns the triangles of one face, as indices of points. Checks stop and deadline.
 std::vector<std::uint32_t> triangles_of(const Solid& solid, const Face& face, const Job& job);
 
-/// Moves copies of all faces by a vector for each point. `base` turns over, and walls join both at edges with one face. Closed
-/// if each edge had at most two faces.
+/// Moves copies of all faces by a vector for each point. The original faces turn over, and walls join both at
+/// edges with one face. The result is closed if each edge had at most two faces.
 Solid extruded_by(const Solid& faces, std::span<const glm::dvec3> by);
 
 /// Whether every edge has two faces that run along it in opposite directions.

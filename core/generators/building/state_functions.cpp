@@ -81,7 +81,7 @@ TaggedValue convert(Evaluation& at, ValueArguments a) {
 }
 
 TaggedValue geo_coordinate(Evaluation& at, ValueArguments) {
-  reject(at, "a request has no coordinates on the earth, so that getGeoCoord has no answer");
+  reject(at, "a request has no coordinates on the earth, so that getGeoCoord has no result");
 }
 
 const AssetBox* asset_named(const Evaluation& at, std::string name) {
@@ -216,7 +216,7 @@ constexpr ValueFunctionRow rows[] = {
      "A --> case seedian >= 0: B. else: C."},
     {"getTreeKey", 0, 0, tree_key, "", "A text that belongs to the shape alone.",
      "A --> label(getTreeKey()) B."},
-    {"print", 1, 1, print, "value", "The value; a warning of the answer says what it is.",
+    {"print", 1, 1, print, "value", "The value; a warning in the response states it.",
      "A --> s(print(2), '1, '1) B."},
     {"convert", 7, 7, convert, "axis, from, to, pos | dir, x, y, z",
      "A coordinate of a position or direction in another of the frames scope, pivot, object and world.",

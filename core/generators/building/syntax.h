@@ -50,7 +50,8 @@ struct Query {
   std::uint32_t slot = 0;
 };
 
-/// What lang::Program cannot hold: joined texts, arrays, recursion, geometry. Operands: Grammar::value_operands.
+/// A node of an expression that lang::Program cannot hold: joined texts, arrays, recursion, geometry. Its
+/// operands are in Grammar::value_operands.
 struct ValueNode {
   enum class Kind : std::uint8_t {
     constant,  ///< `constant`
@@ -64,14 +65,14 @@ struct ValueNode {
     either,      ///< logical or (||)
     choose,      ///< by conditions: condition, value, condition, value, ..., value otherwise
     weigh,       ///< at random: percentage, value, percentage, value, ..., value otherwise
-    call,        ///< `id`: into lang::functions()
-    function,    ///< `id`: into Grammar::functions
-    special,     ///< `id`: into value_functions()
-    query,       ///< `id`: into Grammar::queries
+    call,        ///< `id`: index into lang::functions()
+    function,    ///< `id`: index into Grammar::functions
+    special,     ///< `id`: index into value_functions()
+    query,       ///< `id`: index into Grammar::queries
     index,       ///< array, row, and perhaps column
     array,       ///< values; `id` is the number of columns, or 0
     range,       ///< first, step, last
-    components,  ///< `id`: into Grammar::component_values
+    components,  ///< `id`: index into Grammar::component_values
     selector,    ///< whether the component belongs to the classes `id`
   };
   Kind kind = Kind::constant;
@@ -104,7 +105,7 @@ enum class Measure : std::uint8_t { absolute, relative, floating, height };
 struct Argument {
   Value value;
   Measure measure = Measure::absolute;
-  std::uint32_t word = none;  ///< of an argument that is a word: into Grammar::words
+  std::uint32_t word = none;  ///< of an argument that is a word: index into Grammar::words
 };
 
 enum class Op : std::uint8_t {
@@ -217,7 +218,7 @@ struct Step {
   std::uint8_t axis = 0;        ///< x, y, z, or of a split axis_u, axis_v; of comp a ComponentKind
 };
 
-/// What a component split takes a shape apart into.
+/// The components into which a component split divides a shape.
 enum ComponentKind : std::uint8_t {
   component_faces,
   component_edges,
@@ -270,7 +271,7 @@ struct Part {
   bool is_by_set = false;            ///< of a selector: `=:` makes one shape of faces that touch
   std::uint8_t frame = frame_scope;  ///< of a selector
   Value condition;                   ///< of a selector that is an expression
-  std::uint32_t word = none;         ///< of a selector: how it is written, into Grammar::words
+  std::uint32_t word = none;         ///< of a selector: how it is written, index into Grammar::words
   Argument depth;                    ///< of a split of the perimeter
   bool is_remainder = false;         ///< of a selector: `remainder`
   std::uint32_t offset = 0;
@@ -355,19 +356,20 @@ struct Grammar {
   std::vector<Joint> joints;              ///< in the order of the text
   std::vector<Attribute> attributes;      ///< those that others need come first
   std::vector<Query> queries;             ///< without duplicates
-  std::vector<std::uint32_t> query_uses;  ///< of values: into `queries`
+  std::vector<std::uint32_t> query_uses;  ///< of values: indices into `queries`
   std::uint32_t start = none;
   std::uint32_t first_attribute_slot = first_free_slot, first_parameter_slot = first_free_slot;
   std::uint32_t most_parameters = 0;
   bool has_snap_splits = false;
   std::vector<ValueNode> value_nodes;
-  std::vector<std::uint32_t> value_operands;  ///< into value_nodes
+  std::vector<std::uint32_t> value_operands;  ///< indices into value_nodes
   std::vector<FunctionTree> functions;
   std::vector<ComponentValue> component_values;
   bool uses_selectors = false;  ///< comp.sel is read somewhere
+  bool uses_tags = false;       ///< tags are read somewhere, so that operations tag what they make
   bool turns_scopes =
       false;  ///< scopes behave as in CityEngine; see stand_up and lift_face. Not after @KeepScopes
-  bool is_cityengine = false;  ///< has `version`, `import`, `@StartRule`: faults of steps are warnings
+  bool is_cityengine = false;  ///< has `version`, `import`, `@StartRule`: errors of steps are warnings
   std::vector<Warning> warnings;
 
   std::uint32_t symbol_named(std::string_view name) const;  ///< none if there is no such symbol

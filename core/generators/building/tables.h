@@ -6,8 +6,8 @@ namespace seedmesh::building {
 
 enum class TableCells : std::uint8_t { texts, numbers };
 
-/// Returns the text of the table that a path names: by its whole name, or without directories and ending. Rejects a
-/// name that the request has not.
+/// Returns the text of the table that a path names: by its whole name, or without directories and ending. Rejects
+/// a name that the request does not have.
 const std::string& table_text(Evaluation& at, std::string_view path);
 
 /// Returns the cells of a table, row by row. Cells are separated by the sign of `;`, a tabulator or `,` that the first

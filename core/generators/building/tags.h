@@ -1,5 +1,8 @@
 #pragma once
 /// Tags of components: names that rules and operations give to faces, edges and vertices, for selectors.
+#include <span>
+#include <string_view>
+
 #include "core/generators/building/derivation.h"
 
 namespace seedmesh::building {
@@ -10,6 +13,22 @@ std::uint32_t tag_set(Derivation& d, std::vector<std::uint32_t> tags);
 std::uint32_t joined_tags(Derivation& d, std::uint32_t a, std::uint32_t b);
 /// Returns the set with one more tag.
 std::uint32_t with_tag(Derivation& d, std::uint32_t set, std::string_view name);
-bool has_tag(const Derivation& d, std::uint32_t set, std::string_view name);
+/// Whether a tag fits a query: its parts between points are those of the query, where `?` is any part and `*` any
+/// number of them, and further parts can follow.
+bool fits_tag(std::string_view tag, std::string_view query);
+/// Whether a component of `dimension` (2 faces, 1 edges, 0 vertices) with a set of tags has one that fits. Tags of edges
+/// count for edges and vertices, those of vertices for these alone.
+bool has_tag(const Derivation& d, std::uint32_t set, std::string_view query, int dimension);
+/// The name of a tag without the sign of edges or vertices.
+std::string_view name_of_tag(std::string_view tag);
+
+/// The number of a style with the tags of the faces around an edge, and `bool.cut` where faces of both operands of a
+/// Boolean operation meet.
+std::uint32_t style_of_edge(Derivation& d, const Solid& solid, std::span<const std::uint32_t> faces,
+                            std::uint32_t style);
+
+/// Tags the faces that an extrusion, a roof, a taper or an envelope made of a flat shape: extrude.bottom,
+/// extrude.side.outer, extrude.side.inner (around holes), extrude.top.
+void add_auto_tags(Derivation& d, Op op, const ShapeState& before, ShapeState& after);
 
 }  // namespace seedmesh::building

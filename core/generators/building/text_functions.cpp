@@ -244,7 +244,7 @@ TaggedValue file_basename(Evaluation& at, ValueArguments a) {
 TaggedValue file_extension(Evaluation& at, ValueArguments a) {
   const std::string name = name_of_file(text_in(at, a[0]));
   const std::size_t dot = name.find_last_of('.');
-  return text_value(at, dot == std::string::npos ? "" : name.substr(dot));
+  return text_value(at, dot == std::string::npos ? "" : name.substr(dot + 1));
 }
 TaggedValue file_exists(Evaluation& at, ValueArguments a) {
   return truth_value(!files_that_fit(at, text_in(at, a[0])).empty());
@@ -295,15 +295,16 @@ constexpr ValueFunctionRow rows[] = {
     {"sel", 3, 3, select, "condition, a, b", "a if the condition holds, else b.",
      "A --> label(sel(true, \"a\", \"b\")) B."},
     {"len", 1, 1, length, "text", "The number of bytes of a text.", "A --> s(len(\"four\"), '1, '1) B."},
-    {"find", 2, 3, find, "text, part, occurrence", "The place of a part in a text, from 0, or -1.",
+    {"find", 2, 3, find, "text, part, occurrence", "The position of a part in a text, from 0, or -1.",
      "A --> case find(\"abc\", \"c\", 0) == 2: B. else: C."},
-    {"findFirst", 2, 2, find, "text, part", "The place of the first occurrence, or -1.",
+    {"findFirst", 2, 2, find, "text, part", "The position of the first occurrence, or -1.",
      "A --> case findFirst(\"abcb\", \"b\") == 1: B. else: C."},
-    {"findLast", 2, 2, find_last, "text, part", "The place of the last occurrence, or -1.",
+    {"findLast", 2, 2, find_last, "text, part", "The position of the last occurrence, or -1.",
      "A --> case findLast(\"abcb\", \"b\") == 3: B. else: C."},
     {"count", 2, 2, count, "text, part", "How often a part occurs in a text.",
      "A --> case count(\"a-b-c\", \"-\") == 2: B. else: C."},
-    {"substring", 2, 3, substring, "text, first, end", "The part of a text from one place to before another.",
+    {"substring", 2, 3, substring, "text, first, end",
+     "The part of a text from one position to before another.",
      "A --> label(substring(\"window\", 0, 3)) B."},
     {"replace", 3, 3, replace, "text, part, by", "The text with every occurrence of a part replaced.",
      "A --> label(replace(\"a_b\", \"_\", \"-\")) B."},
@@ -326,11 +327,11 @@ constexpr ValueFunctionRow rows[] = {
     {"listRandom", 1, 1, list_random, "list", "A random item.", "A --> label(listRandom(\"a;b;\")) B."},
     {"listClean", 1, 1, list_clean, "list", "The list without empty items.",
      "A --> label(listClean(\"a;;b;\")) B."},
-    {"listIndex", 2, 2, list_index, "list, item", "The place of an item, or -1.",
+    {"listIndex", 2, 2, list_index, "list, item", "The position of an item, or -1.",
      "A --> case listIndex(\"a;b;\", \"b\") == 1: B. else: C."},
     {"listCount", 2, 2, list_count, "list, item", "How often an item occurs.",
      "A --> case listCount(\"a;a;\", \"a\") == 2: B. else: C."},
-    {"listRange", 3, 3, list_range, "list, first, end", "The items from one place to before another.",
+    {"listRange", 3, 3, list_range, "list, first, end", "The items from one position to before another.",
      "A --> label(listRange(\"a;b;c;\", 1, 3)) B."},
     {"listRemove", 2, 2, list_remove, "list, item", "The list without the first item of this value.",
      "A --> label(listRemove(\"a;b;\", \"a\")) B."},
@@ -350,7 +351,7 @@ constexpr ValueFunctionRow rows[] = {
      "A --> label(fileName(\"a/b.obj\")) B."},
     {"fileBasename", 1, 1, file_basename, "path", "The name of a file without its ending.",
      "A --> label(fileBasename(\"a/b.obj\")) B."},
-    {"fileExtension", 1, 1, file_extension, "path", "The ending of a file, with its point.",
+    {"fileExtension", 1, 1, file_extension, "path", "The ending of a file, without its point.",
      "A --> label(fileExtension(\"a/b.obj\")) B."},
     {"fileExists", 1, 1, file_exists, "path",
      "Whether the request has an asset, material or table of this name.",

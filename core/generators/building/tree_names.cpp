@@ -77,7 +77,7 @@ std::uint32_t TreeParser::name() {
   if (std::uint32_t found = none; query(begin, lower, found)) return found;
   if (const std::uint32_t special = find_value_function(dotted); special != none)
     return special_function(begin, special);
-  if (is("(")) {
+  if (is("(") || dotted == "rand") {
     if (const std::uint32_t built_in = built_in_function(begin, dotted); built_in != none) return built_in;
   }
   if (std::uint32_t classes = 0; !is("(")) {
@@ -165,6 +165,7 @@ std::uint32_t TreeParser::special_function(std::size_t begin, std::uint32_t numb
       p_.grammar.queries.push_back({kind, "", 0});
   }
   if (row.name == "comp.sel") p_.grammar.uses_selectors = true;
+  p_.grammar.uses_tags |= row.name.ends_with("sTagged") || row.name.ends_with("ags");
   ValueNode out = node(Kind::special, begin);
   out.id = number;
   return add(out, given);

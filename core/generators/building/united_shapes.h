@@ -1,7 +1,9 @@
 #pragma once
 /// One solid of several shapes.
+#include <optional>
 #include <span>
 
+#include "core/generators/building/boolean.h"
 #include "core/generators/building/derivation.h"
 
 namespace seedmesh::building {
@@ -13,6 +15,14 @@ enum class Joining : std::uint8_t {
   unify,      ///< the union of closed solids, and all faces of others
   recompose,  ///< all faces, with shared corners
 };
+
+/// Joins pieces of a surface where they meet: corners within a micrometre become one, and corners on an edge of
+/// another piece divide it. Faces that become inner ones are dropped.
+Solid recomposed(const Solid& pieces, const Job& job);
+
+/// Union, difference or intersection of two flat surfaces in one plane, with the normal of the first; nothing if they are
+/// not in one plane.
+std::optional<Solid> flat_boolean(const Solid& a, const Solid& b, BooleanKind kind, const Job& job);
 
 /// Returns the geometry of these shapes in metres of the scope of `state`. Edges and points are left out, assets with
 /// a warning at byte `offset` of the rules. Rejects more than most_faces. Without geometry it has no faces.

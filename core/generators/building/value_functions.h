@@ -24,8 +24,8 @@ struct ValueFunctionRow {
   std::string_view parameters, text, example;
 };
 
-/// text_functions.cpp, array_functions.cpp, geometry_functions.cpp, state_functions.cpp, color_functions.cpp and
-/// material_functions.cpp.
+/// The tables of text_functions.cpp, array_functions.cpp, geometry_functions.cpp, state_functions.cpp,
+/// color_functions.cpp and material_functions.cpp.
 std::span<const ValueFunctionRow> text_functions();
 std::span<const ValueFunctionRow> array_functions();
 std::span<const ValueFunctionRow> geometry_functions();
@@ -50,12 +50,12 @@ inline lang::TaggedValue truth_value(bool truth) { return {truth ? 1.0 : 0.0, 0}
 
 /// Returns the values of an array; of any other value an array of one.
 ValueArray array_in(const Evaluation& at, const lang::TaggedValue& value);
-/// Stores an array. At most 100,000 values.
+/// Stores an array of at most 100,000 values.
 lang::TaggedValue array_value(Evaluation& at, ValueArray array);
 
 /// Whether a text has the form of a pattern, in which * stands for any text.
 bool fits(std::string_view text, std::string_view pattern);
-/// The names of assets, materials and tables of the request that fit a pattern, sorted.
+/// Returns the names of assets, materials and tables of the request that fit a pattern, sorted.
 std::vector<std::string> files_that_fit(const Evaluation& at, std::string_view pattern);
 
 }  // namespace seedmesh::building

@@ -122,12 +122,12 @@ std::vector<Issue> check(const CityParams& params, const CheckContext& context) 
   check_lots(params.lots, issues);
   check_rules(params, issues);
   check_house_requests(params, context, issues);
-  for (std::size_t i = 0; i < params.maps.zones.size(); ++i)
-    polygons_of(params.maps.zones[i].polygons, "/maps/zones/" + std::to_string(i) + "/area", issues);
-  const StreetGrammar grammar(params.streets.productions, "/streets/productions", issues);
-  const auto check_map = [&](const MapValue& value, const char* pointer) {
+  const auto check_map = [&](const MapValue& value, const std::string& pointer) {
     FieldMap::read(value, pointer, {-1, -1}, {1, 1}, context.job, issues);
   };
+  for (std::size_t i = 0; i < params.maps.zones.size(); ++i)
+    check_map(params.maps.zones[i].area, "/maps/zones/" + std::to_string(i) + "/area");
+  const StreetGrammar grammar(params.streets.productions, "/streets/productions", issues);
   check_map(params.maps.density, "/maps/density");
   if (params.maps.water) check_map(*params.maps.water, "/maps/water");
   if (params.maps.obstacles) check_map(*params.maps.obstacles, "/maps/obstacles");

@@ -22,8 +22,8 @@ class Chunks {
  public:
   Chunks(const CityPlan& plan, const CityParams& params);
 
-  /// Returns the chunk of a position in metres; `block` is no_index in the street space. 0 where the city is not
-  /// divided.
+  /// Returns the chunk of a position in metres; `block` is no_index in the street space. Returns 0 if the city is
+  /// not divided.
   std::uint32_t at(const glm::dvec2& metres, std::uint32_t block) const;
   /// Returns the chunk of a part, by the middle of its outline.
   std::uint32_t of(const Part& part) const;

@@ -4,6 +4,7 @@
 #include <glm/common.hpp>
 #include <nlohmann/json.hpp>
 
+#include "core/base/heap.h"
 #include "core/generators/city/bridge_mesh.h"
 #include "core/generators/city/city_model.h"
 #include "core/generators/city/contents.h"
@@ -82,11 +83,14 @@ Maps read_maps(const CityParams& params, const Box& box, const Job& job, std::ve
   return maps;
 }
 
-std::vector<NamedZone> zones_of(const CityParams& params, std::vector<Issue>& issues) {
+std::vector<NamedZone> zones_of(const CityParams& params, const Box& box, const Job& job,
+                                std::vector<Issue>& issues) {
   std::vector<NamedZone> zones;
+  zones.reserve(params.maps.zones.size());
   for (std::size_t i = 0; i < params.maps.zones.size(); ++i) {
     const std::string pointer = "/maps/zones/" + std::to_string(i) + "/area";
-    zones.push_back({params.maps.zones[i].zone, polygons_of(params.maps.zones[i].polygons, pointer, issues)});
+    auto map = FieldMap::read(params.maps.zones[i].area, pointer, box.low, box.high, job, issues);
+    if (map) zones.push_back({params.maps.zones[i].zone, *std::move(map)});
   }
   return zones;
 }
@@ -168,6 +172,11 @@ Error too_steep(const CityParams& params) {
 /// Warnings about parameters without effect, and a terrain that is smaller than the area.
 std::vector<Warning> remarks_on(const CityParams& params, const CityPlan& plan) {
   std::vector<Warning> warnings = warnings_of(unused_parameters(params));
+  if (params.maps.height && plan.landform->has_expression() &&
+      params.maps.height_range != CityMaps{}.height_range) {
+    warnings.push_back(
+        {"/maps/height_range", "`height_range` has no effect, since the height is an expression in metres"});
+  }
   const Box box = box_of(plan.area);
   if (!plan.landform->covers(box.low, box.high)) {
     warnings.push_back(
@@ -206,11 +215,11 @@ std::optional<Error> refusal(const CityParams& params, const GenerateContext& co
 
 /// Lays out the streets and finds their heights. On hills, removes streets with deep cuts or fills, whose removal
 /// changes the heights of others, in up to 24 rounds.
-std::vector<BlockOutline> lay_out(CityPlan& plan, const GrowthInput& input, Job& job) {
+std::vector<BlockOutline> lay_out(CityPlan& plan, const GrowthInput& input, const CornerCut& cut, Job& job) {
   constexpr int most_rounds = 24;
   for (int round = 0;; ++round) {
     plan.parts.clear();
-    std::vector<BlockOutline> blocks = lay_out_streets(plan, job);
+    std::vector<BlockOutline> blocks = lay_out_streets(plan, cut, job);
     plan.heights = street_heights(plan, *plan.landform, input.least_height, job);
     if (!input.landform || round == most_rounds || !drop_deep_streets(input, plan.heights, plan.graph, job) ||
         !has_streets(plan.graph)) {
@@ -227,9 +236,10 @@ Result<CityPlan> plan_on(const CityParams& params, std::shared_ptr<const Landfor
   plan.classes = classes_of(params);
   plan.landmarks = landmarks_of(params, job);
   std::vector<Issue> issues;
-  plan.zones = zones_of(params, issues);
+  const Box box = box_of(plan.area);
+  plan.zones = zones_of(params, box, job, issues);
   const StreetGrammar grammar(params.streets.productions, "/streets/productions", issues);
-  const Maps maps = read_maps(params, box_of(plan.area), job, issues);
+  const Maps maps = read_maps(params, box, job, issues);
   const std::vector<GivenFootprint> given_buildings = given_footprints(params, issues);
   for (Landmark& each : landmarks_of(given_buildings)) plan.landmarks.push_back(std::move(each));
   const FootprintIndex footprints(given_buildings);
@@ -237,7 +247,7 @@ Result<CityPlan> plan_on(const CityParams& params, std::shared_ptr<const Landfor
   if (!issues.empty() || !maps.density) return Error{Code::invalid, std::move(issues)};
   plan.landform = std::move(given_ground);
   if (!plan.landform) {
-    Result<Landform> ground = Landform::make(params, job);
+    Result<Landform> ground = Landform::make(params, box.low, box.high, job);
     if (!ground) return std::move(ground).error();
     plan.landform = std::make_shared<const Landform>(std::move(*ground));
   }
@@ -273,27 +283,49 @@ Result<CityPlan> plan_on(const CityParams& params, std::shared_ptr<const Landfor
   plan.charges.emplace_back(job, plan.graph.edges.size() * bytes_a_street);
   job.progress("blocks", 0);
   if (landform && !has_streets(plan.graph)) return too_steep(params);
-  const std::vector<BlockOutline> blocks = lay_out(plan, input, job);
+  const CornerCut cut = {params.lots.corner_width * 100, params.lots.corner_angle};
+  std::vector<BlockOutline> blocks = lay_out(plan, input, cut, job);
   if (landform && !has_streets(plan.graph)) return too_steep(params);
   job.progress("lots", 0);
-  divide_blocks(plan, blocks, params.lots, *maps.density, job);
+  divide_blocks(plan, std::move(blocks), params.lots, *maps.density, job);
   plan.charges.emplace_back(job, plan.lots.size() * bytes_a_lot);
   place_houses(plan, params, obstacles, footprints, job);
   place_landmarks(plan);
   return plan;
 }
 
-Result<Model> generate(const CityParams& params, const GenerateContext& context) {
+namespace {
+
+/// Plans of this many parts leave enough unused memory that it is worth the time to return it.
+constexpr std::size_t parts_of_large_plans = 20'000;
+
+/// The model of a request, and the number of parts of its plan, which is freed.
+Result<Model> planned_model(const CityParams& params, const GenerateContext& context, std::size_t& parts) {
   Job& job = context.job;
-  if (auto refused = refusal(params, context)) return std::move(*refused);
-  const Result<CityPlan> plan = plan_of(params, job);
+  Result<CityPlan> plan = plan_of(params, job);
   if (!plan) return plan.error();
+  const std::string statistics = canonical_text(statistics_of(*plan, job));
+  parts = plan->parts.size();
+  if (parts >= parts_of_large_plans) {
+    return_unused_heap();
+    job.budget()->prefer_low_memory();
+  }
   job.progress("mesh", 0);
   Result<Model> model = city_model(*plan, params, context);
   if (!model) return model;
   warn_of_unused_surfaces(params, *model);
-  model->extras.push_back({"statistics", canonical_text(statistics_of(*plan, job))});
+  model->extras.push_back({"statistics", statistics});
   for (Warning& each : remarks_on(params, *plan)) model->warnings.push_back(std::move(each));
+  return model;
+}
+
+}  // namespace
+
+Result<Model> generate(const CityParams& params, const GenerateContext& context) {
+  if (auto refused = refusal(params, context)) return std::move(*refused);
+  std::size_t parts = 0;
+  Result<Model> model = planned_model(params, context, parts);
+  if (parts >= parts_of_large_plans) return_unused_heap();
   return model;
 }
 

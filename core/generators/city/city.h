@@ -26,19 +26,19 @@ std::vector<Issue> check(const CityParams& params, const CheckContext& context);
 /// Returns the plan as data; for its output forms see plan_json() and city_model(). Errors: those of check().
 Result<CityPlan> plan_of(const CityParams& params, Job& job);
 
-/// The same on ground that another generator made, in place of params.terrain and params.maps.height.
+/// Like plan_of(), on ground that another generator made, which replaces params.terrain and params.maps.height.
 Result<CityPlan> plan_on(const CityParams& params, std::shared_ptr<const Landform> ground, Job& job);
 
 /// Generates the model of a city. Errors: those of check(), and limits.
 Result<Model> generate(const CityParams& params, const GenerateContext& context);
 
-/// {statistics, plan, warnings}.
+/// Returns the object {statistics, plan, warnings}; see plan_json() and statistics_of().
 Result<Json> derive(const CityParams& params, const GenerateContext& context);
 
 /// Computes the plan, and generates one sample building for each rule and number of floors.
 Result<Appraisal> appraise(const CityParams& params, const GenerateContext& context);
 
-/// The format "geojson": the plan alone.
+/// Returns the plan alone, in the format "geojson".
 Result<Payload> encode(const CityParams& params, const WantedFormat& format, const GenerateContext& context);
 
 /// Returns the modules of street productions.

@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 
+#include "core/base/heap.h"
 #include "core/generators/city/bridge_mesh.h"
 #include "core/generators/city/chunks.h"
 #include "core/generators/city/contents.h"
@@ -152,13 +153,26 @@ struct GroundMeshes {
     }
     plain.add_walls(number);
   }
+
+  void weld_if_large(Job& job) {
+    for (GroundMesh* each : {&plain, &markings, &crossings, &lane_lines}) each->weld_if_large(job);
+  }
 };
 
-/// One mesh for each kind of part in each chunk.
-void add_ground(Model& model, const Surface& surface, const CityParams& params, const Chunks& chunks,
-                ChunkNodes& nodes, const GenerateContext& context) {
+/// Whether what stands in a level city depends on the outlines of its parts.
+bool needs_outlines(const CityPlan& plan, const CityParams& params) {
+  const CityClasses& classes = params.streets.classes;
+  const bool has_trees =
+      classes.highway.trees || classes.major.trees || classes.minor.trees || classes.lane.trees;
+  return !plan.landmarks.empty() || params.parks || params.yards || has_trees ||
+         params.furniture != CityFurniture{};
+}
+
+/// One mesh for each kind of part in each chunk. Frees the outlines of the plan that nothing needs any more.
+void add_ground(Model& model, CityPlan& plan, const Surface& surface, const CityParams& params,
+                const Chunks& chunks, ChunkNodes& nodes, const GenerateContext& context) {
   Job& job = context.job;
-  const CityPlan& plan = surface.plan();
+  const bool keeps_outlines = !surface.is_level() || needs_outlines(plan, params);
   std::map<std::string, int> materials;
   const auto add = [&](const char* name, const auto& make_material, GroundMesh& mesh, std::uint32_t chunk) {
     if (mesh.is_empty()) return;
@@ -173,6 +187,8 @@ void add_ground(Model& model, const Surface& surface, const CityParams& params, 
     for (const std::uint32_t n : piece.parts) {
       if (done++ % 256 == 0) job.check();
       meshes.add(plan.parts[n], n);
+      meshes.weld_if_large(job);
+      if (!keeps_outlines) plan.parts[n].rings = {};
     }
     const Look& look = looks[static_cast<std::size_t>(piece.kind)];
     const auto striped = [&](const char* name, const std::array<int, 3>& stripes) {
@@ -183,9 +199,11 @@ void add_ground(Model& model, const Surface& surface, const CityParams& params, 
     add(
         "markings", [&] { return material_of(marking_look, params); }, meshes.markings, piece.chunk);
     add("crossings", striped("crossing", {16, 16, 0}), meshes.crossings, piece.chunk);
-    add("lane_lines", striped("lane_line", {16, 16, 16}), meshes.lane_lines, piece.chunk);
+    add("lane_lines", striped("lane_line", {24, 16, 24}), meshes.lane_lines, piece.chunk);
     add(
         look.name, [&] { return material_of(look, params); }, meshes.plain, piece.chunk);
+    constexpr std::size_t many_parts = 5000;
+    if (!keeps_outlines && piece.parts.size() >= many_parts) return_unused_heap();
   }
 }
 
@@ -220,13 +238,14 @@ void add_foundations(Model& model, const CityPlan& plan, const Surface& surface,
            mesh.take(job), 0);
 }
 
-void add_bridges_and_tunnels(Model& model, const Surface& surface, const CityParams& params, Job& job) {
+void add_bridges_and_tunnels(Model& model, Mesh bridges, const Surface& surface, const CityParams& params,
+                             Job& job) {
   const auto add = [&](Mesh mesh, const char* name, const Look& look) {
     if (mesh.elements() == 0) return;
     job.spend(Resource::triangles, mesh.elements());
     add_mesh(model, name, material_of(look, params), std::move(mesh), 0);
   };
-  add(bridge_mesh(surface.plan(), job), "bridges", {"bridge", {0x8a, 0x88, 0x84}, 0.9F});
+  add(std::move(bridges), "bridges", {"bridge", {0x8a, 0x88, 0x84}, 0.9F});
   add(tunnel_mesh(surface, job), "tunnels", {"tunnel", {0x7d, 0x7b, 0x77}, 0.95F});
 }
 
@@ -249,7 +268,7 @@ std::uint64_t ground_triangles(const CityPlan& plan, const Surface& surface, boo
   return count;
 }
 
-Result<Model> city_model(const CityPlan& plan, const CityParams& params, const GenerateContext& context) {
+Result<Model> city_model(CityPlan& plan, const CityParams& params, const GenerateContext& context) {
   Job& job = context.job;
   Model model;
   model.name = "city";
@@ -257,10 +276,11 @@ Result<Model> city_model(const CityPlan& plan, const CityParams& params, const G
   const Surface surface(plan, params.streets.wards.wall_height, job);
   const Chunks chunks(plan, params);
   ChunkNodes nodes(model, chunks);
-  add_ground(model, surface, params, chunks, nodes, context);
+  Mesh bridges = bridge_mesh(plan, job);
+  add_ground(model, plan, surface, params, chunks, nodes, context);
   add_town_wall(model, plan, surface, params, job);
   add_foundations(model, plan, surface, params, job);
-  add_bridges_and_tunnels(model, surface, params, job);
+  add_bridges_and_tunnels(model, std::move(bridges), surface, params, job);
   if (auto warning = tunnel_warning(surface)) model.warnings.push_back(*std::move(warning));
   if (auto error = add_contents(model, nodes, chunks, surface, params, context)) return std::move(*error);
   return model;

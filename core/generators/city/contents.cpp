@@ -331,7 +331,7 @@ std::optional<Error> estimate_contents(Estimate& estimate, const Surface& surfac
     return std::pair<LevelInfo, std::uint64_t>(level_info_of(*std::move(made), job), counts.bytes);
   };
   // Windows are a whole number, and with a camera the levels of houses depend on their sizes.
-  constexpr double width_of_class = 4;
+  constexpr double width_of_class = 2;
   const auto width_class = [](const House& house) { return math::to_int32(house.width / width_of_class); };
   std::map<std::array<int, 3>, HouseSample> samples;
   for (const SharedHouse& shared : shared_houses(plan, params)) {

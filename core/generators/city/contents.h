@@ -18,8 +18,8 @@ std::optional<Error> add_contents(Model& model, ChunkNodes& nodes, const Chunks&
                                   const Surface& surface, const CityParams& params,
                                   const GenerateContext& context);
 
-/// Adds the triangles and bytes of all contents to an estimate. Generates one sample for each rule and number of
-/// floors, with a camera also for each width class of 4 m, and one for each other model.
+/// Adds the triangles and bytes of all contents to an estimate. Generates one sample building for each rule,
+/// number of floors and width class of 4 m, and one sample of each other model.
 std::optional<Error> estimate_contents(Estimate& estimate, const Surface& surface, const CityParams& params,
                                        const GenerateContext& context);
 

@@ -65,6 +65,11 @@ std::vector<CmPoint> corner_points(const CornerInput& corner) {
   }
   const dvec2 tip = corner.at + left_of(d1) * h1 + d1 * ((h1 * c - h2) / s);
   if (turn > 0 && corner.fillet >= least_fillet) return arc(corner, tip, turn);
+  if (turn > 0 && corner.chamfer > 0) {
+    const double along = corner.chamfer / 2 / math::cos(turn / 2);
+    const CmPoint a = rounded_cm(tip - d1 * along), b = rounded_cm(tip + d2 * along);
+    if (a != b) return {a, b};
+  }
   return {rounded_cm(tip)};
 }
 

@@ -12,15 +12,16 @@ struct CornerInput {
   glm::dvec2 at{0}, before{0}, after{0};
   double distance_before = 0, distance_after = 0;
   bool is_dead_end = false;
-  double fillet = 0;  ///< greatest radius of the arc in a convex corner
-  double cap = 0;     ///< how far the outline passes the tip of a dead end
+  double fillet = 0;   ///< greatest radius of the arc in a convex corner
+  double chamfer = 0;  ///< width of the cut across a convex corner
+  double cap = 0;      ///< how far the outline passes the tip of a dead end
 };
 
 /// Returns the greatest radius of an arc, in centimetres, that stays on the street's side of the block's corner,
 /// behind a sidewalk of this width.
 double fillet_of(const CornerInput& corner, double walk);
 
-/// Returns the points of the corner, in the order of the outline; at least one. Convex corners have an odd number.
+/// Returns the points of the corner, in the order of the outline; at least one. Arcs have an odd number.
 std::vector<CmPoint> corner_points(const CornerInput& corner);
 
 }  // namespace seedmesh::city

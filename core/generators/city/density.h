@@ -32,6 +32,9 @@ class FieldMap {
   /// Like at(), but the value is not limited to 0..1. Used for heights.
   double value_at(const glm::dvec2& metres) const;
 
+  /// Whether the map is an expression, whose values have no limits.
+  bool is_expression() const { return width_ == 0 && !has_polygons_; }
+
   /// Returns the polygons, if the map consists of polygons.
   const std::vector<Rings>& polygons() const { return polygons_; }
 

@@ -50,8 +50,11 @@ class Division {
 
   /// Returns the outline of a piece, with the corners that cuts on the other sides of its edges have added.
   CmRing outline(const Piece& piece) const;
-  /// The same for the piece of this number, after cut(). Moves the outline out of the division: call it once a piece.
+  /// Returns the outline of the piece with this index, after cut(). Moves the outline out of the division, so it
+  /// may be called once for each piece.
   CmRing take_outline(std::size_t piece);
+  /// Moves the corners of the piece of this number out of the division. Call it after take_outline().
+  CmRing take_corners(std::size_t piece) { return std::move(pieces_[piece].ring); }
 
   /// Returns the length of a piece along streets, in centimetres.
   double frontage(const Piece& piece) const;
@@ -103,9 +106,10 @@ class Division {
   std::vector<Meeting> meetings_;
 };
 
-/// Returns the pieces along the streets of a block by its straight skeleton (Vanegas et al. 2012), and, where `depth`
-/// (cm) is finite, the courts that are farther from all streets. Pieces that hold no lot are joined with a neighbour.
-/// Adds the edges between pieces to the division. Empty where the skeleton does not give sound pieces.
+/// Returns the pieces along the streets of a block by its straight skeleton (Vanegas et al. 2012), and, where
+/// `depth` (cm) is finite, the courts that are farther from all streets. Pieces that hold no lot are joined with
+/// a neighbour. Adds the edges between pieces to the division. Returns an empty list if the skeleton does not
+/// give valid pieces.
 std::vector<Piece> strips_of(Division& division, double depth, const Job& job);
 
 }  // namespace seedmesh::city

@@ -1,5 +1,7 @@
 #pragma once
-/// A hash table of directed edges by both of their ends. Lookups alone depend on it, never an order of output.
+/// A hash table of directed edges by both of their ends. Both directions of an edge share a slot, since most edges have
+/// a part on either side. Lookups alone depend on it, never an order of output.
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -13,39 +15,55 @@ class EdgeTable {
   static constexpr std::uint32_t absent = 0xFFFFFFFFU;
 
   EdgeTable() = default;
-  /// At most `most` edges can be added.
-  explicit EdgeTable(std::size_t most) : slots_(most + most / 2 + 1) {}
+  /// Has space for this number of edges, without regard to their direction; grows for more.
+  explicit EdgeTable(std::size_t edges) : slots_(edges + edges / 4 + 1) {}
 
   /// Adds an edge with a value other than `absent`. Of edges with the same ends the first one is found.
   void add(const CmPoint& a, const CmPoint& b, std::uint32_t value) {
-    std::size_t at = start_of(a, b);
-    while (slots_[at].value != absent) at = next(at);
-    slots_[at] = {a, b, value};
+    if (used_ + used_ / 4 + 2 > slots_.size()) grow();
+    const bool is_falling = b < a;
+    Slot& slot = slots_[is_falling ? slot_of(b, a) : slot_of(a, b)];
+    used_ += slot.is_empty() ? 1 : 0;
+    slot.low = is_falling ? b : a;
+    slot.high = is_falling ? a : b;
+    std::uint32_t& own = slot.values[is_falling ? 1 : 0];
+    if (own == absent) own = value;
   }
 
-  /// Returns the value of the edge from a to b; `absent` without one.
+  /// Returns the value of the edge from a to b; `absent` if there is no such edge.
   std::uint32_t value_of(const CmPoint& a, const CmPoint& b) const {
-    for (std::size_t at = start_of(a, b); slots_[at].value != absent; at = next(at)) {
-      if (slots_[at].a == a && slots_[at].b == b) return slots_[at].value;
-    }
-    return absent;
+    const bool is_falling = b < a;
+    return slots_[is_falling ? slot_of(b, a) : slot_of(a, b)].values[is_falling ? 1 : 0];
   }
 
  private:
   struct Slot {
-    CmPoint a, b;
-    std::uint32_t value = absent;
+    CmPoint low, high;
+    std::array<std::uint32_t, 2> values = {absent, absent};  ///< rising, falling
+    bool is_empty() const { return values[0] == absent && values[1] == absent; }
   };
 
-  std::size_t start_of(const CmPoint& a, const CmPoint& b) const {
+  /// The slot of an edge, or the empty one that it would take.
+  std::size_t slot_of(const CmPoint& low, const CmPoint& high) const {
     const auto word = [](const CmPoint& p) {
       return std::uint64_t{static_cast<std::uint32_t>(p.x)} << 32U | static_cast<std::uint32_t>(p.y);
     };
-    return static_cast<std::size_t>((key_at(word(a), word(b)) >> 32U) * slots_.size() >> 32U);
+    auto at = static_cast<std::size_t>((key_at(word(low), word(high)) >> 32U) * slots_.size() >> 32U);
+    while (!slots_[at].is_empty() && (slots_[at].low != low || slots_[at].high != high))
+      at = at + 1 < slots_.size() ? at + 1 : 0;
+    return at;
   }
-  std::size_t next(std::size_t at) const { return at + 1 < slots_.size() ? at + 1 : 0; }
+
+  void grow() {
+    std::vector<Slot> before(slots_.size() * 2);
+    before.swap(slots_);
+    for (const Slot& slot : before) {
+      if (!slot.is_empty()) slots_[slot_of(slot.low, slot.high)] = slot;
+    }
+  }
 
   std::vector<Slot> slots_ = std::vector<Slot>(1);
+  std::size_t used_ = 0;
 };
 
 }  // namespace seedmesh::city

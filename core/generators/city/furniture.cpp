@@ -15,12 +15,14 @@ namespace {
 
 using glm::dvec2;
 
-constexpr double kerb_tolerance = 0.06;  // of corners beside the kerb line, m
+constexpr double kerb_tolerance = 0.06;   // of corners beside the kerb line, m
+constexpr double least_tree_spacing = 2;  // m
 
 /// One side of a street, along its kerb in the direction from the end with the smaller key.
 struct Side {
   dvec2 start{0}, along{1, 0}, inward{0, 1};  ///< inward: from the street to the lots
   double length = 0, sidewalk = 0, carriageway = 0;
+  std::optional<double> tree_spacing = {};           ///< of its class
   std::array<bool, 2> at_junction = {false, false};  ///< at the start, at the end
   bool is_right = false;                             ///< of the direction `along`
   std::uint64_t key = 0;
@@ -65,6 +67,7 @@ void add_sides(const CityPlan& plan, std::uint32_t number, std::vector<Side>& si
     side.length = (*range)[1] - (*range)[0];
     side.sidewalk = section.sidewalk[is_right_of_edge ? 1 : 0];
     side.carriageway = section.width;
+    side.tree_spacing = section.tree_spacing;
     side.at_junction = {plan.graph.street_ends(first) > 2, plan.graph.street_ends(last) > 2};
     side.is_right = is_right;
     side.part = number;
@@ -171,10 +174,12 @@ void fill_side(const CityPlan& plan, const Side& side, std::span<const std::uint
     filler.fill({2, wanted.benches->spacing, wanted.benches->share, 4, 8, 1.4, side.sidewalk - 0.55, -1},
                 kinds[2]);
   }
-  if (wanted.trees && side.sidewalk >= 1.5) {
-    filler.fill(
-        {1, wanted.trees->spacing, wanted.trees->share, 2, 8, 0.6, std::min(1.0, side.sidewalk / 2), -1},
-        kinds[1]);
+  const double tree_spacing = side.tree_spacing.value_or(wanted.trees ? wanted.trees->spacing : 0);
+  const double tree_share = wanted.trees ? wanted.trees->share : CityTrees{}.share;
+  if (tree_spacing > 0 && side.sidewalk >= 1.5) {
+    filler.fill({1, std::max(tree_spacing, least_tree_spacing), tree_share, 2, 8, 0.6,
+                 std::min(1.0, side.sidewalk / 2), -1},
+                kinds[1]);
   }
   if (wanted.cars && side.carriageway >= 6)
     filler.fill({5, wanted.cars->spacing, wanted.cars->share, 5, 8, 2.6, -1.1, -1}, kinds[5]);
@@ -208,7 +213,7 @@ std::vector<ObjectKind> street_furniture(const CityPlan& plan, const CityParams&
   std::vector<Side> sides;
   for (std::uint32_t i = 0; i < plan.parts.size(); ++i) {
     const Part& part = plan.parts[i];
-    if (part.kind != PartKind::carriageway || part.street == no_index) continue;
+    if (part.kind != PartKind::carriageway || part.street == no_index || part.rings.empty()) continue;
     job.check();
     sides.clear();
     add_sides(plan, i, sides);

@@ -1,6 +1,6 @@
 #pragma once
-/// Built-in models of street furniture and trees, made of closed bodies. Metres, +Y up; the front faces +Z, the foot
-/// is at height 0, and what stands in the ground goes below it.
+/// Built-in models of street furniture and trees, made of closed bodies. Metres, +Y up; the front faces +Z, the
+/// foot is at height 0, and parts in the ground have negative heights.
 #include <string_view>
 
 #include "core/base/job.h"
@@ -8,14 +8,15 @@
 
 namespace seedmesh::city {
 
-/// Returns the number of built-in models of a kind: "lamps", "trees", "park_trees", "yard_trees", "benches", "bins",
-/// "signs" and "cars". 1 for other names.
+/// Returns the number of built-in models of a kind: "lamps", "trees", "park_trees", "yard_trees", "benches",
+/// "bins", "signs" and "cars". Returns 1 for other names.
 std::uint32_t built_in_count(std::string_view kind);
 
-/// Model number `number` of a kind: one node with one mesh of 12 to 220 triangles. Spends them.
+/// Returns the model with the index `number` of a kind: one node with one mesh of 12 to 220 triangles. Spends
+/// Resource::triangles.
 Model built_in_model(std::string_view kind, std::uint32_t number, Job& job);
 
-/// Triangles of that model.
+/// Returns the number of triangles of built_in_model().
 std::uint64_t built_in_triangles(std::string_view kind, std::uint32_t number);
 
 }  // namespace seedmesh::city

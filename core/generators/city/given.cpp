@@ -20,7 +20,7 @@ constexpr double shortest = 310;  // between two corners, cm
 
 template <class T>
 CrossSection section_of(const char* name, const T& given) {
-  return {name, given.width, {given.sidewalk, given.sidewalk}, given.lanes, given.grade};
+  return {name, given.width, {given.sidewalk, given.sidewalk}, given.lanes, given.grade, given.trees};
 }
 
 /// Reads the properties of a feature that count.

@@ -24,9 +24,9 @@ struct GivenLine {
   int level = 0;
 };
 
-/// Returns the lines of the given streets, joined where an end or corner of one lies within 3 m of another. Adds their
-/// cross sections to `sections`. Issues: properties out of range, geometries that cannot be read, lines shorter than 3 m, and
-/// crossings without an end or corner.
+/// Returns the lines of the given streets, joined where an end or corner of one lies within 3 m of another. Adds
+/// their cross sections to `sections`. Adds issues for properties out of range, geometries that cannot be read,
+/// lines shorter than 3 m, and crossings without an end or corner.
 std::vector<GivenLine> given_lines(const CityParams& params, std::vector<CrossSection>& sections,
                                    std::vector<Issue>& issues);
 

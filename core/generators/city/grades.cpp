@@ -228,6 +228,21 @@ double steepest_grade(const StreetHeights& heights, std::uint32_t edge) {
   return steepest;
 }
 
+std::vector<ProfilePoint> shown_profile(const CityPlan& plan, std::uint32_t edge) {
+  constexpr double least = 0.5;  // of a level part at a node, m
+  const StreetHeights& heights = plan.heights;
+  const PlanarEdge& each = plan.graph.edges[edge];
+  if (heights.is_level()) return {{plan.graph.nodes[each.from]}, {plan.graph.nodes[each.to]}};
+  std::vector<ProfilePoint> points(heights.points.begin() + heights.first[edge],
+                                   heights.points.begin() + heights.first[edge + 1]);
+  const auto is_short = [&points](std::size_t a, std::size_t b) {
+    return points[b].station - points[a].station < least;
+  };
+  if (points.size() > 2 && is_short(points.size() - 2, points.size() - 1)) points.erase(points.end() - 2);
+  if (points.size() > 2 && is_short(0, 1)) points.erase(points.begin() + 1);
+  return points;
+}
+
 std::vector<ProfilePoint> bridge_profile(const CityPlan& plan, const Bridge& bridge) {
   std::vector<ProfilePoint> points;
   for (std::size_t k = 0; k + 1 < bridge.line.size(); ++k) {

@@ -27,12 +27,13 @@ struct StreetHeights {
   bool is_level() const { return node.empty(); }
 };
 
-/// Computes the heights of nodes, streets and bridges from the natural ground. Streets are level as far as the corners
-/// at their nodes reach (CityPlan::corner_reaches), so that junctions are level. Between, they are sampled about every 10 m; bridges
-/// have no samples. With the limit of each class as cost, two passes of Dijkstra's algorithm give the highest and the
-/// lowest heights that differ from the ground only where they must; their mean keeps all limits with the least
-/// possible greatest cut or fill. Heights are then smoothed along the streets and limited again. `least` is a lower bound
-/// of all heights. Cost: n log n in the samples.
+/// Computes the heights of nodes, streets and bridges from the natural ground. Streets are level as far as the
+/// corners at their nodes reach (CityPlan::corner_reaches), so that junctions are level. Between these corners,
+/// streets are sampled about every 10 m; bridges have no samples. Two passes of Dijkstra's algorithm, with the
+/// grade limit of each class as cost, give upper and lower heights that differ from the ground only where a limit
+/// requires it. Their mean keeps all limits with the least possible greatest cut or fill. Heights are then
+/// smoothed along the streets and limited again. `least` is a lower bound of all heights. Cost: n log n in the
+/// samples.
 StreetHeights street_heights(const CityPlan& plan, const Landform& landform, double least, Job& job);
 
 /// Returns the height of an edge at a station in metres; level beyond both ends.
@@ -40,6 +41,10 @@ double height_on_street(const StreetHeights& heights, std::uint32_t edge, double
 
 /// Returns the steepest grade of a street, as rise over run.
 double steepest_grade(const StreetHeights& heights, std::uint32_t edge);
+
+/// Returns the points of a street of level 0 that a plan shows: its ends, and on a terrain the points where its grade
+/// changes, which are whole centimetres.
+std::vector<ProfilePoint> shown_profile(const CityPlan& plan, std::uint32_t edge);
 
 /// Returns the points of a street on another level: its corners and points about every 10 m between them. On level
 /// ground the heights are those above it.

@@ -18,9 +18,10 @@ class GroundMesh {
   /// Adds the surface of a part, with texture coordinates in metres east and north.
   void add_part(std::uint32_t part);
 
-  /// Adds a layer of the carriageway of a street: what has no marking, stop lines, pedestrian crossings, or the lines
-  /// between lanes. Texture coordinates are metres along and across; along lane lines, one for each dash and its gap, and
-  /// across crossings, one for each bar and its gap. Where it has no strips, add_part() adds it whole.
+  /// Adds a layer of the carriageway of a street: the surface without markings, stop lines, pedestrian crossings,
+  /// or the lines between lanes. Texture coordinates are metres along and across the street. Along lane lines
+  /// they increase by 1 for each dash and its gap, and across crossings for each bar and its gap. If the
+  /// carriageway has no strips, all of it belongs to the layer `asphalt`.
   enum class StreetLayer { asphalt, stop_lines, crossings, lane_lines };
   void add_carriageway(std::uint32_t part, StreetLayer layer);
 
@@ -28,12 +29,15 @@ class GroundMesh {
   /// coordinates are metres along the edge and upwards.
   void add_walls(std::uint32_t part);
 
-  /// The foundation below a building: upright faces from the lowest ground to its floor, 10 cm outside of its walls.
+  /// Adds the foundation below a building: upright faces from the lowest ground to its floor, 10 cm outside of
+  /// its walls.
   void add_foundation(const Footing& footing);
 
-  std::uint64_t triangles() const { return mesh_.index.wide.size() / 3; }
-  bool is_empty() const { return mesh_.index.wide.size() == 0; }
+  std::uint64_t triangles() const { return (welded_.index.wide.size() + mesh_.index.wide.size()) / 3; }
+  bool is_empty() const { return triangles() == 0; }
 
+  /// Merges equal vertices of what was added last, once it is large, so that it takes less memory.
+  void weld_if_large(Job& job);
   Mesh take(Job& job);
 
  private:
@@ -66,6 +70,7 @@ class GroundMesh {
   double low_height(std::uint32_t part, std::uint32_t beyond, const glm::dvec2& at) const;
   std::uint32_t add_vertex(const glm::dvec2& p, double height, const glm::vec3& normal, const glm::vec2& uv);
   void add_triangles(std::uint32_t first);
+  void append_last();
 
   const CityPlan& plan_;
   const Surface& surface_;
@@ -74,7 +79,7 @@ class GroundMesh {
   /// Twice the area seen from above, in square metres, up to which a triangle is left out. Corners on a straight border
   /// make triangles without area, which cover nothing.
   float least_ = 0;
-  Mesh mesh_;
+  Mesh welded_, mesh_;  ///< what was added first, with common vertices; what was added last
   Triangulator triangulator_;
   // Memory that is kept from one part to the next.
   std::vector<glm::dvec2> points_, between_, inner_;

@@ -1,7 +1,7 @@
 #pragma once
 /// Streets that grow: major streets first, then the cells between them one by one, so that a change in one
-/// quarter stays there. Kelly and McCabe, "Citygen: an interactive system for procedural city generation", 2007,
-/// over the productions of Parish and Mueller (productions.h).
+/// quarter does not affect the others. Kelly and McCabe, "Citygen: an interactive system for procedural city
+/// generation", 2007, over the productions of Parish and Mueller (productions.h).
 #include <vector>
 
 #include "core/base/job.h"
@@ -21,7 +21,7 @@ class Landform;
 class TensorField;
 class FootprintIndex;
 
-/// What the growth reads.
+/// The input of the growth. Of its members it owns only `sections`.
 struct GrowthInput {
   const CityStreets& streets;
   const FieldMap& density;
@@ -68,6 +68,9 @@ std::vector<StreetPiece> through_street(const GrowthInput& input, const Job& job
 /// holds the half-edges of its outline and of the components inside.
 std::vector<StreetPiece> grow_cell(const GrowthInput& input, const StreetGraph& majors,
                                    const std::vector<std::vector<std::uint32_t>>& loops, Job& job);
+
+/// Whether all streets, with those of other levels, are one network. Cost: linear.
+bool is_one_network(const StreetGraph& graph);
 
 /// Straight minor streets between networks that have no common node: for the shortest network first, the shortest link
 /// that meets streets at wide angles and crosses no street, shore, border or obstacle. Networks without such a link

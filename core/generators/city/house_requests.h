@@ -18,7 +18,7 @@ class HouseRequests {
  public:
   explicit HouseRequests(const CityParams& params);
 
-  /// Returns the request of a house. Made alone it gives the same building as in the city.
+  /// Returns the request of a house. Generated alone, it gives the same building as in the city.
   Child of(const House& house) const;
 
  private:
@@ -36,8 +36,8 @@ struct SharedHouse {
 /// Returns the different requests of all houses, in the order of their first lots.
 std::vector<SharedHouse> shared_houses(const CityPlan& plan, const CityParams& params);
 
-/// Errors of the requests that rules make: another generator than building, and attributes that their buildings do
-/// not have.
+/// Adds the errors of the requests that rules make: a generator other than building, and attributes that their
+/// buildings do not have.
 void check_house_requests(const CityParams& params, const CheckContext& context, std::vector<Issue>& issues);
 
 }  // namespace seedmesh::city

@@ -17,10 +17,19 @@ struct KerbSide {
   const CmPoint& from() const { return corner.back(); }
 };
 
+/// Appends a point unless it is the last one already.
+inline void append_new(CmRing& ring, const CmPoint& p) {
+  if (ring.empty() || ring.back() != p) ring.push_back(p);
+}
+/// Removes points at the end of a ring that equal its first one.
+inline void close(CmRing& ring) {
+  while (ring.size() > 1 && ring.back() == ring.front()) ring.pop_back();
+}
+
 /// Returns the unit direction of a half-edge.
 glm::dvec2 unit_of(const StreetGraph& graph, std::uint32_t half);
 
-/// By half-edge: how far the corners at its start reach along it, on both sides, in metres.
+/// Returns, by half-edge, how far the corners at its start reach along it, on both sides, in metres.
 std::vector<double> corner_reaches(const StreetGraph& graph, const std::vector<KerbSide>& sides);
 
 }  // namespace seedmesh::city

@@ -19,12 +19,17 @@ constexpr double gradient_reach = 10.0;  // m
 
 }  // namespace
 
-Result<Landform> Landform::make(const CityParams& params, Job& job) {
+Result<Landform> Landform::make(const CityParams& params, const glm::dvec2& low, const glm::dvec2& high,
+                                Job& job) {
   Landform landform;
   if (params.maps.height) {
     std::vector<Issue> issues;
-    landform.heights_ = FieldMap::read(*params.maps.height, "/maps/height", {-1, -1}, {1, 1}, job, issues);
-    if (!landform.heights_) return Error{Code::invalid, std::move(issues)};
+    landform.heights_ = FieldMap::read(*params.maps.height, "/maps/height", low, high, job, issues);
+    if (!issues.empty()) return Error{Code::invalid, std::move(issues)};
+    if (!landform.heights_->is_expression()) {
+      landform.base_ = params.maps.height_range[0];
+      landform.rise_ = params.maps.height_range[1] - params.maps.height_range[0];
+    }
     return landform;
   }
   if (!params.terrain) return landform;
@@ -46,7 +51,7 @@ Result<Landform> Landform::make(const CityParams& params, Job& job) {
 }
 
 double Landform::at(const glm::dvec2& metres) const {
-  if (heights_) return std::clamp(heights_->value_at(metres), 0 - most, most);
+  if (heights_) return std::clamp(base_ + rise_ * heights_->value_at(metres), 0 - most, most);
   if (field_.width == 0) return 0;
   const double x = std::clamp(metres.x / field_.cell + (field_.width - 1) / 2.0, 0.0, field_.width - 1.0);
   const double z = std::clamp((field_.depth - 1) / 2.0 - metres.y / field_.cell, 0.0, field_.depth - 1.0);

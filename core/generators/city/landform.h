@@ -1,5 +1,5 @@
 #pragma once
-/// The natural ground of a city: the height field of a terrain, an expression, or level ground at height 0. Positions
+/// The natural ground of a city: the height field of a terrain, a map, or level ground at height 0. Positions
 /// are metres east and north.
 #include <optional>
 #include <utility>
@@ -21,19 +21,21 @@ class Landform {
   /// Level ground at height 0.
   Landform() = default;
 
-  /// Returns the ground of a request. Issues: those of the terrain, below /terrain/parameters, and of the expression at
-  /// /maps/height.
-  static Result<Landform> make(const CityParams& params, Job& job);
+  /// Returns the ground of a request, whose area has the box [low, high] in metres. Issues: those of the terrain, below
+  /// /terrain/parameters, and of the map at /maps/height.
+  static Result<Landform> make(const CityParams& params, const glm::dvec2& low, const glm::dvec2& high,
+                               Job& job);
 
   /// Ground that another generator made, with its centre at the origin. It has no margin.
   explicit Landform(terrain::Field field) : field_(std::move(field)) {}
 
   bool is_level() const { return !heights_ && field_.width == 0; }
+  bool has_expression() const { return heights_ && heights_->is_expression(); }
 
   /// Returns the height of the natural ground; beyond the border of a terrain, that of its border.
   double at(const glm::dvec2& metres) const;
 
-  /// The rise per metre to the east and to the north, as the mean over 20 metres.
+  /// Returns the rise per metre to the east and to the north, as the mean over 20 metres.
   glm::dvec2 gradient(const glm::dvec2& metres) const;
 
   /// Returns the height of the water of a terrain that is partly below it.
@@ -45,6 +47,7 @@ class Landform {
  private:
   terrain::Field field_;
   std::optional<FieldMap> heights_;
+  double base_ = 0, rise_ = 1;  ///< height of the value 0 of `heights_`, and from there to that of 1
   std::optional<double> water_level_;
 };
 
@@ -52,7 +55,7 @@ class Landform {
 /// ground along it is more than 5 m above or below the straight line between the ends.
 bool is_too_steep(const Landform& landform, const glm::dvec2& a, const glm::dvec2& b, double grade_limit);
 
-/// What the schema cannot say about the ground of a request.
+/// Adds the errors of the ground of a request that the schema cannot express.
 void check_landform(const CityParams& params, const Job& job, std::vector<Issue>& issues);
 
 }  // namespace seedmesh::city

@@ -1,4 +1,4 @@
-// Streets between separate networks, which given streets can leave behind.
+// Streets between separate networks, which given streets, water and steep ground can leave behind.
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -33,16 +33,35 @@ struct Candidate {
   }
 };
 
-class Links {
+/// The networks of streets of all levels, by union of their nodes.
+class Networks {
  public:
-  Links(const GrowthInput& input, const StreetGraph& graph)
-      : input_(input), graph_(graph), network_(graph.nodes.size()) {
-    std::iota(network_.begin(), network_.end(), 0U);
+  explicit Networks(const StreetGraph& graph) : other_(graph.nodes.size()) {
+    std::iota(other_.begin(), other_.end(), 0U);
     for (std::uint32_t e = 0; e < graph.edges.size(); ++e) {
       if (graph.is_street(e)) join(graph.edges[e].from, graph.edges[e].to);
     }
     for (const Bridge& bridge : graph.bridges) join(bridge.from, bridge.to);
   }
+
+  /// Returns the node that stands for the network of a node.
+  std::uint32_t find(std::uint32_t node) {
+    while (other_[node] != node) node = other_[node] = other_[other_[node]];
+    return node;
+  }
+  void join(std::uint32_t a, std::uint32_t b) {
+    const std::uint32_t first = find(a), second = find(b);
+    other_[std::max(first, second)] = std::min(first, second);
+  }
+
+ private:
+  std::vector<std::uint32_t> other_;  ///< by node: another one of its network
+};
+
+class Links {
+ public:
+  Links(const GrowthInput& input, const StreetGraph& graph)
+      : input_(input), graph_(graph), networks_(graph) {}
 
   std::vector<StreetPiece> build(const Job& job) {
     std::vector<std::uint32_t> stuck;
@@ -54,29 +73,20 @@ class Links {
         continue;
       }
       links_.push_back({graph_.nodes[link->from], link->to, minor_tag});
-      join(link->from, graph_.edges[link->edge].from);
+      networks_.join(link->from, graph_.edges[link->edge].from);
       stuck.clear();
     }
     return std::move(links_);
   }
 
  private:
-  std::uint32_t find(std::uint32_t node) {
-    while (network_[node] != node) node = network_[node] = network_[network_[node]];
-    return node;
-  }
-  void join(std::uint32_t a, std::uint32_t b) {
-    const std::uint32_t first = find(a), second = find(b);
-    network_[std::max(first, second)] = std::min(first, second);
-  }
-
   /// The network of least length, unless it is the only one.
   std::optional<std::uint32_t> shortest_network(const std::vector<std::uint32_t>& stuck) {
     std::vector<double> length(graph_.nodes.size(), 0);
     for (std::uint32_t e = 0; e < graph_.edges.size(); ++e) {
       const PlanarEdge& edge = graph_.edges[e];
       if (graph_.is_street(e))
-        length[find(edge.from)] += distance(graph_.nodes[edge.from], graph_.nodes[edge.to]);
+        length[networks_.find(edge.from)] += distance(graph_.nodes[edge.from], graph_.nodes[edge.to]);
     }
     std::optional<std::uint32_t> least;
     std::size_t count = 0;
@@ -92,7 +102,8 @@ class Links {
   std::optional<Candidate> best_link(std::uint32_t network) {
     std::vector<std::uint32_t> starts;
     for (std::uint32_t n = 0; n < graph_.nodes.size(); ++n) {
-      if (find(n) == network && graph_.degree(n) > 0 && graph_.is_border[n] == 0) starts.push_back(n);
+      if (networks_.find(n) == network && graph_.degree(n) > 0 && graph_.is_border[n] == 0)
+        starts.push_back(n);
     }
     std::vector<Candidate> all;
     const std::size_t step = starts.size() / most_starts + 1;
@@ -109,7 +120,7 @@ class Links {
     const dvec2 p = in_cm(graph_.nodes[from]);
     for (std::uint32_t e = 0; e < graph_.edges.size(); ++e) {
       const PlanarEdge& edge = graph_.edges[e];
-      if (!graph_.is_street(e) || find(edge.from) == network) continue;
+      if (!graph_.is_street(e) || networks_.find(edge.from) == network) continue;
       const dvec2 a = in_cm(graph_.nodes[edge.from]), along = in_cm(graph_.nodes[edge.to]) - a;
       const double length = glm::length(along), at = glm::dot(p - a, along) / length;
       Candidate link{0, from, e, no_index, {}};
@@ -170,11 +181,23 @@ class Links {
 
   const GrowthInput& input_;
   const StreetGraph& graph_;
-  std::vector<std::uint32_t> network_;  ///< by node: another one of its network
+  Networks networks_;
   std::vector<StreetPiece> links_;
 };
 
 }  // namespace
+
+bool is_one_network(const StreetGraph& graph) {
+  Networks networks(graph);
+  std::uint32_t first = no_index;
+  for (const PlanarEdge& edge : graph.edges) {
+    if (!is_street_tag(edge.tag)) continue;
+    const std::uint32_t network = networks.find(edge.from);
+    if (first == no_index) first = network;
+    if (network != first) return false;
+  }
+  return true;
+}
 
 std::vector<StreetPiece> links_between_networks(const GrowthInput& input, const StreetGraph& graph,
                                                 const Job& job) {

@@ -18,6 +18,7 @@ namespace {
 using glm::dvec2;
 
 constexpr std::size_t blocks_a_chunk = 16;
+constexpr std::size_t blocks_a_batch = 1024;  // divided at the same time; their memory serves the next batch
 
 /// The side of its streets on which a block lies: that of the street with the lowest key. Two blocks on both sides of
 /// one street have the same nodes.
@@ -82,12 +83,11 @@ glm::dvec2 position_in(const CmRing& ring) {
   return a + along / 2.0 + dvec2(-along.y, along.x) * (2 / length(longest));
 }
 
-/// Fills in what a lot is, from its piece.
+/// Fills in what a lot is, from its piece, but its corners.
 Lot lot_of(const CityPlan& plan, const Division& division, const Piece& piece) {
   Lot lot;
   lot.key = piece.key;
   lot.is_inner = piece.is_inner;
-  lot.corners = piece.ring;
   double widest = -1, longest = -1;
   std::uint32_t first_street = no_index;
   for (std::size_t i = 0; i < piece.ring.size(); ++i) {
@@ -119,7 +119,7 @@ glm::dvec2 middle_of(const CmRing& ring) {
 /// The name of the first zone around a position in metres; empty outside of all.
 std::string zone_at(const std::vector<NamedZone>& zones, const glm::dvec2& metres) {
   for (const NamedZone& zone : zones) {
-    if (is_in_any(zone.polygons, metres * 100.0)) return zone.name;
+    if (zone.map.at(metres) >= 0.5) return zone.name;
   }
   return {};
 }
@@ -202,6 +202,7 @@ void add_block(CityPlan& plan, const BlockOutline& outline, Divided& divided, co
     part.street = lot.street;
     part.rings.push_back(division.take_outline(n));
     lot.area = area_of(part.rings);
+    lot.corners = division.take_corners(n);
     plan.parts.push_back(std::move(part));
     plan.lots.push_back(std::move(lot));
   }
@@ -221,38 +222,46 @@ double area_of(const std::vector<CmRing>& rings) {
   return sum / 2e4;
 }
 
-void divide_blocks(CityPlan& plan, const std::vector<BlockOutline>& outlines, const CityLots& lots,
+void divide_blocks(CityPlan& plan, std::vector<BlockOutline> outlines, const CityLots& lots,
                    const FieldMap& density, Job& job) {
-  std::vector<Divided> divided(outlines.size());
   CityLots whole = lots;  // of a citadel
   whole.division = CityDivision::none;
   const Rng rng = job.rng().at("lots");
-  parallel_for(job, outlines.size(), blocks_a_chunk, [&](std::size_t begin, std::size_t end, std::size_t) {
-    for (std::size_t i = begin; i < end; ++i) {
-      job.check();
-      const BlockOutline& outline = outlines[i];
-      const std::uint64_t key = block_key(plan, outline);
-      Divided& each = divided[i];
-      const Ward* ward = ward_at(plan.wards, position_in(outline.ring));
-      if (ward) each.zone = ward->zone;
-      const bool is_whole = keeps_whole(plan.landmarks, outline);
-      each.division.emplace(outline, is_whole || each.zone == zone_citadel ? whole : lots, key, rng);
-      each.is_square = each.zone == zone_square;
-      const bool is_outside = !plan.wards.empty() && !ward;
-      const bool is_empty = density.at(middle_of(outline.ring)) < 0.1;
-      const bool is_drawn = !is_whole && rng.at("park").at(key).unit() < lots.park_share;
-      each.is_island = is_island(plan.graph, outline);
-      each.is_park = each.is_island || !outline.holes.empty() || is_empty || is_outside || each.is_square ||
-                     !each.division->holds_lots() || is_drawn;
-      if (!each.is_park) each.division->cut(job);
-    }
-  });
+  const auto divide = [&](const BlockOutline& outline) {
+    const std::uint64_t key = block_key(plan, outline);
+    Divided each;
+    const Ward* ward = ward_at(plan.wards, position_in(outline.ring));
+    if (ward) each.zone = ward->zone;
+    const bool is_whole = keeps_whole(plan.landmarks, outline);
+    each.division.emplace(outline, is_whole || each.zone == zone_citadel ? whole : lots, key, rng);
+    each.is_square = each.zone == zone_square;
+    const bool is_outside = !plan.wards.empty() && !ward;
+    const bool is_empty = density.at(middle_of(outline.ring)) < 0.1;
+    const bool is_drawn = !is_whole && rng.at("park").at(key).unit() < lots.park_share;
+    each.is_island = is_island(plan.graph, outline);
+    each.is_park = each.is_island || !outline.holes.empty() || is_empty || is_outside || each.is_square ||
+                   !each.division->holds_lots() || is_drawn;
+    if (!each.is_park) each.division->cut(job);
+    return each;
+  };
   const Shores shores = shores_of(plan);
   Meter meter(job, Resource::shapes);
-  for (std::size_t i = 0; i < outlines.size(); ++i) {
-    job.check();
-    meter.spend(1 + divided[i].division->pieces().size());
-    add_block(plan, outlines[i], divided[i], density, shores);
+  std::vector<std::optional<Divided>> divided(std::min(outlines.size(), blocks_a_batch));
+  for (std::size_t first = 0; first < outlines.size(); first += blocks_a_batch) {
+    const std::size_t count = std::min(blocks_a_batch, outlines.size() - first);
+    parallel_for(job, count, blocks_a_chunk, [&](std::size_t begin, std::size_t end, std::size_t) {
+      for (std::size_t i = begin; i < end; ++i) {
+        job.check();
+        divided[i].emplace(divide(outlines[first + i]));
+      }
+    });
+    for (std::size_t i = 0; i < count; ++i) {
+      job.check();
+      meter.spend(1 + divided[i]->division->pieces().size());
+      add_block(plan, outlines[first + i], *divided[i], density, shores);
+      divided[i].reset();
+      outlines[first + i] = {};
+    }
   }
 }
 

@@ -16,7 +16,7 @@ namespace seedmesh::city {
 
 /// Divides the blocks and adds blocks, lots, parks and squares to the plan. Corners that cuts add to the outline
 /// of a block are added to the sidewalks around it.
-void divide_blocks(CityPlan& plan, const std::vector<BlockOutline>& outlines, const CityLots& lots,
+void divide_blocks(CityPlan& plan, std::vector<BlockOutline> outlines, const CityLots& lots,
                    const FieldMap& density, Job& job);
 
 }  // namespace seedmesh::city

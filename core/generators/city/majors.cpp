@@ -246,18 +246,14 @@ class NetRules final : public RoadRules {
     return next;
   }
 
-  /// Whether no obstacle and no given street is in the way.
+  /// Whether no obstacle, no given street and no other bridge is in the way.
   bool may_build(const Route& built) const {
     for (const StreetPiece& piece : built.pieces) {
       if (input_.is_blocked(in_cm(piece.a), in_cm(piece.b), input_.limit_of(piece.kind))) return false;
       if (!input_.keeps_off_given(piece)) return false;
     }
-    for (const BridgeLine& bridge : built.bridges) {
-      for (const BridgeLine& other : route.bridges) {
-        if (segments_meet(bridge.line[0], bridge.line[1], other.line[0], other.line[1])) return false;
-      }
-    }
-    return true;
+    return !meets_bridges(built, route.bridges) &&
+           !(input_.given && meets_bridges(built, input_.given->bridges));
   }
 
   bool may_start(const dvec2& cm) const {

@@ -19,14 +19,25 @@ Mesh empty_mesh(bool has_uv, bool has_color, const Job& job) {
   return mesh;
 }
 
+/// Frees what the arrays of a finished mesh do not use.
+void trim(Mesh& mesh) {
+  mesh.position.shrink_to_fit();
+  mesh.normal.shrink_to_fit();
+  mesh.uv[0].shrink_to_fit();
+  mesh.color.shrink_to_fit();
+  mesh.index.wide.shrink_to_fit();
+}
+
 }  // namespace
 
 void MergedCopies::add(const Mesh& from, int material, const Transform& at, std::uint32_t chunk) {
   if (from.topology != Topology::triangles || from.elements() == 0) return;
   const bool has_uv = !from.uv[0].empty(), has_color = !from.color.empty();
   std::vector<Mesh>& meshes = meshes_[{chunk, material, has_uv, has_color}];
-  if (meshes.empty() || meshes.back().position.size() + from.position.size() > most_vertices)
+  if (meshes.empty() || meshes.back().position.size() + from.position.size() > most_vertices) {
+    if (!meshes.empty()) trim(meshes.back());
     meshes.push_back(empty_mesh(has_uv, has_color, job_));
+  }
   Mesh& to = meshes.back();
   const auto first = static_cast<std::uint32_t>(to.position.size());
   const glm::dmat3 turn(glm::mat3_cast(glm::dquat(at.rotation)));
@@ -44,6 +55,7 @@ void MergedCopies::write(Model& model, ChunkNodes& nodes, const char* group, con
   for (auto& [key, meshes] : meshes_) {
     for (Mesh& mesh : meshes) {
       job_.check();
+      trim(mesh);
       MeshGroup all;
       all.name = name;
       Primitive primitive;

@@ -1,6 +1,6 @@
 #pragma once
-/// Meshes of many models that stand once each, joined by chunk and material: engines draw few large meshes faster than
-/// thousands of small ones, and files are smaller.
+/// Joins the meshes of many models that have one copy each by chunk and material. Engines draw few large meshes
+/// faster than thousands of small ones, and files are smaller.
 #include <map>
 #include <tuple>
 #include <vector>

@@ -7,28 +7,18 @@
 #include <cmath>
 #include <glm/common.hpp>
 
+#include "core/base/math.h"
+
 namespace seedmesh::city {
 namespace {
 
 constexpr std::uint32_t none = 0xFFFFFFFFU;
+/// The box of a removed edge, which meets no other one.
+constexpr EdgeBox nowhere = {0x7FFFFFFF, 0x7FFFFFFF, -0x7FFFFFFF, -0x7FFFFFFF};
 
 double dot(const glm::dvec2& a, const glm::dvec2& b) { return a.x * b.x + a.y * b.y; }
 double turn(const glm::dvec2& a, const glm::dvec2& b) { return a.x * b.y - a.y * b.x; }
 double length_of(const glm::dvec2& v) { return std::sqrt(dot(v, v)); }
-
-/// The box around a segment, grown by a distance: what lies outside is farther than that from the segment.
-class Reach {
- public:
-  Reach(const glm::dvec2& a, const glm::dvec2& b, double distance)
-      : low_(glm::min(a, b) - glm::dvec2(distance)), high_(glm::max(a, b) + glm::dvec2(distance)) {}
-  bool may_hold(const CmPoint& a, const CmPoint& b) const {
-    return std::max(a.x, b.x) >= low_.x && std::min(a.x, b.x) <= high_.x && std::max(a.y, b.y) >= low_.y &&
-           std::min(a.y, b.y) <= high_.y;
-  }
-
- private:
-  glm::dvec2 low_, high_;
-};
 
 /// The cosine of the angle at `o` between two points.
 double cosine(const CmPoint& o, const CmPoint& a, const CmPoint& b) {
@@ -44,9 +34,30 @@ std::uint32_t Network::add_node(const CmPoint& p) {
   return static_cast<std::uint32_t>(nodes_.size()) - 1;
 }
 
+/// Calls `visit` with each edge whose box meets the box around a segment, grown by a distance, until it returns false.
+/// What lies outside is farther than that from the segment. Returns whether all calls returned true.
+template <class Visit>
+bool Network::each_near(const glm::dvec2& a, const glm::dvec2& b, double distance, const Visit& visit) const {
+  const glm::dvec2 low = glm::ceil(glm::min(a, b) - glm::dvec2(distance)),
+                   high = glm::floor(glm::max(a, b) + glm::dvec2(distance));
+  const EdgeBox reach = {math::to_int32(low.x), math::to_int32(low.y), math::to_int32(high.x),
+                         math::to_int32(high.y)};
+  const auto count = static_cast<std::uint32_t>(boxes_.size());
+  for (std::uint32_t e = 0; e < count; ++e) {
+    const EdgeBox& box = boxes_[e];
+    if (box.high_x < reach.low_x || box.low_x > reach.high_x || box.high_y < reach.low_y ||
+        box.low_y > reach.high_y)
+      continue;
+    if (!visit(e)) return false;
+  }
+  return true;
+}
+
 std::uint32_t Network::add_edge(std::uint32_t from, std::uint32_t to, EdgeClass kind, bool is_fixed) {
   const auto edge = static_cast<std::uint32_t>(edges_.size());
   edges_.push_back({from, to, kind, is_fixed, false});
+  const CmPoint &a = nodes_[from], &b = nodes_[to];
+  boxes_.push_back({std::min(a.x, b.x), std::min(a.y, b.y), std::max(a.x, b.x), std::max(a.y, b.y)});
   arms_[from].push_back(edge);
   arms_[to].push_back(edge);
   return edge;
@@ -55,28 +66,26 @@ std::uint32_t Network::add_edge(std::uint32_t from, std::uint32_t to, EdgeClass 
 void Network::remove_edge(std::uint32_t edge) {
   NetworkEdge& each = edges_[edge];
   each.is_removed = true;
+  boxes_[edge] = nowhere;
   std::erase(arms_[each.from], edge);
   std::erase(arms_[each.to], edge);
 }
 
 std::optional<Network::Hit> Network::first_hit(std::uint32_t from, const glm::dvec2& end) const {
   const glm::dvec2 start = in_cm(nodes_[from]), along = end - start;
-  const glm::dvec2 low = glm::min(start, end), high = glm::max(start, end);
   std::optional<Hit> best;
-  for (std::uint32_t e = 0; e < edges_.size(); ++e) {
+  each_near(start, end, 0, [&](std::uint32_t e) {
     const NetworkEdge& edge = edges_[e];
-    if (edge.is_removed || edge.from == from || edge.to == from) continue;
+    if (edge.from == from || edge.to == from) return true;
     const glm::dvec2 a = in_cm(nodes_[edge.from]), b = in_cm(nodes_[edge.to]);
-    if (std::max(a.x, b.x) < low.x || std::min(a.x, b.x) > high.x || std::max(a.y, b.y) < low.y ||
-        std::min(a.y, b.y) > high.y)
-      continue;
     const glm::dvec2 across = b - a;
     const double scale = turn(along, across);
-    if (scale == 0) continue;
+    if (scale == 0) return true;
     const double share = turn(a - start, across) / scale, at = turn(a - start, along) / scale;
-    if (share <= 0 || share > 1 || at < 0 || at > 1) continue;
+    if (share <= 0 || share > 1 || at < 0 || at > 1) return true;
     if (!best || share < best->share) best = Hit{e, share, start + along * share};
-  }
+    return true;
+  });
   return best;
 }
 
@@ -123,12 +132,10 @@ bool Network::may_link(std::uint32_t from, const CmPoint& to, std::uint32_t targ
     if (cosine(to, a, start) > most || cosine(to, b, start) > most) return false;
   }
   const glm::dvec2 p = in_cm(start), q = in_cm(to);
-  const Reach reach(p, q, limits_.beside + 1);
-  for (std::uint32_t e = 0; e < edges_.size(); ++e) {
+  return each_near(p, q, limits_.beside + 1, [&](std::uint32_t e) {
+    if (e == split) return true;
     const NetworkEdge& edge = edges_[e];
-    if (edge.is_removed || e == split) continue;
     const CmPoint &a = nodes_[edge.from], &b = nodes_[edge.to];
-    if (!reach.may_hold(a, b)) continue;
     const bool at_start = edge.from == from || edge.to == from;
     const bool at_end = target != none && (edge.from == target || edge.to == target);
     if (!at_start && !at_end && segments_meet(start, to, a, b)) return false;
@@ -137,10 +144,9 @@ bool Network::may_link(std::uint32_t from, const CmPoint& to, std::uint32_t targ
         return false;
     }
     // Neither end of the new edge may lie beside an edge that it does not join.
-    if (!at_end && target == none && !at_start && distance_to_segment(q, in_cm(a), in_cm(b)) < limits_.beside)
-      return false;
-  }
-  return true;
+    return at_end || target != none || at_start ||
+           distance_to_segment(q, in_cm(a), in_cm(b)) >= limits_.beside;
+  });
 }
 
 void Network::split(std::uint32_t edge, std::uint32_t node) {
@@ -172,14 +178,11 @@ PieceResult Network::join_edge(std::uint32_t from, const Hit& hit, EdgeClass kin
 }
 
 bool Network::is_free(std::uint32_t from, const glm::dvec2& end) const {
-  const Reach reach(end, end, limits_.clearance + 1);
-  for (const NetworkEdge& edge : edges_) {
-    if (edge.is_removed || edge.from == from || edge.to == from) continue;
-    if (!reach.may_hold(nodes_[edge.from], nodes_[edge.to])) continue;
-    if (distance_to_segment(end, in_cm(nodes_[edge.from]), in_cm(nodes_[edge.to])) < limits_.clearance)
-      return false;
-  }
-  return true;
+  return each_near(end, end, limits_.clearance + 1, [&](std::uint32_t e) {
+    const NetworkEdge& edge = edges_[e];
+    return edge.from == from || edge.to == from ||
+           distance_to_segment(end, in_cm(nodes_[edge.from]), in_cm(nodes_[edge.to])) >= limits_.clearance;
+  });
 }
 
 PieceResult Network::build_piece(std::uint32_t from, const glm::dvec2& end, EdgeClass kind) {

@@ -23,6 +23,11 @@ struct NetworkEdge {
   bool is_removed = false;
 };
 
+/// The box around an edge, in centimetres.
+struct EdgeBox {
+  std::int32_t low_x = 0, low_y = 0, high_x = 0, high_y = 0;
+};
+
 /// All distances in centimetres.
 struct ConstraintLimits {
   double snap = 2500;
@@ -53,9 +58,10 @@ class Network {
   const std::vector<NetworkEdge>& edges() const { return edges_; }
   const std::vector<std::uint32_t>& arms(std::uint32_t node) const { return arms_[node]; }
 
-  /// The local constraints of a piece of road from a node to `end`: it ends at the first road that it meets or
-  /// reaches within the snapping distance, keeps its clearance otherwise, and is refused where it would make an
-  /// acute angle or a short edge. Adds the piece where it is not refused. Cost: linear in the edges.
+  /// Applies the local constraints to a piece of road from a node to `end`, and adds the piece unless it is
+  /// refused. The piece ends at the first road that it meets or reaches within the snapping distance. Otherwise
+  /// it must keep its clearance. It is refused if it would make an acute angle or a short edge. Cost: linear in
+  /// the edges.
   PieceResult build_piece(std::uint32_t from, const glm::dvec2& end, EdgeClass kind);
 
   /// Builds a straight piece along `direction` (a unit vector) to the first road within `reach`.
@@ -67,6 +73,8 @@ class Network {
     double share = 0;  ///< position along the piece, as a share of its length
     glm::dvec2 at{0};
   };
+  template <class Visit>
+  bool each_near(const glm::dvec2& a, const glm::dvec2& b, double distance, const Visit& visit) const;
   std::optional<Hit> first_hit(std::uint32_t from, const glm::dvec2& end) const;
   std::optional<std::uint32_t> nearest_node(std::uint32_t from, const glm::dvec2& end) const;
   PieceResult join_edge(std::uint32_t from, const Hit& hit, EdgeClass kind);
@@ -78,6 +86,7 @@ class Network {
   ConstraintLimits limits_;
   std::vector<CmPoint> nodes_;
   std::vector<NetworkEdge> edges_;
+  std::vector<EdgeBox> boxes_;  ///< by edge
   std::vector<std::vector<std::uint32_t>> arms_;
 };
 

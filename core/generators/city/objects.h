@@ -1,6 +1,6 @@
 #pragma once
-/// Objects that stand in a city as copies of shared models: furniture along the streets, trees, landmarks. They face
-/// along local +z, as buildings do with their fronts.
+/// Objects that stand in a city as copies of shared models: furniture along the streets, trees, landmarks. The
+/// front of an object faces local +z, as that of a building.
 #include <cstdint>
 #include <glm/vec2.hpp>
 #include <span>
@@ -22,7 +22,7 @@ struct CityObject {
   double turn = 0;         ///< degrees, counter-clockwise from above
   double scale = 1;
   std::uint32_t model = 0;  ///< index into the models of its kind
-  std::uint32_t part = 0;   ///< of the plan, on which it stands
+  std::uint32_t part = 0;   ///< index of the part of the plan on which it stands
 };
 
 /// All objects of one kind. Without requests, it has the built-in models of its name (furniture_models.h).
@@ -35,22 +35,22 @@ struct ObjectKind {
   std::uint32_t model_count() const;
 };
 
-/// Lamps, trees, benches, bins, signs and parked cars along all streets of level 0, as far as the request asks for
-/// them. Choices depend on the key of the street, its side, and the number of the position from the end with the
-/// smaller key. Cost: linear in the lengths of the streets.
+/// Returns the lamps, trees, benches, bins, signs and parked cars along all streets of level 0 that the request
+/// asks for. Choices depend on the key of the street, its side, and the number of the position from the end with
+/// the smaller key. Cost: linear in the lengths of the streets.
 std::vector<ObjectKind> street_furniture(const CityPlan& plan, const CityParams& params, const Job& job);
 
-/// Trees in parks and yards. Choices depend on the key of the block or the lot.
+/// Returns the trees in parks and yards. Choices depend on the key of the block or the lot.
 std::vector<ObjectKind> trees_of(const CityPlan& plan, const CityParams& params, const Job& job);
 
 /// A piece of a hedge or fence, metres.
 struct BorderPiece {
   glm::dvec2 a{0}, b{0};
-  std::uint32_t part = 0;  ///< of one of its lots
+  std::uint32_t part = 0;  ///< index of the part of one of its lots
 };
 
-/// Returns the borders between neighbouring lots of which one has a building, without the parts that pass within 0.4 m
-/// of a building. Each is there once. Cost: n log n in the edges of lots.
+/// Returns the borders between neighbouring lots of which one has a building, without the parts that pass within
+/// 0.4 m of a building. Each border occurs once. Cost: n log n in the edges of lots.
 std::vector<BorderPiece> lot_borders(const CityPlan& plan, const Job& job);
 
 /// Returns the distance from a position to a ring, metres.

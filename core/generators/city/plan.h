@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/base/job.h"
+#include "core/generators/city/density.h"
 #include "core/generators/city/grades.h"
 #include "core/generators/city/landform.h"
 #include "core/generators/city/network.h"
@@ -27,8 +28,9 @@ struct CrossSection {
   double width = 0;                         ///< of the carriageway
   std::array<double, 2> sidewalk = {0, 0};  ///< left and right
   int lanes = 0;
-  double grade_limit = 0.12;  ///< rise over run
-  bool has_wall = false;      ///< on the right side of its streets, in place of the sidewalk
+  double grade_limit = 0.12;                ///< rise over run
+  std::optional<double> tree_spacing = {};  ///< 0: no trees; none: that of the furniture
+  bool has_wall = false;                    ///< on the right side of its streets, in place of the sidewalk
   friend bool operator==(const CrossSection&, const CrossSection&) = default;
 };
 
@@ -102,7 +104,7 @@ struct Part {
   bool is_wall = false;  ///< a verge that a town wall fills
 };
 
-/// Carriageways, junctions and sidewalks, and town walls in their place.
+/// Whether a part is a carriageway, a junction or a sidewalk, or a town wall in its position.
 inline bool is_street_space(const Part& part) {
   return part.kind == PartKind::carriageway || part.kind == PartKind::junction ||
          part.kind == PartKind::sidewalk || part.is_wall;
@@ -116,10 +118,10 @@ struct Ward {
 /// Zones without minor streets. The square has no lots, and the citadel is one lot.
 constexpr const char *zone_square = "square", *zone_citadel = "citadel";
 
-/// A zone of the request: its polygons have a name.
+/// A zone of the request: where its map is 0.5 or more.
 struct NamedZone {
   std::string name;
-  std::vector<std::vector<CmRing>> polygons;
+  FieldMap map;
 };
 
 /// The rectangle below a building.
@@ -127,7 +129,7 @@ struct Footing {
   glm::dvec2 position{0};       ///< of its centre, metres east and north
   double turn = 0;              ///< degrees, counter-clockwise from above
   double width = 0, depth = 0;  ///< along and across the front, metres
-  std::uint32_t part = 0;       ///< into CityPlan::parts
+  std::uint32_t part = 0;       ///< index into CityPlan::parts
 };
 
 /// A model at a given position.
@@ -155,7 +157,7 @@ struct House {
 
 struct Lot {
   std::uint64_t key = 0;
-  std::uint32_t part = 0;  ///< into CityPlan::parts
+  std::uint32_t part = 0;  ///< index into CityPlan::parts
   double area = 0, frontage = 0;
   std::uint32_t street = no_index;  ///< of its front: an edge of the graph
   bool is_corner = false, is_inner = false;
@@ -164,7 +166,7 @@ struct Lot {
   CmRing corners;    ///< without the corners of neighbours in between
   CmPoint front_start, front_end;
   std::optional<House> house;
-  std::uint32_t landmark = no_index;  ///< into CityPlan::landmarks; such lots have no house
+  std::uint32_t landmark = no_index;  ///< index into CityPlan::landmarks; such lots have no house
 
   bool is_built() const { return house.has_value() || landmark != no_index; }
   /// Returns the rectangle of the house. The lot must have a house.

@@ -86,25 +86,10 @@ class Writer {
     for (std::uint32_t edge = 0; edge < plan_.graph.edges.size(); ++edge) {
       if (!plan_.graph.is_street(edge)) continue;
       const PlanarEdge& each = plan_.graph.edges[edge];
-      add_street({each.from, each.to, each.tag, 0, {}, plan_.graph.edge_key[edge]}, profile_of(edge));
+      add_street({each.from, each.to, each.tag, 0, {}, plan_.graph.edge_key[edge]},
+                 shown_profile(plan_, edge));
     }
     for (const Bridge& bridge : plan_.graph.bridges) add_street(bridge, bridge_profile(plan_, bridge));
-  }
-
-  /// The points of an edge; on a terrain with those where its grade changes.
-  std::vector<ProfilePoint> profile_of(std::uint32_t edge) const {
-    constexpr double least = 0.5;  // of a level part at a node, m
-    const StreetHeights& heights = plan_.heights;
-    const PlanarEdge& each = plan_.graph.edges[edge];
-    if (heights.is_level()) return {{plan_.graph.nodes[each.from]}, {plan_.graph.nodes[each.to]}};
-    std::vector<ProfilePoint> points(heights.points.begin() + heights.first[edge],
-                                     heights.points.begin() + heights.first[edge + 1]);
-    const auto is_short = [&points](std::size_t a, std::size_t b) {
-      return points[b].station - points[a].station < least;
-    };
-    if (points.size() > 2 && is_short(points.size() - 2, points.size() - 1)) points.erase(points.end() - 2);
-    if (points.size() > 2 && is_short(0, 1)) points.erase(points.begin() + 1);
-    return points;
   }
 
   /// A street of any level. On level ground its line has its corners alone.

@@ -25,8 +25,8 @@ struct GlobalGoals {
   std::array<double, 3> road = {0, 0, 0};  ///< road numbers; the grammar does not interpret them
 };
 
-/// What the productions ask of the roads. The implementation numbers the roads. A production can compute any
-/// number; an unknown one yields FAILED.
+/// The functions that productions call for roads. The implementation numbers the roads. A production can compute
+/// any number; a number without a road yields FAILED.
 class RoadRules {
  public:
   virtual ~RoadRules() = default;
@@ -34,7 +34,7 @@ class RoadRules {
   virtual GlobalGoals global_goals(double rule, double road, Rng key) = 0;
   /// Builds a road, adjusted to its surroundings, or refuses it.
   virtual RoadState local_constraints(double road) = 0;
-  /// Direction and length of a road that was built, for the parameters of + and F.
+  /// Returns the direction and the length of a road that was built, for the parameters of + and F.
   virtual std::array<double, 2> measure(double road) const = 0;
 };
 

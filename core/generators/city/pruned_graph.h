@@ -17,7 +17,7 @@ inline std::uint64_t key_of_point(const CmPoint& p) {
 
 inline bool is_boundary(const PlanarEdge& edge) { return !is_street_tag(edge.tag); }
 inline bool is_given(const PlanarEdge& edge) { return edge.tag >= first_given; }
-/// Returns the order in which streets stay where two of them are too near.
+/// Returns the rank of a street. Of two streets that are too near to each other, the one with the lower rank stays.
 inline std::uint32_t rank_of(const PlanarEdge& edge) { return is_given(edge) ? 0 : edge.tag + 1; }
 
 inline bool is_street(const PlanarEdge& edge) { return is_street_tag(edge.tag); }
@@ -54,7 +54,7 @@ class PrunedGraph {
     compact();
   }
 
-  /// Removes highways and majors that end nowhere, back to the last junction.
+  /// Removes highways and major streets with a loose end, back to the last junction.
   void drop_loose_majors() {
     bool goes_on = true;
     while (goes_on) {
@@ -113,8 +113,12 @@ class PrunedGraph {
     }
   }
 
-  /// Keeps the component of streets with the greatest length, and given streets.
-  void keep_largest() {
+  /// Keeps the network of streets with the greatest length, and those with given streets.
+  void keep_largest() { keep_large(2); }
+
+  /// Keeps the network of streets with the greatest length, those of at least this share of its length, and those with
+  /// given streets.
+  void keep_large(double least_share) {
     drop_loose_bridges();
     std::vector<std::uint32_t> root(nodes_.size());
     for (std::uint32_t i = 0; i < root.size(); ++i) root[i] = i;
@@ -139,8 +143,11 @@ class PrunedGraph {
     }
     const auto longest =
         static_cast<std::uint32_t>(std::max_element(length.begin(), length.end()) - length.begin());
+    const double least = longest < length.size() ? least_share * length[longest] : 0;
     for (PlanarEdge& edge : edges_) {
-      if (is_street(edge) && find(edge.from) != longest && has_given[find(edge.from)] == 0) remove(edge);
+      if (!is_street(edge)) continue;
+      const std::uint32_t network = find(edge.from);
+      if (network != longest && length[network] < least && has_given[network] == 0) remove(edge);
     }
     compact();
     drop_loose_bridges();

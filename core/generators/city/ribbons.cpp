@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "core/base/math.h"
 #include "core/base/parallel.h"
 #include "core/generators/city/corners.h"
 #include "core/generators/city/kerb_sides.h"
@@ -31,16 +32,14 @@ struct FaceLayout {
   std::vector<Outline> outlines;
 };
 
-void append_new(CmRing& ring, const CmPoint& p) {
-  if (ring.empty() || ring.back() != p) ring.push_back(p);
-}
-void close(CmRing& ring) {
-  while (ring.size() > 1 && ring.back() == ring.front()) ring.pop_back();
-}
-
 class StreetSpace {
  public:
-  StreetSpace(CityPlan& plan, Job& job) : plan_(plan), graph_(plan.graph), job_(job) {
+  StreetSpace(CityPlan& plan, const CornerCut& cut, Job& job)
+      : plan_(plan),
+        graph_(plan.graph),
+        job_(job),
+        cut_width_(cut.width),
+        cos_least_turn_(math::cos(math::radians(180 - cut.greatest_angle))) {
     sides_.resize(graph_.edges.size() * 2);
   }
 
@@ -71,7 +70,7 @@ class StreetSpace {
   }
 
   struct Widths {
-    double carriageway = 1, walk = 1, fillet = 1;
+    double carriageway = 1, walk = 1, fillet = 1, cut = 0;
   };
 
   std::vector<CmPoint> corner_at(std::uint32_t before, std::uint32_t half, const Widths& widths,
@@ -85,9 +84,11 @@ class StreetSpace {
     corner.distance_before = half_width(before) * widths.carriageway + (is_kerb ? 0 : walk_before);
     corner.distance_after = half_width(half) * widths.carriageway + (is_kerb ? 0 : walk_after);
     corner.cap = is_kerb ? 0 : walk_after;
-    const bool has_arc =
-        is_kerb && widths.fillet > 0 && graph_.is_street(before / 2) && graph_.is_street(half / 2);
-    if (has_arc) corner.fillet = fillet_of(corner, std::min(walk_before, walk_after));
+    const bool is_between_streets = graph_.is_street(before / 2) && graph_.is_street(half / 2);
+    if (is_kerb && widths.fillet > 0 && is_between_streets)
+      corner.fillet = fillet_of(corner, std::min(walk_before, walk_after));
+    if (!is_kerb && is_between_streets && glm::dot(corner.before, corner.after) <= cos_least_turn_)
+      corner.chamfer = cut_width_ * widths.cut;
     return corner_points(corner);
   }
 
@@ -102,6 +103,7 @@ class StreetSpace {
     layout.is_used =
         is_on_land(plan_.region, position_in(graph_.nodes, graph_.edges, layout.outlines[0].half_edges));
     if (!layout.is_used) return;
+    if (cut_width_ > 0 && (try_widths(layout, {1, 1, 1, 1}) || try_widths(layout, {1, 1, 1, 0.5}))) return;
     static constexpr Widths attempts[] = {{1, 1, 1},     {1, 1, 0},    {1, 0.6, 0}, {1, 0.3, 0},
                                           {0.8, 0.3, 0}, {1, 0, 0},    {0.6, 0, 0}, {0.3, 0, 0},
                                           {0.1, 0, 0},   {0.03, 0, 0}, {0, 0, 0}};
@@ -173,8 +175,7 @@ class StreetSpace {
   }
 
   static bool is_sound(const CmRing& ring, bool is_outer) {
-    if (!is_simple(ring)) return false;
-    return is_outer == (doubled_area(ring) > 0);
+    return is_simple(ring) && is_outer == (doubled_area(ring) > 0);
   }
 
   /// The sidewalk to the left of a half-edge: along the kerb, and back along the block. Corners are divided at
@@ -270,6 +271,7 @@ class StreetSpace {
 
   void add_carriageways() {
     plan_.kerbs.assign(graph_.edges.size(), {});
+    carriageways_.assign(graph_.edges.size(), no_index);
     for (std::uint32_t edge = 0; edge < graph_.edges.size(); ++edge) {
       if (!graph_.is_street(edge)) continue;
       const KerbSide &left = sides_[2 * edge], &right = sides_[2 * edge + 1];
@@ -286,6 +288,7 @@ class StreetSpace {
       if (ends_at_border(from)) append_new(ring, graph_.nodes[from]);
       close(ring);
       if (ring.size() < 3 || doubled_area(ring) == 0) continue;
+      carriageways_[edge] = static_cast<std::uint32_t>(plan_.parts.size());
       add_part(PartKind::carriageway, std::move(ring), edge, no_index);
       if (left.is_laid_out && right.is_laid_out)
         plan_.kerbs[edge] = {left.cut_from, left.cut_to, right.cut_to, right.cut_from};
@@ -357,9 +360,13 @@ class StreetSpace {
   void add_block_edges(BlockOutline& block, std::uint32_t half, std::uint32_t part) const {
     const KerbSide& side = sides_[half];
     const std::uint32_t street = graph_.is_street(half / 2) ? half / 2 : no_index;
-    for (auto i : side.outer_corner) {
-      block.ring.push_back(i);
-      block.edges.push_back({street, part});
+    // Where a street ends at a shore at an acute angle, the block lies along the end of its carriageway.
+    const std::uint32_t before = side.before / 2;
+    const bool is_end = street == no_index && graph_.is_street(before);
+    for (std::size_t i = 0; i < side.outer_corner.size(); ++i) {
+      const bool is_at_end = is_end && i + 1 < side.outer_corner.size();
+      block.ring.push_back(side.outer_corner[i]);
+      block.edges.push_back(is_at_end ? BlockEdge{before, carriageways_[before]} : BlockEdge{street, part});
     }
   }
 
@@ -378,13 +385,15 @@ class StreetSpace {
   CityPlan& plan_;
   const StreetGraph& graph_;
   Job& job_;
+  double cut_width_, cos_least_turn_;
   std::vector<KerbSide> sides_;
+  std::vector<std::uint32_t> carriageways_;  ///< parts, by edge
 };
 
 }  // namespace
 
-std::vector<BlockOutline> lay_out_streets(CityPlan& plan, Job& job) {
-  return StreetSpace(plan, job).lay_out();
+std::vector<BlockOutline> lay_out_streets(CityPlan& plan, const CornerCut& cut, Job& job) {
+  return StreetSpace(plan, cut, job).lay_out();
 }
 
 }  // namespace seedmesh::city

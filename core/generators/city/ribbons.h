@@ -24,8 +24,14 @@ struct BlockOutline {
   std::vector<std::uint32_t> hole_streets;  ///< edges of the street graph that surround the holes
 };
 
+/// The cut across the corners of blocks, between streets.
+struct CornerCut {
+  double width = 0;            ///< centimetres; 0: none
+  double greatest_angle = 90;  ///< of the corners that are cut, degrees
+};
+
 /// Adds carriageways, junctions, sidewalks and verges to the plan, and returns the outlines of the blocks in the
-/// order of the faces.
-std::vector<BlockOutline> lay_out_streets(CityPlan& plan, Job& job);
+/// order of the faces. Sidewalks contain what the cut takes from the blocks.
+std::vector<BlockOutline> lay_out_streets(CityPlan& plan, const CornerCut& cut, Job& job);
 
 }  // namespace seedmesh::city

@@ -226,4 +226,20 @@ Route given_route(const Region& region, const std::vector<CmPoint>& line, std::u
   return route;
 }
 
+bool meets_bridges(const Route& route, const std::vector<BridgeLine>& bridges) {
+  const auto meet = [](const CmRing& a, const CmRing& b) {
+    for (std::size_t i = 1; i < a.size(); ++i) {
+      for (std::size_t k = 1; k < b.size(); ++k) {
+        if (segments_meet(a[i - 1], a[i], b[k - 1], b[k])) return true;
+      }
+    }
+    return false;
+  };
+  return std::any_of(route.bridges.begin(), route.bridges.end(), [&](const BridgeLine& own) {
+    return std::any_of(bridges.begin(), bridges.end(), [&](const BridgeLine& other) {
+      return own.level == other.level && meet(own.line, other.line);
+    });
+  });
+}
+
 }  // namespace seedmesh::city

@@ -25,14 +25,17 @@ struct Route {
   bool reaches_end = false;
 };
 
-/// Follows a line from its start, which is on land. It ends at the border of the area, and crosses water on bridges of
-/// at most `bridge_length` centimetres. Empty where it would meet the border or a shore at an acute angle, have a
-/// piece below 15 m there, or end at a shore.
+/// Follows a line from its start, which is on land. It ends at the border of the area, and crosses water on
+/// bridges of at most `bridge_length` centimetres. Returns an empty route if the line would meet the border or a
+/// shore at an acute angle, have a piece below 15 m there, or end at a shore.
 Route route_of(const Region& region, const std::vector<CmPoint>& line, std::uint32_t kind,
                double bridge_length);
 
-/// The same for a given line, which may begin anywhere and have any angles and bridges: the parts outside of the area
-/// are left out, and the parts over water become bridges where both ends are on land.
+/// Like route_of(), for a given line, which may begin anywhere and have any angles and bridges. Parts outside of
+/// the area are left out, and parts over water become bridges where both ends are on land.
 Route given_route(const Region& region, const std::vector<CmPoint>& line, std::uint32_t kind);
+
+/// Whether a bridge of a route meets one of these bridges of its level.
+bool meets_bridges(const Route& route, const std::vector<BridgeLine>& bridges);
 
 }  // namespace seedmesh::city

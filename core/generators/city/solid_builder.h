@@ -18,7 +18,7 @@ struct SolidLook {
   float roughness = 0.9F;
   float metallic = 0;
 };
-/// Makes the material.
+/// Returns the material of a look.
 Material material_of(const SolidLook& look);
 
 /// Adds bodies to one mesh. Bodies are closed and share no vertices.
@@ -27,13 +27,14 @@ class SolidBuilder {
   explicit SolidBuilder(const Job& job);
 
   void add_box(const glm::vec3& low, const glm::vec3& high);
-  /// A prism or cone about the upright line through `foot`, with `sides` sides; a radius of 0 at the top is a tip.
+  /// Adds a prism or cone about the upright line through `foot`, with `sides` sides; a radius of 0 at the top is a tip.
   void add_prism(const glm::vec3& foot, float height, std::array<float, 2> radii, int sides);
-  /// A convex outline in the plane of x and y, counter-clockwise seen from +z, extruded along z.
+  /// Adds a convex outline in the plane of x and y, counter-clockwise seen from +z, extruded along z.
   void add_extrusion(std::span<const glm::vec2> outline, float from_z, float to_z);
-  /// An ellipsoid with radii varied by up to `roughness` by a key, and smooth normals.
+  /// Adds an ellipsoid with radii varied by up to `roughness` by a key, and smooth normals.
   void add_blob(const glm::vec3& centre, const glm::vec3& radii, float roughness, std::uint64_t key);
-  /// A convex body over a quadrangle: corners counter-clockwise from above, each with its own lower and upper height.
+  /// Adds a convex body over a quadrangle: corners counter-clockwise from above, each with its own lower and
+  /// upper height.
   void add_slab(const std::array<glm::vec2, 4>& plan, const std::array<float, 4>& low,
                 const std::array<float, 4>& high);
 
@@ -42,7 +43,7 @@ class SolidBuilder {
   std::size_t triangles() const { return mesh_.index.wide.size() / 3; }
 
  private:
-  /// A convex, flat face, counter-clockwise seen from outside.
+  /// Adds a convex, flat face, counter-clockwise seen from outside.
   void add_face(std::span<const glm::vec3> corners);
 
   Mesh mesh_;

@@ -44,6 +44,13 @@ class Distances {
   const std::vector<CmRing>& area_;
 };
 
+/// The length of a street as its plan shows it, in metres.
+double length_of(const std::vector<ProfilePoint>& points) {
+  double length = 0;
+  for (std::size_t k = 1; k < points.size(); ++k) length += distance(points[k - 1].at, points[k].at) / 100;
+  return length;
+}
+
 /// Streets of all levels and their ends.
 struct StreetNetwork {
   struct Street {
@@ -54,12 +61,15 @@ struct StreetNetwork {
   std::vector<Street> streets;
   std::vector<std::vector<std::uint32_t>> ends;  ///< by node: streets, loops twice
 
-  StreetNetwork(const StreetGraph& graph, const Distances& distances) : ends(graph.nodes.size()) {
+  StreetNetwork(const CityPlan& plan, const Distances& distances) : ends(plan.graph.nodes.size()) {
+    const StreetGraph& graph = plan.graph;
     for (std::uint32_t edge = 0; edge < graph.edges.size(); ++edge) {
       if (!graph.is_street(edge)) continue;
       const PlanarEdge& each = graph.edges[edge];
       const CmPoint &a = graph.nodes[each.from], &b = graph.nodes[each.to];
-      add({each.from, each.to, distance(a, b) / 100, distances.is_far(a, b, border_margin * 100)});
+      const double length =
+          plan.heights.is_level() ? distance(a, b) / 100 : length_of(shown_profile(plan, edge));
+      add({each.from, each.to, length, distances.is_far(a, b, border_margin * 100)});
     }
     for (const Bridge& bridge : graph.bridges) {
       double length = 0;
@@ -268,7 +278,7 @@ Json statistics_of(const CityPlan& plan, const Job& job) {
   double total = 0, bent = 0, straight = 0;
   std::vector<double> lengths;
   Bearings bearings;
-  for (const Segment& segment : segments_of(StreetNetwork(graph, distances))) {
+  for (const Segment& segment : segments_of(StreetNetwork(plan, distances))) {
     if (!segment.is_inner) continue;
     lengths.push_back(segment.length);
     total += segment.length;

@@ -11,7 +11,7 @@ namespace seedmesh::city {
 /// Streets nearer to the border of the area than this are left out, metres.
 constexpr double border_margin = 60;
 
-/// Returns the statistics as docs/cities.md lists them; what would divide by nothing is null.
+/// Returns the statistics that docs/cities.md lists. A value whose divisor is 0 is null.
 Json statistics_of(const CityPlan& plan, const Job& job);
 
 /// Returns the area of the points that are at least `margin` from the border, in square metres. The error is below

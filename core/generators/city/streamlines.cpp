@@ -25,7 +25,8 @@ constexpr double margin = 4000;                              // around the area,
 constexpr double seed_distance = 0.95, end_distance = 0.62;  // of the spacing
 constexpr double shortest = 2000;                            // between two crossings of a street, cm
 constexpr double least_density = 0.1;
-constexpr std::uint32_t major = static_cast<std::uint32_t>(EdgeClass::major);
+constexpr std::uint32_t major = static_cast<std::uint32_t>(EdgeClass::major),
+                        highway = static_cast<std::uint32_t>(EdgeClass::highway);
 
 std::uint64_t point_key(const CmPoint& p) {
   return key_at(key_at(0x7E45, static_cast<std::uint32_t>(p.x)), static_cast<std::uint32_t>(p.y));
@@ -59,10 +60,9 @@ class PointGrid {
 
 class Tracer {
  public:
-  Tracer(const GrowthInput& input, const TensorField& field)
-      : field_(field),
-        spacing_(input.streets.major_spacing * 100),
-        grids_{PointGrid(spacing_), PointGrid(spacing_)} {
+  /// `spacing`: of the lines of one direction, cm.
+  Tracer(const GrowthInput& input, const TensorField& field, double spacing)
+      : field_(field), spacing_(spacing), grids_{PointGrid(spacing_), PointGrid(spacing_)} {
     low_ = high_ = in_cm(input.region.outline.front().a);
     for (const OutlineEdge& edge : input.region.outline) {
       low_ = glm::min(low_, in_cm(edge.a));
@@ -70,6 +70,13 @@ class Tracer {
     }
     low_ -= dvec2(margin);
     high_ += dvec2(margin);
+  }
+
+  /// Keeps further lines of a direction away from these.
+  void keep_off(const std::vector<Line>& lines, std::size_t family) {
+    for (const Line& line : lines) {
+      for (const dvec2& p : line) grids_[family].add(p);
+    }
   }
 
   /// Lines of both directions from the points of a jittered lattice, in the order of their keys.
@@ -214,11 +221,12 @@ dvec2 point_on(const Line& line, double at) {
 struct Span {
   std::vector<CmPoint> points;
   bool has_end = false;  ///< at a crossing
+  std::uint32_t kind = major;
 };
 
 /// The points of a line between two positions, ends included.
 std::vector<CmPoint> points_between(const Line& line, double from, double to) {
-  const double length = (to - from) * step;
+  const double length = std::abs(to - from) * step;
   const int count = std::max(1, math::to_int32(length / piece_length + 0.5));
   std::vector<CmPoint> points;
   for (int n = 0; n <= count; ++n)
@@ -226,12 +234,12 @@ std::vector<CmPoint> points_between(const Line& line, double from, double to) {
   return points;
 }
 
-std::vector<Span> spans_of(const Line& line, const std::vector<Stop>& stops) {
+std::vector<Span> spans_of(const Line& line, const std::vector<Stop>& stops, std::uint32_t kind) {
   std::vector<Span> spans;
   if (stops.empty()) return spans;
   const auto add = [&](double from, double to, const CmPoint& start, const CmPoint* end) {
     if (std::abs(to - from) * step < shortest) return;
-    Span span{points_between(line, from, to), end != nullptr};
+    Span span{points_between(line, from, to), end != nullptr, kind};
     span.points.front() = start;
     if (end) span.points.back() = *end;
     spans.push_back(std::move(span));
@@ -243,7 +251,7 @@ std::vector<Span> spans_of(const Line& line, const std::vector<Stop>& stops) {
   return spans;
 }
 
-/// Removes one arm of a share of the crossings of four arms, never two of one crossing.
+/// Removes one arm of a share of the crossings of four arms, never two of one crossing and never a highway.
 void make_t_junctions(std::vector<Span>& spans, double share, const Rng& rng) {
   std::map<CmPoint, std::vector<std::size_t>> arms;
   for (std::size_t i = 0; i < spans.size(); ++i) {
@@ -261,7 +269,7 @@ void make_t_junctions(std::vector<Span>& spans, double share, const Rng& rng) {
     for (std::size_t n = 0; n < 4; ++n) {
       const std::size_t i = arms[p][(first + n) % 4];
       Span& span = spans[i];
-      if (!span.has_end || span.points.empty()) continue;
+      if (!span.has_end || span.points.empty() || span.kind == highway) continue;
       const CmPoint other = span.points.front() == p ? span.points.back() : span.points.front();
       if (is_done[other] || arms[other].size() != 4) continue;
       is_done[p] = is_done[other] = true;
@@ -271,19 +279,48 @@ void make_t_junctions(std::vector<Span>& spans, double share, const Rng& rng) {
   }
 }
 
+/// The streamlines of both directions, and the classes of their streets.
+struct Streamlines {
+  std::vector<Line> lines;
+  std::vector<std::uint32_t> kinds;
+  std::size_t first_of_second = 0;  ///< the first line of the second direction
+
+  void add(std::vector<Line> more, std::uint32_t kind) {
+    kinds.insert(kinds.end(), more.size(), kind);
+    for (Line& line : more) lines.push_back(std::move(line));
+  }
+};
+
+/// Highways first, then major streets between them.
+Streamlines streamlines_of(const GrowthInput& input, const TensorField& field, const Rng& rng, Job& job) {
+  const CityStreets& streets = input.streets;
+  std::array<std::vector<Line>, 2> highways;
+  Tracer tracer(input, field, streets.major_spacing * 100);
+  if (streets.highway_spacing > 0) {
+    const double spacing = std::max(streets.highway_spacing, streets.major_spacing) * 100;
+    highways = Tracer(input, field, spacing).trace(rng.at("highways"), job);
+    for (const std::size_t family : {std::size_t{0}, std::size_t{1}})
+      tracer.keep_off(highways[family], family);
+  }
+  std::array<std::vector<Line>, 2> majors = tracer.trace(rng.at("seeds"), job);
+  Streamlines all;
+  all.add(std::move(highways[0]), highway);
+  all.add(std::move(majors[0]), major);
+  all.first_of_second = all.lines.size();
+  all.add(std::move(highways[1]), highway);
+  all.add(std::move(majors[1]), major);
+  return all;
+}
+
 }  // namespace
 
 Route trace_majors(const GrowthInput& input, const TensorField& field, Job& job) {
   const Rng rng = job.rng().at("tensor");
-  Tracer tracer(input, field);
-  std::array<std::vector<Line>, 2> families = tracer.trace(rng.at("seeds"), job);
-  std::vector<Line> lines = std::move(families[0]);
-  const std::size_t first_of_second = lines.size();
-  lines.insert(lines.end(), families[1].begin(), families[1].end());
-  const std::vector<std::vector<Stop>> stops = stops_of(lines, first_of_second, job);
+  const Streamlines all = streamlines_of(input, field, rng, job);
+  const std::vector<std::vector<Stop>> stops = stops_of(all.lines, all.first_of_second, job);
   std::vector<Span> spans;
-  for (std::size_t n = 0; n < lines.size(); ++n) {
-    for (Span& span : spans_of(lines[n], stops[n])) spans.push_back(std::move(span));
+  for (std::size_t n = 0; n < all.lines.size(); ++n) {
+    for (Span& span : spans_of(all.lines[n], stops[n], all.kinds[n])) spans.push_back(std::move(span));
   }
   make_t_junctions(spans, input.streets.tensor.t_junctions, rng.at("arms"));
   Route route;
@@ -297,13 +334,15 @@ Route trace_majors(const GrowthInput& input, const TensorField& field, Job& job)
     if (input.density.at(in_metres(span.points.front())) < least_density ||
         input.density.at(in_metres(middle)) < least_density)
       continue;
-    const Route built = route_of(input.region, span.points, major, input.streets.bridge_length * 100);
+    const Route built = route_of(input.region, span.points, span.kind, input.streets.bridge_length * 100);
     const bool is_blocked =
         std::any_of(built.pieces.begin(), built.pieces.end(), [&](const StreetPiece& piece) {
           return input.is_blocked(in_cm(piece.a), in_cm(piece.b), input.limit_of(piece.kind)) ||
                  !input.keeps_off_given(piece);
         });
-    if (is_blocked) continue;
+    if (is_blocked || meets_bridges(built, route.bridges) ||
+        (input.given && meets_bridges(built, input.given->bridges)))
+      continue;
     route.pieces.insert(route.pieces.end(), built.pieces.begin(), built.pieces.end());
     route.bridges.insert(route.bridges.end(), built.bridges.begin(), built.bridges.end());
   }

@@ -21,6 +21,9 @@ namespace {
 constexpr auto border_tag = static_cast<std::uint32_t>(EdgeClass::border);
 constexpr auto shore_tag = static_cast<std::uint32_t>(EdgeClass::shore);
 constexpr double least_street = 320;  // cm
+// Separate networks of at least this share of the longest one stay until links between them have been tried.
+constexpr double share_of_a_network = 0.05;
+constexpr double largest_alone = 2;
 
 /// The graph of the outlines of land and water and of streets. Given streets come first, so that others bend to them.
 PlanarGraph graph_of(const Region& region, const Route& route, Job& job) {
@@ -50,7 +53,7 @@ Majors majors_of(const GrowthInput& input, const Route& route, Job& job) {
   pruned.drop_short(least_street);
   pruned.drop_sharp(math::cos(math::radians(input.streets.minimal_angle)));
   pruned.drop_loose_majors();
-  pruned.keep_largest();
+  pruned.keep_large(share_of_a_network);
   pruned.drop_loose_majors();
   return {pruned.finished(), pruned.bridges()};
 }
@@ -117,18 +120,28 @@ void append(Route& route, const Route& more) {
   route.bridges.insert(route.bridges.end(), more.bridges.begin(), more.bridges.end());
 }
 
-StreetGraph finished_graph(const GrowthInput& input, const Route& route, Job& job) {
+/// `least_share`: of the longest network, for others to stay.
+StreetGraph finished_graph(const GrowthInput& input, const Route& route, double least_share, Job& job) {
   PrunedGraph pruned(graph_of(input.region, route, job), route.bridges);
   pruned.drop_short(least_street);
   pruned.drop_sharp(math::cos(math::radians(22.6)));
   pruned.join_short_given(least_street);
-  pruned.keep_largest();
+  pruned.keep_large(least_share);
   return pruned.finished();
 }
 
-}  // namespace
-
-namespace {
+/// Links separate networks by minor streets, and removes those that stay apart without a given street.
+StreetGraph connected(const GrowthInput& input, StreetGraph graph, std::vector<BridgeLine> bridges,
+                      Job& job) {
+  if (is_one_network(graph)) return graph;
+  Route whole = {pieces_of(graph), std::move(bridges), true};
+  const std::vector<StreetPiece> links = links_between_networks(input, graph, job);
+  whole.pieces.insert(whole.pieces.end(), links.begin(), links.end());
+  std::vector<CmPoint> ring_nodes = std::move(graph.ring_nodes);
+  graph = finished_graph(input, whole, largest_alone, job);
+  graph.ring_nodes = std::move(ring_nodes);
+  return graph;
+}
 
 StreetGraph grow_all(const GrowthInput& input, std::vector<CmPoint>& ring_nodes, Job& job) {
   const CityStreets& streets = input.streets;
@@ -159,17 +172,12 @@ StreetGraph grow_all(const GrowthInput& input, std::vector<CmPoint>& ring_nodes,
   }
   if (streets.pattern == CityPattern::raster && !input.given && !input.wards && !input.tensor &&
       (!streets.minor_pattern || *streets.minor_pattern == CityMinorPattern::raster))
-    return std::move(majors.graph);
+    return connected(input, std::move(majors.graph), std::move(majors.bridges), job);
   Route whole = {pieces_of(majors.graph), std::move(majors.bridges), true};
   const std::vector<StreetPiece> minors = grow_cells(input, majors.graph, job);
   whole.pieces.insert(whole.pieces.end(), minors.begin(), minors.end());
-  StreetGraph graph = finished_graph(input, whole, job);
-  if (!input.given) return graph;
-  const std::vector<StreetPiece> links = links_between_networks(input, graph, job);
-  if (links.empty()) return graph;
-  whole.pieces = pieces_of(graph);
-  whole.pieces.insert(whole.pieces.end(), links.begin(), links.end());
-  return finished_graph(input, whole, job);
+  StreetGraph graph = finished_graph(input, whole, share_of_a_network, job);
+  return connected(input, std::move(graph), std::move(whole.bridges), job);
 }
 
 }  // namespace
@@ -200,7 +208,7 @@ bool drop_deep_streets(const GrowthInput& input, const StreetHeights& heights, S
   if (!is_any_deep) return false;
   for (const Bridge& bridge : graph.bridges) kept.bridges.push_back({bridge.line, bridge.tag, bridge.level});
   std::vector<CmPoint> ring_nodes = std::move(graph.ring_nodes);
-  graph = finished_graph(input, kept, job);
+  graph = finished_graph(input, kept, largest_alone, job);
   graph.ring_nodes = std::move(ring_nodes);
   return true;
 }

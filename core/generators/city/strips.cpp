@@ -6,6 +6,7 @@
 #include <map>
 #include <optional>
 
+#include "core/base/math.h"
 #include "core/generators/city/division.h"
 #include "core/generators/city/shape.h"
 #include "core/geom/polygon/straight_skeleton.h"
@@ -85,9 +86,10 @@ class Strips {
     return true;
   }
 
-  /// Consecutive edges along streets that turn by less than 30 degrees belong together.
+  /// Consecutive edges along streets that turn by at most the angle `simplify` of the request belong together.
   std::vector<std::uint32_t> groups_of(const Piece& whole) const {
     const std::size_t count = whole.ring.size();
+    const double cos_most = math::cos(math::radians(division_.lots_.simplify));
     const auto joins = [&](std::size_t i) {  // edge i with the one before
       const std::size_t before = (i + count - 1) % count;
       if (division_.edges_[whole.edges[i]].street == no_index ||
@@ -95,7 +97,7 @@ class Strips {
         return false;
       const dvec2 u = in_cm(whole.ring[i]) - in_cm(whole.ring[before]),
                   v = in_cm(whole.ring[(i + 1) % count]) - in_cm(whole.ring[i]);
-      return glm::dot(u, v) > 0.866 * std::sqrt(glm::dot(u, u) * glm::dot(v, v));
+      return glm::dot(u, v) >= cos_most * std::sqrt(glm::dot(u, u) * glm::dot(v, v));
     };
     std::size_t first = 0;
     while (first < count && joins(first)) ++first;

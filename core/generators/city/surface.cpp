@@ -68,7 +68,8 @@ Surface::Surface(const CityPlan& plan, double wall_height, Job& job)
   for (const Part& part : plan.parts) {
     for (const CmRing& ring : part.rings) count += ring.size();
   }
-  part_of_edge_ = EdgeTable(count);
+  // Nearly all edges have a part on both sides.
+  part_of_edge_ = EdgeTable(count / 2 + count / 16);
   for (std::uint32_t n = 0; n < plan.parts.size(); ++n) {
     if (n % 1024 == 0) job.check();
     for (const CmRing& ring : plan.parts[n].rings) {

@@ -27,9 +27,9 @@ class Surface {
   /// Returns the height of a part at a position in metres on it.
   double height(std::uint32_t part, const glm::dvec2& metres) const;
 
-  /// The positions in metres strictly between two corners of a part, from `a` to `b`, at which its outline has further
-  /// vertices; the same for both parts that have the edge. Kerbs have those of the strips of their street; other edges
-  /// have some on a terrain only.
+  /// Appends the positions in metres strictly between two corners of a part, from `a` to `b`, at which its
+  /// outline has further vertices. Both parts that have the edge get the same positions. Kerbs have the vertices
+  /// of the strips of their street; other edges have further vertices only on a terrain.
   void points_between(const CmPoint& a, const CmPoint& b, std::vector<glm::dvec2>& points) const;
 
   /// Returns the tunnels; there are none on level ground.

@@ -38,7 +38,7 @@ class TensorField {
   /// Returns the share of an organic pattern at a position in centimetres; 0 without a blend.
   double organic_share_at(const glm::dvec2& cm) const;
 
-  /// R cos 2a and R sin 2a at a position in centimetres.
+  /// Returns R cos 2a and R sin 2a at a position in centimetres.
   glm::dvec2 tensor_at(const glm::dvec2& cm) const;
 
   /// Returns the major direction as a unit vector, of either sign; the minor one is its quarter turn. 0, 0 at
@@ -70,7 +70,7 @@ class TensorField {
 /// Returns the pattern where the map of patterns is 1.
 CityPattern second_pattern_of(const CityStreets& streets);
 
-/// Returns the major streets: streamlines of both directions about `major_spacing` apart (Jobard and Lefer, "Creating
+/// Returns the highways and the major streets: streamlines of both directions about `highway_spacing` and `major_spacing` apart (Jobard and Lefer, "Creating
 /// evenly spaced streamlines of arbitrary density", 1997), cut where they cross. At about the share `t_junctions` of the
 /// crossings one arm is removed. Random choices depend on positions only.
 Route trace_majors(const GrowthInput& input, const TensorField& field, Job& job);

@@ -85,20 +85,24 @@ std::vector<StreetPiece> longest_line(const GrowthInput& input) {
     if (density >= least_density) from.emplace_back(0 - density, p);
   }
   std::stable_sort(from.begin(), from.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  // Where several parts of the area are about as dense, the one with the longest street has the most space.
+  constexpr double as_dense = 0.6;
   for (const double least_sine : {least_border_sine, 0.4}) {
+    std::optional<std::array<CmPoint, 2>> best;
+    double longest = 0;
     for (const auto& [density, p] : from) {
-      std::optional<std::array<CmPoint, 2>> best;
+      if (best && density > from.front().first * as_dense) break;
       constexpr int directions = 12;
       for (int k = 0; k < directions; ++k) {
         const math::SinCos turn = math::sincos_degrees(input.streets.angle + 180.0 * k / directions);
         const auto ends = line_through(input.region, p, {turn.cos, turn.sin}, least_sine);
-        if (ends && is_too_steep(input, pieces_between(*ends))) continue;
-        if (ends && (!best || distance((*ends)[0], (*ends)[1]) > distance((*best)[0], (*best)[1])))
-          best = ends;
+        const double length = ends ? distance((*ends)[0], (*ends)[1]) : 0;
+        if (length <= longest || is_too_steep(input, pieces_between(*ends))) continue;
+        longest = length;
+        best = ends;
       }
-      if (!best) continue;
-      return pieces_between(*best);
     }
+    if (best) return pieces_between(*best);
   }
   return {};
 }

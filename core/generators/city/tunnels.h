@@ -25,7 +25,7 @@ struct TunnelStation {
   double height = 0;
 };
 
-/// From mouth to mouth.
+/// A tunnel from one mouth to the other.
 struct Tunnel {
   std::array<TunnelMouth, 2> mouths;
   std::vector<TunnelStation> stations;
@@ -45,7 +45,8 @@ class Tunnels {
   /// those that are not deep enough below a street.
   std::size_t left_out() const { return left_out_; }
 
-  /// Returns the least height of the ground at a position in metres; very low far from tunnels.
+  /// Returns the least height that the ground must have at a position in metres to cover the tunnels; a very low
+  /// value far from tunnels.
   double cover(const glm::dvec2& metres) const;
 
   /// Returns the height of the top of an opening at a position on its border; nothing elsewhere.
@@ -54,7 +55,7 @@ class Tunnels {
   /// Appends the corners of openings strictly between two points of a border.
   void append_corners(const CmPoint& a, const CmPoint& b, std::vector<glm::dvec2>& points) const;
 
-  /// Positions beside and above the tubes at which the ground needs vertices.
+  /// Returns the positions beside and above the tubes at which the ground needs vertices.
   const std::vector<glm::dvec2>& ground_points() const { return ground_points_; }
 
  private:

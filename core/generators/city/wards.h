@@ -26,7 +26,7 @@ struct WardPlan {
   std::vector<CmPoint> gates;  ///< nodes of the wall
 };
 
-/// What wards depend on besides their parameters.
+/// The data that wards depend on besides their parameters.
 struct WardGround {
   const Region& region;
   const FieldMap& density;

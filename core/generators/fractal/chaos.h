@@ -34,10 +34,10 @@ class StartPoints {
 /// Returns the first points of a request: on its element, or in the unit cube. Errors: those of the element's model.
 Result<StartPoints> start_of(const FractalParams& params, const GenerateContext& context);
 
-/// Returns `count` points. A chain begins at a point of `start`, and its first `drop` points are left out. Up to 65,536 points are one chain, in the order of the game. More are divided into chunks of
-/// that size with four alternating chains each, so that their maps are computed at the same time. Chunks and
-/// chains do not depend on the number of threads. About 7 ns for each point on one core. The maps must
-/// contract.
+/// Returns `count` points. A chain begins at a point of `start`, and its first `drop` points are left out. Up to
+/// 65,536 points are one chain, in the order of the game. More are divided into chunks of that size with four
+/// alternating chains each, so that their maps are computed at the same time. Chunks and chains do not depend on
+/// the number of threads. About 7 ns for each point on one core. The maps must contract.
 Cloud play(const Instructions& instructions, const StartPoints& start, std::uint64_t count,
            std::uint32_t drop, Job& job);
 

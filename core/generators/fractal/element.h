@@ -21,11 +21,11 @@ struct Element {
   std::uint64_t elements = 0;  ///< triangles, or lines
 };
 
-/// Solids are closed, counter-clockwise from outside, with flat normals except for the sphere. Spends the
-/// triangles. Errors: those of the model or the GLB, or that it has no extent.
+/// Makes the element of a request. Solids are closed, counter-clockwise from outside, with flat normals except
+/// for the sphere. Spends the triangles. Errors: those of the model or the GLB, or that it has no extent.
 Result<Element> element_of(const FractalParams& params, const GenerateContext& context);
 
-/// Is the element this named one? Is it a cube?
+/// Whether the element of a request is the named one, or a cube.
 bool is_named(const FractalParams& params, FractalElement name);
 bool is_cube(const FractalParams& params);
 

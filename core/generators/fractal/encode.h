@@ -10,9 +10,9 @@ struct FractalParams;
 
 namespace seedmesh::fractal {
 
-/// ply: the points of frcm, binary little-endian, each with 12 bytes of position and 3 bytes of colour
-/// (sRGB). png16: escape times in grey, 65535 for points that never leave. png8: the same in the colours of
-/// the palette. The parameters must have passed check_format().
+/// Returns a file in one of the formats. ply: the points of frcm, binary little-endian, each with 12 bytes of
+/// position and 3 bytes of colour (sRGB). png16: escape times in grey, 65535 for points that never leave. png8:
+/// the same in the colours of the palette. The parameters must have passed check_format().
 Result<Array<std::uint8_t>> encode(const FractalParams& params, const WantedFormat& format,
                                    const GenerateContext& context);
 

@@ -9,10 +9,8 @@
 ///                                 -> copies of the element: one mesh, many nodes
 ///                                 -> chaos game -> points, elements or voxels
 ///          -> escape times -> plate
-///
-/// Result: the centre of the unit element is at the origin, +Y is up, an edge has `size` metres. There is a
-/// node for
-///         each stage. asset.extras has `non_manifold_edges`, the number of edges at which four faces meet.
+/// Result: the centre of the unit element is at the origin, +Y is up, an edge has `size` metres. There is a node
+/// for each stage. asset.extras has `non_manifold_edges`, the number of edges at which four faces meet.
 ///
 /// Errors: /instructions/... for maps that enlarge (mrcm), do not contract (frcm) or leave nothing;
 ///         /text; /element; /iterations for what would exceed a limit, before any of it is made.

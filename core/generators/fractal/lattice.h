@@ -19,7 +19,7 @@ struct Lattice {
   glm::dvec3 fraction{0};  ///< translation of all cells by a part of a cell
   bool keeps = false;      ///< Instructions::keeps
 
-  bool inside() const;            ///< is every copy in the block, in a cell of its own?
+  bool inside() const;            ///< whether every copy is in the block, in a cell of its own
   double side(int rounds) const;  ///< cells along the edge of the unit element: parts^rounds
 };
 

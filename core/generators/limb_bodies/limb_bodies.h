@@ -14,7 +14,7 @@ struct LimbBody {
   float base = 0, end = 0;
 };
 
-/// Are limbs that begin below the ground left out, such as roots of trees?
+/// Whether limbs that begin below the ground, such as roots of trees, count or are left out.
 enum class BelowGround { counted, left_out };
 
 /// Returns the pieces of limbs with at least a third of the radius of the trunk, at most 32. Cost: linear.

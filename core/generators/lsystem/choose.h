@@ -43,12 +43,11 @@ inline double weight_of(const Grammar& grammar, const Production& production, co
 [[noreturn]] void refuse_weights(const Grammar& grammar, const Production& last, double total,
                                  const Job& job);
 
-/// Returns the one of `candidates` that rewrites a module, or null. `match(production)` returns
-/// the slots of the production, or null where its contexts do not match. The first matching production
-/// without a weight wins. Otherwise one random number chooses among all matching productions with weights; those without a context only
-/// count if none with a context matches, unless the order of the list decides. Stop:
-/// their sum is not 1, where it has to be.
-/// Cost: linear in `candidates`.
+/// Returns the one of `candidates` that rewrites a module, or null. `match(production)` returns the slots of the
+/// production, or null where its contexts do not match. The first matching production without a weight wins.
+/// Otherwise one random number chooses among all matching productions with weights; those without a context only
+/// count if none with a context matches, unless the order of the list decides. Throws Stop if the weights have to
+/// sum to 1 and do not. Cost: linear in `candidates`.
 template <class Match>
 const Production* choose(const Grammar& grammar, std::span<const Production> candidates, const Draws& draws,
                          Match&& match, const Job& job) {

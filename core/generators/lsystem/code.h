@@ -1,5 +1,6 @@
 #pragma once
-/// Runs the compiled statements of a successor: steps over the slots of one production.
+/// Interpreter for the compiled statements of a successor. They are steps that read and write the slots of one
+/// production.
 #include <array>
 #include <vector>
 
@@ -87,7 +88,7 @@ class CodeRunner {
       job_.refuse(limit_issue({Resource::modules, job_.limits().modules, turns_},
                               "the loops of the productions take more than " +
                                   std::to_string(job_.limits().modules) +
-                                  " turns, which is the limit of modules"));
+                                  " iterations, which is the limit of modules"));
     }
   }
 

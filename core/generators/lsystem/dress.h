@@ -15,12 +15,12 @@ struct SharedPart {
   std::vector<Transform> places;
 };
 
-/// `parts` become nodes with copies. They have limbs only.
+/// Makes the model of a skeleton. `parts`, which have limbs only, become nodes with copies.
 Model dress(Skeleton skeleton, const LsystemParams& params, const GenerateContext& context,
             std::span<SharedPart> parts = {});
 
-/// Returns the largest number of segments that can be drawn within limits.triangles. Coincident segments
-/// count each.
+/// Returns the largest number of segments that can be drawn within limits.triangles. Each of several coincident
+/// segments counts.
 std::uint64_t most_segments(const LsystemParams& params, const Limits& limits);
 
 /// Estimates the size of a model with welded bark. The skeleton already has its widths.

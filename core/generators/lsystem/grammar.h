@@ -137,14 +137,14 @@ struct Grammar {
   std::vector<Rules> tables;  ///< each with the `productions` appended, which apply in every step
   std::vector<std::uint32_t> table_of_turn;  ///< table by step, repeated; empty: there are no tables
   std::uint32_t decomposition_depth = 0;
-  std::vector<double> variables;  ///< what variables and elements of arrays are at the start; the first slots
-  Range start_each, end_each;     ///< steps that run before and after every derivation step
-  bool ring = false;              ///< true where the last module is the left neighbour of the first
-  bool backward = false;          ///< words are written from right to left, for new right contexts
-  bool statements = false;        ///< true where a production has statements
-  bool strict = false;            ///< true where a production has a predecessor of several modules
-  bool contexts_first = true;     ///< productions with a context come before those without
-  bool weights_sum_to_1 = false;  ///< another sum of the weights that match a module is an error
+  std::vector<double> variables;        ///< initial values of variables and array elements: the first slots
+  Range start_each, end_each;           ///< steps that run before and after every derivation step
+  bool ring = false;                    ///< true where the last module is the left neighbour of the first
+  bool backward = false;                ///< words are written from right to left, for new right contexts
+  bool statements = false;              ///< true where a production has statements
+  bool strict = false;                  ///< true where a production has a predecessor of several modules
+  bool contexts_first = true;           ///< productions with a context come before those without
+  bool weights_sum_to_1 = false;        ///< another sum of the weights that match a module is an error
   KindId open = 0, close = 0, cut = 0;  ///< kinds of [ ] %
   bool cuts = false;                    ///< true where % occurs
   std::uint32_t widest = 0;             ///< largest Kind::arity
@@ -168,9 +168,9 @@ struct Grammar {
 };
 
 /// Parses and checks all texts of the parameters. All errors go to `issues`, with pointers relative to the
-/// parameters ("/productions/2"), line and column; the grammar is valid only without them. `seed` feeds
-/// random functions in constants. `job` may be null; otherwise its deadline and cancellation are checked.
-/// Cost: linear in the text. The numbers of errors and warnings are bounded.
+/// parameters ("/productions/2"), line and column; the grammar is valid only without them. Random functions in
+/// constants draw from `seed`. `job` may be null; otherwise its deadline and cancellation are checked. Cost:
+/// linear in the text. The numbers of errors and warnings are bounded.
 Grammar compile(const LsystemParams& params, std::uint64_t seed, const Limits& limits,
                 std::vector<Issue>& issues, const Job* job = nullptr);
 

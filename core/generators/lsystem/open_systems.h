@@ -1,9 +1,8 @@
 #pragma once
-/// Open L-systems: several plants grow step by step in one environment. Between two steps every plant is
-/// drawn and pruned where growth is not allowed. Query modules (?P ?H ?L ?U ?E) get their answers as
-/// parameters, so a production reads an answer one step later, as in cpfg. Interpretation rules do not query.
-/// Source: Měch and Prusinkiewicz, "Visual Models of Plants Interacting with Their Environment", SIGGRAPH
-/// 1996.
+/// Open L-systems: several plants grow step by step in one environment. Between two steps every plant is drawn
+/// and pruned where growth is not allowed. Query modules (?P ?H ?L ?U ?E) get their results as parameters, so a
+/// production reads a result one step later, as in cpfg. Interpretation rules do not query. Source: Měch and
+/// Prusinkiewicz, "Visual Models of Plants Interacting with Their Environment", SIGGRAPH 1996.
 #include <memory>
 #include <vector>
 

@@ -15,7 +15,7 @@ namespace seedmesh::lsystem {
 bool has_shared_parts(const Grammar& grammar, const LsystemParams& params, std::uint32_t steps,
                       const GenerateContext& context);
 
-/// Warns of `share: always`, if the model is made as a whole.
+/// Adds a warning if the request has `share: always` but the model is made as a whole.
 void warn_of_whole(const LsystemParams& params, std::vector<Warning>& warnings);
 
 /// Returns the model with shared parts. Spends the modules, joints and triangles that are made, not those that are

@@ -9,21 +9,21 @@ constexpr std::size_t longest_name = 64;  ///< longest name of a local variable,
 /// Returns the end of the name at `at`, or `at` where no name starts. Of a name longer than `longest_name`,
 /// only longest_name + 1 bytes are read.
 std::size_t end_of_name(std::string_view text, std::size_t at, std::size_t to);
-/// Same, without the limit of length.
+/// The same without the limit of length.
 std::size_t end_of_whole_name(std::string_view text, std::size_t at, std::size_t to);
 /// Returns the position of the parenthesis that follows `word` at `at`, or `to`.
 std::size_t open_after(std::string_view text, std::string_view word, std::size_t at, std::size_t to);
 
-/// Queries over one text. Both arguments must outlive it. Cost of a query: linear in the distance to its
-/// answer.
+/// Queries over one text. Both arguments must outlive the object. Cost of a query: linear in the distance to its
+/// result.
 class Statements {
  public:
   Statements(std::string_view text, const Marks& marks) : text_(text), marks_(marks) {}
   /// Returns the parenthesis of a `for` at `at`; `to`: there is none.
   std::size_t loop_at(std::size_t at, std::size_t to) const;
-  /// That of an `if` with a block or a comparison.
+  /// Returns the parenthesis of an `if` at `at` that has a block or a comparison; `to`: there is none.
   std::size_t condition_at(std::size_t at, std::size_t to) const;
-  /// A `let`, a name and its `=`.
+  /// Whether a `let`, a name and its `=` are at `at`.
   bool is_let(std::size_t at, std::size_t to) const;
   /// True where one of = += -= *= /= ++ -- is at `at`, and not ==.
   bool changes(std::size_t at, std::size_t to) const;

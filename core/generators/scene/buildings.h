@@ -29,14 +29,14 @@ void check_outlines(const SceneParams& params, const Job& job, std::vector<Issue
 Plan plan_of_rings(const std::vector<std::vector<std::array<double, 2>>>& rings);
 
 /// Adds the areas and the buildings below the first node. A building is one closed mesh about the middle of its
-/// footprint; its node stands on the lowest ground below its outer ring. Spends triangles; an exceeded limit points
-/// to the building. Warnings: roofs that had to be of another shape or lower than they were asked to be.
+/// footprint; its node stands on the lowest ground below its outer ring. Spends triangles; an exceeded limit
+/// points to the building. Adds warnings about roofs that have another shape or a smaller height than requested.
 void add_outlines(Model& model, const SceneParams& params, const Ground& ground, Job& job);
 
 /// Returns the rectangle around each building, which later layers keep away from.
 Array<Footprint> footprints_of_buildings(const SceneParams& params, const Job& job);
 
-/// About how many triangles the areas and buildings have.
+/// Returns about how many triangles the areas and buildings have.
 std::uint64_t expected_triangles(const SceneParams& params);
 
 }  // namespace seedmesh::scene

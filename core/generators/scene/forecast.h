@@ -41,13 +41,14 @@ class Forecast {
   /// expected to cost at least a fixed share of it, scaled by their estimates.
   void record(std::size_t variant, const Amounts& spent);
 
-  /// Throws Stop if the spent and the expected cost together exceed a limit. Its pointer is that of the variant at
-  /// which the sum passes the limit, or "/terrain" for the ground. Not to be
-  /// called while models are generated.
+  /// Throws Stop if the spent and the expected cost together exceed a limit. Its pointer is that of the variant
+  /// at which the sum passes the limit, or "/terrain" for the ground. Must not be called while models are
+  /// generated.
   void refuse(const Job& job) const;
 
   /// The same when one part of the variants is finished: it has cost what the job has spent beyond `before`, and
-  /// `parts` parts of about this cost follow. Does nothing where the variants of a layer differ in more than their seeds.
+  /// `parts` parts of about this cost follow. Does nothing where the variants of a layer differ in more than
+  /// their seeds.
   void refuse(const Job& job, const Amounts& before, std::size_t parts) const;
 
   /// Returns the pointer for a limit that is exceeded during generation: among layers without exact estimate,

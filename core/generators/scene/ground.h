@@ -46,8 +46,9 @@ class Ground {
   /// Returns how far around a foundation the ground becomes level with it, from the size of its grid squares.
   double level_margin() const;
 
-  /// Returns the ground, and the paths, areas and buildings on it, as a model with one root, and spends its triangles. A terrain has
-  /// levels of detail where they are requested. Warnings point into the parameters of the scene.
+  /// Returns the ground, and the paths, areas and buildings on it, as a model with one root, and spends its
+  /// triangles. A terrain has levels of detail where they are requested. Warnings point into the parameters of
+  /// the scene.
   Result<Model> model(const SceneParams& params, const GenerateContext& context) const;
 
  private:

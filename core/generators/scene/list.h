@@ -8,7 +8,7 @@
 
 namespace seedmesh::scene {
 
-/// Returns the JSON that derive() answers for a scene (scene.h describes it).
+/// Returns the result of derive() for a scene (scene.h describes it).
 Json placements_json(const SceneParams& params, const Ground& ground, const Planting& planting,
                      const VariantTable& variant_table, const Job& job);
 

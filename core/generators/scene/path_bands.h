@@ -13,9 +13,9 @@ namespace seedmesh::scene {
 
 class Ground;
 
-/// Adds a mesh below the first node for each visible path, slightly above the ground; of more than 256 paths, for each
-/// colour. `cell` is the cell size
-/// of the ground grid, 0 for level ground. Spends triangles; an exceeded limit points to the path.
+/// Adds a mesh below the first node for each visible path, slightly above the ground. If there are more than 256
+/// paths, adds one mesh for each colour instead. `cell` is the cell size of the ground grid, 0 for level ground.
+/// Spends triangles; an exceeded limit points to the path.
 void add_path_bands(Model& model, const std::vector<ScenePath>& paths, const Ground& ground, double cell,
                     Job& job);
 

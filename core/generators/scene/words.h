@@ -1,5 +1,5 @@
 #pragma once
-/// The words of the L-systems of a scene, for its answer of derive.
+/// The words of the L-systems of a scene, for the result of derive().
 #include "core/generators/api.h"
 #include "core/generators/scene/model_variants.h"
 #include "core/generators/scene/plant.h"
@@ -7,9 +7,10 @@
 
 namespace seedmesh::scene {
 
-/// Returns for each placed model that is an L-system, by its name, {string, truncated, length, branches, depth}: the
-/// last word, whether it is cut at 64 KiB, the number of its modules, the number of its branches ("["), and how deep
-/// brackets nest. The depth of a word that is cut is null. All words together are cut at 16 MiB. Errors: those of a model.
+/// Returns for each placed model that is an L-system, by its name, {string, truncated, length, branches, depth}:
+/// the last word, whether it is cut at 64 KiB, the number of its modules, the number of its branches ("["), and
+/// how deep brackets nest. The depth of a word that is cut is null. All words together are cut at 16 MiB. Errors:
+/// those of a model.
 Result<Json> words_of(const Planting& planting, const VariantTable& variant_table,
                       const GenerateContext& context);
 

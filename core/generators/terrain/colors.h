@@ -18,7 +18,7 @@ struct Site {
   float height = 0;  ///< metres
   float slope = 0;   ///< rise over run
   float hollow = 0;  ///< depth below the surroundings, as rise over run; negative on ridges
-  float patch = 0;   ///< slow noise, about -1 to 1, that breaks up straight borders
+  float patch = 0;   ///< noise of low frequency, about -1 to 1, that makes borders irregular
 };
 
 /// Colours of one palette for one range of heights.

@@ -9,9 +9,9 @@
 
 namespace seedmesh::terrain {
 
-/// One expression with its noise calls, compiled. The noise functions are noise(x, y) or noise(x, y, z), and fbm, ridged
-/// and billow, whose last argument is a constant number of octaves. Calls with the same arguments have the same value
-/// everywhere in one layer.
+/// One expression with its noise calls, compiled. The noise functions are noise(x, y) or noise(x, y, z), and fbm,
+/// ridged and billow, whose last argument is a constant number of octaves. Calls with the same arguments have the
+/// same value everywhere in one layer.
 class HeightExpression {
  public:
   /// Parses `text`, which may use `names`. All their slots must be less than `slots`. Adds the errors of the text.

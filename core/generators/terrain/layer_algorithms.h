@@ -26,7 +26,7 @@ struct LayerSource {
 /// which continue in all directions, so that any window can be made.
 Field layer_field(const TerrainParams& params, const TerrainLayer& layer, const Window& window,
                   const LayerSource& source, const Job& job);
-/// Writes those of a sphere.
+/// Writes the heights of a layer to the points of a sphere.
 void layer_sphere(const TerrainParams& params, const TerrainLayer& layer, Planet& planet, Rng rng,
                   const Job& job);
 

@@ -196,36 +196,47 @@ void fill_sphere(const Ground& ground, const Block& block, const HeightExpressio
   }
 }
 
+/// An expression and where the request has it.
+struct PlacedText {
+  const HeightExpression& expression;
+  std::string_view text;
+  std::string pointer;
+};
+
+/// Refuses the request if a value is not finite. The position is that of the text: samples do not know its operators.
+void refuse_invalid(const Ground& ground, const PlacedText& placed, std::span<const double> values) {
+  const auto found = std::ranges::find_if(values, [](double value) { return !(std::abs(value) <= highest); });
+  if (found == values.end()) return;
+  ground.job.refuse(issue_at(IssueKind::evaluation, placed.pointer, placed.text, 0,
+                             "gives a value that is not finite, or beyond 10,000,000, at some samples"));
+}
+
 /// Calls use(first sample, number, values) for each block of samples.
 template <class Use>
-void each_block(const Ground& ground, const HeightExpression& expression, const std::string& pointer,
-                const Use& use) {
+void each_block(const Ground& ground, const PlacedText& placed, const Use& use) {
+  const HeightExpression& expression = placed.expression;
   const bool draws = expression.draws(), has_slope = ground.slope != nullptr && expression.uses("slope");
-  parallel_for(
-      ground.job, ground.blocks(), blocks_a_chunk, [&](std::size_t begin, std::size_t end, std::size_t) {
-        Rows rows(ground.params.layers.size());
-        HeightRows evaluator(expression, ground.rng.at("noise"));
-        for (std::size_t index = begin; index < end; ++index) {
-          ground.job.check();
-          const Block block = block_of(ground, index);
-          ground.window != nullptr ? fill_plane(ground, block, draws, rows)
-                                   : fill_sphere(ground, block, expression, rows);
-          if (ground.height != nullptr)
-            rows.take(slot_height, ground.height->data() + block.first, block.count);
-          if (has_slope) rows.take(slot_slope, ground.slope->data() + block.first, block.count);
-          for (std::size_t i = 0; ground.layers != nullptr && i < ground.layers->size(); ++i) {
-            const Array<float>& layer = (*ground.layers)[i];
-            if (!layer.empty()) rows.take(slot_layers + i, layer.data() + block.first, block.count);
-          }
-          const double* const values = rows.run(evaluator, block.count);
-          const auto is_invalid = [](double value) { return !(std::abs(value) <= highest); };
-          if (std::any_of(values, values + block.count, is_invalid)) {
-            ground.job.refuse({IssueKind::evaluation, pointer,
-                               "gives a value that is not finite, or beyond 10,000,000, at some samples"});
-          }
-          use(block.first, block.count, values);
-        }
-      });
+  parallel_for(ground.job, ground.blocks(), blocks_a_chunk,
+               [&](std::size_t begin, std::size_t end, std::size_t) {
+                 Rows rows(ground.params.layers.size());
+                 HeightRows evaluator(expression, ground.rng.at("noise"));
+                 for (std::size_t index = begin; index < end; ++index) {
+                   ground.job.check();
+                   const Block block = block_of(ground, index);
+                   ground.window != nullptr ? fill_plane(ground, block, draws, rows)
+                                            : fill_sphere(ground, block, expression, rows);
+                   if (ground.height != nullptr)
+                     rows.take(slot_height, ground.height->data() + block.first, block.count);
+                   if (has_slope) rows.take(slot_slope, ground.slope->data() + block.first, block.count);
+                   for (std::size_t i = 0; ground.layers != nullptr && i < ground.layers->size(); ++i) {
+                     const Array<float>& layer = (*ground.layers)[i];
+                     if (!layer.empty()) rows.take(slot_layers + i, layer.data() + block.first, block.count);
+                   }
+                   const double* const values = rows.run(evaluator, block.count);
+                   refuse_invalid(ground, placed, {values, block.count});
+                   use(block.first, block.count, values);
+                 }
+               });
 }
 
 /// Slopes in degrees by the differences to the neighbours; at the border to the only one.
@@ -292,7 +303,7 @@ void combine_layers(Ground ground, Array<float>& height, const Make& make) {
     Array<float> own;
     if (text) {
       own = Array<float>(ground.job, height.size());
-      each_block(ground, *text, pointer_of(i, "expression"),
+      each_block(ground, {*text, *layer.expression, pointer_of(i, "expression")},
                  [&](std::size_t first, std::size_t count, const double* values) {
                    for (std::size_t k = 0; k < count; ++k) own[first + k] = static_cast<float>(values[k]);
                  });
@@ -305,7 +316,7 @@ void combine_layers(Ground ground, Array<float>& height, const Make& make) {
       height[k] = static_cast<float>(before + (after - before) * share);
     };
     if (mask) {
-      each_block(ground, *mask, pointer_of(i, "mask"),
+      each_block(ground, {*mask, *layer.mask, pointer_of(i, "mask")},
                  [&](std::size_t first, std::size_t count, const double* values) {
                    for (std::size_t k = 0; k < count; ++k) blend(first + k, std::clamp(values[k], 0.0, 1.0));
                  });
@@ -347,9 +358,11 @@ Field expressed_field(const TerrainParams& params, const Window& window, double 
   Field field(job, window.width, window.depth, 0);
   const auto text = checked(params, *params.expression, 0, false);
   const Ground ground{params, job, rng, &window, cell};
-  each_block(ground, *text, "/expression", [&](std::size_t first, std::size_t count, const double* values) {
-    for (std::size_t k = 0; k < count; ++k) field.heights[first + k] = static_cast<float>(values[k]);
-  });
+  each_block(ground, {*text, *params.expression, "/expression"},
+             [&](std::size_t first, std::size_t count, const double* values) {
+               for (std::size_t k = 0; k < count; ++k)
+                 field.heights[first + k] = static_cast<float>(values[k]);
+             });
   return field;
 }
 
@@ -365,9 +378,11 @@ void express_sphere(const TerrainParams& params, Planet& planet, Rng rng, const 
   const auto text = checked(params, *params.expression, 0, false);
   Ground ground{params, job, rng};
   ground.planet = &planet;
-  each_block(ground, *text, "/expression", [&](std::size_t first, std::size_t count, const double* values) {
-    for (std::size_t k = 0; k < count; ++k) planet.height[first + k] = static_cast<float>(values[k]);
-  });
+  each_block(ground, {*text, *params.expression, "/expression"},
+             [&](std::size_t first, std::size_t count, const double* values) {
+               for (std::size_t k = 0; k < count; ++k)
+                 planet.height[first + k] = static_cast<float>(values[k]);
+             });
 }
 
 void add_layers(const TerrainParams& params, Planet& planet, Rng rng, const Job& job) {

@@ -16,9 +16,9 @@ namespace seedmesh::terrain {
 /// Returns the errors of `expression` and `layers`, with line and column in their texts.
 std::vector<Issue> layer_errors(const TerrainParams& params);
 
-/// Returns the heights of `expression` at the samples of a window, which are `cell` metres apart. Throws Stop: a value that is not
-/// finite, or above 10,000 km. Cost: about 6 ns a sample for ten arithmetic operations, and 27 ns for each octave of
-/// noise.
+/// Returns the heights of `expression` at the samples of a window, which are `cell` metres apart. Throws Stop: a
+/// value that is not finite, or above 10,000 km. Cost: about 6 ns a sample for ten arithmetic operations, and 27
+/// ns for each octave of noise.
 Field expressed_field(const TerrainParams& params, const Window& window, double cell, Rng rng,
                       const Job& job);
 

@@ -311,8 +311,9 @@ std::vector<Issue> format_errors(const TerrainParams& params, const WantedFormat
   };
   const TerrainHeightmap& given = params.heightmap;
   if (params.shape != TerrainShape::plane)
-    fault(IssueKind::not_available, "/shape",
-          "a " + std::string(text_of(params.shape)) + " has no height map; its forms are glb, gltf and zip");
+    fault(
+        IssueKind::not_available, "/shape",
+        "a " + std::string(text_of(params.shape)) + " has no height map; its formats are glb, gltf and zip");
   if (is_picture(given.map) && form.format != "png8")
     fault(IssueKind::conflict, "/heightmap/map",
           std::string(text_of(given.map)) + " is a picture in colours, which the format png8 holds; found " +
@@ -325,7 +326,8 @@ std::vector<Issue> format_errors(const TerrainParams& params, const WantedFormat
     fault(IssueKind::conflict, "/heightmap/map", "there is no water; give a water_level");
   if (params.tile && given.map == TerrainMap::height && (!given.low || !given.high))
     fault(IssueKind::missing, "/heightmap",
-          "low and high are missing: tiles of one world need the same, or their heights would not meet");
+          "low and high are missing: tiles of one world need the same values, or their heights would differ "
+          "at the borders");
   if (form.profile != "core") engine_faults(params, form, faults);
   return faults;
 }

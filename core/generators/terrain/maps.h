@@ -26,7 +26,7 @@ struct Numbers {
 };
 Array<std::uint8_t> encoded(const Numbers& numbers, Encoding encoding, const Job& job);
 
-/// Images of `side` by `side` pixels over the whole field; margin 0 or more.
+/// The functions below return images of `side` by `side` pixels over the whole field; its margin may be 0 or more.
 texture::Picture color_picture(const Field& field, const Sites& sites, const GroundColors& ground_colors,
                                std::int32_t side, const Job& job);
 /// Normals in the tangent space of horizontal ground: red east, green north, blue up (glTF 2.0, OpenGL

@@ -14,7 +14,7 @@ namespace seedmesh::terrain {
 Material ground_material(const TerrainParams& params);
 Material water_material();
 
-/// Indices of the added parts.
+/// Add a part to the model and return its index.
 int add_material(Model& model, Material material);
 int add_mesh(Model& model, std::string name, Mesh mesh, int material);
 /// Adds a node below the root, which is node 0.

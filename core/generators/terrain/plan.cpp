@@ -343,6 +343,23 @@ Result<Field> field_of(const TerrainParams& params, Job& job) {
   return params.resample ? resampled(field, *params.resample, job) : std::move(field);
 }
 
+void try_expressions(const TerrainParams& params, Job& job) {
+  constexpr std::int64_t most_samples = 2'100'000;
+  const bool has_texts = params.algorithm == Algorithm::expression ||
+                         std::ranges::any_of(params.layers, [](const TerrainLayer& layer) {
+                           return layer.expression.has_value() || layer.mask.has_value();
+                         });
+  const std::int64_t side = made_side(params), faces = is_sphere(params) ? 6 : 1;
+  if (!has_texts || params.algorithm == Algorithm::image || side * side * faces > most_samples) return;
+  if (is_sphere(params)) {
+    planet_of(params, 0, job);
+    return;
+  }
+  const Window window = window_of(params);
+  raw_field(params, window, params.size / static_cast<double>(window.width - 1), job.rng().at("terrain"),
+            job);
+}
+
 std::int32_t planet_side(const TerrainParams& params, int level) {
   return std::max(1, (made_side(params) - 1) >> level) + 1;
 }

@@ -53,11 +53,15 @@ std::vector<Issue> errors_between(const TerrainParams& params, const Limits& lim
 /// Generates the heights of the algorithm at the samples of a window, without layers and filters. Not for images.
 Field algorithm_field(const TerrainParams& params, const Window& window, double cell, Rng rng,
                       const Job& job);
-/// Writes those of a sphere.
+/// Writes the heights of the algorithm to the points of a sphere.
 void algorithm_sphere(const TerrainParams& params, Planet& planet, Rng rng, const Job& job);
 
 /// Generates the field with all filters; margin 1 for a tile, else 0. Issues: an unreadable image.
 Result<Field> field_of(const TerrainParams& params, Job& job);
+
+/// Evaluates the expressions at the samples of the field, as far as it has no more than 2,100,000, and throws Stop as
+/// field_of does where a value is not finite. Filters are not run.
+void try_expressions(const TerrainParams& params, Job& job);
 
 /// Returns the number of points along an edge of the cube of a planetoid at a level; level 0 has that of the
 /// request.

@@ -23,7 +23,8 @@ struct Planet {
 Planet sphere_of(std::int32_t side, double radius, const Job& job);
 
 /// Applies faults on the sphere, each a plane through the centre (Kogovšek 2014, section 5.2.1). Poisson faulting
-/// raises one half and lowers the other, so the mean stays 0. Fault formation raises one half. Cost: about 0.7 ns for each point and fault.
+/// raises one half and lowers the other, so the mean stays 0. Fault formation raises one half. Cost: about 0.7 ns
+/// for each point and fault.
 void fault_sphere(Planet& planet, const FaultPlan& plan, Rng rng, const Job& job);
 
 /// Applies noise at the points of the sphere. Cost: about 20 ns for each point and octave.

@@ -16,9 +16,10 @@ namespace seedmesh::terrain {
 /// The longest profile of fractional Brownian motion, because its cost is the square of the number of samples.
 constexpr int longest_brownian = 4097;
 
-/// `count` heights, of which the first is 0. The last has the standard deviation `amplitude`. The process is exact:
-/// each step is drawn from its distribution given all steps before it (Hosking, "Modeling persistence in hydrological
-/// time series using fractional differencing", 1984). 0 < hurst < 1. About 1 ns for each pair of samples.
+/// Returns `count` heights, of which the first is 0. The last has the standard deviation `amplitude`. The process
+/// is exact: each step is drawn from its distribution given all steps before it (Hosking, "Modeling persistence
+/// in hydrological time series using fractional differencing", 1984). 0 < hurst < 1. About 1 ns for each pair of
+/// samples.
 Array<float> brownian_heights(int count, double hurst, double amplitude, Rng rng, const Job& job);
 
 /// Returns the heights of the request. Its shape is profile.

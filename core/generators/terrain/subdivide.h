@@ -33,10 +33,11 @@ struct SquareSubdivision {
   std::optional<std::array<double, 4>> corners = {};
 };
 
+/// Whether the world ends at the border of tile (0, 0) or continues in all directions.
+enum class World { bounded, unbounded };
 /// Returns the field of `window`. Tile (0, 0) of the world has samples 0 .. 2^rounds in both directions. A
 /// bounded world is this tile alone, and `window` must cover it. An unbounded world continues in all
 /// directions with the rule two_neighbours and random corners. Cost: about 3 ns for each sample.
-enum class World { bounded, unbounded };
 Field subdivide(const SquareSubdivision& plan, World world, const Window& window, Rng rng, const Job& job);
 
 struct NestedSubdivision {

@@ -35,14 +35,15 @@ using ColorOf = std::function<glm::u8vec4(std::uint32_t sample)>;
 /// Returns a reduced mesh. Releases `color_of` after the last colour. Cost: about 50 ns for each triangle.
 Mesh reduced_mesh(const Field& field, Triangulation plan, ColorOf color_of, const Coarse& coarse, Job& job);
 
-/// Returns walls below the border that face outwards. `samples` are the border samples of the mesh, in any
-/// order. Walls reach `depth` below each sample, or down to the level `floor` with a floor that closes the
-/// mesh.
+/// The lower ends of walls(). `closed`: with a floor at the level `floor`.
 struct WallPlan {
   double depth = 0;
   bool closed = false;
   float floor = 0;
 };
+/// Returns walls below the border that face outwards. `samples` are the border samples of the mesh, in any
+/// order. Walls reach `depth` below each sample, or down to the level `floor` with a floor that closes the
+/// mesh.
 Mesh walls(const Field& field, const Array<std::uint32_t>& samples, const WallPlan& plan, Job& job);
 
 /// Returns all samples of the border.

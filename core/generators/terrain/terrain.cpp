@@ -212,6 +212,7 @@ Result<Json> derive(const TerrainParams& params, const GenerateContext& context)
 Result<Appraisal> appraise(const TerrainParams& params, const GenerateContext& context) {
   Job& job = context.job;
   if (auto refused = refusal(params, job.limits())) return std::move(*refused);
+  if (params.shape != TerrainShape::profile) try_expressions(params, job);
   Appraisal appraisal;
   if (params.onto) {
     Result<Appraisal> child =

@@ -9,8 +9,8 @@ namespace seedmesh::tree {
 /// there takes about 0.1 s.
 constexpr std::size_t most_appraised = 300'000, leaves_a_joint = 5;
 
-/// The finest level: leaves are counted, bark is estimated, textures have their average size. `skeleton` is
-/// the one that generate() would pass to build_model().
+/// Estimates the finest level: leaves are counted, the bark is estimated, and textures have their average size.
+/// `skeleton` is the one that generate() would pass to build_model().
 Estimate estimate_of(Skeleton skeleton, const TreeParams& params, const GenerateContext& context);
 
 }  // namespace seedmesh::tree

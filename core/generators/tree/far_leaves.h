@@ -17,10 +17,10 @@ enum class LeafDetail {
   one_card,  ///< the same, for one of crossed cards
 };
 
-/// Has a leaf only one triangle for both sides of a card?
+/// Whether a leaf has only one triangle for both sides of a card.
 inline bool is_single(LeafDetail detail) { return detail >= LeafDetail::single; }
 
-/// Can leaves be built with less detail than `bent`? The texture has to be generated and wanted.
+/// Whether leaves can be built with less detail than `bent`: their texture has to be generated and wanted.
 bool has_far_leaves(const TreeParams& params, const GenerateContext& context);
 
 /// Returns the mesh of a leaf of length 1 at a level, with faces on one side.
@@ -38,8 +38,8 @@ Mesh outer_sides(const Mesh& mesh, const Mesh& leaf, const glm::vec3& middle, co
 /// `outer`: those of the level after outer_sides(). Cost: about 0.5 us a triangle.
 float gain_of(const Mesh& all, const Mesh& outer, const Job& job);
 
-/// The factor for the colours of leaves at a coarser level: without the shadows of the leaves and the twigs that are left
-/// out, the others are brighter. Measured with the presets.
+/// Returns the factor for the colours of leaves at a coarser level, of which the share `share` remains. It
+/// replaces the shadows of the leaves and twigs that are left out. Measured with the presets.
 float dimming(double share);
 
 }  // namespace seedmesh::tree

@@ -7,7 +7,7 @@
 
 namespace seedmesh::tree {
 
-/// What a plant grows in. Borrowed.
+/// The surroundings and parameters of a growing plant. Borrowed.
 struct GrownSite {
   const TreeGrown& grown;
   const RandomStreams& random;
@@ -16,7 +16,7 @@ struct GrownSite {
   Job& job;
 };
 
-/// Exposure of each bud to light, 0 .. 1: 1 - shade + the shade of its own internode.
+/// Sets the exposure of each bud to light, 0 .. 1: 1 - shade + the shade of its own internode.
 void sense_light(GrownPlant& plant, const GrownSite& site);
 
 /// Grows the shoot of each bud whose vigour is at least 1, and removes buds that die. Internodes of a shoot have the

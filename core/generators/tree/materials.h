@@ -11,29 +11,30 @@ namespace seedmesh::tree {
 /// Adds an error for each image that cannot be read.
 void check_images(const TreeParams& params, std::vector<Issue>& issues);
 
-/// Does the bark have a texture? It then repeats a whole number of times around each limb.
+/// Whether the bark has a texture, which then repeats a whole number of times around each limb.
 bool has_bark_texture(const TreeParams& params);
 
 /// The build of the leaves; `usual` is resolved (see the parameter leaf.build).
 TreeBuild build_of(const TreeParams& params);
 
-/// Do leaves have the texture of a twig?
+/// Whether leaves have the texture of a twig.
 bool shows_twig(const TreeParams& params);
 
-/// Are there leaves in this season?
+/// Whether there are leaves in the season of the request.
 bool has_leaves(const TreeParams& params);
 
-/// Do leaves have a generated texture?
+/// Whether leaves have a generated texture.
 bool has_leaf_texture(const TreeParams& params);
 
-/// Do leaves have faces on both sides with one outward normal (see the parameter leaf.faces)? Leaves that share
-/// a mesh have not, because their normals depend on their positions.
+/// Whether leaves have faces on both sides with one outward normal (see the parameter leaf.faces). Leaves that
+/// share a mesh have not, because such normals depend on the position of a leaf.
 bool has_outward_faces(const TreeParams& params, const Demand& demand);
 
 /// The linear colour of the leaves in the season of the request.
 glm::vec3 color_of_leaves(const TreeParams& params);
 
-/// Do leaves, or bark, have a normal map if textures are wanted? Outward faces have that of the request alone.
+/// Whether leaves, or bark, have a normal map if textures are wanted. With outward faces, only a normal map of
+/// the request is used.
 bool has_leaf_relief(const TreeParams& params, const Demand& demand);
 bool has_bark_relief(const TreeParams& params);
 

@@ -6,7 +6,8 @@
 
 namespace seedmesh::tree {
 
-/// Joint 0 is the foot at the origin with its flare. `trunk` is the radius of the trunk without flare.
+/// Writes the roots. Joint 0 is the foot at the origin with its flare. `trunk` is the radius of the trunk without
+/// flare.
 void grow_roots(const TreeRoots& roots, double trunk, const RandomStreams& random, SkeletonWriter& writer);
 
 }  // namespace seedmesh::tree

@@ -80,7 +80,7 @@ class SkeletonWriter {
     end_leaves_ = leaves;
   }
 
-  /// May the attempt be abandoned?
+  /// Whether end_after() was called, so that the attempt may be abandoned.
   bool may_abandon() const { return end_joints_ != ~std::size_t{0}; }
 
   /// Limbs that begin thinner, and everything that grows from them, need not be written, because no part of
@@ -138,7 +138,7 @@ class SkeletonWriter {
   }
   /// The leaves with a draw_number() below this are drawn.
   std::uint64_t drawn_below() const { return drawn_below_; }
-  /// Does the leaf with this key belong to those that are drawn?
+  /// Whether the leaf with this key belongs to those that are drawn.
   bool draws(std::uint64_t key) const { return draw_number(key) < drawn_below_; }
   /// Counts a leaf. False: it is not drawn, and must not be added.
   bool wants_leaf(std::uint64_t key) {

@@ -320,7 +320,7 @@ void grow(WeberPennGrowth& growth, WeberPennStem& stem) {
     // Below a half, the error that is carried splits nothing by itself.
     const bool may_split = level.seg_splits > 0 || stem.level == 0;
     if (may_split && segment + 1 < level.curve_res)
-      split(tree, stem, frame, at, segment, walk.last_joint, growth.clones);
+      split(tree, stem, frame, {at, segment, walk.last_joint}, growth.clones);
   }
   if (is_last(tree, stem) && tree.params.Leaves < 0) add_fan(growth, walk, frame, at);
   growth.waiting.insert(growth.waiting.begin() + static_cast<std::ptrdiff_t>(walk.first_child),

@@ -39,8 +39,8 @@ double flared(double flare, double z);
 /// Returns the factor of Flare and trunk_flare together: at the ground the product of both.
 double flared_trunk(const TreeParams& params, double z);
 
-/// Is the point at the distance `aside` from the axis, and at `height` above the ground, within the envelope
-/// of a tree of height `scale`?
+/// Whether the point at the distance `aside` from the axis, and at `height` above the ground, is within the
+/// envelope of a tree of height `scale`.
 bool is_in_envelope(const TreeParams& params, double scale, double aside, double height);
 
 /// Returns the inverse cosine within 1e-7, for -1 .. 1. After M. Abramowitz and I. Stegun, Handbook of Mathematical

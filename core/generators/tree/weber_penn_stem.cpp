@@ -222,7 +222,7 @@ int segment_outside(const WeberPennTree& tree, WeberPennStem stem, int& steps) {
     if (!is_in_envelope(tree.params, tree.scale, std::sqrt(at.x * at.x + at.z * at.z), at.y)) return segment;
     if (!(level.seg_splits > 0) || segment + 1 >= level.curve_res) continue;
     clones.clear();
-    split(tree, stem, frame, at, segment, Limbs::none, clones);
+    split(tree, stem, frame, {at, segment}, clones);
     for (std::size_t i = clones.size(); i-- > 0;) {
       const int outside = segment_outside(tree, clones[i], steps);
       if (outside >= 0) return outside;
@@ -308,16 +308,16 @@ std::vector<double> share_among_clones(const WeberPennTree& tree, WeberPennStem&
 
 }  // namespace
 
-void split(const WeberPennTree& tree, WeberPennStem& stem, Frame& frame, const glm::dvec3& position,
-           int segment, std::uint32_t joint, std::vector<WeberPennStem>& clones) {
+void split(const WeberPennTree& tree, WeberPennStem& stem, Frame& frame, const SegmentEnd& end,
+           std::vector<WeberPennStem>& clones) {
   const WeberPennLevel& level = tree.level(stem.level);
-  const bool at_base = stem.level == 0 && segment == 0 && tree.params.base_splits > 0;
+  const bool at_base = stem.level == 0 && end.segment == 0 && tree.params.base_splits > 0;
   const int count = at_base ? tree.params.base_splits : count_clones(level, stem);
   if (count == 0) return;
-  const Rng rng = stem.rng.at("split").at(static_cast<std::uint64_t>(segment));
-  const int segments_left = std::max(1, level.curve_res - segment - 1);
+  const Rng rng = stem.rng.at("split").at(static_cast<std::uint64_t>(end.segment));
+  const int segments_left = std::max(1, level.curve_res - end.segment - 1);
   const double declination = declination_of(frame);
-  const std::vector<double> carried = share_among_clones(tree, stem, count, segment, at_base);
+  const std::vector<double> carried = share_among_clones(tree, stem, count, end.segment, at_base);
   // The frame of one of the stems of a split, and its turn back in each later segment. Number 0 is the stem.
   const auto turned = [&](int number) {
     const Rng own = rng.at(static_cast<std::uint64_t>(number));
@@ -336,9 +336,9 @@ void split(const WeberPennTree& tree, WeberPennStem& stem, Frame& frame, const g
     WeberPennStem& clone = clones.emplace_back(stem);
     const auto [own_frame, uncurve] = turned(number);
     clone.frame = own_frame;
-    clone.position = position;
-    clone.joint = joint;
-    clone.segment = segment + 1;
+    clone.position = end.position;
+    clone.joint = end.joint;
+    clone.segment = end.segment + 1;
     clone.uncurve = stem.uncurve + uncurve;
     clone.rng = rng.at("clone").at(static_cast<std::uint64_t>(number));
     clone.carried_children = clone.rng.at("phase").unit();

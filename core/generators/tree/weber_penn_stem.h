@@ -92,8 +92,8 @@ double child_radius(const WeberPennTree& tree, const WeberPennStem& stem, double
 /// is left. `frames` is memory that calls reuse.
 bool prune(const WeberPennTree& tree, WeberPennStem& stem, std::vector<Frame>& frames);
 
-/// Whether a child of this length and radius is not made: in Arbaro, one of half a millimetre or less, or a tenth of that
-/// thick.
+/// Whether a child of this length and radius is not made: in Arbaro, one of half a millimetre or less, or a tenth
+/// of that thick.
 bool is_too_small(const WeberPennTree& tree, const WeberPennStem& stem);
 
 /// Returns the rounding error of the number of splits after the segments from `segment` on and after the clones that
@@ -105,9 +105,16 @@ double carried_behind(const WeberPennLevel& level, double carried, int segment);
 /// Returns the rounding error of splits before the first child of a stem or of a clone.
 double carried_before_children(const WeberPennTree& tree, const WeberPennStem& stem);
 
-/// Divides a stem at the end of `segment`, which is at `position`: appends its clones, which grow from
-/// `joint`, to `clones`, and turns the frame of the stem itself. Does nothing where it does not split.
-void split(const WeberPennTree& tree, WeberPennStem& stem, Frame& frame, const glm::dvec3& position,
-           int segment, std::uint32_t joint, std::vector<WeberPennStem>& clones);
+/// The end of a segment of a stem.
+struct SegmentEnd {
+  glm::dvec3 position{0};
+  int segment = 0;
+  std::uint32_t joint = Limbs::none;  ///< from which clones grow
+};
+
+/// Divides a stem at the end of a segment: appends its clones to `clones`, and turns the frame of the stem itself. Does
+/// nothing where it does not split.
+void split(const WeberPennTree& tree, WeberPennStem& stem, Frame& frame, const SegmentEnd& end,
+           std::vector<WeberPennStem>& clones);
 
 }  // namespace seedmesh::tree

@@ -3,7 +3,9 @@
 #include <cmath>
 
 #include "core/base/math.h"
+#include "core/generators/world/height_grid.h"
 #include "core/generators/world/houses.h"
+#include "core/generators/world/land_rows.h"
 #include "core/generators/world/lanes.h"
 #include "core/generators/world/plants.h"
 #include "core/generators/world/tile_frame.h"
@@ -14,7 +16,8 @@ namespace {
 constexpr double highest_lift = 2.5;           ///< metres that rivers lie above their water
 constexpr double widest_measured_works = 512;  ///< metres; wider tiles allow for roads without knowing them
 constexpr double widest_known_rivers = 8192;
-constexpr double works_reach = 56;  ///< metres from a road to untouched ground
+constexpr double works_reach = 56;     ///< metres from a road to untouched ground
+constexpr double plant_spacing = 400;  ///< metres
 
 /// Finds the areas of the links of a block.
 class AreaFinder {
@@ -28,18 +31,25 @@ class AreaFinder {
       tallest_class_ = std::max(tallest_class_, plant.height);
     areas_.resize(static_cast<std::size_t>(count_) * static_cast<std::size_t>(count_));
     const auto samples = static_cast<std::size_t>(count_ * cells_ + 1);
-    heights_.resize(samples * samples);
+    grid_ = {count_ * cells_ + 1, spacing_, frame_.west, frame_.south,
+             std::vector<double>(samples * samples)};
     if (spacing_ >= coarse_spacing) ruggedness_.resize(samples * samples);
+    plant_stride_ = std::clamp(static_cast<int>(plant_spacing / spacing_), 1, cells_);
   }
 
   Areas areas() {
-    add_samples();
-    if (spacing_ < coarse_spacing) add_deviations();
+    if (spacing_ < coarse_spacing) {
+      add_samples();
+      add_deviations();
+    } else {
+      add_land();
+    }
     if (side_ <= widest_known_rivers) {
       add_water();
     } else {
       guess_water();
     }
+    if (spacing_ == coarse_spacing && side_ <= widest_known_rivers) look_at_bends();
     const bool has_sites = world_.params.settlements.density > 0;
     if (has_sites && side_ <= widest_measured_works) {
       add_roads();
@@ -49,7 +59,8 @@ class AreaFinder {
     }
     const bool is_coarse = spacing_ >= coarse_spacing;
     Areas found{std::move(areas_), spacing_, {}, !is_coarse || side_ <= widest_known_rivers, !is_coarse};
-    for (int d = 0; (1 << d) < count_; ++d) found.deviations.push_back(deviations(d));
+    for (int d = 0; (1 << d) <= count_; ++d)
+      found.deviations.push_back(deviations_of_tiles(grid_, 1 << d, job_));
     return found;
   }
 
@@ -76,7 +87,7 @@ class AreaFinder {
 
   void add_samples() {
     const int last = count_ * cells_;
-    const bool is_coarse = spacing_ >= coarse_spacing, has_works = side_ <= widest_measured_works;
+    const bool has_works = side_ <= widest_measured_works;
     const int step = std::clamp(static_cast<int>(2048 / spacing_), 1, last + 1);
     for (int row = 0; row <= last; row += step) {
       job_.check();
@@ -84,102 +95,140 @@ class AreaFinder {
         const int last_row = std::min(row + step - 1, last), last_column = std::min(column + step - 1, last);
         const Rectangle part{frame_.west + column * spacing_, frame_.south + row * spacing_,
                              frame_.west + last_column * spacing_, frame_.south + last_row * spacing_};
-        const Ground ground = is_coarse   ? Ground(world_)
-                              : has_works ? Ground::with_roads(world_, part, job_)
-                                          : Ground(world_, part, job_);
+        const Ground ground = has_works ? Ground::with_roads(world_, part, job_) : Ground(world_, part, job_);
         for (int j = row; j <= last_row; ++j) {
           job_.check();
-          for (int i = column; i <= last_column; ++i) add_sample(ground, i, j);
+          for (int i = column; i <= last_column; ++i)
+            add_sample(ground.at(frame_.west + i * spacing_, frame_.south + j * spacing_), i, j);
         }
       }
     }
   }
 
-  void add_sample(const Ground& ground, int i, int j) {
-    const double east = frame_.west + i * spacing_, north = frame_.south + j * spacing_;
-    GroundSample sample;
-    if (spacing_ >= coarse_spacing) {
-      sample.land = land_at(world_, east, north);
-      sample.height = sample.land.height.value;
-      ruggedness_[index_of(i, j)] = static_cast<float>(sample.land.ruggedness);
-    } else {
-      sample = ground.at(east, north);
-    }
-    heights_[index_of(i, j)] = sample.height;
+  /// Calls `visit` with the areas that have a sample, and with the column and the row of each.
+  template <class Visit>
+  void for_areas_of(int i, int j, const Visit& visit) {
     const auto tile = [&](int k) { return std::min(k / cells_, count_ - 1); };
-    const auto is_low = [this](int k) { return k % cells_ == 0; };
-    const int last = count_ * cells_;
+    const auto first = [&](int k) {
+      return std::max(0, tile(k) - (k % cells_ == 0 && k < count_ * cells_ ? 1 : 0));
+    };
+    for (int row = first(j); row <= tile(j); ++row) {
+      for (int column = first(i); column <= tile(i); ++column) visit(at(column, row), column, row);
+    }
+  }
+
+  void add_sample(const GroundSample& sample, int i, int j) {
+    grid_.heights[grid_.index_of(i, j)] = sample.height;
+    for_areas_of(i, j, [&](Area& area, int column, int row) {
+      area.low = std::min(area.low, sample.height);
+      area.high = std::max(area.high, sample.height);
+      const std::array<bool, 4> is_border{i == column * cells_, j == row * cells_, i == (column + 1) * cells_,
+                                          j == (row + 1) * cells_};
+      for (std::size_t k = 0; k < 4; ++k) {
+        if (is_border[k]) area.borders[k] = std::min(area.borders[k], sample.height);
+      }
+      area.rough.add(sample);
+    });
+    add_plants(sample, i, j);
+  }
+
+  /// Finds which plants may grow, at the samples that are at most `plant_spacing` apart.
+  void add_plants(const GroundSample& sample, int i, int j) {
+    if (!world_.has(Layer::plants) || i % plant_stride_ != 0 || j % plant_stride_ != 0) return;
     double tallest = -1;
-    for (int row = tile(j); row >= std::max(0, tile(j) - (is_low(j) && j < last ? 1 : 0)); --row) {
-      for (int column = tile(i); column >= std::max(0, tile(i) - (is_low(i) && i < last ? 1 : 0)); --column) {
-        Area& area = at(column, row);
-        area.low = std::min(area.low, sample.height);
-        area.high = std::max(area.high, sample.height);
-        const std::array<bool, 4> is_border{i == column * cells_, j == row * cells_,
-                                            i == (column + 1) * cells_, j == (row + 1) * cells_};
-        for (std::size_t k = 0; k < 4; ++k) {
-          if (is_border[k]) area.borders[k] = std::min(area.borders[k], sample.height);
-        }
-        area.rough.add(sample);
-        if (!world_.has(Layer::plants) || area.plant_height >= tallest_class_) continue;
-        if (tallest < 0) tallest = tallest_growing(sample, east, north);
-        area.plant_height = std::max(area.plant_height, tallest);
+    for_areas_of(i, j, [&](Area& area, int, int) {
+      if (area.plant_height >= tallest_class_) return;
+      if (tallest < 0)
+        tallest = tallest_growing(sample, frame_.west + i * spacing_, frame_.south + j * spacing_);
+      area.plant_height = std::max(area.plant_height, tallest);
+    });
+  }
+
+  /// Samples of the land alone.
+  void add_land() {
+    const int last = count_ * cells_;
+    LandRow land;
+    for (int j = 0; j <= last; ++j) {
+      if (j % 16 == 0) job_.check();
+      land_of_row(world_,
+                  {frame_.west, frame_.south + j * spacing_, spacing_, static_cast<std::size_t>(last + 1)},
+                  land);
+      const std::size_t first = grid_.index_of(0, j);
+      for (std::size_t k = 0; k < land.height.size(); ++k) {
+        grid_.heights[first + k] = static_cast<double>(land.height[k]);
+        ruggedness_[first + k] = land.ruggedness[k];
       }
+      for (int column = 0; column < count_; ++column) add_to_areas(part_of(land, column), column, j);
+      for (int i = 0; j % plant_stride_ == 0 && i <= last; i += plant_stride_) {
+        GroundSample sample;
+        sample.height = grid_.at(i, j);
+        add_plants(sample, i, j);
+      }
+    }
+    for (int row = 0; row < count_; ++row) {
+      for (int column = 0; column < count_; ++column)
+        at(column, row).rough.slope = greatest_slope(grid_, column * cells_, row * cells_, cells_);
     }
   }
 
-  double height(int i, int j) const { return heights_[index_of(i, j)]; }
-
-  /// The greatest distances of the samples from the triangles of the tiles at a depth.
-  std::vector<double> deviations(int depth) {
-    const int tiles = 1 << depth, wide = count_ / tiles * cells_, stride = wide / tile_cells;
-    if (stride < 2 || wide % tile_cells != 0) return {};
-    std::vector<double> found;
-    for (int row = 0; row < tiles; ++row) {
-      job_.check();
-      for (int column = 0; column < tiles; ++column) {
-        double most = 0;
-        for (int k = 0; k < tile_cells * tile_cells; ++k) {
-          const int i = column * wide + k % tile_cells * stride, j = row * wide + k / tile_cells * stride;
-          most = std::max(most, deviation_in_cell(i, j, stride));
-        }
-        found.push_back(most);
-      }
-    }
-    return found;
+  /// The samples of a row that are in a column of areas.
+  Area part_of(const LandRow& land, int column) const {
+    const auto from = static_cast<std::ptrdiff_t>(column) * cells_, to = from + cells_ + 1;
+    const auto greatest = [&](const std::vector<float>& all) {
+      float most = 0;
+      for (std::ptrdiff_t k = from; k < to; ++k) most = std::max(most, all[static_cast<std::size_t>(k)]);
+      return static_cast<double>(most);
+    };
+    Area part;
+    const auto [low, high] = std::minmax_element(land.height.begin() + from, land.height.begin() + to);
+    part.low = static_cast<double>(*low);
+    part.high = static_cast<double>(*high);
+    part.borders[0] = static_cast<double>(land.height[static_cast<std::size_t>(from)]);
+    part.borders[2] = static_cast<double>(land.height[static_cast<std::size_t>(to - 1)]);
+    part.rough.ruggedness = greatest(land.ruggedness);
+    for (std::size_t n = 0; n < land.ridges.size(); ++n) part.rough.ridges[n] = greatest(land.ridges[n]);
+    const float coast = *std::min_element(land.coast.begin() + from, land.coast.begin() + to);
+    part.rough.has_sea_floor = static_cast<double>(coast) < sea_floor_coast;
+    return part;
   }
 
-  /// The same in a cell of a tile, whose south-west corner is a sample.
-  double deviation_in_cell(int i, int j, int stride) const {
-    const double sw = height(i, j), se = height(i + stride, j), nw = height(i, j + stride),
-                 ne = height(i + stride, j + stride);
-    double most = 0;
-    for (int y = 0; y <= stride; ++y) {
-      for (int x = 0; x <= stride; ++x) {
-        const double plane = x >= y ? stride * sw + x * (se - sw) + y * (ne - se)
-                                    : stride * sw + x * (ne - nw) + y * (nw - sw);
-        most = std::max(most, std::abs(height(i + x, j + y) - plane / stride));
-      }
+  void add_to_areas(const Area& part, int column, int j) {
+    const int last_row = std::min(j / cells_, count_ - 1);
+    for (int row = std::max(0, last_row - (j % cells_ == 0 ? 1 : 0)); row <= last_row; ++row) {
+      if (j > (row + 1) * cells_) continue;
+      Area& area = at(column, row);
+      area.low = std::min(area.low, part.low);
+      area.high = std::max(area.high, part.high);
+      for (const std::size_t k : {std::size_t{0}, std::size_t{2}})
+        area.borders[k] = std::min(area.borders[k], part.borders[k]);
+      if (j == row * cells_) area.borders[1] = part.low;
+      if (j == (row + 1) * cells_) area.borders[3] = part.low;
+      area.rough.add(part.rough);
     }
-    const double steep = std::max(std::abs(ne - sw), std::abs(se - nw)) / (2.83 * stride * spacing_);
-    return most / std::sqrt(1 + steep * steep);
   }
 
   /// Measures how far samples are from triangles through every other of them.
   void add_deviations() {
-    const int last = count_ * cells_;
-    for (int j = 0; j < last; j += 2) {
-      for (int i = 0; i < last; i += 2) {
-        const double sw = height(i, j), se = height(i + 2, j), nw = height(i, j + 2),
-                     ne = height(i + 2, j + 2);
-        const double off = std::max(
-            {std::abs(height(i + 1, j) - (sw + se) / 2), std::abs(height(i, j + 1) - (sw + nw) / 2),
-             std::abs(height(i + 1, j + 1) - (sw + ne) / 2), std::abs(height(i + 2, j + 1) - (se + ne) / 2),
-             std::abs(height(i + 1, j + 2) - (nw + ne) / 2)});
+    for (int j = 0; j + 1 < grid_.wide; j += 2) {
+      for (int i = 0; i + 1 < grid_.wide; i += 2) {
         Roughness& rough = at(i / cells_, j / cells_).rough;
-        const double steep = std::max(std::abs(ne - sw), std::abs(se - nw)) / (2 * 2.83 * spacing_);
-        rough.measured = std::max(rough.measured, off / std::sqrt(1 + steep * steep));
+        rough.measured = std::max(rough.measured, deviation_from_next(grid_, i, j));
         rough.measured_spacing = 2 * spacing_;
+      }
+    }
+  }
+
+  /// Compares the ground itself with triangles, in the cells of each area where the land bends most.
+  void look_at_bends() {
+    for (int row = 0; row < count_; ++row) {
+      job_.check();
+      for (int column = 0; column < count_; ++column) {
+        const double west = frame_.west + column * side_, south = frame_.south + row * side_;
+        const Ground ground(world_, {west, south, west + side_, south + side_}, job_);
+        Roughness& rough = at(column, row).rough;
+        rough.measured_spacing = spacing_;
+        for (const auto& [i, j] : most_bent_cells(grid_, column * cells_, row * cells_, cells_))
+          rough.measured = std::max(rough.measured, deviation_of_ground(grid_, ground, i, j));
       }
     }
   }
@@ -187,54 +236,10 @@ class AreaFinder {
   double tallest_growing(const GroundSample& sample, double east, double north) const {
     double tallest = 0;
     for (const WorldClass& plant : world_.params.plants) {
-      if (plant.height > tallest && may_grow(world_, plant, sample, east, north, spacing_))
+      if (plant.height > tallest && may_grow(world_, plant, sample, east, north, plant_stride_ * spacing_))
         tallest = plant.height;
     }
     return tallest;
-  }
-
-  std::size_t index_of(int i, int j) const { return static_cast<std::size_t>(j * (count_ * cells_ + 1) + i); }
-
-  /// Calls `visit` with the samples within `reach` of a rectangle and with their positions.
-  template <class Visit>
-  void for_samples(const Rectangle& r, double reach, const Visit& visit) {
-    const double last = count_ * cells_;
-    const auto index = [&](double v) {
-      return math::to_int32(std::clamp(std::floor(v / spacing_), -1.0, last));
-    };
-    const int west = index(r.west - reach - frame_.west) + 1, east = index(r.east + reach - frame_.west);
-    const int south = index(r.south - reach - frame_.south) + 1,
-              north = index(r.north + reach - frame_.south);
-    for (int j = south; j <= north; ++j) {
-      for (int i = west; i <= east; ++i)
-        visit(index_of(i, j), frame_.west + i * spacing_, frame_.south + j * spacing_);
-    }
-  }
-
-  /// Lowers samples of the land to the valleys of rivers and lakes, which reach `wide` metres.
-  void carve(const Reach& reach, const Rectangle& around, double wide, const std::vector<double>& land) {
-    const RiverPoint &a = reach.from, &b = reach.to;
-    for_samples(around, wide, [&](std::size_t n, double east, double north) {
-      const double x = east - a.east, y = north - a.north;
-      const double share = std::clamp((x * reach.x + y * reach.y) * reach.by, 0.0, 1.0);
-      const double dx = x - share * reach.x, dy = y - share * reach.y;
-      const Beside beside{std::sqrt(dx * dx + dy * dy), (a.width + share * (b.width - a.width)) / 2,
-                          a.water + share * (b.water - a.water)};
-      heights_[n] =
-          std::min(heights_[n], valley_side(land[n], static_cast<double>(ruggedness_[n]), beside).height);
-    });
-  }
-
-  void carve(const Lake& lake, const Rectangle& around, const std::vector<double>& land) {
-    for_samples(around, valley_reach, [&](std::size_t n, double east, double north) {
-      const double x = east - lake.east, y = north - lake.north, away = std::sqrt(x * x + y * y);
-      const double shore = shore_distance(lake, east, north, away), t = away / shore;
-      const double height =
-          t < 1 ? lake.level - lake.depth * (1 - t * t)
-                : valley_side(land[n], static_cast<double>(ruggedness_[n]), {away - shore, 5, lake.level})
-                      .height;
-      heights_[n] = std::min(heights_[n], height);
-    });
   }
 
   /// How deep valleys are cut into the land of each area.
@@ -244,7 +249,7 @@ class AreaFinder {
         double most = 0;
         for (int j = row * cells_; j <= (row + 1) * cells_; ++j) {
           for (int i = column * cells_; i <= (column + 1) * cells_; ++i)
-            most = std::max(most, land[index_of(i, j)] - heights_[index_of(i, j)]);
+            most = std::max(most, land[grid_.index_of(i, j)] - grid_.at(i, j));
         }
         double& valley = at(column, row).rough.valley;
         if (most > 0) valley = std::max(valley, most + 3);
@@ -255,7 +260,8 @@ class AreaFinder {
   void add_water() {
     const Ground water(world_, box(), job_, valley_reach);
     const bool is_coarse = spacing_ >= coarse_spacing;
-    const std::vector<double> land = is_coarse ? heights_ : std::vector<double>{};
+    const std::vector<double> heights = is_coarse ? grid_.heights : std::vector<double>{};
+    const UncutLand land{heights, ruggedness_};
     for (const Reach& reach : water.reaches()) {
       const RiverPoint &a = reach.from, &b = reach.to;
       const Rectangle around{std::min(a.east, b.east), std::min(a.north, b.north), std::max(a.east, b.east),
@@ -265,7 +271,7 @@ class AreaFinder {
       const double wide = std::clamp(60 + 5 * std::max(a.cut, b.cut), 500.0, valley_reach);
       for_areas(around, is_coarse ? wide : b.width,
                 [&](Area& area) { area.lowest = std::min(area.lowest, b.water - bed); });
-      if (is_coarse) carve(reach, around, wide, land);
+      if (is_coarse) carve(grid_, land, reach, wide);
       for_areas(around, b.width, [&](Area& area) {
         area.highest = std::max(area.highest, a.water + highest_lift);
         area.rough.valley = std::max(area.rough.valley, std::max(a.cut, b.cut) + 3);
@@ -276,13 +282,13 @@ class AreaFinder {
       const Rectangle around{lake.east - far, lake.north - far, lake.east + far, lake.north + far};
       for_areas(around, is_coarse ? valley_reach : 0,
                 [&](Area& area) { area.lowest = std::min(area.lowest, lake.level - lake.depth); });
-      if (is_coarse) carve(lake, around, land);
+      if (is_coarse) carve(grid_, land, lake);
       for_areas(around, 0, [&](Area& area) {
         area.highest = std::max(area.highest, lake.level + 0.5);
         area.rough.valley = std::max(area.rough.valley, lake.depth);
       });
     }
-    if (is_coarse) add_cuts(land);
+    if (is_coarse) add_cuts(heights);
   }
 
   /// Water of wide areas is not below the sea, or not below the lowest land nearby.
@@ -356,19 +362,19 @@ class AreaFinder {
   const World& world_;
   Job& job_;
   TileFrame frame_;
-  int count_;      ///< of links along a side
-  int cells_ = 0;  ///< along a link
+  int count_, cells_ = 0;  ///< links along a side, cells along a link
   double side_ = 0, spacing_ = 0;
+  int plant_stride_ = 1;  ///< samples from one where plants are looked for to the next
   double tallest_class_ = 0;
   std::vector<Area> areas_;
-  std::vector<double> heights_;    ///< of all samples, rows from the south
-  std::vector<float> ruggedness_;  ///< the same, of coarse samples
+  HeightGrid grid_;                ///< all samples
+  std::vector<float> ruggedness_;  ///< of coarse samples, in the same order
 };
 
 }  // namespace
 
 int cells_a_link(const World& world, int root_level) {
-  if (root_level == 0) return world.levels > 12 ? 48 : 16;
+  if (root_level == 0) return world.levels > 12 ? 32 : 16;
   return root_level == levels_a_block ? 32 : 8;
 }
 
@@ -378,6 +384,7 @@ Areas areas_below(const World& world, const TileKey& root, int depth, Job& job) 
 
 Area joined(const Area& sw, const Area& se, const Area& nw, const Area& ne) {
   Area all = sw;
+  all.rough.met = {};
   for (const Area* area : {&se, &nw, &ne}) {
     all.low = std::min(all.low, area->low);
     all.high = std::max(all.high, area->high);

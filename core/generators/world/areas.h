@@ -1,5 +1,5 @@
 #pragma once
-/// What the tiles of one file of a tileset contain, found with one grid of samples: for bounds.cpp.
+/// The contents of the tiles of one file of a tileset, measured with one grid of samples; used by bounds.cpp.
 #include <algorithm>
 #include <array>
 #include <vector>
@@ -16,7 +16,7 @@ constexpr double coarse_spacing = 128;  ///< metres; from here, samples are of t
 /// the widest links and is made once.
 int cells_a_link(const World& world, int root_level);
 
-/// What was found in a square.
+/// The measurements in a square.
 struct Area {
   double low = 1e12, high = -1e12;
   std::array<double, 4> borders{1e12, 1e12, 1e12, 1e12};  ///< lowest at the west, south, east and north
@@ -27,12 +27,11 @@ struct Area {
   double border() const { return *std::min_element(borders.begin(), borders.end()); }
 };
 
-/// What was found below a tile. Rows from the south.
+/// The measurements in the tiles below a tile. Rows run from the south.
 struct Areas {
   std::vector<Area> links;  ///< the tiles of the lowest level
   double spacing = 0;       ///< metres between samples
-  /// By depth below the tile: the greatest distances of the samples from the triangles of each tile. Empty for links, and
-  /// where samples do not divide the cells of tiles.
+  /// By depth below the tile: deviations_of_tiles() of each tile.
   std::vector<std::vector<double>> deviations;
   bool has_valleys = false, has_detail = false;  ///< whether the samples have them
 };
@@ -40,7 +39,7 @@ struct Areas {
 /// Returns the areas of the tiles `depth` levels below a tile.
 Areas areas_below(const World& world, const TileKey& root, int depth, Job& job);
 
-/// Returns the square of four.
+/// Returns the measurements of the square that four squares form.
 Area joined(const Area& sw, const Area& se, const Area& nw, const Area& ne);
 
 }  // namespace seedmesh::world

@@ -24,7 +24,7 @@ struct Asset {
   std::uint64_t bytes() const { return size; }
 };
 
-/// near: simplified. far: an impostor.
+/// near is a simplified mesh, far is an impostor.
 enum class AssetForm { near, far };
 
 /// Makes the model of the request at `pointer`. Its seed is that of the request, or else `seed`. A model that cannot be
@@ -32,7 +32,7 @@ enum class AssetForm { near, far };
 using MakeAsset = std::function<Asset(const Child& model, AssetForm form, std::uint64_t seed,
                                       const std::string& pointer, Job& job)>;
 
-/// The hash of a file in its name.
+/// Returns the hash of a file, which is part of its name.
 std::string hash_of(const std::string& bytes);
 
 }  // namespace seedmesh::world

@@ -14,7 +14,7 @@
 namespace seedmesh::world {
 namespace {
 
-constexpr double least_fall = 0.97;  ///< of the error of a tile by that above
+constexpr double least_fall = 0.99;  ///< of the error of a tile by that above
 
 struct Block {
   int depth = 0;  ///< levels below the root
@@ -44,11 +44,17 @@ TileBounds in_plan(const World& world, const TileKey& key) {
 
 constexpr double plant_error = 1.0 / 192;  ///< of the side of a tile
 
+/// What deviations are multiplied by, so that none of some thousand tiles of all presets has a greater one.
+double margin_of(const TileFrame& frame, const Roughness& rough) {
+  const bool is_estimate = rough.met.spacing == frame.spacing && !rough.met.has_detail;
+  return is_estimate && frame.spacing <= coarse_spacing ? 1.2 : 1.05;
+}
+
 /// Heights are rounded to steps, here and in tiles below. Tiles that leave plants out lack more of them the wider they
 /// are, up to the height of the plants.
 double error_of(const World& world, const TileFrame& frame, const Roughness& rough, double plant_height) {
   const double plants = std::min(plant_error * frame.side, plant_height);
-  return std::max(deviation_of(world, frame.spacing, rough), plants) + frame.step;
+  return std::max(margin_of(frame, rough) * deviation_of(world, frame.spacing, rough), plants) + frame.step;
 }
 
 /// The lowest that the own skirt of a tile hangs. `between`: how far ground can be below samples.
@@ -63,6 +69,7 @@ struct Margins {
   double below = 0, above = 0;
 };
 Margins margins(const World& world, double spacing, Roughness rough) {
+  rough.met = {};
   const double all = deviation_of(world, spacing, rough);
   rough.valley = 0;
   rough.works = 0;
@@ -130,6 +137,14 @@ void limit(TileBounds& box, const TileBounds& above) {
   box.geometric_error = std::min(box.geometric_error, least_fall * above.geometric_error);
 }
 
+/// Keeps what was found of the triangles of a tile `depth` levels below that of a block.
+void set_met(Area& area, const Areas& found, int depth, std::size_t tile, const TileFrame& frame) {
+  const std::vector<double>& met = found.deviations[static_cast<std::size_t>(depth)];
+  if (met.empty()) return;
+  const double finer = std::min(found.spacing, frame.spacing / (frame.spacing == coarse_spacing ? 4 : 2));
+  area.rough.met = {met[tile], frame.spacing, finer, found.has_valleys, found.has_detail};
+}
+
 Block make_block(const World& world, const TileKey& root, Job& job) {
   Block block;
   block.depth = std::min(levels_a_block, world.levels - 1 - root.level);
@@ -149,6 +164,7 @@ Block make_block(const World& world, const TileKey& root, Job& job) {
         const TileKey key{root.level + d, (root.x << d) + x, (root.y << d) + y};
         const auto own = static_cast<std::size_t>(y * count + x);
         if (d == block.depth) {
+          set_met(areas[own], found, d, own, frame_of(world, key));
           tiles.push_back(link_bounds(world, key, areas[own], spacing));
           continue;
         }
@@ -156,10 +172,7 @@ Block make_block(const World& world, const TileKey& root, Job& job) {
         const std::size_t sw = 4 * own - 2 * static_cast<std::size_t>(x),
                           nw = sw + 2 * static_cast<std::size_t>(count);
         areas[own] = joined(finer[sw], finer[sw + 1], finer[nw], finer[nw + 1]);
-        if (const auto& met = found.deviations[static_cast<std::size_t>(d)]; !met.empty()) {
-          areas[own].rough.met = {met[own], frame_of(world, key).spacing, spacing, found.has_valleys,
-                                  found.has_detail};
-        }
+        set_met(areas[own], found, d, own, frame_of(world, key));
         tiles.push_back(bounds_above(world, key, areas[own], spacing,
                                      {&below[sw], &below[sw + 1], &below[nw], &below[nw + 1]}));
       }

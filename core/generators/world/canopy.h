@@ -25,7 +25,7 @@ Wood wood_at(const World& world, const GroundSample& sample, const Climate& clim
 
 constexpr double wood_edge = 0.45;  ///< cover above which a position belongs to a wood
 
-/// `folder`: see tile_glb().
+/// Adds the surface of woods of a tile. `folder`: see tile_glb().
 void add_canopy(Glb& glb, const World& world, const TileFrame& frame, const TileGround& ground, Job& job,
                 std::string_view folder);
 
@@ -34,7 +34,7 @@ struct CanopyTexture {
   std::string hash, file;
   std::uint64_t bytes() const { return sizeof(CanopyTexture) + file.size(); }
 };
-/// Returns the texture of a world, from the store or made now.
+/// Returns the texture of a world from the store; makes it if the store has none.
 std::shared_ptr<const CanopyTexture> canopy_texture(const World& world, Job& job);
 
 }  // namespace seedmesh::world

@@ -1,5 +1,6 @@
 /// A texture of crowns from above.
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/base/math.h"
@@ -28,7 +29,7 @@ Crown crown_of(int column, int row) {
 }
 
 /// Light on the highest crown over a position, or between crowns.
-double light_at(const std::vector<Crown>& crowns, double x, double y) {
+double light_at(const std::array<Crown, 9>& crowns, double x, double y) {
   double highest = -1, light = 0.2;
   for (const Crown& crown : crowns) {
     const double dx = (x - crown.x) / crown.radius, dy = (y - crown.y) / crown.radius;
@@ -44,15 +45,20 @@ double light_at(const std::vector<Crown>& crowns, double x, double y) {
 
 CanopyTexture make(Job& job) {
   std::vector<std::byte> grey(static_cast<std::size_t>(texels) * texels);
+  std::vector<Crown> crowns;  // with those beyond the borders
+  crowns.reserve(static_cast<std::size_t>(cells + 2) * (cells + 2));
+  for (int row = -1; row <= cells; ++row) {
+    for (int column = -1; column <= cells; ++column) crowns.push_back(crown_of(column, row));
+  }
   for (int row = 0; row < texels; ++row) {
     job.check();
     const double y = (row + 0.5) * cells / texels;
     for (int column = 0; column < texels; ++column) {
       const double x = (column + 0.5) * cells / texels;
-      std::vector<Crown> near;
-      for (int j = -1; j <= 1; ++j) {
-        for (int i = -1; i <= 1; ++i)
-          near.push_back(crown_of(static_cast<int>(x) + i, static_cast<int>(y) + j));
+      std::array<Crown, 9> near;
+      for (int k = 0; k < 9; ++k) {
+        const int at = (static_cast<int>(y) + k / 3) * (cells + 2) + static_cast<int>(x) + k % 3;
+        near[static_cast<std::size_t>(k)] = crowns[static_cast<std::size_t>(at)];
       }
       Rng rng(cell_key(0x47524149U, column, row));
       const double light = std::clamp(light_at(near, x, y) * rng.uniform(0.82, 1.1), 0.0, 1.0);

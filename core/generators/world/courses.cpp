@@ -60,6 +60,7 @@ class Lowering {
     Course& course = at(n);
     std::vector<RiverPoint>& points = course.points;
     const bool has_river = points.size() > 1;
+    if (has_river) find_near(bounds_[static_cast<std::size_t>(n)]);
     double water = has_river ? end_of(course) : -std::numeric_limits<double>::infinity();
     for (std::size_t k = points.size(); has_river && k-- > 0;) {
       RiverPoint& p = points[k];
@@ -82,6 +83,18 @@ class Lowering {
   Course& at(int n) { return courses_[static_cast<std::size_t>(n)]; }
   Lake& lake(int n) { return lakes_[static_cast<std::size_t>(n)]; }
 
+  static bool is_near(const Bounds& a, const Bounds& b) {
+    return b.east >= a.west - valley_reach && b.west <= a.east + valley_reach &&
+           b.north >= a.south - valley_reach && b.south <= a.north + valley_reach;
+  }
+
+  void find_near(const Bounds& own) {
+    near_.clear();
+    for (std::size_t n = 0; n < courses_.size(); ++n) {
+      if (courses_[n].points.size() > 1 && is_near(bounds_[n], own)) near_.push_back(n);
+    }
+  }
+
   /// The level of the water that a course ends in.
   double end_of(const Course& course) {
     if (course.into_lake >= 0) return lake(course.into_lake).level;
@@ -100,13 +113,9 @@ class Lowering {
   double most_at(const Site& site, int own, std::size_t from) const {
     const double east = site.east, north = site.north;
     double most = std::numeric_limits<double>::infinity();
-    for (std::size_t n = 0; n < courses_.size(); ++n) {
+    for (const std::size_t n : near_) {
       const std::vector<RiverPoint>& points = courses_[n].points;
-      const Bounds& b = bounds_[n];
-      if (points.size() < 2 || east < b.west - valley_reach || east > b.east + valley_reach ||
-          north < b.south - valley_reach || north > b.north + valley_reach) {
-        continue;
-      }
+      if (!is_near(bounds_[n], {east, north, east, north})) continue;
       for (std::size_t k = static_cast<int>(n) == own ? from + 1 : 0; k < points.size(); ++k) {
         const double x = east - points[k].east, y = north - points[k].north, square = x * x + y * y;
         if (square >= valley_reach * valley_reach || points[k].water >= most) continue;
@@ -142,6 +151,7 @@ class Lowering {
     const int own = courses_[static_cast<std::size_t>(n)].lake;
     for (std::size_t m = 0; m < courses_.size(); ++m) {
       if (static_cast<int>(m) == n || courses_[m].into_lake == own) continue;
+      if (!is_near(bounds_[m], {site.east, site.north, site.east, site.north})) continue;
       for (const RiverPoint& p : courses_[m].points) {
         const double x = site.east - p.east, y = site.north - p.north, square = x * x + y * y;
         if (square >= valley_reach * valley_reach || p.water >= most) continue;
@@ -154,6 +164,7 @@ class Lowering {
   std::vector<Course>& courses_;
   std::vector<Lake>& lakes_;
   std::vector<Bounds> bounds_;
+  std::vector<std::size_t> near_;  ///< rivers with a valley that can reach the one that is lowered
 };
 
 }  // namespace

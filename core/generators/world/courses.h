@@ -29,8 +29,8 @@ void keep_away(RiverPoint& p);
 double lowest_across(const World& world, const std::vector<RiverPoint>& points, std::size_t k,
                      double half_width);
 
-/// Lowers rivers and lakes to the valleys of lower waters nearby. A river meets the water at its end, and it still
-/// only falls. `order`: courses from the outlets upwards.
+/// Lowers rivers and lakes to the valleys of lower waters nearby. A river still meets the water at its end and
+/// never rises. `order`: courses from the outlets upwards.
 void lower_to_valleys(std::vector<Course>& courses, const std::vector<int>& order, std::vector<Lake>& lakes);
 
 }  // namespace seedmesh::world

@@ -84,7 +84,7 @@ void Roughness::add(const GroundSample& sample) {
     ridges[n] = std::max(ridges[n], static_cast<double>(sample.land.ridges[n]));
   const Slope& h = sample.land.height;
   slope = std::max(slope, std::sqrt(h.east * h.east + h.north * h.north));
-  has_sea_floor |= sample.land.coast < 0.05;
+  has_sea_floor |= sample.land.coast < sea_floor_coast;
   valley = std::max(valley, sample.cut + (sample.shore < 60 ? 3 : 0));
   works = std::max(works, sample.works);
 }

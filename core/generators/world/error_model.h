@@ -1,6 +1,6 @@
 #pragma once
-/// How far the ground can be from triangles between samples of it: the sum of what each part of the ground adds, by
-/// the ratio of the spacing of the samples to the wavelength of the part and by its amplitude at the position.
+/// Estimates how far the ground can be from the triangles between samples of it. Each part of the ground
+/// contributes by its amplitude at the position and by the ratio of the spacing of the samples to its wavelength.
 ///
 /// The deviations of single octaves of noise were measured with 40 grids of 32 x 32 cells for each ratio. Parts do
 /// not reach their greatest deviation at one position, so they are added with a norm of degree 1.5.
@@ -10,13 +10,15 @@
 
 namespace seedmesh::world {
 
-/// How far samples were from the triangles of a tile.
+/// The measured distance of samples from the triangles of a tile.
 struct MetDeviation {
   double most = 0;           ///< metres
   double spacing = 0;        ///< spacing of the vertices of the tile; 0 if nothing was measured
   double finer_spacing = 0;  ///< spacing of the samples
   bool has_valleys = false, has_detail = false;  ///< whether the samples have them; detail includes roads
 };
+
+constexpr double sea_floor_coast = 0.05;  ///< coast of Land below which the ground is the floor of the sea
 
 /// What the ground of an area is like: the greatest values over the area.
 struct Roughness {
@@ -27,7 +29,7 @@ struct Roughness {
   double valley = 0;  ///< metres that rivers and lakes cut into the land; 0 without water nearby
   double works = 0;   ///< metres that roads are above or below the ground
 
-  double measured = 0, measured_spacing = 1;  ///< deviation that was met, from triangles with this spacing
+  double measured = 0, measured_spacing = 1;  ///< measured deviation from triangles with this spacing
 
   MetDeviation met;  ///< by the triangles of this area
 
@@ -38,7 +40,7 @@ struct Roughness {
 /// Returns the roughest ground that a world can have.
 Roughness roughest(const World& world);
 
-/// Metres between the ground and triangles through samples `spacing` apart. Rises with the spacing.
+/// Returns the metres between the ground and triangles through samples `spacing` apart. It rises with the spacing.
 double deviation_of(const World& world, double spacing, const Roughness& roughness);
 
 }  // namespace seedmesh::world

@@ -1,5 +1,6 @@
 #pragma once
-/// A mesh of convex polygons that face upwards, for water and roads. Only add_clipped(), add_draped() and add_ribbon() clip to the tile.
+/// A mesh of convex polygons that face upwards, for water and roads. Only add_clipped(), add_draped() and
+/// add_ribbon() clip to the tile.
 #include <array>
 #include <glm/glm.hpp>
 #include <map>
@@ -31,7 +32,7 @@ class FlatMesh {
   /// Adds a convex polygon with the heights of the terrain below it, `lift` metres above its triangles. Clips to the tile.
   void add_draped(std::vector<Point> polygon, const TerrainGrid& grid, double lift);
 
-  /// Polygons share the vertices that they have at one position.
+  /// Returns the mesh. Polygons share vertices with equal positions.
   TileMesh take() { return std::move(mesh_); }
 
  private:

@@ -157,8 +157,15 @@ int Glb::add_indices(const std::vector<std::uint32_t>& indices, std::size_t vert
 
 void Glb::add_mesh(std::string_view name, const TileMesh& mesh, int material, double step, double height,
                    const std::vector<float>& coordinates) {
-  add_mesh(name, mesh.vertices, add_indices(mesh.indices, mesh.vertices.size()), material, step, height,
-           coordinates);
+  SharedParts parts{add_indices(mesh.indices, mesh.vertices.size()), -1};
+  if (!coordinates.empty()) {
+    const int view = add_bytes(coordinates.data(), coordinates.size() * sizeof(float), 0, array_buffer);
+    parts.coordinates = add_accessor({{"bufferView", view},
+                                      {"componentType", type_float},
+                                      {"count", coordinates.size() / 2},
+                                      {"type", "VEC2"}});
+  }
+  add_mesh(name, mesh.vertices, parts, material, step, height);
 }
 
 int Glb::add_shared_indices(std::string uri, std::size_t count) {
@@ -167,8 +174,14 @@ int Glb::add_shared_indices(std::string uri, std::size_t count) {
       {{"bufferView", view}, {"componentType", type_unsigned_short}, {"count", count}, {"type", "SCALAR"}});
 }
 
-void Glb::add_mesh(std::string_view name, const std::vector<TileVertex>& vertices, int order, int material,
-                   double step, double height, const std::vector<float>& coordinates) {
+int Glb::add_shared_coordinates(std::string uri, std::size_t count) {
+  const int view = add_view(add_shared_buffer(std::move(uri), 8 * count), 0, 8 * count, 0, array_buffer);
+  return add_accessor(
+      {{"bufferView", view}, {"componentType", type_float}, {"count", count}, {"type", "VEC2"}});
+}
+
+void Glb::add_mesh(std::string_view name, const std::vector<TileVertex>& vertices, const SharedParts& parts,
+                   int material, double step, double height) {
   int low[3] = {32767, 32767, 32767}, high[3] = {-32768, -32768, -32768};
   for (const TileVertex& v : vertices) {
     const int values[3] = {v.x, v.y, v.z};
@@ -199,15 +212,11 @@ void Glb::add_mesh(std::string_view name, const std::vector<TileVertex>& vertice
                                         {"normalized", true},
                                         {"count", count},
                                         {"type", "VEC4"}});
-  if (!coordinates.empty()) {
-    const int own = add_bytes(coordinates.data(), coordinates.size() * sizeof(float), 0, array_buffer);
-    attributes["TEXCOORD_0"] = add_accessor(
-        {{"bufferView", own}, {"componentType", type_float}, {"count", count}, {"type", "VEC2"}});
-  }
+  if (parts.coordinates >= 0) attributes["TEXCOORD_0"] = parts.coordinates;
   const int made = add_gltf_mesh(
       {{"name", name},
        {"primitives",
-        Json::array({{{"attributes", attributes}, {"indices", order}, {"material", material}}})}});
+        Json::array({{{"attributes", attributes}, {"indices", parts.order}, {"material", material}}})}});
   add_node({{"name", name}, {"mesh", made}, {"translation", {0, height, 0}}, {"scale", {step, step, step}}});
 }
 

@@ -27,32 +27,45 @@ struct TileMesh {
   std::vector<std::uint32_t> indices;  ///< triangles, counter-clockwise from outside
 };
 
+/// The name and the roughness of a material.
+struct Surface {
+  std::string_view name;
+  double roughness = 1;
+};
+inline constexpr Surface ground_surface{"ground", 1}, water_surface{"water", 0.15};
+
 class Glb {
  public:
   /// `translation`: of the root node.
   explicit Glb(const std::array<double, 3>& translation);
 
-  /// The index of a material.
+  /// Adds a material and returns its index.
   int add_material(std::string_view name, double roughness, bool two_sided = false);
-  /// The same with a texture of colours from a file that tiles share.
+  /// Adds a material with a colour texture from a file that tiles share, and returns its index.
   int add_material(std::string_view name, double roughness, const std::string& image);
-  /// A node with one mesh of quantized vertices: metres = height * up + step * position. `coordinates`: of the
-  /// texture, two for each vertex, or none.
+  /// Adds a node with one mesh of quantized vertices: metres = height * up + step * position. `coordinates`: of
+  /// the texture, two for each vertex, or none.
   void add_mesh(std::string_view name, const TileMesh& mesh, int material, double step, double height,
                 const std::vector<float>& coordinates = {});
-  /// The same with an accessor of the corners of triangles.
-  void add_mesh(std::string_view name, const std::vector<TileVertex>& vertices, int order, int material,
-                double step, double height, const std::vector<float>& coordinates = {});
+  /// The same with accessors of the corners of triangles and of coordinates; -1: none.
+  struct SharedParts {
+    int order = -1, coordinates = -1;
+  };
+  void add_mesh(std::string_view name, const std::vector<TileVertex>& vertices, const SharedParts& parts,
+                int material, double step, double height);
   /// The accessor of corners of triangles among `vertices` vertices.
   int add_indices(const std::vector<std::uint32_t>& indices, std::size_t vertices);
-  /// The same with corners of 16 bits in a file of their own.
+  /// Like add_indices(), with corners of 16 bits in a file of their own.
   int add_shared_indices(std::string uri, std::size_t count);
+  /// The accessor of coordinates of textures in a file of their own.
+  int add_shared_coordinates(std::string uri, std::size_t count);
   /// A buffer in a file of its own, which tiles share.
   int add_shared_buffer(std::string uri, std::size_t bytes);
-  /// The meshes of a shared model, whose file is in the directory "a" of `folder`. The same asset twice is added once.
+  /// Adds a shared model, whose file is in the directory "a" of `folder`, and returns the indices of its meshes.
+  /// An asset that was added before is not added again.
   std::vector<int> add_asset(const Asset& asset, std::string_view folder);
   int add_view(int buffer, std::size_t offset, std::size_t bytes, std::size_t stride, int target);
-  /// Appends bytes to the file's own buffer; the index of their view. Aligned to 4 bytes.
+  /// Appends bytes to the file's own buffer, aligned to 4 bytes, and returns the index of their view.
   int add_bytes(const void* data, std::size_t bytes, std::size_t stride, int target);
   int add_accessor(Json accessor);
   int add_node(Json node);  ///< below the root

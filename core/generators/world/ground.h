@@ -12,7 +12,7 @@
 
 namespace seedmesh::world {
 
-/// In absolute metres.
+/// A rectangle in absolute metres.
 struct Rectangle {
   double west = 0, south = 0, east = 0, north = 0;
 };
@@ -43,7 +43,7 @@ struct RoadPiece {
   double from_works = 0, to_works = 0;  ///< absolute difference of height from the ground, metres
 };
 
-/// Where a house stands, as a disc.
+/// The disc that a house covers.
 struct HouseMark {
   double east = 0, north = 0, radius = 0;
 };
@@ -64,16 +64,16 @@ struct Reach {
 
 class Ground {
  public:
-  /// Without rivers and lakes.
+  /// Makes ground without rivers and lakes.
   explicit Ground(const World& world) : world_(&world) {}
   Ground(const World& world, const Rectangle& rectangle, Job& job);
-  /// With water within `reach` metres.
+  /// Makes ground with the rivers and lakes within `reach` metres of the rectangle.
   Ground(const World& world, const Rectangle& rectangle, Job& job, double reach);
-  /// With fields and the earthworks of roads, which reach 56 m.
+  /// Returns ground with fields and the earthworks of roads, which extend 56 m.
   static Ground with_roads(const World& world, const Rectangle& rectangle, Job& job);
-  /// With the earthworks of roads between settlements alone.
+  /// Returns ground with the earthworks only of roads between settlements.
   static Ground with_main_roads(const World& world, const Rectangle& rectangle, Job& job);
-  /// With roads and houses.
+  /// Returns ground with roads and houses.
   static Ground with_works(const World& world, const Rectangle& rectangle, Job& job);
   GroundSample at(double east, double north) const;
   double height(double east, double north) const { return at(east, north).height; }

@@ -8,7 +8,10 @@
 namespace seedmesh::world {
 namespace {
 
-constexpr float cell = 1.5F;                  ///< sides of cells by the distance of stripes
+constexpr float cell = 1.5F;  ///< sides of cells by the distance of stripes
+/// Points of cells are away from their borders, so that a point is within the reach of each position: without one the
+/// height would fall to that of no gullies within centimetres. All points in reach are in the nine cells.
+constexpr float least_jitter = 0.2F, jitter = 0.6F, reach_square = 1.44F;
 constexpr std::size_t cells = 9, lanes = 12;  ///< cells around a position; a multiple of four for vectors
 
 /// The cosine of a number of turns; the error is below 2e-5.
@@ -48,10 +51,10 @@ float stripes(std::uint64_t key, double east, double north, float x, float y) {
   alignas(16) static constexpr std::array<float, lanes> first_y{-1, -1, -1, 0, 0, 0, 1, 1, 1, 9, 9, 9};
   alignas(16) std::array<float, lanes> parts, weights;
   for (std::size_t k = 0; k < lanes; ++k) {
-    const float px = u - first_x[k] - static_cast<float>(jitter_x[k]) * 0x1p-20F;
-    const float py = v - first_y[k] - static_cast<float>(jitter_y[k]) * 0x1p-20F;
+    const float px = u - first_x[k] - (least_jitter + static_cast<float>(jitter_x[k]) * (jitter * 0x1p-20F));
+    const float py = v - first_y[k] - (least_jitter + static_cast<float>(jitter_y[k]) * (jitter * 0x1p-20F));
     const float square = px * px + py * py;
-    const float left = square < 1 ? 1 - square : 0;
+    const float left = square < reach_square ? 1 - square * (1 / reach_square) : 0;
     const float weight = left * left;
     parts[k] = weight * cosine_of_turns(cell * (px * x + py * y));
     weights[k] = weight;

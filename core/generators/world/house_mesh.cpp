@@ -13,8 +13,8 @@ namespace seedmesh::world {
 namespace {
 
 constexpr double widest_openings = 64, widest_models = 128, widest_roofs = 512, widest_boxes = 2048,
-                 widest_prisms = 8192;  ///< metres
-constexpr double prisms_along = 64;     ///< of cells of a tile, each with one prism
+                 widest_prisms = 8192, widest_walls = 1024;  ///< metres
+constexpr double prisms_along = 64;                          ///< of cells of a tile, each with one prism
 constexpr double widest_town_roofs = 256, widest_town_boxes = 512, narrow_prism = 40, wide_prism = 64;
 
 using Point = glm::dvec3;
@@ -253,7 +253,9 @@ void add_models(Glb& glb, const World& world, const TileFrame& frame, const std:
 void add_houses(Glb& glb, const World& world, const TileFrame& frame, double base, Job& job,
                 std::string_view folder) {
   if (frame.side > widest_prisms) return;
-  const std::vector<House> houses = houses_of(world, frame, job);
+  std::vector<House> houses = houses_of(world, frame, job);
+  if (frame.side > widest_walls)
+    std::erase_if(houses, [](const House& house) { return house.kind == House::wall; });
   if (houses.empty()) return;
   HouseMesh mesh(world, frame, base);
   if (frame.side > widest_boxes) {
@@ -263,7 +265,9 @@ void add_houses(Glb& glb, const World& world, const TileFrame& frame, double bas
       add_prisms(mesh, on_lots(houses), frame.side > 2 * widest_town_boxes ? wide_prism : narrow_prism);
     for (const House& house : houses) {
       if (house.is_on_lot && frame.side > widest_town_boxes) continue;
-      if (frame.side > (house.is_on_lot ? widest_town_roofs : widest_roofs)) {
+      if (house.kind == House::wall) {
+        mesh.add_box(house, house.top, mesh.wall_of(house));
+      } else if (frame.side > (house.is_on_lot ? widest_town_roofs : widest_roofs)) {
         mesh.add_box(house, (house.eaves + house.ridge) / 2, mesh.roof_of(house));
       } else if (frame.side > widest_models || house.model < 0) {
         mesh.add(house, frame.side <= widest_openings ? Finish::with_openings : Finish::walls_and_roof);

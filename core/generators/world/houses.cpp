@@ -21,6 +21,7 @@ constexpr double town_storey = 2.9;
 constexpr double widest_town_house = 11.5, deepest_town_house = 7.5;  ///< half; without a model
 constexpr double least_fit = 0.55;                                    ///< of a model on its lot
 constexpr double town_road = 0.3;                                     ///< metres from a house to a street
+constexpr double fountain = 3.2;                                      ///< metres; the side of its basin
 constexpr double least_church = 90;  ///< metres; the radius of settlements with a church
 
 /// Places houses one after the other, each apart from those before.
@@ -44,6 +45,8 @@ class Planner {
     const Rng rng(cell_key(world_.key ^ 0x484F555345U, site_.cell.x, site_.cell.y));
     if (town_->is_built()) {
       add_town();
+      plan_.walls = town_walls(world_, site_, *town_, ground_);
+      if (town_->has_square) add_fountain();
     } else {
       if (models_.empty() && site_.radius >= least_church) add_church(rng.at("church"));
       for (const auto& road : roads_) add_rows(road->points, road->width, rng.at(road->id));
@@ -162,6 +165,24 @@ class Planner {
       job_.check();
       add_town_house(lot_house);
     }
+  }
+
+  /// In the middle of the square.
+  void add_fountain() {
+    House basin;
+    basin.kind = House::wall;
+    basin.east = town_->square_east;
+    basin.north = town_->square_north;
+    basin.length = basin.depth = fountain / 2;
+    const GroundSample ground = ground_.at(basin.east, basin.north);
+    basin.low = ground.height - 1;
+    basin.eaves = basin.ridge = basin.top = ground.height + 0.7;
+    basin.wall_light = 0.8F;
+    House column = basin;
+    column.length = column.depth = fountain / 8;
+    column.eaves = column.ridge = column.top = ground.height + 2.4;
+    plan_.walls.push_back(basin);
+    plan_.walls.push_back(column);
   }
 
   void add_town_house(const TownHouse& given) {
@@ -348,10 +369,13 @@ std::vector<House> houses_near(const World& world, const Rectangle& box, double 
   std::vector<House> found;
   const double around = reach + world.reach(Reads::houses, farm_reach * greatest_radius(world) + 30);
   for (const auto& site : sites_near(world, box, around, job)) {
-    for (const House& house : plan_of(world, *site, job)->houses) {
-      if (house.east >= box.west - reach && house.east < box.east + reach &&
-          house.north >= box.south - reach && house.north < box.north + reach) {
-        found.push_back(house);
+    const auto plan = plan_of(world, *site, job);
+    for (const std::vector<House>* all : {&plan->houses, &plan->walls}) {
+      for (const House& house : *all) {
+        if (house.east >= box.west - reach && house.east < box.east + reach &&
+            house.north >= box.south - reach && house.north < box.north + reach) {
+          found.push_back(house);
+        }
       }
     }
   }

@@ -13,13 +13,15 @@
 
 namespace seedmesh::world {
 
+struct Town;
+
 struct House {
   double east = 0, north = 0;            ///< of its middle, absolute
   double x = 1, y = 0;                   ///< direction of the ridge, east and north
   double length = 0, depth = 0;          ///< half of the plan along and across the ridge
   double low = 0, eaves = 0, ridge = 0;  ///< heights; `low` is below the ground
   double top = 0;                        ///< height of the highest chimney or tower
-  enum Kind : std::uint8_t { dwelling, barn, church } kind = dwelling;
+  enum Kind : std::uint8_t { dwelling, barn, church, wall } kind = dwelling;
   bool is_on_lot = false;  ///< of a town
   int front = 0;           ///< side of its front, seen along the ridge: -1 right, 1 left, 0 no side
   float wall_light = 1, roof_light = 1,
@@ -39,22 +41,27 @@ struct HouseExtent {
 /// Returns the bounds of the houses of a world.
 HouseExtent house_extent(const World& world);
 
-/// Returns the model of a house, from the store or made now.
+/// Returns the model of a house from the store; makes it if the store has none.
 std::shared_ptr<const Asset> house_asset(const World& world, int number, Job& job);
 
 struct Plan {
   std::vector<House> houses;
-  std::uint64_t bytes() const { return sizeof(Plan) + houses.size() * sizeof(House); }
+  std::vector<House> walls;  ///< pieces and towers of the wall of a town, and the fountain of its square
+  std::uint64_t bytes() const { return sizeof(Plan) + (houses.size() + walls.size()) * sizeof(House); }
 };
+
+/// Returns the wall of a town, if it has one. `ground` has the roads and streets around the settlement.
+std::vector<House> town_walls(const World& world, const Site& site, const Town& town, const Ground& ground);
 
 /// From the store, or made in some milliseconds after the roads of the settlement.
 std::shared_ptr<const Plan> plan_of(const World& world, const Site& site, Job& job);
-/// Houses with their middle within `reach` of a rectangle.
+/// Houses and pieces of walls with their middle within `reach` of a rectangle.
 std::vector<House> houses_near(const World& world, const Rectangle& box, double reach, Job& job);
 
-/// The houses whose middle is in the tile. Tiles of up to 128 m have the models of houses, or walls and a gable roof;
-/// up to 512 m all have walls and roof, up to 2 km boxes, up to 8 km one prism for each square of side / 64.
-/// Towns have boxes in tiles of 512 m, and prisms for squares of 40 m in tiles of 1 km and of 64 m in tiles of 2 km.
+/// Adds the houses whose middle is in the tile. In tiles of up to 128 m they are models, or walls and a gable
+/// roof. In tiles of up to 512 m all are walls and a roof. In tiles of up to 2 km they are boxes, and up to 8 km
+/// one prism for each square of side / 64. Towns have boxes in tiles of 512 m, and prisms for squares of 40 m in
+/// tiles of 1 km and of 64 m in tiles of 2 km.
 void add_houses(Glb& glb, const World& world, const TileFrame& frame, double base, Job& job,
                 std::string_view folder);
 

@@ -11,12 +11,12 @@ namespace seedmesh::world {
 
 class Instances {
  public:
-  /// `at`: relative to the middle of the tile, +Y up. `turn`: a unit quaternion about +Y as (y, w).
+  /// Adds a copy. `at`: relative to the middle of the tile, +Y up. `turn`: a unit quaternion about +Y as (y, w).
   void add(const std::array<double, 3>& at, const std::array<float, 3>& scale);
   void add(const std::array<double, 3>& at, const std::array<float, 3>& scale,
            const std::array<float, 2>& turn);
-  /// The tint of the copy that was added last, linear; all copies have one or none has. It is the attribute _COLOR_0,
-  /// which clients that do not know it overlook.
+  /// Sets the linear tint of the copy that was added last. Either all copies have a tint or none has. It is the
+  /// attribute _COLOR_0, which clients without support for it ignore.
   void tint(const std::array<std::uint8_t, 4>& color) {
     tints_.insert(tints_.end(), color.begin(), color.end());
   }

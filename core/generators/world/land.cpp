@@ -93,7 +93,7 @@ Land land_at(const World& world, double east, double north) {
   const WorldRelief& relief = world.params.relief;
   Octaves<8> wide;
   add(wide, world.noise.coast, east, north, 1 / relief.continents);
-  add(wide, world.noise.belts, east, north, 1.0 / 64000);
+  add(wide, world.noise.belts, east, north, 1 / belt_wavelength);
   wide.compute();
   const Slope coast = sum_of(wide, 0, 4) + constant(world.land_bias);
   const Slope on_land = smooth_step(coast, -0.04, 0.3);

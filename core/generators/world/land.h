@@ -10,6 +10,7 @@
 
 namespace seedmesh::world {
 
+constexpr double belt_wavelength = 64000;   ///< metres; of the belts in which mountains stand
 constexpr double range_wavelength = 22000;  ///< metres; of the widest mountain ridges
 constexpr double range_fall = 0.48;         ///< amplitude of a ridge divided by that of one twice as wide
 constexpr double hill_wavelength = 5200;
@@ -31,7 +32,7 @@ Land land_at(const World& world, double east, double north);
 /// Returns the amplitude of an octave of detail by its wavelength.
 double detail_share(const World& world, double ruggedness);
 
-/// What gullies and finer wavelengths add. `land` is the ground with its slope, after rivers.
+/// Returns the metres that gullies and finer wavelengths add. `land` is the ground with its slope, after rivers.
 double detail_at(const World& world, const Land& land, double east, double north);
 
 /// Moisture 0..1 and temperature in degrees Celsius of a position at a height.
@@ -40,7 +41,7 @@ struct Climate {
 };
 /// In the order of the schema.
 enum class Biome { ice, tundra, taiga, steppe, grassland, forest, desert, savanna, rainforest };
-/// By temperature and moisture, roughly as in Whittaker 1975 ("Communities and Ecosystems").
+/// Returns the biome for a temperature and a moisture, roughly as in Whittaker 1975 ("Communities and Ecosystems").
 Biome biome_of(const Climate& climate);
 
 /// Returns the climate at a position and a height in metres.

@@ -1,6 +1,6 @@
 #pragma once
-/// Lanes of a settlement: those that leave the roads of a village, the streets of a town, and ways to farms outside. They
-/// follow the ground.
+/// Lanes of a settlement: those that leave the roads of a village, the streets of a town, and lanes to farms
+/// outside. They follow the ground.
 #include <memory>
 #include <vector>
 
@@ -19,10 +19,11 @@ struct Lanes {
   std::uint64_t bytes() const;
 };
 
-/// How far from its middle a settlement has lanes and houses, by its radius.
+/// Greatest distance of lanes and houses from the middle of a settlement, divided by its radius.
 constexpr double farm_reach = 2.8;
 
-/// From the store, or made in some milliseconds after the roads of the settlement.
+/// Returns the lanes of a settlement from the store. If the store has none, makes them in some milliseconds, after the
+/// roads of the settlement.
 std::shared_ptr<const Lanes> lanes_of(const World& world, const Site& site, Job& job);
 /// Returns the lanes of settlements whose lanes can be within `reach` of a rectangle.
 std::vector<std::shared_ptr<const Lanes>> lanes_near(const World& world, const Rectangle& box, double reach,

@@ -97,6 +97,7 @@ class MapWriter {
   }
 
  private:
+  static constexpr std::size_t most_fountain_parts = 2;
   static constexpr double most_places_side = 2048, most_streets_side = 8192, block = 256;
 
   bool has_details(double most_side) const {
@@ -109,11 +110,14 @@ class MapWriter {
     settlement["class"] = town->is_built() ? "town" : "village";
     settlement["houses"] = plan_of(world_, site, job_)->houses.size();
     Json outline = Json::array(), streets = Json::array();
-    for (const auto& p : town->outline) {
-      outline.push_back({rounded(p[0] - static_cast<double>(world_.east)),
-                         rounded(p[1] - static_cast<double>(world_.north))});
-    }
+    for (const auto& p : town->outline) outline.push_back(plan_position(p));
     if (town->is_built()) settlement["outline"] = std::move(outline);
+    if (town->is_built()) settlement["has_wall"] = has_wall(*plan_of(world_, site, job_));
+    if (town->is_built() && town->has_square) {
+      Json square = Json::array();
+      for (const auto& p : square_of(*town)) square.push_back(plan_position(p));
+      settlement["square"] = std::move(square);
+    }
     for (const Lane& lane : lanes_of(world_, site, job_)->lanes) {
       Json points = Json::array();
       for (const RoadPoint& p : lane.points) points.push_back(position(p.east, p.north, p.height));
@@ -123,6 +127,12 @@ class MapWriter {
     settlement["streets"] = std::move(streets);
   }
 
+  static bool has_wall(const Plan& plan) { return plan.walls.size() > most_fountain_parts; }
+
+  Json plan_position(const std::array<double, 2>& p) const {
+    return {rounded(p[0] - static_cast<double>(world_.east)),
+            rounded(p[1] - static_cast<double>(world_.north))};
+  }
   Json position(double east, double north, double height) const {
     return {rounded(east - static_cast<double>(world_.east)),
             rounded(north - static_cast<double>(world_.north)), rounded(height)};

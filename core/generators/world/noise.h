@@ -24,19 +24,19 @@ inline Slope operator*(const Slope& a, const Slope& b) {
   return {a.value * b.value, a.east * b.value + a.value * b.east, a.north * b.value + a.value * b.north};
 }
 
-/// The chain rule for a function of one variable.
+/// Applies the chain rule for a function of one variable.
 inline Slope applied(const Slope& a, double value, double derivative) {
   return {value, a.east * derivative, a.north * derivative};
 }
 
-/// 0 below `low`, 1 above `high`, with a continuous derivative.
+/// Returns 0 below `low` and 1 above `high`, with a continuous derivative.
 inline Slope smooth_step(const Slope& a, double low, double high) {
   const double t = (a.value - low) / (high - low);
   if (t <= 0) return {0, 0, 0};
   if (t >= 1) return {1, 0, 0};
   return applied(a, t * t * (3 - 2 * t), 6 * t * (1 - t) / (high - low));
 }
-/// The same for a number without a derivative.
+/// Like smooth_step() above, for a number without a derivative.
 inline double smooth_step(double x, double low, double high) {
   return smooth_step(Slope{x, 0, 0}, low, high).value;
 }
@@ -88,7 +88,7 @@ inline const double* direction_of(std::uint64_t key, std::uint64_t x, std::uint6
 
 }  // namespace lattice
 
-/// About -1 to 1, with a mean of 0. The derivative is by x and y.
+/// Returns a value from about -1 to 1, with a mean of 0, and its derivatives by x and y.
 inline Slope noise(std::uint64_t key, double x, double y) {
   const double column = std::floor(x), row = std::floor(y);
   const double u = x - column, v = y - row;
@@ -111,10 +111,10 @@ inline Slope noise(std::uint64_t key, double x, double y) {
   return {scale * (va + s * (vb - va) + t * (vc - va) + s * t * cross), scale * east, scale * north};
 }
 
-/// Of the lattices of octaves: cosine and sine of their turn.
+/// Cosine and sine of the angle by which the lattices of octaves are turned.
 constexpr double turn_cosine = 0.8, turn_sine = 0.6;
 
-/// Noise of a wavelength in metres, turned by `turn` times a fixed angle so that the lattices of octaves differ.
+/// Returns noise of a wavelength in metres. Its lattice is turned by a fixed angle.
 inline Slope octave(std::uint64_t key, double east, double north, double wavelength) {
   constexpr double c = turn_cosine, s = turn_sine;
   const double by = 1 / wavelength;

@@ -9,8 +9,8 @@
 
 namespace seedmesh::world {
 
-/// Up to `lanes` octaves; `lanes` is a multiple of four. Call add() for each, then compute() or compute_values()
-/// once, then read them by their number in the order of add().
+/// Computes up to `lanes` octaves; `lanes` is a multiple of four. Call add() for each octave, then compute() or
+/// compute_values() once. Then read the octaves by their index in the order of add().
 template <std::size_t lanes>
 class Octaves {
  public:
@@ -65,7 +65,7 @@ class Octaves {
   }
 
   double value(std::size_t k) const { return static_cast<double>(values_[k]); }
-  /// With the derivatives by east and north, per metre.
+  /// Returns the value with its derivatives by east and north, per metre.
   Slope slope(std::size_t k) const {
     return {value(k), static_cast<double>(east_[k]), static_cast<double>(north_[k])};
   }

@@ -5,6 +5,7 @@
 
 #include "core/base/math.h"
 #include "core/generators/world/canopy.h"
+#include "core/generators/world/ground_texture.h"
 #include "core/generators/world/octaves.h"
 #include "core/generators/world/plant_layer.h"
 #include "core/generators/world/resolved.h"
@@ -107,6 +108,10 @@ std::array<std::uint8_t, 4> ground_color(const World& world, const GroundColors&
   if (world.params.relief.sea) {
     const double deep = 1.5 + 0.02 * spacing, below = world.params.relief.sea_level - sample.height;
     shade = mixed(shade, colors.water, smooth_step(below, 0, deep));
+  }
+  if (spacing <= widest_textured_spacing) {
+    constexpr double by = 1 / ground_texture_mean;
+    shade = {by * shade.red, by * shade.green, by * shade.blue};
   }
   return {byte_of(shade.red), byte_of(shade.green), byte_of(shade.blue), 255};
 }

@@ -19,9 +19,9 @@ struct GroundColors {
   std::vector<Shade> fields;
 };
 
-/// Linear colour of the ground. `steepness` is the cosine of the slope. Where samples are `spacing` metres apart,
-/// variations that lie between them are left out. The ground of the deep sea has the colour of the water: walls of
-/// skirts that are seen along their planes have depths of little precision and shine through water.
+/// Returns the linear colour of the ground. `steepness` is the cosine of the slope. Variations over less than
+/// `spacing`, the metres between samples, are left out. The ground of the deep sea has the colour of the water,
+/// because walls of skirts can be visible through the water: seen edge-on, their depths have little precision.
 std::array<std::uint8_t, 4> ground_color(const World& world, const GroundColors& colors,
                                          const GroundSample& sample, double east, double north,
                                          double steepness, double spacing);

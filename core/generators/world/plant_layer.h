@@ -11,11 +11,11 @@ namespace seedmesh::world {
 
 constexpr double widest_plants = 4096;  ///< metres; wider tiles have the colour of woods alone
 
-/// `folder`: see tile_glb().
+/// Adds the plants of a tile. `folder`: see tile_glb().
 void add_plants(Glb& glb, const World& world, const TileKey& key, const TileGround& ground, Job& job,
                 std::string_view folder);
 
-/// The model of a class, from the store or made now; null where the class has none.
+/// Returns the model of a class from the store; makes it if the store has none. Null if the class has no model.
 std::shared_ptr<const Asset> plant_asset(const World& world, int plant_class, AssetForm form, Job& job);
 
 }  // namespace seedmesh::world

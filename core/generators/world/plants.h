@@ -27,8 +27,8 @@ struct Plant {
 std::vector<Plant> plants_in(const World& world, int plant_class, const Rectangle& box, const Ground& ground,
                              Job& job, double share = 1, double reach = thinning_rounds);
 
-/// How much of the ground at a position the class covers, 0 to 1. Where samples are `spacing` metres apart, variations
-/// that lie between them are left out.
+/// Returns the share of the ground at a position that the class covers, 0 to 1. Variations over less than
+/// `spacing`, the metres between samples, are left out.
 double wood_cover(const World& world, int plant_class, const GroundSample& sample, const Climate& climate,
                   double east, double north, double spacing);
 

@@ -4,9 +4,10 @@
 ///
 ///   jittered nodes, 2 km apart -> flood from the sea or the lowest node -> flow -> rivers with falling water
 ///
-/// The flood is the priority flood of Barnes, Lehman and Mulla 2014 ("Priority-flood"), on a planar graph of nodes in
-/// place of a grid. Rivers and lakes stay away from positions whose coordinates are multiples of 16,384 m: the samples of
-/// the widest tiles have such coordinates, so they need no drainage. Borders of regions are displaced by noise, so that they are no straight lines.
+/// The flood is the priority flood of Barnes, Lehman and Mulla 2014 ("Priority-flood"), on a planar graph of
+/// nodes in place of a grid. Rivers and lakes stay away from positions whose coordinates are multiples of 16,384
+/// m: the samples of the widest tiles have such coordinates, so they need no drainage. Borders of regions are
+/// displaced by noise, so that they are not straight lines.
 #include <compare>
 #include <memory>
 #include <string>
@@ -27,12 +28,12 @@ struct CellKey {
   auto operator<=>(const CellKey&) const = default;
 };
 
-/// The key of the random choices of regions for one purpose.
+/// Returns the key of the random choices of regions for one purpose.
 inline std::uint64_t region_key(const World& world, std::uint64_t purpose) {
   return key_at(world.key ^ 0x52454749U, purpose);
 }
 
-/// The region that a cell belongs to.
+/// Returns the region that a cell belongs to.
 CellKey region_of(const World& world, const CellKey& cell);
 
 struct RiverPoint {
@@ -57,8 +58,8 @@ struct Lake {
   double depth = 0;
   std::uint64_t key = 0;
 };
-/// The distance of the shore from the middle of a lake in the direction of a position; `away` is the distance of the
-/// position.
+/// Returns the distance of the shore from the middle of a lake in the direction of a position. `away` is the
+/// distance of the position from the middle.
 double shore_distance(const Lake& lake, double east, double north, double away);
 
 struct Region {
@@ -71,7 +72,7 @@ struct Region {
 /// Returns the drainage of a region, from the store or computed in about 1 ms.
 std::shared_ptr<const Region> region_at(const World& world, const CellKey& region, Job& job);
 
-/// The regions whose water can lie within `reach` of a rectangle.
+/// Returns the regions whose water can lie within `reach` of a rectangle.
 std::vector<CellKey> regions_near(const World& world, double west, double south, double east, double north,
                                   double reach);
 

@@ -6,18 +6,18 @@
 
 namespace seedmesh::world {
 
-/// The width of the ribbon of a great river at least. Samples farther apart are seen from farther away, also by clients
-/// that ask for small errors.
+/// Returns the least width of the ribbon of a large river. Tiles with a greater spacing are seen from farther
+/// away, also by clients that ask for small errors.
 constexpr double least_ribbon(double spacing) { return spacing * (0.016 + 0.3 * spacing / (spacing + 300)); }
 
-/// Metres of draped water above the terrain.
+/// Returns the height in metres of draped water above the terrain.
 constexpr double drape_lift(double spacing) { return 0.02 * spacing; }
 
 /// Adds the rivers of a tile, and lakes that are too small for its samples.
 void add_rivers(FlatMesh& builder, const World& world, const TileFrame& frame, const TerrainGrid& grid,
                 Job& job);
 
-/// True where samples show the shore of a lake.
+/// Whether samples with this spacing show the shore of a lake.
 bool is_wide_lake(const Lake& lake, double spacing);
 
 }  // namespace seedmesh::world

@@ -47,15 +47,16 @@ double greatest_radius(const World& world);
 
 std::string name_of(const Site& site);
 std::shared_ptr<const Site> site_at(const World& world, const CellKey& cell, Job& job);
-/// Settlements in a rectangle with `reach` around it.
+/// Returns the settlements within `reach` of a rectangle.
 std::vector<std::shared_ptr<const Site>> sites_near(const World& world, const Rectangle& box, double reach,
                                                     Job& job);
-/// Roads that have a piece within `reach` of a rectangle. A new road takes about 10 ms.
+/// Returns the roads that have a piece within `reach` of a rectangle. A new road takes about 10 ms.
 std::vector<std::shared_ptr<const Road>> roads_near(const World& world, const Rectangle& box, double reach,
                                                     Job& job);
 
-/// Heights of a road of grade at most `most_grade` along a line, which begins and ends on the ground. `along`: the
-/// distances from the start. Empty where the ends are too steep.
+/// Returns the heights of a road with a grade of at most `most_grade` along a line, which begins and ends on the
+/// ground. `along`: the distances from the start. Returns an empty list if the grade between the ends is too
+/// steep.
 std::vector<double> graded(const std::vector<double>& along, const std::vector<double>& ground);
 
 }  // namespace seedmesh::world

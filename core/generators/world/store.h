@@ -31,8 +31,8 @@ class Store {
 
   explicit Store(std::uint64_t capacity = std::uint64_t{64} << 20U) : capacity_(capacity) {}
 
-  /// The value at `key`, made by `make` where the store has none. `make` may ask for values of lower layers. If
-  /// it throws, one of the waiting threads makes the value. Waiting ends with the job's deadline.
+  /// Returns the value of `key`. If the store has none, `make` makes it. `make` may ask for values of lower
+  /// layers. If it throws, one of the waiting threads makes the value. Waiting ends with the job's deadline.
   template <class Value, class Make>
   std::shared_ptr<const Value> get(const Key& key, const Job& job, const Make& make) {
     const auto made = find_or_make(key, job, [&] {

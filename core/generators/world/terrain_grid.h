@@ -18,7 +18,7 @@ struct TerrainGrid {
     return samples[static_cast<std::size_t>((row + halo) * wide + column + halo)];
   }
 };
-/// The terrain of a tile, which the layers above it stand on. It does not own the grid.
+/// The terrain of a tile, on which the other layers stand. It does not own the grid.
 struct TileGround {
   const TerrainGrid& grid;
   double base = 0;  ///< the height of position 0 of the tile's meshes

@@ -44,9 +44,9 @@ TerrainIndices terrain_indices(int count) {
   return made;
 }
 
-std::shared_ptr<const TerrainIndices> terrain_indices_of(const World& world, const Job& job) {
-  return world.store->get<TerrainIndices>({0, Store::Layer::file, -1, 0, 0}, job, [] {
-    return std::make_shared<const TerrainIndices>(terrain_indices(tile_cells + 1));
+std::shared_ptr<const TerrainIndices> terrain_indices_of(const World& world, int cells, const Job& job) {
+  return world.store->get<TerrainIndices>({0, Store::Layer::file, -1, 0, cells}, job, [cells] {
+    return std::make_shared<const TerrainIndices>(terrain_indices(cells + 1));
   });
 }
 

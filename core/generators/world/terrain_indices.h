@@ -1,5 +1,6 @@
 #pragma once
-/// The triangles of the terrain of a tile: the same in all tiles of all worlds, so they are a file that tiles share.
+/// The triangles of the terrain of a tile: the same in all tiles with a number of cells, so they are a file that tiles
+/// share.
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -17,14 +18,14 @@ struct TerrainIndices {
   std::uint64_t bytes() const { return 2 * corners.size() + file.size() + sizeof(TerrainIndices); }
 };
 
-/// Samples of a border in turn, counter-clockwise from above, starting in the south-west. The skirt has a vertex below
-/// each of them, in this order, after the vertices of the ground.
+/// Returns the samples of the border in order, counter-clockwise from above, starting in the south-west. The
+/// skirt has a vertex below each of them, in this order, after the vertices of the ground.
 std::vector<std::uint16_t> border_of_grid(int count);
 
-/// Triangles of a grid of `count` x `count` vertices with a skirt, counter-clockwise from outside.
+/// Returns the triangles of a grid of `count` x `count` vertices with a skirt, counter-clockwise from outside.
 TerrainIndices terrain_indices(int count);
 
-/// Those of the tiles of a world, from the store.
-std::shared_ptr<const TerrainIndices> terrain_indices_of(const World& world, const Job& job);
+/// Those of tiles with `cells` cells along a side, from the store.
+std::shared_ptr<const TerrainIndices> terrain_indices_of(const World& world, int cells, const Job& job);
 
 }  // namespace seedmesh::world

@@ -57,13 +57,15 @@ TileVertex vertex_of(const World& world, const GroundColors& colors, const TileF
   vertex.normal[0] = byte(-seen.east);
   vertex.normal[1] = byte(1);
   vertex.normal[2] = byte(seen.north);
-  const auto color = ground_color(world, colors, sample, east, north, steepness, grid.spacing);
+  // as tiles with the usual number of cells
+  const double resolved = frame.side / tile_cells;
+  const auto color = ground_color(world, colors, sample, east, north, steepness, resolved);
   std::copy(color.begin(), color.end(), vertex.color);
   return vertex;
 }
 
 double usual_skirt(const World& world, const TileFrame& frame, const Roughness& rough) {
-  return far_share * deviation_of(world, 8 * frame.spacing, rough) +
+  return far_share * deviation_of(world, far_spacing(frame.side), rough) +
          border_share * deviation_of(world, frame.spacing, rough) + rounding_steps * frame.step;
 }
 
@@ -81,6 +83,7 @@ void add_skirt(std::vector<TileVertex>& vertices, int count, double skirt, doubl
 
 double skirt_depth(const World& world, const TileFrame& frame, const TerrainGrid& grid) {
   const int last = grid.count - 1;
+  const int widest = math::to_int32(far_spacing(frame.side) / frame.spacing);
   Roughness rough;
   double most = 0;
   for (int side = 0; side < 4; ++side) {
@@ -89,7 +92,7 @@ double skirt_depth(const World& world, const TileFrame& frame, const TerrainGrid
     };
     for (int k = 0; k <= last; ++k) {
       rough.add(at(k));
-      for (int stride = 2; stride <= 8; stride *= 2) {
+      for (int stride = 2; stride <= widest; stride *= 2) {
         const int from = k / stride * stride, to = std::min(from + stride, last);
         if (from == k || from == to) continue;
         const double t = static_cast<double>(k - from) / (to - from);

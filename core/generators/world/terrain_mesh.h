@@ -11,19 +11,18 @@ struct TerrainMesh {
   double height = 0;  ///< metres at position 0: a multiple of the step
 };
 
-/// 33 x 33 vertices, and below those of the border a skirt whose walls face outwards; terrain_indices() has the
-/// triangles. `grid` has a halo. Heights
-/// are rounded to whole steps of the level and normals follow from samples of the level, so two neighbours of one
-/// level have equal borders.
+/// Returns 33 x 33 vertices, and below those of the border a skirt whose walls face outwards; terrain_indices()
+/// has the triangles. `grid` has a halo. Heights are rounded to whole steps of the level, and normals follow from
+/// samples of the level. Neighbours of one level therefore have equal borders.
 TerrainMesh terrain_mesh(const World& world, const TileFrame& frame, const TerrainGrid& grid, double skirt);
 
-/// Metres that the skirt of a tile hangs down, so that no gap shows beside tiles up to three levels coarser or finer.
-/// `grid` is that of the tile.
+/// Returns the depth in metres of the skirt of a tile. It hides gaps beside tiles of up to three levels coarser
+/// or finer. `grid` is that of the tile.
 double skirt_depth(const World& world, const TileFrame& frame, const TerrainGrid& grid);
 /// Returns a bound of the depths of skirts in an area.
 double most_skirt(const World& world, const TileFrame& frame, Roughness roughness);
 
-/// Whole steps at `height`, relative to `base`, within 16 bits.
+/// Returns `height` minus `base` in whole steps, within 16 bits.
 std::int16_t steps_of(double height, double base, double step);
 /// Returns a multiple of the step near the middle of a range of heights.
 double base_of(double low, double high, double step);

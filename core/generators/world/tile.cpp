@@ -4,6 +4,7 @@
 #include "core/generators/world/canopy.h"
 #include "core/generators/world/flat_mesh.h"
 #include "core/generators/world/glb.h"
+#include "core/generators/world/ground_texture.h"
 #include "core/generators/world/houses.h"
 #include "core/generators/world/lanes.h"
 #include "core/generators/world/palette.h"
@@ -13,21 +14,14 @@
 #include "core/generators/world/terrain_indices.h"
 #include "core/generators/world/terrain_mesh.h"
 #include "core/generators/world/tile_frame.h"
+#include "core/generators/world/town.h"
 #include "core/generators/world/water_mesh.h"
 #include "core/generators/world/world.h"
 
 namespace seedmesh::world {
 namespace {
 
-constexpr double widest_lake_spacing = 256;  ///< metres between samples that show the shores of lakes
-
 constexpr double widest_road_spacing = 16;
-
-/// The name of a node and of its material, and the roughness of that.
-struct Surface {
-  std::string_view name;
-  double roughness = 1;
-};
 
 void add_mesh(Glb& glb, const Surface& surface, const TileMesh& mesh, const TileFrame& frame, double base,
               Job& job) {
@@ -36,13 +30,24 @@ void add_mesh(Glb& glb, const Surface& surface, const TileMesh& mesh, const Tile
   glb.add_mesh(surface.name, mesh, glb.add_material(surface.name, surface.roughness), frame.step, base);
 }
 
-void add_water(Glb& glb, const World& world, const TileFrame& frame, const TerrainGrid& grid, double base,
-               Job& job) {
-  const Rectangle box{frame.west, frame.south, frame.west + frame.side, frame.south + frame.side};
-  const bool is_coarse = grid.spacing > widest_lake_spacing;
-  const Ground ground = is_coarse ? Ground(world) : Ground(world, box, job, 100);
-  const WaterMesh water = water_mesh(world, frame, grid, ground, base, job);
-  add_mesh(glb, {"water", 0.15}, water.mesh, frame, base, job);
+void add_terrain(Glb& glb, const World& world, const TileFrame& frame, const TerrainMesh& terrain, Job& job,
+                 std::string_view folder) {
+  const std::string files = std::string(folder) + "a/";
+  const auto [name, roughness] = ground_surface;
+  const auto indices = terrain_indices_of(world, frame.cells, job);
+  job.spend(Resource::triangles, indices->corners.size() / 3);
+  Glb::SharedParts parts;
+  parts.order = glb.add_shared_indices(files + indices->hash + ".bin", indices->corners.size());
+  int material = -1;
+  if (frame.spacing <= widest_textured_spacing) {
+    const auto texture = ground_texture(world, job);
+    parts.coordinates =
+        glb.add_shared_coordinates(files + texture->coordinates_hash + ".bin", terrain.vertices.size());
+    material = glb.add_material(name, roughness, files + texture->image_hash + ".png");
+  } else {
+    material = glb.add_material(name, roughness);
+  }
+  glb.add_mesh("terrain", terrain.vertices, parts, material, frame.step, terrain.height);
 }
 
 /// Whether a piece of a road can have a part in a rectangle.
@@ -66,9 +71,22 @@ std::vector<RoadPoint> extended(const Lane& street) {
   return points;
 }
 
+/// The paved squares of towns, which lie on the ground.
+void add_squares(FlatMesh& roads, const World& world, const Rectangle& box, const TerrainGrid& grid,
+                 Job& job) {
+  for (const auto& site : sites_near(world, box, greatest_radius(world), job)) {
+    const auto town = town_of(world, *site, job);
+    if (!town->has_square || !town->is_built()) continue;
+    std::vector<FlatMesh::Point> corners;
+    for (const auto& [east, north] : square_of(*town)) corners.emplace_back(east, north, 0);
+    roads.add_draped(std::move(corners), grid, 0.08 + 0.01 * grid.spacing);
+  }
+}
+
 /// Roads and houses of small tiles.
-void add_works(Glb& glb, const World& world, const TileFrame& frame, double base, Job& job,
+void add_works(Glb& glb, const World& world, const TileFrame& frame, const TileGround& ground, Job& job,
                std::string_view folder) {
+  const double base = ground.base;
   const Rectangle box{frame.west, frame.south, frame.west + frame.side, frame.south + frame.side};
   if (frame.spacing <= widest_road_spacing && world.has(Layer::roads)) {
     FlatMesh roads(frame, base, linear_color(world.params.roads.color));
@@ -83,6 +101,7 @@ void add_works(Glb& glb, const World& world, const TileFrame& frame, double base
     };
     for (const auto& road : roads_near(world, box, world.params.roads.width, job))
       add(road->points, road->width, lift);
+    add_squares(roads, world, box, ground.grid, job);
     for (const auto& lanes : lanes_near(world, box, world.params.roads.width, job)) {
       for (const Lane& lane : lanes->lanes)
         add(lane.is_street ? extended(lane) : lane.points, lane.width, 0.9 * lift);
@@ -104,18 +123,14 @@ std::string tile_glb(const World& world, const TileKey& key, Job& job, std::stri
   const TileFrame frame = frame_of(world, key);
   Glb glb({frame.middle_east - static_cast<double>(world.east), 0.0,
            0.0 - (frame.middle_north - static_cast<double>(world.north))});
-  const TerrainGrid grid = sample_grid(world, frame, tile_cells, 1, job);
+  const TerrainGrid grid = sample_grid(world, frame, frame.cells, 1, job);
   const TerrainMesh terrain = terrain_mesh(world, frame, grid, skirt_depth(world, frame, grid));
-  if (world.has(Layer::terrain)) {
-    const auto indices = terrain_indices_of(world, job);
-    job.spend(Resource::triangles, indices->corners.size() / 3);
-    const int order =
-        glb.add_shared_indices(std::string(folder) + "a/" + indices->hash + ".bin", indices->corners.size());
-    glb.add_mesh("terrain", terrain.vertices, order, glb.add_material("ground", 1), frame.step,
-                 terrain.height);
+  if (world.has(Layer::terrain)) add_terrain(glb, world, frame, terrain, job, folder);
+  if (world.has(Layer::water)) {
+    const WaterMesh water = water_of(world, frame, {grid, terrain.height}, job);
+    add_mesh(glb, water_surface, water.mesh, frame, terrain.height, job);
   }
-  if (world.has(Layer::water)) add_water(glb, world, frame, grid, terrain.height, job);
-  add_works(glb, world, frame, terrain.height, job, folder);
+  add_works(glb, world, frame, {grid, terrain.height}, job, folder);
   if (world.has(Layer::plants)) add_plants(glb, world, key, {grid, terrain.height}, job, folder);
   return std::move(glb).text();
 }
@@ -127,8 +142,15 @@ SharedFile binary(std::string bytes) { return {std::move(bytes), "application/oc
 }  // namespace
 
 std::optional<SharedFile> shared_file(const World& world, std::string_view hash, Job& job) {
-  if (const auto indices = terrain_indices_of(world, job); world.has(Layer::terrain) && indices->hash == hash)
-    return binary(indices->file);
+  if (world.has(Layer::terrain)) {
+    for (const int cells : {tile_cells, dense_cells}) {
+      const auto indices = terrain_indices_of(world, cells, job);
+      if (indices->hash == hash) return binary(indices->file);
+    }
+    const auto texture = ground_texture(world, job);
+    if (texture->coordinates_hash == hash) return binary(texture->coordinates);
+    if (texture->image_hash == hash) return SharedFile{texture->image, "image/png", "png"};
+  }
   for (std::size_t k = 0; world.has(Layer::plants) && k < world.params.plants.size(); ++k) {
     const int number = static_cast<int>(k);
     for (const PlantForm form : {PlantForm::whole, PlantForm::simple}) {

@@ -8,17 +8,30 @@ namespace seedmesh::world {
 
 struct TileFrame {
   double side = 0;                           ///< metres
+  int cells = 0;                             ///< of the terrain along a side
   double spacing = 0;                        ///< spacing of terrain samples
   double west = 0, south = 0;                ///< absolute; the coordinates of samples are exact
   double middle_east = 0, middle_north = 0;  ///< absolute
   double step = 0;  ///< step of quantized positions: a power of two that follows from the side alone
 };
 
+constexpr int dense_cells = 64;
+constexpr double dense_side = 8192;  ///< metres; of the tiles that have `dense_cells`
+
+/// Cells along the side of a tile. Tiles below those of 8 km show woods and villages as surfaces and boxes, whose
+/// heights are the greatest part of their errors. Tiles of 8 km have samples as near to each other as those. So views from
+/// about a kilometre end there, with one level of tiles and tilesets less.
+constexpr int cells_of(double side) { return side == dense_side ? dense_cells : tile_cells; }
+
+/// Metres between the samples of tiles three levels above those with a side.
+constexpr double far_spacing(double side) { return 8 * side / cells_of(8 * side); }
+
 /// Returns the frame of a tile.
 inline TileFrame frame_of(const World& world, const TileKey& key) {
   TileFrame frame;
   frame.side = world.extent / static_cast<double>(std::int64_t{1} << key.level);
-  frame.spacing = frame.side / tile_cells;
+  frame.cells = cells_of(frame.side);
+  frame.spacing = frame.side / frame.cells;
   frame.west = static_cast<double>(world.east) - world.extent / 2 + static_cast<double>(key.x) * frame.side;
   frame.south = static_cast<double>(world.north) - world.extent / 2 + static_cast<double>(key.y) * frame.side;
   frame.middle_east = frame.west + frame.side / 2;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include "core/base/math.h"
 #include "core/generators/city/city.h"
@@ -14,12 +15,15 @@ namespace {
 constexpr std::size_t directions = 48;  ///< of the outline
 constexpr double step = 12;             ///< metres between positions that are tested for the outline
 constexpr double least_shore = 24, above_sea = 3;
-constexpr double steepest = 0.22;      ///< of the ground between two positions
-constexpr double least_share = 0.5;    ///< of the mean square radius; below, the settlement is a village
-constexpr double apart = 30;           ///< metres between given streets
-constexpr double pin_radius = 42;      ///< metres; earthworks keep away from samples of coarse tiles
-constexpr double green_radius = 25;    ///< metres, around the church
-constexpr double green_distance = 62;  ///< metres from the middle of the town
+constexpr double steepest = 0.22;       ///< of the ground between two positions
+constexpr double least_share = 0.5;     ///< of the mean square radius; below, the settlement is a village
+constexpr double apart = 30;            ///< metres between given streets
+constexpr double pin_radius = 42;       ///< metres; earthworks keep away from samples of coarse tiles
+constexpr double green_radius = 25;     ///< metres, around the church
+constexpr double green_distance = 62;   ///< metres from the middle of the town
+constexpr double square_distance = 34;  ///< metres from the middle of the town
+constexpr double inner_square = 0.9 * square_radius;
+constexpr double least_apart = 52;     ///< metres from the square to the church
 constexpr double level_enough = 0.08;  ///< metres that points of a street may leave a straight line
 constexpr double pavement = 2;         ///< metres beside a road within a town
 
@@ -55,6 +59,7 @@ class TownPlanner {
     const Result<city::CityPlan> planned = plan();
     if (!planned) return {};
     add_streets(*planned);
+    if (is_square_crossed()) town_.has_square = false;
     add_houses(*planned);
     for (Point& p : outline_) p = {p[0] + site_.east, p[1] + site_.north};
     town_.outline = std::move(outline_);
@@ -70,6 +75,7 @@ class TownPlanner {
     params.area.polygon = {outline_};
     params.maps.density = "1-sqrt(x*x+y*y)/" + std::to_string(math::to_int32(std::ceil(1.2 * site_.radius)));
     place_church(roads);
+    place_square(roads);
     if (CityPolygons polygons = obstacles(); !polygons.coordinates.empty())
       params.maps.obstacles = std::move(polygons);
     if (has_roads_) params.given.given_streets = features_of(roads);
@@ -180,21 +186,39 @@ class TownPlanner {
     return streets;
   }
 
+  /// Finds a position at a distance from the middle that is `free` metres from roads, on buildable ground.
+  std::optional<Point> free_position(const std::vector<Line>& roads, double first, double distance,
+                                     double free) const {
+    for (int k = 0; k < 12; ++k) {
+      const math::SinCos way = math::sincos_degrees(first + 30.0 * k);
+      const Point p{distance * way.cos, distance * way.sin};
+      const bool is_free = std::all_of(roads.begin(), roads.end(),
+                                       [&](const Line& line) { return distance_to(p, line) > free; });
+      const double x = site_.east + p[0] - town_.church_east, y = site_.north + p[1] - town_.church_north;
+      const bool is_apart = !town_.has_church || x * x + y * y > least_apart * least_apart;
+      if (is_free && is_apart && is_buildable(ground_.at(site_.east + p[0], site_.north + p[1]))) return p;
+    }
+    return std::nullopt;
+  }
+
   /// The church stands on a green of its own, away from roads.
   void place_church(const std::vector<Line>& roads) {
     Rng rng = rng_.at("church");
-    const double first = 360 * rng.unit();
-    for (int k = 0; k < 12 && !town_.has_church; ++k) {
-      const math::SinCos way = math::sincos_degrees(first + 30.0 * k);
-      const Point p{green_distance * way.cos, green_distance * way.sin};
-      const bool is_free = std::all_of(roads.begin(), roads.end(), [&](const Line& line) {
-        return distance_to(p, line) > green_radius + 14;
-      });
-      if (!is_free || !is_buildable(ground_.at(site_.east + p[0], site_.north + p[1]))) continue;
-      town_.has_church = true;
-      town_.church_east = site_.east + p[0];
-      town_.church_north = site_.north + p[1];
-    }
+    const auto found = free_position(roads, 360 * rng.unit(), green_distance, green_radius + 14);
+    if (!found) return;
+    town_.church_east = site_.east + (*found)[0];
+    town_.church_north = site_.north + (*found)[1];
+    town_.has_church = true;
+  }
+
+  /// A paved square beside the middle, away from the church.
+  void place_square(const std::vector<Line>& roads) {
+    Rng rng = rng_.at("square");
+    const auto found = free_position(roads, 360 * rng.unit(), square_distance, square_radius + 8);
+    if (!found) return;
+    town_.has_square = true;
+    town_.square_east = site_.east + (*found)[0];
+    town_.square_north = site_.north + (*found)[1];
   }
 
   /// The green of the church, and where earthworks must not be.
@@ -218,6 +242,7 @@ class TownPlanner {
         add(east, north, pin_radius);
     }
     if (town_.has_church) add(town_.church_east, town_.church_north, green_radius);
+    if (town_.has_square) add(town_.square_east, town_.square_north, square_radius);
     return polygons;
   }
 
@@ -280,6 +305,18 @@ class TownPlanner {
     return true;
   }
 
+  /// Whether a street cuts through the square: growth ends streets near obstacles, not always before them.
+  bool is_square_crossed() const {
+    const Point middle{town_.square_east, town_.square_north};
+    return std::any_of(town_.streets.begin(), town_.streets.end(), [&](const Lane& street) {
+      for (std::size_t k = 1; k < street.points.size(); ++k) {
+        const RoadPoint &a = street.points[k - 1], &b = street.points[k];
+        if (distance_to(middle, {a.east, a.north}, {b.east, b.north}) < inner_square) return true;
+      }
+      return false;
+    });
+  }
+
   void add_houses(const city::CityPlan& plan) {
     for (const city::Lot& lot : plan.lots) {
       if (!lot.house) continue;
@@ -307,6 +344,16 @@ std::uint64_t Town::bytes() const {
   std::uint64_t sum = sizeof(Town) + houses.size() * sizeof(TownHouse) + outline.size() * sizeof(Point);
   for (const Lane& street : streets) sum += sizeof(Lane) + street.points.size() * sizeof(RoadPoint);
   return sum;
+}
+
+std::vector<std::array<double, 2>> square_of(const Town& town) {
+  std::vector<std::array<double, 2>> corners;
+  for (int k = 0; k < 8; ++k) {
+    const math::SinCos way = math::sincos_degrees(45.0 * k);
+    corners.push_back(
+        {town.square_east + square_radius * way.cos, town.square_north + square_radius * way.sin});
+  }
+  return corners;
 }
 
 Result<city::CityPlan> town_plan(const World& world, const Site& site, Job& job) {

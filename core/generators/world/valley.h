@@ -4,7 +4,7 @@
 
 namespace seedmesh::world {
 
-/// Metres. Water that is farther away does not change the ground.
+/// Greatest distance in metres at which water changes the ground.
 constexpr double valley_reach = 1400;
 
 /// A position beside some water.

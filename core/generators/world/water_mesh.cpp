@@ -10,7 +10,9 @@
 namespace seedmesh::world {
 namespace {
 
-constexpr double overlap = 1.0 / 8;  ///< of a cell, at the borders of sheets
+constexpr double overlap = 1.0 / 8;          ///< of a cell, at the borders of sheets
+constexpr double widest_lake_spacing = 256;  ///< metres between samples that show the shores of lakes
+constexpr double lake_reach = 100;           ///< metres
 
 /// Cells of the grid: from the first column and row to those after the last.
 struct Cells {
@@ -88,15 +90,19 @@ void add_lake(FlatMesh& builder, const TerrainGrid& grid, const Lake& lake) {
 
 }  // namespace
 
-WaterMesh water_mesh(const World& world, const TileFrame& frame, const TerrainGrid& grid,
-                     const Ground& ground, double base, Job& job) {
-  FlatMesh builder(frame, base, linear_color(world.params.colors.water));
+WaterMesh water_of(const World& world, const TileFrame& frame, const TileGround& tile, Job& job) {
+  const TerrainGrid& grid = tile.grid;
+  const Rectangle box{frame.west, frame.south, frame.west + frame.side, frame.south + frame.side};
+  FlatMesh builder(frame, tile.base, linear_color(world.params.colors.water));
   if (world.params.relief.sea) add_sea(builder, grid, world.params.relief.sea_level);
-  for (const Lake& lake : ground.lakes()) {
-    if (is_wide_lake(lake, grid.spacing)) add_lake(builder, grid, lake);
+  if (grid.spacing <= widest_lake_spacing) {
+    const Ground ground(world, box, job, lake_reach);
+    for (const Lake& lake : ground.lakes()) {
+      if (is_wide_lake(lake, grid.spacing)) add_lake(builder, grid, lake);
+    }
   }
   if (grid.spacing < dry_spacing) add_rivers(builder, world, frame, grid, job);
-  return {builder.take(), base};
+  return {builder.take(), tile.base};
 }
 
 }  // namespace seedmesh::world

@@ -13,7 +13,6 @@ struct WaterMesh {
 
 /// Empty where the tile has no water. The sea is one rectangle wherever the tile has ground below it; those of lakes
 /// lie where the ground of a cell is partly below the water. Rivers and small lakes follow from add_rivers().
-WaterMesh water_mesh(const World& world, const TileFrame& frame, const TerrainGrid& grid,
-                     const Ground& ground, double base, Job& job);
+WaterMesh water_of(const World& world, const TileFrame& frame, const TileGround& tile, Job& job);
 
 }  // namespace seedmesh::world

@@ -1,6 +1,6 @@
 #pragma once
-/// A plane of land and sea by a seed, up to the extent of the request, streamed as OGC 3D Tiles 1.1. A tile is a
-/// function of the request and its address: no tile needs another tile.
+/// A plane of land and sea that is generated from a seed, up to the extent of the request, and streamed as OGC 3D
+/// Tiles 1.1. A tile is a function of the request and its address; no tile needs another tile.
 ///
 ///   region (drainage, lakes) -> height of a point -> villages -> roads -> fields, houses -> plants -> tiles
 ///
@@ -22,20 +22,20 @@ struct TileKey {
   std::int64_t x = 0, y = 0;
 };
 
-/// True where the tree has the tile: 0 <= level < world.levels and 0 <= x, y < 2^level.
+/// Whether the tree has the tile: 0 <= level < world.levels and 0 <= x, y < 2^level.
 bool has_tile(const World& world, const TileKey& key);
 
 /// The upright box of a tile. It holds all vertices of the tile, skirts and instances included, and the boxes of
 /// its children; it lies inside the box of its parent. In plan it is the tile's square, except where plants and
-/// buildings stand out.
+/// buildings extend beyond it.
 struct TileBounds {
   double west = 0, south = 0, low = 0, east = 0, north = 0,
          high = 0;             ///< metres from the middle of the world
   double geometric_error = 0;  ///< metres; falls at every level and is 0 at leaves
 };
 
-/// Bounds of the 341 tiles of one file are made together, in some milliseconds, and stay in the store. `key` is in the
-/// tree.
+/// Returns the bounds of a tile. Those of the 341 tiles of one file are made together, in some milliseconds, and
+/// stay in the store. `key` is in the tree.
 TileBounds tile_bounds(const World& world, const TileKey& key, Job& job);
 
 /// Returns the geometric error that the root of an implicit tileset has to declare: divided by 2^level, it is at least
@@ -64,16 +64,16 @@ enum class MapHeights {
   grid
 };  ///< grid: {columns, rows, values} of 65 x 65 samples, rows from the south
 
-/// {box, sea_level, heights?, settlements, rivers, lakes, roads, plants} of a box with sides of at most 2^16 m.
-/// Plants have `places` up to a side of 2,048 m; settlements have `class`, `houses`, `streets` and the `outline` of a town
-/// up to 8,192 m. Rivers that touch the box come with all waters that they flow into, so
-/// `into` is "sea" or names an entry. Positions, heights, widths and radii are rounded to 1/64 m.
+/// Returns {box, sea_level, heights?, settlements, rivers, lakes, roads, plants} of a box with sides of at most
+/// 2^16 m. In boxes with sides of at most 2,048 m, plants have `places`. In boxes of at most 8,192 m, settlements
+/// have `class`, `houses` and `streets`, and towns have `outline`. All waters that a listed river flows into are
+/// listed, so `into` is "sea" or names an entry. Positions, heights, widths and radii are rounded to 1/64 m.
 Json map_json(const World& world, const MapBox& box, MapHeights heights, Job& job);
 
 // The functions of the generator. Its model is the terrain of the root tile.
 std::vector<Issue> check(const WorldParams& params, const CheckContext& context);
 Result<Model> generate(const WorldParams& params, const GenerateContext& context);
-/// {levels, extent, origin, sea_level, warnings}
+/// Returns {levels, extent, origin, sea_level, warnings}.
 Result<Json> derive(const WorldParams& params, const GenerateContext& context);
 Result<Appraisal> appraise(const WorldParams& params, const GenerateContext& context);
 Json vocabulary();

@@ -17,7 +17,7 @@ namespace seedmesh::world {
 
 constexpr double leaf_side = 64;             ///< metres
 constexpr std::int64_t region_side = 32768;  ///< metres; the unit of the origin
-constexpr int tile_cells = 32;               ///< along a side of the terrain of a tile
+constexpr int tile_cells = 32;               ///< along a side of the terrain of most tiles
 
 enum class Layer : std::uint8_t { terrain, water, roads, buildings, plants };
 
@@ -37,9 +37,9 @@ struct NoiseKeys {
 /// Derives the keys of all noises from the key of a world.
 NoiseKeys noise_keys(std::uint64_t key);
 
-/// What a layer reads around the part that it makes: cells of a region, water, settlements
-/// that decide about roads, earthworks of roads, settlements with fields, settlements with houses, and what the plan of a
-/// town depends on.
+/// The data that a layer reads around the part that it makes: cells of a region, water, settlements that
+/// determine roads, earthworks of roads, settlements with fields, settlements with houses, and the data of a
+/// town's plan.
 enum class Reads : std::uint8_t { cells, water, roads, works, fields, houses, towns };
 
 /// Immutable; copies share the store. Positions of the plane ("absolute") are metres from its own zero; those of
@@ -61,8 +61,8 @@ struct World {
   NoiseKeys noise;
   std::shared_ptr<const CityParams> town_rules;  ///< never null
 
-  /// What a layer with a declared reach reads. Tests change `reach_factor` and `reach_more` of one layer, to show that
-  /// its reach is enough and that half of it is not.
+  /// Returns the distance within which a layer with a declared reach reads. Tests change `reach_factor` and
+  /// `reach_more` of one layer, to show that its reach is enough and that half of it is not.
   double reach(Reads layer, double declared) const {
     const auto n = static_cast<std::size_t>(layer);
     return reach_factor[n] * declared + reach_more[n];
@@ -75,7 +75,8 @@ struct World {
 /// /plants where two classes have one name.
 std::vector<Issue> issues_of(const WorldParams& params);
 
-/// `store` keeps what tiles share; without one the world gets its own of 64 MiB.
+/// Checks the parameters and returns the world. `store` keeps values that tiles share; without one, the world
+/// gets its own of 64 MiB.
 Result<World> read_world(const WorldParams& params, std::uint64_t seed,
                          std::shared_ptr<Store> store = nullptr);
 

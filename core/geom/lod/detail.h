@@ -15,7 +15,8 @@ class Detail {
   explicit Detail(int level) : level_(level) {}
 
   int level() const { return level_; }
-  /// The number at this level where level 0 has `most`, rounded down; at least 3 sides and 1 stack.
+  /// Return the number of sides or stacks at this level if level 0 has `most`, rounded down; at least 3 sides and
+  /// 1 stack.
   int sides(int most) const;
   int stacks(int most) const;
   /// The sides of a tree's bark, whose thin limbs have few at every level: most / (level + 1)^0.3.

@@ -1,5 +1,5 @@
 #pragma once
-/// What simplification (simplify.cpp) keeps of a surface and of possible changes to it.
+/// The data of simplification (simplify.cpp): quadrics of a surface, and candidates for edge collapses.
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -39,7 +39,7 @@ inline double collapse_cost(const Quadric& from, const Quadric& to, const glm::d
   return std::max(0.0, sum.at(target)) + length_weight * glm::dot(way, way) * glm::dot(way, way);
 }
 
-/// The next and the previous corner of the same triangle, in an index array.
+/// Return the next and the previous corner of the same triangle, in an index array.
 inline std::size_t after(std::size_t corner) { return corner % 3 == 2 ? corner - 2 : corner + 1; }
 inline std::size_t before(std::size_t corner) { return corner % 3 == 0 ? corner + 2 : corner - 1; }
 

@@ -34,7 +34,7 @@ class EdgeAdjacency {
   };
   struct Leader {
     std::uint32_t piece;
-    std::uint8_t parity;  ///< 1: the piece asked for is flipped against its leader
+    std::uint8_t parity;  ///< 1: the piece of the query is flipped relative to its leader
   };
 
   static std::uint64_t key(int layer, const Edge& edge);

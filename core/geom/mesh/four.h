@@ -34,7 +34,7 @@ inline FourFloats magnitude(FourFloats v) {
   return reinterpret_cast<FourFloats>(reinterpret_cast<FourFlags>(v) & 0x7FFFFFFF);
 }
 
-/// `v` in the first three lanes, 0 in the last.
+/// Returns `v` in the first three lanes, and 0 in the last.
 inline FourFloats spread_out(const glm::vec3& v) { return FourFloats{v.x, v.y, v.z, 0}; }
 inline FourFloats all_lanes(float value) { return FourFloats{value, value, value, value}; }
 
@@ -51,7 +51,7 @@ struct Four {
                                     __builtin_shufflevector(c, d, 2, 6, 3, 7), 0, 1, 4, 5)};
   }
 
-  /// The first `count` (1 to 4) vectors of `from`; the last one is repeated for the rest.
+  /// Returns the first `count` (1 to 4) vectors of `from`; the last one is repeated in the other lanes.
   static Four of(const glm::vec3* from, std::size_t count = size) {
     const glm::vec3 &a = from[0], &b = from[count > 1 ? 1 : 0], &c = from[count > 2 ? 2 : count - 1],
                     &d = from[count - 1];
@@ -64,7 +64,7 @@ struct Four {
     std::memcpy(&v, reinterpret_cast<const float*>(from), sizeof(v));
     return v;
   }
-  /// from[number[0]], from[number[3]], from[number[6]], from[number[9]]: one corner of each of four
+  /// Returns from[number[0]], from[number[3]], from[number[6]] and from[number[9]]: one corner of each of four
   /// triangles. Reads the float behind each.
   static Four picked(const glm::vec3* from, const std::uint32_t* number) {
     return of_rows(row(from + number[0]), row(from + number[3]), row(from + number[6]),
@@ -106,7 +106,7 @@ inline Four cross(const Four& a, const Four& b) {
   return {a.y * b.z - b.y * a.z, a.z * b.x - b.z * a.x, a.x * b.y - b.x * a.y};
 }
 
-/// math::quick_unit() of each.
+/// Returns math::quick_unit() of each vector.
 inline Four units(const Four& v, const Four& otherwise) {
   const FourFloats square = dot(v, v);
   if (all_of((square > 1e-30F) & (square < 1e30F))) return divided(v, root(square));

@@ -12,9 +12,9 @@ glm::vec3 any_perpendicular(const glm::vec3& normal);
 /// which u grows over the triangles of a vertex, weighted by area. Its w is the sign of the bitangent, as in
 /// glTF.
 ///
-/// Where triangles at a vertex have opposite signs (a mirror seam whose vertices are not duplicated), those with the
-/// larger total area decide. Where u grows nowhere, any direction in the surface is taken. Cost: about 15 ns a triangle,
-/// and 16 bytes a vertex.
+/// Where triangles at a vertex have opposite signs (a mirror seam whose vertices are not duplicated), those with
+/// the larger total area decide. Where u grows nowhere, any direction in the surface is taken. Cost: about 15 ns
+/// a triangle, and 16 bytes a vertex.
 void add_tangents(Model& model, const Job& job);
 
 }  // namespace seedmesh

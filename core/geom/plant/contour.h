@@ -17,8 +17,8 @@ struct Contour {
   std::vector<glm::vec2> points;  ///< anticlockwise seen along the heading; x to the turtle's left
 };
 
-/// The reason why an outline cannot be a cross-section, which names its points; nullopt where it can. Input
-/// as in requests: seen along the heading, x to the right of the turtle, y up.
+/// Returns the reason why an outline cannot be a cross-section, with the numbers of its points; nullopt where it
+/// can. Input as in requests: seen along the heading, x to the right of the turtle, y up.
 std::optional<std::string> contour_error(std::span<const glm::dvec2> outline);
 
 /// Converts a valid outline of a request, of either orientation.
@@ -31,8 +31,9 @@ struct ContourCorner {
   float round;       ///< length of the outline from its first point, for a radius of 1
 };
 
-/// `sides` corners and the first one again, from the corner that is farthest to the turtle's left: the points
-/// of the outline, and more where its edges are longest. Needs at least as many sides as points.
+/// Returns `sides` corners and then the first one again, from the corner that is farthest to the turtle's left.
+/// The corners are the points of the outline, and further ones where its edges are longest. Needs at least as
+/// many sides as points.
 std::vector<ContourCorner> corners_of(const Contour& contour, std::uint32_t sides);
 
 /// The same for the circle.
@@ -41,8 +42,8 @@ std::vector<ContourCorner> corners_of_circle(std::uint32_t sides);
 /// Returns the least number of sides with which all points of all contours are kept.
 std::uint32_t least_sides(std::span<const Contour> contours);
 
-/// Returns the number of sides of a regular polygon whose edges are as short as the shortest edge, or the smallest
-/// distance of an edge from the origin, of any contour. Scale is computed by it.
+/// Returns the number of sides of a regular polygon whose edges are as short as the shortest edge, or the
+/// smallest distance of an edge from the origin, of any contour. scale_of() gets this number of sides.
 int fineness(std::span<const Contour> contours, std::uint32_t sides);
 
 }  // namespace seedmesh

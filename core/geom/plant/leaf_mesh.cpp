@@ -55,14 +55,17 @@ class Bend {
  private:
   Point drooped(const Point& p) const {
     if (std::abs(droop_) < 1e-6) return p;
-    const double y = p.position.y, z = p.position.z;
+    const double y = p.position.y;
+    // A raised half stays outside of the centre of the arc; beyond it the leaf would be inside out.
+    const double z = std::max(p.position.z * droop_, -nearest_to_centre) / droop_;
     const math::SinCos turn = math::sincos(droop_ * y);
     return {{p.position.x, turn.sin / droop_ + z * turn.sin, (turn.cos - 1) / droop_ + z * turn.cos},
             {p.normal.x, p.normal.y * turn.cos + p.normal.z * turn.sin,
              p.normal.z * turn.cos - p.normal.y * turn.sin}};
   }
 
-  static constexpr double mean_of_arc = 2.0 / 3;  // of a parabola's height above its chord
+  static constexpr double mean_of_arc = 2.0 / 3;     // of a parabola's height above its chord
+  static constexpr double nearest_to_centre = 0.75;  // share of the radius of the arc
 
   math::SinCos fold_;
   double droop_;

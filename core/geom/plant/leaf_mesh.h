@@ -32,7 +32,7 @@ struct LeafForm {
   bool shows_twig = false;  ///< all builds made of squares use the texture of a twig, not of a leaf
 };
 
-/// Texture coordinates match the texture of the same shape.
+/// Returns the mesh of a leaf. Its texture coordinates match the texture of the same shape.
 Mesh leaf_mesh(const LeafForm& form, const Job& job);
 
 /// A round fruit: closed, 1 high, `width` wide, from the origin to +y. `pointed`, 0..1, stretches the far end

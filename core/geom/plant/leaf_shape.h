@@ -59,8 +59,8 @@ struct LeafDetail {
   bool teeth = true, veins = true;
 };
 
-/// Returns a single leaf. With `count` > 1 a twig with this number of leaves in its plane, alternately left and
-/// right; for needles a branchlet with this number of shoots, for petals a spray with this number of
+/// Returns a single leaf or, with `count` > 1, a twig with this number of leaves in its plane, alternately left
+/// and right. For needles it is a branchlet with this number of shoots, for petals a spray with this number of
 /// blossoms.
 LeafDrawing draw_leaf(LeafShape shape, const LeafDetail& detail, int count = 1);
 

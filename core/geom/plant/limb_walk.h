@@ -1,5 +1,5 @@
 #pragma once
-/// A walk along one limb that cuts it into tubes. skin() takes it twice: to count and to write.
+/// A walk along one limb that divides it into tubes. skin() walks twice: to count and to write.
 #include <algorithm>
 #include <cmath>
 
@@ -95,7 +95,7 @@ class MitreCheck {
  public:
   MitreCheck(const Scale& scale, int sides);
 
-  /// The next internode opens a tube.
+  /// Has to be called before the first internode of a tube.
   void open() { last_ = {}; }
 
   /// Returns true where `a` and `b` can meet; sets `turn`. `radius_before`: of the ring at the near end of

@@ -1,5 +1,5 @@
 #pragma once
-/// Rows of numbers by organ from columns by lane.
+/// Transposes numbers that are stored lane by lane (organ_block.h) to rows that are stored organ by organ.
 #include <algorithm>
 #include <cstring>
 

@@ -176,11 +176,13 @@ bool Surroundings::collides(const Prober& prober, const glm::dvec3& from, const 
   };
   const double reach = prober.radius;
   bool hit = false;
+  std::size_t seen = 0;
   visit_cells(glm::min(from, to) - reach, glm::max(from, to) + reach, cell_, [&](std::uint64_t key) {
     if (hit) return;
     const auto* found = std::lower_bound(cells_.begin(), cells_.end(), key,
                                          [](const Cell& cell, std::uint64_t k) { return cell.key < k; });
     for (; found != cells_.end() && found->key == key && !hit; ++found) {
+      if (++seen % look_every == 0) job_.check();
       const Stretch& each = grown_[found->stretch];
       if (is_kin(each)) continue;
       hit = segments_apart(from, to, each.from, each.to) < prober.radius + each.radius + options_.clearance;
@@ -196,6 +198,7 @@ bool Surroundings::is_free(const Prober& prober, double length) const {
     }
   }
   if (grown_.empty()) return true;
+  job_.check();
   // Piece by piece, so that a long step visits the cells along it and not all cells of its box.
   const double pieces = std::ceil(std::abs(length) / (4 * cell_));
   if (!(pieces <= most_pieces)) return false;

@@ -7,7 +7,7 @@
 
 namespace seedmesh {
 
-/// The largest twist of one internode, also for each radius of its length; radians.
+/// The largest twist of one internode, in radians. The twist is also at most the length divided by the radius.
 constexpr float most_twist = static_cast<float>(math::pi) / 4;
 
 /// The twist of a cross-section along one internode.
@@ -58,7 +58,7 @@ inline Twist twist_of(const Limbs& limbs, const Scale& scale, const Internode& i
           static_cast<float>(most.cos)};
 }
 
-/// Is the cross-section a circle at both ends, so that no twist is visible?
+/// Whether the cross-section is a circle at both ends, so that no twist is visible.
 inline bool is_round(const Limbs& limbs, std::uint32_t joint) {
   if (limbs.contour.empty()) return true;
   const std::uint32_t first = limbs.starts_limb[joint] ? joint : limbs.parent[joint];

@@ -36,7 +36,7 @@ class WindField {
   float height_ = 0, most_ = 1e-9F, thickest_ = 1e-9F;
 };
 
-/// Fills uv[2] and uv[3]. `joint`: of each vertex.
+/// Fills uv[2] and uv[3]. `joint` has the joint of each vertex.
 void add_wind(Mesh& mesh, const Array<std::uint32_t>& joint, const WindField& wind, const Job& job);
 
 }  // namespace seedmesh

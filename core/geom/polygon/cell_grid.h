@@ -54,7 +54,7 @@ class CellGrid {
   /// Returns the number of entries in a cell since the last `reset`.
   std::size_t count(std::size_t cell) const { return count_[cell]; }
 
-  /// Puts a number into a cell unless it is the last one there.
+  /// Adds a number to a cell, unless it is the number that was added there last.
   void add(std::size_t cell, std::uint32_t number) {
     if (head_[cell] != none && entries_[head_[cell]].number == number) return;
     entries_.push_back({number, head_[cell]});

@@ -27,7 +27,7 @@ constexpr std::int64_t cross(const CmPoint& o, const CmPoint& a, const CmPoint& 
          (std::int64_t{a.y} - o.y) * (std::int64_t{b.x} - o.x);
 }
 
-/// Converts a position to centimetres or to metres as doubles.
+/// Returns the coordinates of a point as doubles, in centimetres or in metres.
 inline glm::dvec2 in_cm(const CmPoint& p) { return {p.x, p.y}; }
 inline glm::dvec2 in_metres(const CmPoint& p) { return {p.x / 100.0, p.y / 100.0}; }
 
@@ -49,7 +49,7 @@ bool cross_properly(const CmPoint& a, const CmPoint& b, const CmPoint& c, const 
 /// Whether the closed segments a b and c d have a common point. Exact.
 bool segments_meet(const CmPoint& a, const CmPoint& b, const CmPoint& c, const CmPoint& d);
 
-/// Twice the signed area of a ring. Exact while it is below 2^62.
+/// Returns twice the signed area of a ring, in square centimetres. Exact while it is below 2^62.
 std::int64_t doubled_area(std::span<const CmPoint> ring);
 
 /// Whether no two edges of a ring meet except neighbours at their common end, and neighbours do not overlap.

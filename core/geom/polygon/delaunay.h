@@ -1,5 +1,6 @@
 #pragma once
-/// Better triangles for surfaces over a plane: flips towards the Delaunay triangulation, and points inside.
+/// Improvement of the triangles of surfaces over a plane: edge flips towards the Delaunay triangulation, and
+/// additional points inside.
 #include <cstdint>
 #include <glm/vec2.hpp>
 #include <span>
@@ -9,9 +10,9 @@
 
 namespace seedmesh {
 
-/// Improves a triangulation of a polygon. Edges that only one triangle has are its outline and stay. Lawson, "Software for
-/// C1 surface interpolation", 1977: an edge is flipped where the circle about one triangle holds the opposite corner of
-/// the other. Triangles of area 0 at straight corners of the outline disappear.
+/// Improves a triangulation of a polygon. Edges of only one triangle form the outline of the polygon and stay.
+/// Lawson, "Software for C1 surface interpolation", 1977: an edge is flipped where the circle about one triangle
+/// holds the opposite corner of the other. Triangles of area 0 at straight corners of the outline disappear.
 ///
 /// `triangles` holds three numbers of `points` each, counter-clockwise. The points of `inner` that lie inside are
 /// appended to `points` and become corners. `job` may be null. Cost: about n square root of n for n inner points.

@@ -72,16 +72,17 @@ struct PlanBox {
 /// Returns the smallest such rectangle by area.
 PlanBox smallest_box(const Plan& plan);
 
-/// Makes the body. `plan` has no defects (`defects_of`). Every edge of the surface belongs to one triangle in each
-/// direction, also with points in single precision; a roof for which this fails is replaced (`made`). Pyramidal roofs, domes and onions over a plan
-/// with courtyards, or that is not visible as a whole from its centroid, become hipped. Cost: that of the
-/// triangulation, and of the straight skeleton for hipped, mansard, and some gabled and gambrel roofs.
+/// Makes the body. `plan` has no defects (`defects_of`). Every edge of the surface belongs to one triangle in
+/// each direction, also after coordinates are rounded to single precision. A roof for which this fails is
+/// replaced by another kind (`made`). Pyramidal roofs, domes and onions over a plan with courtyards, or that is
+/// not visible as a whole from its centroid, become hipped. Cost: that of the triangulation, and of the straight
+/// skeleton for hipped, mansard, and some gabled and gambrel roofs.
 Mass mass_of(const Plan& plan, const MassOptions& options, const Job& job);
 
 /// Whether every edge of the triangles occurs equally often in both directions, and no triangle repeats a point.
 bool is_closed(const Mass& mass);
 
-/// Returns the height that this roof has at this angle (radians) over the plan.
+/// Returns the height above the eaves of a roof of this kind whose slopes have this angle (radians).
 double roof_height_at(const Plan& plan, const MassOptions& options, double angle, const Job& job);
 
 }  // namespace seedmesh

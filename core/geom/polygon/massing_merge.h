@@ -4,8 +4,8 @@
 
 namespace seedmesh {
 
-/// Joins points that are equal in single precision, and removes triangles that are then lines or lie back to back. Without
-/// such points the mass keeps its triangles. Returns whether the result is closed (is_closed).
+/// Joins points that are equal in single precision, and removes triangles that are then lines or lie back to
+/// back. Without such points the mass keeps its triangles. Returns whether the result is closed (is_closed).
 bool merge_points(Mass& mass);
 
 }  // namespace seedmesh

@@ -32,10 +32,10 @@ struct PlanDefect {
   std::string message;  ///< "crosses the edge from point 3 of ring 0"
 };
 
-/// Returns all errors of a plan: fewer than three points, numbers that are not finite, points nearer to the next than
-/// a millionth of the diagonal, rings without an area, edges that cross or touch, holes outside of the outer
+/// Returns all errors of a plan: fewer than three points, numbers that are not finite, points nearer to the next
+/// than a millionth of the diagonal, rings without an area, edges that cross or touch, holes outside of the outer
 /// ring or inside other holes. The direction of rings may be wrong, but a last point equal to the first is an
-/// error (see `read_plan`). Cost: about n log n in practice. Looks at stop and deadline where there is a job.
+/// error (see `read_plan`). Cost: about n log n in practice. Checks stop and deadline where there is a job.
 std::vector<PlanDefect> defects_of(const Plan& plan, const Job* job = nullptr);
 
 /// Returns a plan of rings in any direction. A last point equal to the first is removed, as GeoJSON has it. Points in
@@ -47,15 +47,16 @@ double area(const Plan& plan);
 /// Returns the centroid of a ring, whose area is not 0.
 glm::dvec2 centroid_of(std::span<const glm::dvec2> ring);
 std::uint32_t edge_count(const Plan& plan);
-/// The two ends of an edge, by its number through all rings.
+/// Returns the two ends of an edge, by its number through all rings.
 std::pair<glm::dvec2, glm::dvec2> edge_of(const Plan& plan, std::uint32_t edge);
 /// Whether a point lies inside the plan or on its border.
 bool contains(const Plan& plan, const glm::dvec2& point);
 /// Returns the diagonal of the box around the outer ring.
 double diagonal_of(const Plan& plan);
 
-/// What happens to triangles without area, which join straight corners to their edges. `keep` closes the edges of
-/// neighbours exactly; `drop` leaves them out of plans with one ring, where they would only be shaded badly.
+/// What happens to triangles without area, which occur where a point lies in the middle of a straight edge.
+/// `keep`: every point is used, so that neighbours along the edge meet exactly. `drop`: plans with one ring have
+/// no such triangles, because their shading would be wrong.
 enum class ThinTriangles { keep, drop };
 
 /// Counter-clockwise triangles that fill a plan, as numbers of points through all rings; see Triangulator.

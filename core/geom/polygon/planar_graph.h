@@ -1,8 +1,8 @@
 #pragma once
-/// A planar straight-line graph on whole centimetres: segments go in, and wherever two of them meet there is a
-/// node. All decisions are exact; crossings are rounded to the nearest centimetre, and segments that pass
-/// within 0.71 cm of a node run through it, so that rounding creates no new crossing (snap rounding: Hobby,
-/// "Practical segment intersection with finite precision output", 1999; here by insertion, one at a time).
+/// A planar straight-line graph on whole centimetres. Segments are added one by one, and wherever two of them
+/// meet there is a node. All decisions are exact; crossings are rounded to the nearest centimetre, and segments
+/// that pass within 0.71 cm of a node run through it, so that rounding creates no new crossing (snap rounding:
+/// Hobby, "Practical segment intersection with finite precision output", 1999; here by insertion, one at a time).
 #include <cstdint>
 #include <span>
 #include <unordered_map>
@@ -72,7 +72,7 @@ struct PlanarFaces {
   struct Loop {
     std::uint32_t first = 0, count = 0;  ///< range in `half_edges`
     std::int64_t doubled_area = 0;       ///< positive: the outer loop of a face
-    std::uint32_t face = none;           ///< none: the outside of everything
+    std::uint32_t face = none;           ///< none: the unbounded region
   };
   struct Face {
     std::uint32_t outer = none;        ///< loop

@@ -70,9 +70,9 @@ struct Roof {
 };
 
 /// Makes a roof. A plan with errors gets one horizontal face and a warning. Every roof is checked
-/// (straight_skeleton.h). If the check fails, the roof is made from a plan whose points are moved by a
-/// millionth, and if that fails too, it is flat with a warning. A flat roof without thickness is one face
-/// that faces up, and no solid.
+/// (straight_skeleton.h). If the check fails, the roof is made again with other tolerances for merging points,
+/// then from a plan whose points are moved by up to a thousandth of its diagonal. If all attempts fail, it is
+/// flat with a warning. A flat roof without thickness is one face that faces up, and no solid.
 Roof roof(const Plan& plan, const RoofOptions& options, const Job& job);
 
 /// Returns the edges that RoofKind::gable makes vertical unless the options name some: those whose slope of the hip

@@ -34,10 +34,10 @@ struct RoofBase {
   double height = 0;
 };
 
-/// Returns slopes by the straight skeleton, one stage after another. The rest of the last stage is horizontal. `jitter`:
-/// the points of the plan are first moved at random by up to this share of the diagonal. The lower border is not moved.
-/// Returns nullopt if no valid skeleton is found, even after moving points by `jitter`, at least a millionth of the
-/// diagonal.
+/// Returns slopes by the straight skeleton, one stage after another. The rest of the last stage is horizontal.
+/// `jitter`: the points of the plan are first moved at random by up to this share of the diagonal. The lower
+/// border is not moved. Returns nullopt if no valid skeleton is found, even after moving points by `jitter`, at
+/// least a millionth of the diagonal.
 std::optional<RoofSurface> sloped_surface(const RoofBase& base, const std::vector<RoofStage>& stages,
                                           double jitter, const Job& job);
 
@@ -69,9 +69,9 @@ bool is_closed(const Roof& roof, bool is_cover, const Job& job);
 /// Returns the height of the highest point.
 double height_of(const RoofSurface& surface);
 
-/// Returns the height where the slope of a two-slope roof changes, so that it is a share of the whole height. `depth` is
-/// the distance from the eave to the innermost point of the plan. `steep` and `flat` are tangents. A share above 1
-/// counts as 1.
+/// Returns the height where the slope of a two-slope roof changes, so that it is a share of the whole height.
+/// `depth` is the distance from the eave to the innermost point of the plan. `steep` and `flat` are tangents. A
+/// share above 1 counts as 1.
 double break_at(double share, double depth, double steep, double flat);
 
 }  // namespace seedmesh

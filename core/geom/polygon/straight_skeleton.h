@@ -2,10 +2,10 @@
 /// The weighted straight skeleton of a plan: every edge moves inwards at its own speed with mitred corners,
 /// and the traces of the corners divide the plan into faces of the edges.
 ///
-/// Aichholzer, Aurenhammer, Alberts and Gaertner, "A novel type of skeleton for polygons", 1995; weights as
-/// in Biedl et al., "Weighted straight skeletons in the plane", 2015. Events that fall on one time and place
-/// are resolved together, by sorting what leaves the place round it, as in Kelly and Wonka, "Interactive
-/// architectural modeling with procedural extrusions", 2011.
+/// Aichholzer, Aurenhammer, Alberts and Gaertner, "A novel type of skeleton for polygons", 1995; weights as in
+/// Biedl et al., "Weighted straight skeletons in the plane", 2015. Events with equal time and position are
+/// resolved together: the edges that leave the position are sorted by their direction, as in Kelly and Wonka,
+/// "Interactive architectural modeling with procedural extrusions", 2011.
 #include <limits>
 
 #include "core/geom/polygon/plan.h"

@@ -11,8 +11,8 @@
 namespace seedmesh {
 
 /// Cuts ears off one by one (Meisters, "Polygons have ears", 1975). Convex outlines become a fan. The object
-/// keeps its working memory from one polygon to the next; an answer is valid until the next call. All tests
-/// of sides are exact. Cost: about n log n for outlines met in practice, by a grid over the reflex corners; n² for
+/// keeps its working memory from one polygon to the next; a result is valid until the next call. All tests of
+/// sides are exact. Cost: about n log n for outlines met in practice, by a grid over the reflex corners; n² for
 /// hostile ones.
 class Triangulator {
  public:

@@ -8,7 +8,7 @@
 
 namespace seedmesh::gltf {
 
-/// Does any triangle have no area? `corners`: three for each triangle.
+/// Whether any triangle has no area. `corners`: three for each triangle.
 bool has_flat_triangle(const Column& position, std::span<const std::uint32_t> corners);
 
 /// Removes triangles without area; the others keep their order.

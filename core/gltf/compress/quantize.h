@@ -36,9 +36,9 @@ enum class Encoding { filtered, plain };
 
 /// Quantizes the columns of a part to 16 bits. Filtered: normals and tangents octahedral with 10 bits for each
 /// axis, texture coordinates outside 0..1 exponential with steps of 2^-14. Plain: normals and tangents with 16
-/// bits for each axis, texture coordinates outside 0..1 as floats. Joins vertices that have become equal, and drops triangles that have become flat; none may be left.
-/// Where the grid is too coarse to keep the surface closed, positions stay floats in units of the grid's
-/// step. Linear time.
+/// bits for each axis, texture coordinates outside 0..1 as floats. Joins vertices that have become equal, and
+/// drops triangles that have become flat. The part may have no triangles afterwards. Where the grid is too coarse
+/// to keep the surface closed, positions stay floats in units of the grid's step. Linear time.
 void quantize(Part& part, const Grid& grid, Job& job, Encoding encoding = Encoding::filtered);
 
 /// Quantizes all parts that are not packed yet, and drops parts without triangles. `grids`: one for each

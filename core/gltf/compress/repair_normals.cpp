@@ -100,9 +100,10 @@ void repair_normals(Part& part, const std::vector<std::size_t>& inward, Job& job
   Array<OctahedralNormal> normals(job, all);
   for (std::size_t i = 0; i < all; ++i)
     normals[i] = i < count ? load<OctahedralNormal>(normal->slice, i) : repaired[i - count].normal;
+  const auto repaired_slice = keep(std::move(normals));
   for (Column& column : part.columns) {
     job.check();
-    column.slice = &column == normal ? keep(std::move(normals)) : selected(column, vertices, job);
+    column.slice = &column == normal ? repaired_slice : selected(column, vertices, job);
     column.count = all;
   }
   set_index(part, std::move(corners), all, job);

@@ -7,8 +7,8 @@
 
 namespace seedmesh::gltf {
 
-/// Corners (three for each triangle, ascending) whose normal faces away from their triangle, of a part before
-/// quantization. Meshes of this program have none; an imported GLB may.
+/// Returns the corners (three for each triangle, ascending) whose normal faces away from their triangle, in a
+/// part before quantization. Meshes of this program have none; an imported GLB may.
 std::vector<std::size_t> inward_corners(const Part& part, Job& job);
 
 /// Finds the corners whose quantized normal faces away from their quantized triangle. Each gets a vertex of

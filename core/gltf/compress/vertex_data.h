@@ -11,7 +11,7 @@ namespace seedmesh::gltf {
 /// Elements between two calls of Job::check().
 constexpr std::size_t check_interval = 65'536;
 
-/// Element `i` of an array of T.
+/// Returns element `i` of an array of T.
 template <class T>
 T load(const Slice& slice, std::size_t i) {
   T value;
@@ -19,7 +19,7 @@ T load(const Slice& slice, std::size_t i) {
   return value;
 }
 
-/// Element `i` of an index column of 16 or 32 bits.
+/// Returns element `i` of an index column of 16 or 32 bits.
 inline std::uint32_t corner_at(const Column& index, std::size_t i) {
   return index.component == Component::u16 ? load<std::uint16_t>(index.slice, i)
                                            : load<std::uint32_t>(index.slice, i);
@@ -39,7 +39,7 @@ OctahedralNormal octahedral(const glm::dvec3& direction);
 /// Quantizes a value from -1 to 1 to a signed integer of `bits` bits.
 std::int16_t signed_of(double value, int bits);
 
-/// Do the three points lie on a line?
+/// Whether the three points lie on a line.
 inline bool is_flat(const glm::ivec3& a, const glm::ivec3& b, const glm::ivec3& c) {
   const glm::i64vec3 u = glm::i64vec3(b) - glm::i64vec3(a), v = glm::i64vec3(c) - glm::i64vec3(a);
   return u.y * v.z == u.z * v.y && u.z * v.x == u.x * v.z && u.x * v.y == u.y * v.x;

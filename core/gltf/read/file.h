@@ -20,7 +20,7 @@ struct ReadFile {
 /// (checked_json).
 std::uint64_t parsing_cost(std::span<const std::byte> glb, std::string_view json);
 
-/// Throws Unreadable.
+/// Returns the parsed file. Throws Unreadable.
 ReadFile parsed(std::span<const std::byte> glb, std::string_view json, const Job& job);
 
 }  // namespace seedmesh::gltf

@@ -26,7 +26,7 @@ Result<Model> read_glb(std::string_view data_uri, const std::string& pointer, Jo
 /// The same for the bytes of the file.
 Result<Model> read_glb(std::span<const std::byte> bytes, const std::string& pointer, Job& job);
 
-/// Does the text begin like such a data URI?
+/// Whether the text begins like such a data URI.
 bool is_glb_uri(std::string_view text);
 
 }  // namespace seedmesh

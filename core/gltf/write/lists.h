@@ -72,8 +72,8 @@ void append_skin(std::string& out, const Skin& skin, int matrices);
 /// A texture is an image with a wrap mode. Each of the two wrap modes has one sampler.
 class TextureList {
  public:
-  /// The number of the texture for a use, -1 for none. Numbers its image, and with an offset of the number of
-  /// textures its form as WebP (EXT_texture_webp).
+  /// Returns the number of the texture for a use, -1 for none. Adds its image to `images`, and its form as WebP
+  /// (EXT_texture_webp) as image_numbered() counts it.
   int number(const TextureUse& use, const Model& model, Numbering& images);
   bool has_webp() const { return has_webp_; }      ///< a texture is WebP, or has such a form
   bool needs_webp() const { return needs_webp_; }  ///< a texture is nothing else

@@ -70,6 +70,53 @@ TEST(CgaFiles, ReplacesRulesOfImportedFiles) {
   EXPECT_EQ(active(derived(with_files(deeper, {10, 0, 10}))), "Glass Big Brick");
 }
 
+TEST(CgaFiles, ImportWithoutANameAddsTheDeclarationsOfAFile) {
+  // The importing file replaces what it declares, too; its own start rule counts.
+  const std::map<std::string, std::string> files = {
+      {"m.cga",
+       "import \"w.cga\"\nattr height = 5\n@StartRule\nLot --> extrude(twice(height)) Mass\nWall --> Brick."},
+      {"w.cga",
+       "import \"v.cga\"\nattr height = 1\ntwice(x) = 2 * x\n@StartRule\nOther --> Wrong.\n"
+       "Mass --> comp(f){ front: Wall | top: Roof }\nWall --> Plaster."},
+      {"v.cga", "Roof --> Tiles.\nMass --> Wrong."}};
+  const Json answer = derived(with_files(files, {10, 0, 10}));
+  EXPECT_EQ(active(answer), "Brick Tiles");
+  EXPECT_EQ(answer["shapes"].back()["scope"]["origin"][1], 10);
+  EXPECT_THAT(answer["warnings"].dump(), HasSubstr("get no prefix"));
+  // Without quotes, and with the start rule of the imported file.
+  EXPECT_EQ(
+      active(derived(with_files({{"m.cga", "import w.cga\nWall --> Brick."},
+                                 {"w.cga", "X --> Wrong.\n@StartRule Lot --> Wall\nWall --> Plaster."}}))),
+      "Brick");
+  // A file that is imported with a name can include another, whose names get the prefix.
+  EXPECT_EQ(active(derived(with_files({{"m.cga", "import a : \"a.cga\"\nLot --> a.Wall a.Roof"},
+                                       {"a.cga", "import \"b.cga\"\nWall --> Roof"},
+                                       {"b.cga", "Roof --> Tiles."}}))),
+            "Tiles Tiles");
+}
+
+TEST(CgaFiles, CanHaveValuesAloneAndAByteOrderMark) {
+  const Json answer =
+      derived(with("\xEF\xBB\xBF"
+                   "version \"2025.0\"\nconst a = 3\nf(x) = x + a"));
+  EXPECT_EQ(active(answer), "Lot");
+  EXPECT_THAT(answer["warnings"].dump(), HasSubstr("found no rule"));
+  EXPECT_EQ(leaves("\xEF\xBB\xBF"
+                   "attr h = 2\nLot --> extrude(h) Mass."),
+            "Mass");
+  EXPECT_THAT(fault("  "), HasSubstr("found no rule"));
+}
+
+TEST(CgaFiles, RefusesFilesThatIncludeEachOther) {
+  const std::vector<Issue> issues = check(with_files({{"m.cga", "import \"a.cga\"\n@StartRule\nLot --> A"},
+                                                      {"a.cga", "import \"b.cga\"\nA --> B"},
+                                                      {"b.cga", "import \"a.cga\"\nB --> C."}}),
+                                          Limits{});
+  ASSERT_FALSE(issues.empty());
+  EXPECT_THAT(issues[0].message, HasSubstr("in a circle"));
+  EXPECT_EQ(issues[0].line, 1);
+}
+
 TEST(CgaFiles, KeepsFunctionsWithAndWithoutParametersApart) {
   const std::string rules =
       "mix = case scope.sx > 5: \"a\" else: \"b\"\n"

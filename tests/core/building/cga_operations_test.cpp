@@ -85,6 +85,21 @@ TEST(Selectors, TakeFacesByTheWorldAndEdgesOfRoofs) {
   EXPECT_NEAR(answer["reports"]["ridge"]["sum"].get<double>(), 4, 1e-6);
 }
 
+TEST(Selectors, TakeTheEdgesOfTheCoverWhereARoofHasAnOverhang) {
+  // Half a metre along a slope of 45 degrees moves each eave outwards by half a metre times the cosine. The ridge stays.
+  const Json answer =
+      derived(with("A --> s('1, 0, '1) roofHip(45, 0.5) comp(e){ eave: report(\"eave\", scope.sx) E. | hip: "
+                   "report(\"hip\", scope.sx) H. | ridge: report(\"ridge\", scope.sx) R. | valley: "
+                   "report(\"valley\", 1) V. }",
+                   {10, 0, 6}));
+  EXPECT_EQ(answer["reports"]["eave"]["count"], 4);
+  EXPECT_NEAR(answer["reports"]["eave"]["sum"].get<double>(), 32 + 8 * 0.5 * std::cos(pi / 4), 1e-6);
+  EXPECT_EQ(answer["reports"]["hip"]["count"], 4);
+  EXPECT_EQ(answer["reports"]["ridge"]["count"], 1);
+  EXPECT_NEAR(answer["reports"]["ridge"]["sum"].get<double>(), 4, 1e-6);
+  EXPECT_FALSE(answer["reports"].contains("valley"));
+}
+
 TEST(Selectors, CanBeConditionsNumbersAndTags) {
   EXPECT_EQ(leaves("A --> comp(f){ top || bottom: T. | all: S. }"), "T T S S S S");
   EXPECT_EQ(leaves("A --> split(x){ ~1: tag(\"low\") B | ~1: B }  B --> comp(f){ isTagged(\"low\") && top: "
@@ -240,9 +255,6 @@ TEST(Scatter, PutsPointsWhereTheDomainIs) {
 
 TEST(Booleans, HaveTheVolumesOfSets) {
   const std::string b = "B --> primitiveCube(4, 4, 4)  ";
-  const auto volume_of_set = [&](const std::string& set) {
-    return sum_of(b + "A --> " + set + " report(\"v\", geometry.volume) C.", "v", {4, 4, 4});
-  };
   BuildingParams params =
       with("A --> union { B | t(2, 2, 2) B } report(\"v\", geometry.volume) C.  " + b, {4, 4, 4});
   EXPECT_NEAR(sum_of(params, "v"), 120, 1e-9);
@@ -250,7 +262,6 @@ TEST(Booleans, HaveTheVolumesOfSets) {
   EXPECT_NEAR(sum_of(params, "v"), 56, 1e-9);
   params.rules = "A --> intersect { B | t(2, 2, 2) B } report(\"v\", geometry.volume) C.  " + b;
   EXPECT_NEAR(sum_of(params, "v"), 8, 1e-9);
-  (void)volume_of_set;
 }
 
 /// Random boxes and prisms: the volumes of union and intersection sum to those of the operands, and every result is closed.
@@ -290,6 +301,32 @@ TEST(Modify, MovesTheCornersOfAComponent) {
   EXPECT_NEAR(volume_after("modify(f){ top: s('0.5, '0.5, '1) center(xyz) X }", {2, 2, 2}),
               2.0 / 3 * (4 + 1 + 2), 1e-9);
   EXPECT_NEAR(volume_after("modify(f){ top: t(0, 0, 1) X }", {2, 2, 2}), 12, 1e-9);
+}
+
+TEST(Modify, PutsOtherGeometryInThePlaceOfAFace) {
+  // A box of 10 m x 3 m x 8 m with a second one on top, without the face between them.
+  const std::array<double, 3> lot{10, 0, 8};
+  EXPECT_NEAR(volume_after("extrude(3) modify(f){ top: extrude(2) X }", lot), 400, 1e-9);
+  EXPECT_NEAR(area_after("extrude(3) modify(f){ top: extrude(2) X }", lot), 2 * 80 + 36 * 5, 1e-9);
+  EXPECT_NEAR(volume_after("extrude(3) modify(f){ top: roofGable(45) X }", lot), 240 + 160, 1e-9);
+  // A hole, and half of a face.
+  EXPECT_NEAR(area_after("extrude(3) modify(f){ top: NIL }", lot), 80 + 108, 1e-9);
+  EXPECT_NEAR(area_after("extrude(3) modify(f){ front: split(x){ 5: X | ~1: NIL } }", lot), 160 + 108 - 15,
+              1e-9);
+  // The inner part of the top is raised; its border stays.
+  EXPECT_NEAR(volume_after(
+                  "extrude(3) modify(f){ top: offset(-1) comp(f){ inside: extrude(1) X | border: X } }", lot),
+              240 + 48, 1e-9);
+}
+
+TEST(Recompose, JoinsPiecesWhereTheyMeet) {
+  // The letter E of splits across each other becomes one polygon of twelve corners.
+  const std::string letter =
+      "inline(recompose) split(x){ 2: X | ~1: split(z){ 2: X | 2: NIL }* } cleanupGeometry(all, 0) ";
+  EXPECT_EQ(sum_of("A --> " + letter + "report(\"n\", geometry.nFaces) B.  X --> Y.", "n", {6, 0, 10}), 1);
+  EXPECT_EQ(sum_of("A --> " + letter + "report(\"n\", geometry.nVertices) B.  X --> Y.", "n", {6, 0, 10}),
+            12);
+  EXPECT_NEAR(area_after(letter, {6, 0, 10}), 20 + 3 * 8, 1e-9);
 }
 
 TEST(Insert, PutsABoxInThePlaceOfAFileThatIsNotThere) {

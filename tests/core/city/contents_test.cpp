@@ -525,7 +525,7 @@ TEST(LotBorders, AreEachThereOnceAndPassNoHouse) {
   }
 }
 
-TEST(LaneLines, HaveWholeDashesOfAboutNineMetres) {
+TEST(LaneLines, HaveWholeDashesOfAboutTwelveMetres) {
   const CityParams params = params_of(R"({"area": {"size": [500, 420]}, "buildings": {"rules": []}})");
   Demand demand;
   demand.textures = 256;
@@ -547,7 +547,7 @@ TEST(LaneLines, HaveWholeDashesOfAboutNineMetres) {
       const double metres =
           static_cast<double>(glm::length(each.mesh.position[corner] - each.mesh.position[next]));
       if (std::abs(u - v) > 1.5) {
-        EXPECT_NEAR(metres / std::abs(u - v), 9, 2.3);
+        EXPECT_NEAR(metres / std::abs(u - v), 12, 3);
       }
     }
   }

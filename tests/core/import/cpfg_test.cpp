@@ -248,6 +248,25 @@ TEST(Cpfg, ReadsAViewFileAndFunctionsBesideIt) {
               ElementsAre(HasSubstr("`odd thing` has no counterpart"), HasSubstr("nothing will be drawn")));
 }
 
+TEST(Cpfg, KnowsTheFunctionsOfFilesInTheStart) {
+  // A line from 2 to 8: 3.5 at a quarter. Arrays of the file stay apart from the samples.
+  const std::string system =
+      "Lsystem: 1\nDefine: {array v[2] = {7, 8};}\nStart: {a =\n\tfunc(1, 0.25) + 1; v[0] = 9;}\n"
+      "derivation length: 1\nAxiom: A\nA --> B(a,v[0],v[1])\n";
+  const json files = {{"plant.l", system},
+                      {"f.func",
+                       "fver 1 1\nname: a\nsamples: 100\nflip: off\npoints: 4\n0 2\n0.3333333 4\n"
+                       "0.6666667 6\n1 8\n"}};
+  const auto result = imported("", json({{"files", files}}).dump());
+  ASSERT_TRUE(result) << reports(result)[0];
+  EXPECT_EQ(derived(result), "B(4.5,9,8)");
+  const auto without = imported("cpfg",
+                                "Lsystem: 1\nStart: {a = 2 * func(3, 0);}\nderivation length: 1\n"
+                                "Axiom: A\nA --> B(a)\n");
+  ASSERT_TRUE(without) << reports(without)[0];
+  EXPECT_EQ(derived(without), "B(2)");
+}
+
 constexpr std::string_view head = "Lsystem: 1\nderivation length: 1\nAxiom: A(7)\n";
 
 TEST(Cpfg, WarnsOfFilesThatAreNotGivenAndGoesOn) {

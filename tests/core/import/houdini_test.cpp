@@ -115,6 +115,10 @@ TEST(Houdini, KnowsTheVariablesOfItsNode) {
   const auto other = imported("houdini", "Premise: A\nRule 1: A:in(x,y,z)=F(K)A\nRule 2: A=FA\n");
   ASSERT_TRUE(other) << reports(other)[0];
   EXPECT_THAT(reports(other), testing::IsSupersetOf({HasSubstr("`in()`"), HasSubstr("`K` is a variable")}));
+  const auto index = imported("houdini", "Premise: A\nGenerations: 2\nRule 1: A:i<1=F(i)A\n");
+  ASSERT_TRUE(index) << reports(index)[0];
+  EXPECT_EQ(derived(index), "F(0)F(0)A");
+  EXPECT_THAT(reports(index), Contains(HasSubstr("`i` is a variable")));
 }
 
 TEST(Houdini, ReadsThePositionOfTheTurtle) {

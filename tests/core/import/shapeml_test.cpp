@@ -79,6 +79,28 @@ TEST(Shapeml, WritesOperationsThatAreValuesInTheirPlace) {
               Contains(HasSubstr("more than 30 deep")));
 }
 
+TEST(Shapeml, GivesOperationsToRulesAndSplits) {
+  const auto result = imported("shapeml",
+                               "const red = { Red_ };\nconst blue = { Blue_ };\n"
+                               "rule Pane(box) :: index % 2 == 0 = { ^box };\n"
+                               "rule Pane(box) :: index % 2 == 1 = { sizeY(3) ^box };\n"
+                               "rule Wall(made, height) = { sizeY(height) ^made };\n"
+                               "rule Axiom = { size(10, 1, 1) cube splitX(\"fff\", 2, red, 4, blue, 3, red)\n"
+                               "  splitRepeatX(2, { Pane(blue) }) Wall(red, 2) Wall({ cube Own_ }, 5) };\n");
+  ASSERT_TRUE(result) << reports(result)[0];
+  // 2 m, 4 m and 3 m of 10 m; five panes of 2 m, two of them 3 m high; two walls.
+  const std::map<std::string, int> expected = {{"Red_", 3}, {"Blue_", 6}, {"Own_", 1}};
+  EXPECT_EQ(leaves_of(result), expected);
+  const json derived = json::parse(*derive(result->request, {}));
+  std::map<std::string, double> heights;
+  for (const json& shape : derived.at("shapes")) {
+    if (shape.at("active")) heights[shape.at("symbol")] += double{shape.at("scope").at("size")[1]};
+  }
+  EXPECT_NEAR(heights["Blue_"], 1 + 3 + 2 * 3, 1e-9);
+  EXPECT_NEAR(heights["Red_"], 2 + 2, 1e-9);
+  EXPECT_NEAR(heights["Own_"], 5, 1e-9);
+}
+
 TEST(Shapeml, ReportsWhatHasNoCounterpart) {
   EXPECT_THAT(reports(imported("shapeml", "rule Axiom = { torus(1, 2, 3, 4) A_ };")),
               Contains(HasSubstr("no rule, and no operation")));

@@ -8,6 +8,7 @@
 #include "core/base/math.h"
 #include "core/generators/terrain/terrain.h"
 #include "tests/core/terrain/support.h"
+#include "tests/support/context.h"
 
 namespace seedmesh::terrain {
 namespace {
@@ -91,7 +92,36 @@ TEST(HeightExpressions, RefuseValuesThatAreNotFinite) {
     FAIL();
   } catch (const Stop& stop) {
     EXPECT_EQ(stop.issue().pointer, "/expression");
+    EXPECT_EQ(stop.issue().line, 1);
+    EXPECT_EQ(stop.issue().column, 1);
   }
+}
+
+/// "pointer line:column" of the refusal of a check without a model, or "none".
+std::string appraisal_of(const TerrainParams& params) {
+  Job job = any_job();
+  try {
+    const Result<Appraisal> appraisal = appraise(params, context_of(job));
+    return appraisal ? "none" : "error";
+  } catch (const Stop& stop) {
+    const Issue& issue = stop.issue();
+    return issue.pointer + " " + std::to_string(issue.line) + ":" + std::to_string(issue.column);
+  }
+}
+
+TEST(HeightExpressions, AreRefusedByValidationWhereTheyAreNotFinite) {
+  EXPECT_EQ(appraisal_of(expressed("x + y")), "none");
+  for (const char* text : {"x / 0", "1 / x", "log(x - 100)", "sqrt(-1 - x * x)", "10 ^ 9"})
+    EXPECT_EQ(appraisal_of(expressed(text)), "/expression 1:1") << text;
+  TerrainParams layered = expressed("x");
+  layered.layers = {layer("height / (x - x)")};
+  EXPECT_EQ(appraisal_of(layered), "/layers/0/expression 1:1");
+  layered.layers = {layer("1")};
+  layered.layers[0].mask = "0 / 0";
+  EXPECT_EQ(appraisal_of(layered), "/layers/0/mask 1:1");
+  TerrainParams sphere = expressed("1 / z");
+  sphere.shape = TerrainShape::sphere;
+  EXPECT_EQ(appraisal_of(sphere), "/expression 1:1");
 }
 
 /// Gradient noise is 0 at all whole numbers, and one octave of fbm is noise.

@@ -93,12 +93,13 @@ void walk(const World& world, const World& bare, std::uint64_t seed, Job& job, F
                  south = static_cast<double>(leaf.y >> (last - level)) * side - world.extent / 2;
     for (const int finer : {level + 1, level + 3, last}) {
       if (finer > last) continue;
-      const double off = deviation(terrains[static_cast<std::size_t>(level)], side / 32, west, south,
+      const TileKey key{level, leaf.x >> (last - level), leaf.y >> (last - level)};
+      const double spacing = frame_of(world, key).spacing;
+      const double off = deviation(terrains[static_cast<std::size_t>(level)], spacing, west, south,
                                    terrains[static_cast<std::size_t>(finer)]);
       const double said = boxes[static_cast<std::size_t>(level)].geometric_error;
       EXPECT_LE(off, said) << "world " << seed << " level " << level << " against " << finer;
-      const TileKey key{level, leaf.x >> (last - level), leaf.y >> (last - level)};
-      if (finer == level + 1 && off > 0)
+      if (finer == level + 1 && off > 0 && frame_of(world, {finer, 0, 0}).spacing < spacing)
         found.ratios.push_back(tile_bounds(bare, key, job).geometric_error / off);
     }
   }
@@ -124,7 +125,7 @@ TEST(WorldBounds, HoldContentsAndDeclareErrorsThatTheyHave) {
   EXPECT_GT(found.tiles, 160);
   EXPECT_LE(median(found.empty), 0.3) << "half of the boxes are emptier";
   // a tile of the next level has a quarter of the area, so it often misses what is roughest
-  EXPECT_LE(median(found.ratios), 2.5) << "declared errors by deviations from the next level";
+  EXPECT_LE(median(found.ratios), 2.6) << "declared errors by deviations from the next level";
 }
 
 }  // namespace

@@ -61,7 +61,7 @@ TEST(DrapedStrip, LiesOnTheTerrainOfItsTileAndKeepsItsArea) {
     const int level = world.levels - 8;
     const auto along = [&] { return static_cast<std::int64_t>(rng.unit() * std::ldexp(1, level)); };
     const TileFrame frame = frame_of(world, {level, along(), along()});
-    const TerrainGrid grid = sample_grid(world, frame, tile_cells, 1, job);
+    const TerrainGrid grid = sample_grid(world, frame, frame.cells, 1, job);
     const double base = std::floor(grid.at(16, 16).height / frame.step) * frame.step, width = 8;
     const auto inside = [&] { return (0.1 + 0.8 * rng.unit()) * frame.side; };
     const glm::dvec3 a(frame.west + inside(), frame.south + inside(), 0),
@@ -97,7 +97,7 @@ TEST(DrapedStrip, MeetsThatOfTheNextTile) {
     const glm::dvec3 side = glm::dvec3(a.y - b.y, b.x - a.x, 0) * (20 / std::hypot(b.x - a.x, b.y - a.y));
     for (std::int64_t k = 0; k < 2; ++k) {
       const TileFrame frame = frame_of(world, {level, x + k, y});
-      const TerrainGrid grid = sample_grid(world, frame, tile_cells, 1, job);
+      const TerrainGrid grid = sample_grid(world, frame, frame.cells, 1, job);
       FlatMesh builder(frame, 0, {0, 0, 0, 255});
       add_draped_strip(builder, grid, {a + side, a - side}, {b + side, b - side}, lift);
       for (const TileVertex& vertex : builder.take().vertices) {

@@ -12,7 +12,7 @@
 namespace seedmesh::world {
 namespace {
 
-World bare_world(const std::string& preset) {
+World bare_world(const std::string& preset, std::uint64_t seed) {
   std::ifstream file(std::string(SEEDMESH_SOURCE_DIR) + "/api_schema/presets/world/" + preset + ".json");
   Json parameters = Json::parse(file)["parameters"];
   parameters["layers"] = {"terrain", "water"};
@@ -20,19 +20,19 @@ World bare_world(const std::string& preset) {
   WorldParams params = seedmesh::read_world(parameters, "/parameters", issues);
   params.plants.clear();
   params.settlements.density = 0;
-  return world_of(params);
+  return world_of(params, seed);
 }
 
 /// The greatest distance of samples at a quarter of the spacing from the triangles of a tile.
 double measured(const World& world, const TileKey& key, Job& job) {
   constexpr int finer = 4;
   const TileFrame frame = frame_of(world, key);
-  const TerrainGrid coarse = sample_grid(world, frame, tile_cells, 0, job);
-  const TerrainGrid fine = sample_grid(world, frame, finer * tile_cells, 0, job);
+  const TerrainGrid coarse = sample_grid(world, frame, frame.cells, 0, job);
+  const TerrainGrid fine = sample_grid(world, frame, finer * frame.cells, 0, job);
   double most = 0;
   for (int row = 0; row < fine.count; ++row) {
     for (int column = 0; column < fine.count; ++column) {
-      const int i = std::min(column / finer, tile_cells - 1), j = std::min(row / finer, tile_cells - 1);
+      const int i = std::min(column / finer, frame.cells - 1), j = std::min(row / finer, frame.cells - 1);
       const double u = 1.0 * column / finer - i, v = 1.0 * row / finer - j;
       const double sw = coarse.at(i, j).height, ne = coarse.at(i + 1, j + 1).height;
       const double corner = u >= v ? coarse.at(i + 1, j).height : coarse.at(i, j + 1).height;
@@ -45,29 +45,30 @@ double measured(const World& world, const TileKey& key, Job& job) {
   return most;
 }
 
-TEST(WorldErrors, AreNearThoseOfTheGroundInAllPresets) {
+/// Tiles of all levels but the leaves, which have no error, in three worlds of each preset.
+TEST(WorldErrors, AreNotBelowThoseOfTheGroundInAllPresets) {
+  constexpr int tiles = 200;
   for (const char* preset :
        {"temperate_land", "alpine", "archipelago", "desert_oases", "boreal_plain", "alien_plateaus"}) {
-    const World world = bare_world(preset);
     Job job = test_job();
     std::vector<double> ratios;
-    int low = 0;
-    for (int n = 0; n < 52; ++n) {
-      Rng rng = Rng::of_seed(static_cast<std::uint64_t>(n)).at(preset);
-      const int level = n % (world.levels - 2) + 1;  // leaves have no error
-      const auto along = [&] { return static_cast<std::int64_t>(rng.unit() * std::ldexp(1, level)); };
-      const TileKey key{level, along(), along()};
-      const double found = measured(world, key, job), declared = tile_bounds(world, key, job).geometric_error;
-      if (found < 0.02) continue;  // the sea
-      ratios.push_back(declared / found);
-      if (declared >= found) continue;
-      ++low;
-      EXPECT_GT(declared, 0.65 * found) << preset << " " << key.level << "/" << key.x << "/" << key.y;
+    for (const std::uint64_t seed : {7U, 7919U, 15838U}) {
+      const World world = bare_world(preset, seed);
+      for (int n = 0; n < tiles / 3; ++n) {
+        Rng rng = Rng::of_seed(static_cast<std::uint64_t>(n)).at(preset);
+        const int level = n % (world.levels - 2) + 1;
+        const auto along = [&] { return static_cast<std::int64_t>(rng.unit() * std::ldexp(1, level)); };
+        const TileKey key{level, along(), along()};
+        const double found = measured(world, key, job);
+        const double declared = tile_bounds(world, key, job).geometric_error;
+        EXPECT_GE(declared, found) << preset << " " << seed << " " << key.level << "/" << key.x << "/"
+                                   << key.y;
+        if (found >= 0.02) ratios.push_back(declared / found);  // less is the sea
+      }
     }
-    ASSERT_GT(ratios.size(), 25U);
+    ASSERT_GT(ratios.size(), 100U);
     std::sort(ratios.begin(), ratios.end());
     EXPECT_LE(ratios[ratios.size() / 2], 2.1) << preset;
-    EXPECT_LE(low, 2) << preset << ": declared below measured";
   }
 }
 

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "core/generators/world/land.h"
+#include "core/generators/world/land_rows.h"
 #include "core/generators/world/octaves.h"
 #include "core/generators/world/plants.h"
 #include "core/generators/world/region.h"
@@ -54,6 +55,28 @@ TEST(WorldLayers, LandHasItsDerivative) {
     const Slope h = land_at(world, x, y).height;
     const double east = land_at(world, x + by, y).height.value - land_at(world, x - by, y).height.value;
     EXPECT_NEAR(east / (2 * by), h.east, 2e-3);
+  }
+}
+
+TEST(WorldLayers, RowsOfLandAreThoseOfSinglePositions) {
+  WorldParams params = mountains_with_woods();
+  params.relief.terraces = 0.4;
+  const World world = world_of(params);
+  LandRow land;
+  for (int n = 0; n < 40; ++n) {
+    Rng rng = Rng::of_seed(3).at(n);
+    const RowOfPositions row{std::floor(rng.uniform(-5e5, 5e5)), std::floor(rng.uniform(-5e5, 5e5)),
+                             n % 2 == 0 ? 128.0 : 1000.0, 700};
+    land_of_row(world, row, land);
+    ASSERT_EQ(land.height.size(), row.count);
+    for (std::size_t k = 0; k < row.count; k += 7) {
+      const Land one = land_at(world, row.west + static_cast<double>(k) * row.spacing, row.north);
+      EXPECT_NEAR(static_cast<double>(land.height[k]), one.height.value, 0.02);
+      EXPECT_NEAR(static_cast<double>(land.ruggedness[k]), one.ruggedness, 1e-4);
+      EXPECT_NEAR(static_cast<double>(land.coast[k]), one.coast, 1e-4);
+      for (std::size_t m = 0; m < land.ridges.size(); ++m)
+        EXPECT_NEAR(static_cast<double>(land.ridges[m][k]), static_cast<double>(one.ridges[m]), 1e-3);
+    }
   }
 }
 

@@ -206,7 +206,7 @@ class Polygons(TypedDict):
 
 class CityParametersMapsZonesItem(TypedDict):
     zone: str
-    area: "Polygons"
+    area: Union[str, "Polygons"]
 
 
 class CityParametersMaps(TypedDict, total=False):
@@ -215,7 +215,8 @@ class CityParametersMaps(TypedDict, total=False):
     obstacles: Union[str, "Polygons"]
     pattern: Union[str, "Polygons"]
     zones: List["CityParametersMapsZonesItem"]
-    height: str
+    height: Union[str, "Polygons"]
+    height_range: List[float]
 
 
 class CityParametersGivenStreetsFeaturesItemGeometry(TypedDict):
@@ -276,6 +277,7 @@ class CityParametersStreetsClassesHighway(TypedDict, total=False):
     lanes: int
     sidewalk: float
     grade: float
+    trees: float
 
 
 class CityParametersStreetsClassesMajor(TypedDict, total=False):
@@ -283,6 +285,7 @@ class CityParametersStreetsClassesMajor(TypedDict, total=False):
     lanes: int
     sidewalk: float
     grade: float
+    trees: float
 
 
 class CityParametersStreetsClassesMinor(TypedDict, total=False):
@@ -290,6 +293,7 @@ class CityParametersStreetsClassesMinor(TypedDict, total=False):
     lanes: int
     sidewalk: float
     grade: float
+    trees: float
 
 
 class CityParametersStreetsClassesLane(TypedDict, total=False):
@@ -297,6 +301,7 @@ class CityParametersStreetsClassesLane(TypedDict, total=False):
     lanes: int
     sidewalk: float
     grade: float
+    trees: float
 
 
 class CityParametersStreetsClasses(TypedDict, total=False):
@@ -365,6 +370,9 @@ class CityParametersLots(TypedDict, total=False):
     width: float
     offset_width: float
     irregularity: float
+    corner_width: float
+    corner_angle: float
+    simplify: float
     park_share: float
 
 
@@ -1445,6 +1453,7 @@ class WorldParametersColors(TypedDict, total=False):
 class WorldParametersSettlementsTowns(TypedDict, total=False):
     share: float
     radius: float
+    walls: float
     city: "Child"
 
 

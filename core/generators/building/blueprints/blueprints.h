@@ -11,10 +11,10 @@ struct Blueprint {
   std::string_view rules;  ///< rules in CityEngine's notation; attributes have ranges
 };
 
-/// All blueprints, sorted by name.
+/// Returns all blueprints, sorted by name.
 std::span<const Blueprint> blueprints();
 
-/// Null if there is no blueprint with this name.
+/// Returns the blueprint with this name; null if there is none.
 const Blueprint* blueprint_named(std::string_view name);
 
 }  // namespace seedmesh::building

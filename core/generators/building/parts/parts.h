@@ -28,7 +28,7 @@ struct PartOptions {
   int count = 0;
   /// Width of the frame of a window or door, or of a balcony rail, in metres. 0 derives it from the size.
   double frame = 0;
-  /// What is behind a window: 0 darkness, 1 curtains, 2 a blind, 3 a short curtain.
+  /// What is behind a window: 0 nothing (dark), 1 curtains, 2 a blind, 3 a short curtain.
   int room = 0;
 
   friend auto operator<=>(const PartOptions&, const PartOptions&) = default;
@@ -41,7 +41,7 @@ struct PartRow {
   std::vector<PartPiece> (*make)(const glm::dvec3& size, const PartOptions& options, Job& job);
 };
 
-/// All parts, sorted by name.
+/// Returns all parts, sorted by name.
 std::span<const PartRow> part_rows();
 
 /// Returns the part of this name, or null if there is none.

@@ -39,12 +39,12 @@ struct OpenAnchor {
   std::vector<std::uint32_t> beside;  ///< anchors at the other ends of lines that begin here
 };
 
-/// Returns one for each point. Ends of lines that meet others are crossings.
+/// Returns one anchor for each point. Ends of lines that meet others are crossings.
 std::vector<OpenAnchor> open_anchors(const PicturePair& pair);
 
 /// Returns the order in which anchors are searched: enough of them, those with few candidates first. In space the
-/// first three have directions that do not depend on the variables. `per_line` is the mean number of points on a line
-/// of the picture. Empty: they do not determine a similarity and values.
+/// first three have directions that do not depend on the variables. `per_line` is the mean number of points on a
+/// line of the picture. The result is empty if they do not determine a similarity and values.
 std::vector<std::uint32_t> search_order(const std::vector<OpenAnchor>& anchors, bool is_flat,
                                         const std::map<std::uint32_t, std::size_t>& counts, double per_line);
 

@@ -22,8 +22,9 @@ struct PicturePoints {
   const LinePoints& on_lines;  ///< of anchor_crossing
 };
 
-/// Calls `found` with a point of the picture for each anchor in this order. Kinds agree, points of one marker or solid belong to
-/// one, and crossings that a line of the left shape joins lie on one line. Calls `look` for each point that it tries.
+/// Calls `found` with a point of the picture for each anchor in this order. Kinds agree, points of one marker or
+/// solid belong to one, and crossings that a line of the left shape joins lie on one line. Calls `look` for each
+/// point that it tries.
 void search_points(const std::vector<OpenAnchor>& anchors, std::span<const std::uint32_t> order,
                    const PicturePoints& points, const std::function<void()>& look,
                    const std::function<void(const std::vector<glm::dvec3>&)>& found);

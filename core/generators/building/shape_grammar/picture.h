@@ -60,14 +60,14 @@ struct Similarity {
   PictureSolid of(const PictureSolid& solid) const;
 };
 
-/// At most eight points; `radius` is 0 unless the solid is round.
+/// Returns at most eight points. Sets `radius`, which is 0 unless the solid is round.
 std::vector<KeyPoint> key_points(const PictureSolid& solid, double& radius);
 
 /// Whether two elements are equal to within `near` metres.
 bool are_equal(const PictureMarker& a, const PictureMarker& b, double near);
 bool are_equal(const PictureSolid& a, const PictureSolid& b, double near);
 
-/// Whether the line lies in one of these. Cost: linear.
+/// Whether the line lies in one of `lines`. Cost: linear.
 bool contains(const std::vector<PictureLine>& lines, const PictureLine& line, double near);
 
 /// Adds or removes a line; the lines stay maximal. Cost: linear.

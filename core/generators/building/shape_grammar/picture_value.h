@@ -7,8 +7,8 @@
 
 namespace seedmesh::building {
 
-/// The value of an expression of a picture, with the names in `values`. Returns 0 and adds errors at `pointer`,
-/// at most 100 in all, if the text is wrong or contains a random function.
+/// Returns the value of an expression of a picture, with the names in `values`. Returns 0 and adds errors at
+/// `pointer`, at most 100 in all, if the text is wrong or contains a random function.
 double picture_value(const std::string& text, const PictureValues& values, const std::string& pointer,
                      std::vector<Issue>& issues);
 

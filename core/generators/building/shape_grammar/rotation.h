@@ -6,8 +6,8 @@
 
 namespace seedmesh::building {
 
-/// The rotation about `axis` (0 x, 1 y, 2 z) by an angle in degrees, counter-clockwise seen from the positive
-/// end of the axis.
+/// Returns the rotation about `axis` (0 x, 1 y, 2 z) by an angle in degrees, counter-clockwise seen from the
+/// positive end of the axis.
 inline glm::dmat3 rotation_about(int axis, double degrees) {
   const math::SinCos a = math::sincos_degrees(degrees);
   const int u = (axis + 1) % 3, v = (axis + 2) % 3;
@@ -19,7 +19,7 @@ inline glm::dmat3 rotation_about(int axis, double degrees) {
   return m;
 }
 
-/// Rotations about x, then y, then z, all about fixed axes.
+/// Returns the rotations about x, then y, then z, all about fixed axes.
 inline glm::dmat3 rotation_xyz(const glm::dvec3& degrees) {
   glm::dmat3 m(1);
   for (int axis = 0; axis < 3; ++axis) {

@@ -11,9 +11,9 @@
 /// are not on a line. If a left shape has too few, the ends of its lines count too, and then only whole lines
 /// match.
 ///
-/// A left shape with open variables is a family (Stiny, "Ice-ray: a note on the generation of Chinese lattice designs", 1977):
-/// a match also determines their values. Points of the left shape are linear in the values, and so are the
-/// equations of an inverse similarity that maps points of the picture to them.
+/// A left shape with open variables is a family (Stiny, "Ice-ray: a note on the generation of Chinese lattice
+/// designs", 1977): a match also determines their values. Points of the left shape are linear in the values, and
+/// so are the equations of an inverse similarity that maps points of the picture to them.
 ///
 /// Shapes smaller than 10^-5 of the picture are not found, so that rules that make ever smaller shapes end.
 /// The rule (by weight) and the match are random, by the number of the step.

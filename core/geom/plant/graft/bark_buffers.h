@@ -107,7 +107,8 @@ std::uint32_t* add_triangles(BarkBuffers& bark, std::size_t count);
 /// Adds the triangles from number `first` on that have a vertex on a loop to the list of loop triangles.
 void note_loop_triangles(BarkBuffers& bark, std::size_t first);
 
-/// Moves a vertex' tangent into the plane of its normal. Any direction in that plane where nothing is left.
+/// Projects the tangent of a vertex to the plane at right angles to its normal. If nothing is left of it, it gets
+/// any direction in that plane.
 void level_tangent(Mesh& mesh, std::size_t vertex);
 
 /// The bark of all limbs in the order of limbs, without what earlier rounds have left.

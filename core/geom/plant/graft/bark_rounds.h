@@ -8,7 +8,7 @@
 
 namespace seedmesh {
 
-/// What of a limb has to be checked again: nothing, the faces at the loop that it begins with, or all.
+/// Which faces of a limb have to be checked again: none, those at the loop that it begins with, or all.
 enum class Recheck : std::uint8_t { nothing, loop, all };
 
 struct BarkRounds {
@@ -39,7 +39,7 @@ void for_chunks(const BarkRounds& rounds, const Job& job, std::size_t count, std
 /// The end of the triangles of a limb that have to be checked; they begin at its range.
 std::uint32_t recheck_end(const BarkBuffers& bark, const BarkRounds& rounds, std::size_t limb);
 
-/// Is a corner of the triangle on a loop that has changed?
+/// Whether a corner of the triangle is on a loop that has changed.
 bool is_touched(const BarkBuffers& bark, const BarkRounds& rounds, std::uint32_t triangle);
 
 /// Calls each(triangle) for the triangles of a limb at changed loops, as far as they have to be checked.

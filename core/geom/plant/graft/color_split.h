@@ -8,9 +8,9 @@
 
 namespace seedmesh {
 
-/// One Bark for each colour in use, by rising colour. `colors`: of each triangle. A vertex on the border of
-/// two colours is in both meshes, so that the meshes are closed together. Triangles keep their order. Linear
-/// time for each colour.
+/// Returns one Bark for each colour in use, by rising colour. `colors` has the colour of each triangle. A vertex
+/// on the border of two colours is in both meshes, so that the meshes are closed together. Triangles keep their
+/// order. Linear time for each colour.
 std::vector<Bark> split_by_color(Mesh mesh, std::span<const std::int16_t> colors, const Job& job);
 
 /// True where the order of the triangles causes at most 1.2 misses a vertex in a small vertex cache.

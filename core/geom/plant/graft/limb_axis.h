@@ -62,8 +62,8 @@ struct LimbAxis {
   void resize(std::size_t points);
 };
 
-/// Rotates `u`, which is at right angles to the unit vector `from`, by the least rotation that takes `from`
-/// to the unit vector `to`. Any vector at right angles to `to` where the two are opposite.
+/// Rotates `u`, which is at right angles to the unit vector `from`, by the least rotation that takes `from` to
+/// the unit vector `to`. Returns any vector at right angles to `to` where the two are opposite.
 glm::vec3 least_rotation(glm::vec3 u, const glm::vec3& from, const glm::vec3& to);
 
 /// Normalises a vector. One that is a unit vector except for rounding takes one step of Newton's method,

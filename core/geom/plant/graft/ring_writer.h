@@ -71,7 +71,7 @@ void set_seam(LimbWriter& w, float angle);
 /// Sets the joint that new vertices move with: that of the internode at the length `at`.
 void set_joint(LimbWriter& w, float at);
 
-/// u around the limb, v along it.
+/// Returns the texture coordinates of a vertex: u around the limb, v along it.
 glm::vec2 texture_at(const LimbWriter& w, float radius, float angle, float at);
 
 /// Adds one vertex; -0 becomes 0. Its tangent, where wanted, goes around the limb. `group`: Limbs::none for

@@ -42,6 +42,25 @@ TEST(LeafMesh, IsSoundForEveryShapeBuildAndCoarseness) {
   }
 }
 
+TEST(LeafMesh, IsSoundForTheStrongestFoldsAndBends) {
+  const Job job = job_of();
+  for (const LeafBuild build : builds) {
+    for (const double droop : {-180.0, -165.0, -151.0, -120.0, 120.0, 151.0, 180.0}) {
+      for (const double fold : {-80.0, -40.0, 0.0, 15.0, 40.0, 80.0}) {
+        for (int coarseness = 0; coarseness < 5; ++coarseness) {
+          LeafForm form;
+          form.build = build;
+          form.droop = math::radians(droop);
+          form.fold = math::radians(fold);
+          form.coarseness = coarseness;
+          EXPECT_THAT(faults(leaf_mesh(form, job)), IsEmpty())
+              << static_cast<int>(build) << ", " << droop << ", " << fold << ", " << coarseness;
+        }
+      }
+    }
+  }
+}
+
 TEST(LeafMesh, IsOneLongAndFlatWhereItIsNeitherFoldedNorBent) {
   const Job job = job_of();
   LeafForm form;
