@@ -30,36 +30,6 @@ void choose(Flags flags, std::uint32_t value, std::uint32_t* in) {
   store(chosen(flags, all_lanes(static_cast<std::int32_t>(value)), held), in);
 }
 
-/// Calls visit(index of the first, passed, depth) for each eight samples where the triangle is nearer than what is held.
-template <class Visit>
-void each_nearer(const Triangle& t, const Surface& surface, const Array<glm::vec2>* uv, const Shown& shown,
-                 const Rows& rows, const float* held, const Visit& visit) {
-  const std::uint32_t size = shown.eye.size();
-  const std::size_t stride = stride_of(size);
-  const auto [least, greatest] = std::minmax({t.depth[0], t.depth[1], t.depth[2]});
-  const Floats low = all_lanes(least), high = all_lanes(greatest);
-  const Plane plane = t.cover.plane(static_cast<double>(t.depth[0]), static_cast<double>(t.depth[1]),
-                                    static_cast<double>(t.depth[2]));
-  const auto scan = [&](const auto& filled) {
-    each_eight(t.cover, static_cast<std::int32_t>(size), rows,
-               [&](std::int32_t x, std::int32_t y, Flags inside, Floats across, float down) {
-                 const std::size_t at = static_cast<std::size_t>(y) * stride + static_cast<std::size_t>(x);
-                 Floats depth = plane.of(across, down);
-                 depth = chosen(depth > low, depth, low);
-                 depth = chosen(depth < high, depth, high);
-                 Flags passed = inside & (depth > load(held + at));
-                 if (!any_of(passed)) return;
-                 passed = filled(passed, depth, across, down);
-                 visit(at, passed, depth);
-               });
-  };
-  if (!uv) return scan([](Flags passed, Floats, Floats, float) { return passed; });
-  const Holes holes(surface, *uv, t, shown.eye.is_perspective());
-  scan([&holes](Flags passed, Floats depth, Floats across, float down) {
-    return passed & holes.filled(depth, across, down);
-  });
-}
-
 /// Draws into the rows of one band.
 class Band {
  public:
@@ -80,21 +50,19 @@ class Band {
 
   void draw_meshes(std::span<const Binned> triangles, Samples& samples) {
     each_triangle(triangles, [&](const Triangle& t) {
-      each_nearer(t, *surface_, holes_, shown_, rows_, samples.near.data(),
-                  [&](std::size_t at, Flags passed, Floats depth) {
-                    store(chosen(passed, depth, load(&samples.near[at])), &samples.near[at]);
-                    choose(passed, number_, &samples.drawing[at]);
-                    choose(passed, t.number, &samples.number[at]);
-                  });
+      each_nearer(t, samples.near.data(), [&](std::size_t at, Flags passed, Floats depth) {
+        store(chosen(passed, depth, load(&samples.near[at])), &samples.near[at]);
+        choose(passed, number_, &samples.drawing[at]);
+        choose(passed, t.number, &samples.number[at]);
+      });
     });
   }
 
   void draw_depths(std::span<const Binned> triangles, Array<float>& map) {
     each_triangle(triangles, [&](const Triangle& t) {
-      each_nearer(t, *surface_, holes_, shown_, rows_, map.data(),
-                  [&](std::size_t at, Flags passed, Floats depth) {
-                    store(chosen(passed, depth, load(&map[at])), &map[at]);
-                  });
+      each_nearer(t, map.data(), [&](std::size_t at, Flags passed, Floats depth) {
+        store(chosen(passed, depth, load(&map[at])), &map[at]);
+      });
     });
   }
 
@@ -102,19 +70,18 @@ class Band {
   void draw_sheets(std::span<const Binned> triangles, Samples& samples) {
     FragmentReader front(shown_), behind(shown_);
     each_triangle(triangles, [&](const Triangle& t) {
-      each_nearer(t, *surface_, holes_, shown_, rows_, samples.near.data(),
-                  [&](std::size_t at, Flags passed, Floats) {
-                    for (std::size_t lane = 0; lane < std::size_t{lanes}; ++lane) {
-                      const std::size_t column = at % samples.stride + lane, row = at / samples.stride;
-                      if (passed[static_cast<int>(lane)] == 0 || column >= samples.size) continue;
-                      const float x = (static_cast<float>(column) + 0.5F) * fixed_one,
-                                  y = (static_cast<float>(row) + 0.5F) * fixed_one;
-                      const Fragment next = front.at(number_, t.number, x, y);
-                      blend(next, at + lane, samples, [&](std::uint32_t drawn, std::uint32_t triangle) {
-                        return behind.at(drawn, triangle, x, y);
-                      });
-                    }
-                  });
+      each_nearer(t, samples.near.data(), [&](std::size_t at, Flags passed, Floats) {
+        for (std::size_t lane = 0; lane < std::size_t{lanes}; ++lane) {
+          const std::size_t column = at % samples.stride + lane, row = at / samples.stride;
+          if (passed[static_cast<int>(lane)] == 0 || column >= samples.size) continue;
+          const float x = (static_cast<float>(column) + 0.5F) * fixed_one,
+                      y = (static_cast<float>(row) + 0.5F) * fixed_one;
+          const Fragment next = front.at(number_, t.number, x, y);
+          blend(next, at + lane, samples, [&](std::uint32_t drawn, std::uint32_t triangle) {
+            return behind.at(drawn, triangle, x, y);
+          });
+        }
+      });
     });
   }
 
@@ -148,6 +115,35 @@ class Band {
       set_edges(t.cover);
       visit(t);
     }
+  }
+
+  /// Calls visit(index of the first, passed, depth) for each eight samples where the triangle is nearer than what is held.
+  template <class Visit>
+  void each_nearer(const Triangle& t, const float* held, const Visit& visit) const {
+    const std::uint32_t size = shown_.eye.size();
+    const std::size_t stride = stride_of(size);
+    const auto [least, greatest] = std::minmax({t.depth[0], t.depth[1], t.depth[2]});
+    const Floats low = all_lanes(least), high = all_lanes(greatest);
+    const Plane plane = t.cover.plane(static_cast<double>(t.depth[0]), static_cast<double>(t.depth[1]),
+                                      static_cast<double>(t.depth[2]));
+    const auto scan = [&](const auto& filled) {
+      each_eight(t.cover, static_cast<std::int32_t>(size), rows_,
+                 [&](std::int32_t x, std::int32_t y, Flags inside, Floats across, float down) {
+                   const std::size_t at = static_cast<std::size_t>(y) * stride + static_cast<std::size_t>(x);
+                   Floats depth = plane.of(across, down);
+                   depth = chosen(depth > low, depth, low);
+                   depth = chosen(depth < high, depth, high);
+                   Flags passed = inside & (depth > load(held + at));
+                   if (!any_of(passed)) return;
+                   passed = filled(passed, depth, across, down);
+                   visit(at, passed, depth);
+                 });
+    };
+    if (!holes_) return scan([](Flags passed, Floats, Floats, float) { return passed; });
+    const Holes holes(*surface_, *holes_, t, shown_.eye.is_perspective());
+    scan([&holes](Flags passed, Floats depth, Floats across, float down) {
+      return passed & holes.filled(depth, across, down);
+    });
   }
 
   template <class Read>

@@ -14,7 +14,8 @@ namespace {
 constexpr float whole = 65'535;
 
 std::uint16_t word_of(float share) {
-  return static_cast<std::uint16_t>(std::clamp(share, 0.0F, 1.0F) * whole + 0.5F);
+  const float rounded = std::clamp(share, 0.0F, 1.0F) * whole + 0.5F;
+  return static_cast<std::uint16_t>(rounded);
 }
 
 /// Of channels with 16 bits, only the upper 8 are used.
