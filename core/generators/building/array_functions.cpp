@@ -108,9 +108,10 @@ TaggedValue set_elements(Evaluation& at, ValueArguments a) {
   const double place = a.size() > 3 ? first * static_cast<double>(columns) + second : first;
   const ValueArray values = array_in(at, a[a.size() - 1]);
   if (!(place >= 0) ||
-      place + static_cast<double>(values.values.size()) > static_cast<double>(out.values.size()))
+      place + static_cast<double>(values.values.size()) > static_cast<double>(out.values.size())) {
     reject(at, "found a position of setElems outside of the array of " + std::to_string(out.values.size()) +
                    " values");
+  }
   std::ranges::copy(values.values, out.values.begin() + static_cast<std::ptrdiff_t>(place));
   return array_value(at, std::move(out));
 }

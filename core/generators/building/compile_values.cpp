@@ -59,7 +59,7 @@ Token made_token(Parser& p, TokenKind kind, std::string_view text, const Token& 
 std::size_t write_query(Parser& p, Writing& writing, std::span<const Token> tokens, std::size_t i,
                         std::string_view dotted) {
   const std::string name = lower_first(std::string(dotted));
-  Query::Kind kind;
+  Query::Kind kind{};
   if (name == "scope.occ" || name == "shape.occ") {
     kind = Query::Kind::occlusion;
   } else if (name == "scope.visible" || name == "shape.visible") {

@@ -57,19 +57,21 @@ std::uint32_t classes_of(const glm::dvec3& n) {
     classes |= n.y > 0 ? face_top : face_bottom;
   } else {
     classes |= face_side;
-    if (a.z >= a.x)
+    if (a.z >= a.x) {
       classes |= n.z > 0 ? face_front : face_back;
-    else
+    } else {
       classes |= n.x > 0 ? face_right : face_left;
+    }
   }
-  if (a.y > sine_high)
+  if (a.y > sine_high) {
     classes |= face_horizontal;
-  else if (n.y > sine_low)
+  } else if (n.y > sine_low) {
     classes |= face_aslant;
-  else if (n.y < -sine_low)
+  } else if (n.y < -sine_low) {
     classes |= face_nutant;
-  else
+  } else {
     classes |= face_vertical;
+  }
   return classes;
 }
 
@@ -196,10 +198,11 @@ std::vector<std::uint32_t> roof_classes(const Solid& solid, const glm::dvec3& si
     // Concave if the second face lies above the plane of the first: the edge runs along the first face.
     const glm::dvec3 along = (solid.points[edges[e].to] - solid.points[edges[e].from]) * size;
     const glm::dvec3 a = facets.normal[edges[e].faces[0]], b = facets.normal[edges[e].faces[1]];
-    if (glm::dot(glm::cross(a, b), along) < -1e-9 * glm::length(along))
+    if (glm::dot(glm::cross(a, b), along) < -1e-9 * glm::length(along)) {
       out[e] = edge_valley;
-    else
+    } else {
       out[e] = at_eave[edges[e].from] != 0 || at_eave[edges[e].to] != 0 ? edge_hip : edge_ridge;
+    }
   }
   return out;
 }
@@ -345,10 +348,11 @@ std::vector<Component> components_of(Derivation& d, const ShapeState& state, std
       add_holes(d, state, faces);
       break;
     default:
-      if (state.geometry == box_geometry)
+      if (state.geometry == box_geometry) {
         add_box_faces(d, state, faces);
-      else
+      } else {
         add_solid_faces(d, state, faces);
+      }
   }
   for (const ShapeState& face : faces) out.push_back({face, {0, 0}});
   const bool is_closed =

@@ -31,9 +31,10 @@ Solid geometry_of(const Evaluation& at) {
 std::vector<ShapeState> faces_taken(Evaluation& at, ValueArguments a) {
   std::uint32_t classes = face_all;
   std::uint8_t frame = frame_scope;
-  if (!a.empty() && !read_selector(text_in(at, a[0]), classes, frame))
+  if (!a.empty() && !read_selector(text_in(at, a[0]), classes, frame)) {
     reject(at,
            "found " + lang::in_quotes(text_in(at, a[0])) + ", expected a selector such as side or world.up");
+  }
   std::vector<ShapeState> out;
   const ShapeState state = seen(at);
   if (state.has_asset() || dimension(state.size) < 2) return out;

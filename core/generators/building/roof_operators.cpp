@@ -41,19 +41,21 @@ RoofKind kind_of_roof(const Derivation& d, const Step& step) {
   }
   const std::string& word = d.grammar.words[d.grammar.arguments[step.first_argument].word];
   const auto* const found = std::ranges::find(roof_names, std::string_view(word), &RoofName::name);
-  if (found == std::end(roof_names))
+  if (found == std::end(roof_names)) {
     reject(d, step.offset,
            "found the roof " + lang::in_quotes(word) +
                ", expected hip, gable, pyramid, shed, mansard, gambrel or flat");
+  }
   return found->kind;
 }
 
 double angle_of(Derivation& d, const Argument& argument) {
   const double degrees = number_of(d, argument.value);
-  if (!(degrees > 0 && degrees < 90))
+  if (!(degrees > 0 && degrees < 90)) {
     reject(
         d, argument.value.offset,
         "found a roof angle of " + text_of_number(degrees) + ", expected an angle between 0 and 90 degrees");
+  }
   return math::radians(degrees);
 }
 
@@ -67,9 +69,10 @@ RoofOptions options_of(Derivation& d, const Step& step) {
   if (at < step.argument_count) {
     if (a[at].measure == Measure::height) {
       options.height = number_of(d, a[at].value);
-      if (!(*options.height > 0))
+      if (!(*options.height > 0)) {
         reject(d, a[at].value.offset,
                "found a roof height of " + text_of_number(*options.height) + " m, expected a height above 0");
+      }
     } else {
       options.angle = angle_of(d, a[at]);
     }
@@ -85,10 +88,11 @@ RoofOptions options_of(Derivation& d, const Step& step) {
   if (options.kind == RoofKind::mansard || options.kind == RoofKind::gambrel) {
     if (at < step.argument_count) options.upper_angle = angle_of(d, a[at++]);
     options.break_height = next_length();
-    if (options.height && options.break_height >= *options.height)
+    if (options.height && options.break_height >= *options.height) {
       reject(d, step.offset,
              "the slope breaks at " + text_of_number(options.break_height) +
                  " m, expected below the height of the roof, " + text_of_number(*options.height) + " m");
+    }
   }
   if (options.kind == RoofKind::shed)
     options.low_edge = static_cast<std::uint32_t>(std::clamp(next(), 0.0, 1e6));
@@ -161,10 +165,11 @@ void roof(Derivation& d, const Step& step, ShapeState& state, const Site&) {
   const RoofOptions options = options_of(d, step);
   if (is_volume && !take_underside(d, state))
     reject(d, step.offset, "found a volume without a level underside, expected one that a roof can stand on");
-  if (dimension(state.size) != 2 || state.has_asset())
+  if (dimension(state.size) != 2 || state.has_asset()) {
     reject(d, step.offset,
            "found a shape of " + std::to_string(dimension(state.size)) +
                " dimensions, expected a face for a roof; take the top with comp(f)");
+  }
   const FacePlane plane(state.size);
   Solid solid;
   solid.is_closed = true;

@@ -149,12 +149,11 @@ RuleText rule_text(const std::map<std::string, std::string>& files, std::string_
   if (mains.size() != 1) {
     std::string names;
     for (const std::string_view name : mains) names.append(names.empty() ? "" : ", ").append(name);
-    issues.push_back(
-        {IssueKind::conflict, "/rules",
-         mains.empty()
-             ? "found files that all import each other, expected one that no other file imports"
-             : "found several files that no other file imports (" + names +
-                   "), expected one; mark its start rule with @StartRule, or name it in \"start\""});
+    issues.emplace_back(
+        IssueKind::conflict, "/rules",
+        mains.empty() ? "found files that all import each other, expected one that no other file imports"
+                      : "found several files that no other file imports (" + names +
+                            "), expected one; mark its start rule with @StartRule, or name it in \"start\"");
   }
   const std::string_view main = mains.empty() ? std::string_view(files.begin()->first) : mains.front();
   RuleText out;

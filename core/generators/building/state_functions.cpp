@@ -143,10 +143,11 @@ TaggedValue sort_assets(Evaluation& at, ValueArguments a) {
     const std::size_t to = std::min(list.find(';', from), list.size());
     const std::string name = list.substr(from, to - from);
     const AssetBox* const asset = asset_named(at, name);
-    if (!name.empty())
+    if (!name.empty()) {
       rows.emplace_back(
           asset == nullptr ? 1e300 : misfit(at, *asset, a.size() > 1 ? text_in(at, a[1]) : "xyz", by_size),
           name);
+    }
     from = to + 1;
   }
   std::ranges::stable_sort(rows, {}, &std::pair<double, std::string>::first);

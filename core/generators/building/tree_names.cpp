@@ -26,10 +26,11 @@ std::vector<std::uint32_t> TreeParser::arguments(bool takes_words) {
     if (takes_words && here().kind == TokenKind::name && !is_known_name()) {
       const std::string dotted = dotted_name();
       const bool is_value = p_.names.find(dotted) != nullptr || find_value_function(dotted) != none;
-      if (!is_value && (is(",") || is(")")))
+      if (!is_value && (is(",") || is(")"))) {
         word = constant(begin, {0, p_.grammar.texts.id_of(dotted)});
-      else
+      } else {
         at_ = begin;
+      }
     }
     out.push_back(word != none ? word : value());
     if (!take(",")) break;
@@ -103,10 +104,11 @@ std::uint32_t TreeParser::name() {
 std::uint32_t TreeParser::user_function(std::size_t begin, const std::string& name) {
   const RuleFunction& function = p_.functions.find(name)->second;
   const std::vector<std::uint32_t> given = arguments(false);
-  if (given.size() != function.parameters.size())
+  if (given.size() != function.parameters.size()) {
     add_error(p_, p_.tokens.at(begin),
               lang::in_quotes(name) + " takes " + std::to_string(function.parameters.size()) +
                   " arguments, found " + std::to_string(given.size()));
+  }
   ValueNode out = node(Kind::function, begin);
   const auto [found, is_new] =
       p_.function_trees.try_emplace(name, static_cast<std::uint32_t>(p_.grammar.functions.size()));
@@ -154,10 +156,11 @@ std::uint32_t TreeParser::special_function(std::size_t begin, std::uint32_t numb
   const ValueFunctionRow& row = value_function(number);
   const std::vector<std::uint32_t> given = arguments(true);
   const int count = static_cast<int>(given.size());
-  if (count < row.least || count > row.most)
+  if (count < row.least || count > row.most) {
     add_error(p_, p_.tokens.at(begin),
               lang::in_quotes(row.name) + " takes (" + std::string(row.parameters) + "), found " +
                   std::to_string(count) + " arguments");
+  }
   if (row.name == "contextCount" || row.name == "minimumDistance" || row.name == "contextCompare") {
     const bool is_count = row.name != "minimumDistance";
     const Query::Kind kind = is_count ? Query::Kind::count : Query::Kind::distance;

@@ -118,10 +118,11 @@ Solid united_solid(Derivation& d, std::uint32_t offset, const ShapeState& state,
         all = boolean(all, own, BooleanKind::unite, d.job);
       }
     } else if (joining == Joining::unify) {
-      if (std::optional<Solid> flat = flat_boolean(open, own, BooleanKind::unite, d.job))
+      if (std::optional<Solid> flat = flat_boolean(open, own, BooleanKind::unite, d.job)) {
         open = std::move(*flat);
-      else
+      } else {
         append(open, own);
+      }
     } else {
       all.is_closed &= own.is_closed;
       append(all, own);

@@ -157,7 +157,7 @@ std::vector<std::string> gaps_of(const CityPlan& plan, const GroundFaces& faces)
 
 void expect_closed_ground(const CityParams& params, std::uint64_t seed) {
   Job job(seed, Job::Options{});
-  const Result<CityPlan> plan = plan_of(params, job);
+  Result<CityPlan> plan = plan_of(params, job);
   if (!plan) return;
   const Result<Model> model = city_model(*plan, params, {job});
   ASSERT_TRUE(model);
@@ -228,7 +228,7 @@ TEST(CityGround, StaysWithinItsSlopeWithoutAWall) {
   for (std::uint64_t seed = 0; seed < 12; ++seed) {
     const CityParams params = random_hills(seed);
     Job job(seed, Job::Options{});
-    const Result<CityPlan> plan = plan_of(params, job);
+    Result<CityPlan> plan = plan_of(params, job);
     if (!plan) continue;
     const Result<Model> model = city_model(*plan, params, {job});
     ASSERT_TRUE(model);

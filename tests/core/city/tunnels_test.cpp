@@ -123,7 +123,7 @@ TEST(Tunnels, CloseTheGroundWithTheirTubes) {
   for (int n = 0; n < 60; ++n) {
     const CityParams params =
         city_with_tunnel(draw.uniform(2, 40), draw.uniform(-0.3, 0.3), draw.uniform(4, 14));
-    const CityPlan plan = plan_by(params);
+    CityPlan plan = plan_by(params);
     Job job(1, Job::Options{});
     const Result<Model> model = city_model(plan, params, {job});
     ASSERT_TRUE(model);
