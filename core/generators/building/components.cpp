@@ -255,7 +255,7 @@ void add_edges(Derivation& d, const ShapeState& state, std::vector<Component>& o
                           solid.points[edges[e].to] * state.size, math::unit(normal, glm::dvec3(0, 1, 0)));
     made.classes[0] = made.classes[1] = classes[e];
     made.state.style = style_of_edge(d, solid, edges[e].faces, state.style);
-    out.push_back(std::move(made));
+    out.push_back(made);
   }
 }
 
@@ -278,7 +278,7 @@ void add_face_edges(Derivation& d, const ShapeState& state, bool are_points, std
         if (!are_points) made.classes[0] = made.classes[1] = class_of[std::minmax(from, to)];
         made.state = are_points ? straight(d, state, a, a, facets.normal[f])
                                 : straight(d, state, a, b, glm::cross(b - a, facets.normal[f]));
-        out.push_back(std::move(made));
+        out.push_back(made);
       }
     }
   }
@@ -302,7 +302,7 @@ void add_vertices(Derivation& d, const ShapeState& state, std::vector<Component>
     const glm::dvec3 at = solid.points[point] * state.size;
     Component made;
     made.state = straight(d, state, at, at, math::unit(normal[point], glm::dvec3(0, 1, 0)));
-    out.push_back(std::move(made));
+    out.push_back(made);
   }
 }
 
