@@ -52,7 +52,7 @@ TEST(WorldErrors, AreNearThoseOfTheGroundInAllPresets) {
        {"temperate_land", "alpine", "archipelago", "desert_oases", "boreal_plain", "alien_plateaus"}) {
     Job job = test_job();
     std::vector<double> ratios;
-    int low = 0;
+    std::size_t low = 0;
     for (const std::uint64_t seed : {7U, 7919U, 15838U}) {
       const World world = bare_world(preset, seed);
       for (int n = 0; n < tiles / 3; ++n) {
@@ -73,7 +73,7 @@ TEST(WorldErrors, AreNearThoseOfTheGroundInAllPresets) {
     ASSERT_GT(ratios.size(), 100U);
     std::sort(ratios.begin(), ratios.end());
     EXPECT_LE(ratios[ratios.size() / 2], 2.1) << preset;
-    EXPECT_LE(low, 1) << preset << ": declared below measured";
+    EXPECT_LE(low, ratios.size() / 90) << preset << ": declared below measured in more than one of ninety tiles";
   }
 }
 
