@@ -78,6 +78,14 @@ bool is_too_steep(const GrowthInput& input, const std::vector<StreetPiece>& piec
   });
 }
 
+bool is_blocked(const GrowthInput& input, const std::vector<StreetPiece>& pieces) {
+  return std::any_of(pieces.begin(), pieces.end(), [&](const StreetPiece& piece) {
+    return input.is_blocked(in_cm(piece.a), in_cm(piece.b), input.streets.classes.major.grade);
+  });
+}
+
+/// Returns the longest line at one of the densest points that is not too steep. A line that meets no obstacle and no given
+/// building comes first; if there is none, the pieces that meet a building are left out.
 std::vector<StreetPiece> longest_line(const GrowthInput& input) {
   std::vector<std::pair<double, dvec2>> from;
   for (const dvec2& p : lattice_of(input.region)) {
@@ -88,8 +96,8 @@ std::vector<StreetPiece> longest_line(const GrowthInput& input) {
   // Where several parts of the area are about as dense, the one with the longest street has the most space.
   constexpr double as_dense = 0.6;
   for (const double least_sine : {least_border_sine, 0.4}) {
-    std::optional<std::array<CmPoint, 2>> best;
-    double longest = 0;
+    std::optional<std::array<CmPoint, 2>> best, best_free;
+    double longest = 0, longest_free = 0;
     for (const auto& [density, p] : from) {
       if (best && density > from.front().first * as_dense) break;
       constexpr int directions = 12;
@@ -97,12 +105,23 @@ std::vector<StreetPiece> longest_line(const GrowthInput& input) {
         const math::SinCos turn = math::sincos_degrees(input.streets.angle + 180.0 * k / directions);
         const auto ends = line_through(input.region, p, {turn.cos, turn.sin}, least_sine);
         const double length = ends ? distance((*ends)[0], (*ends)[1]) : 0;
-        if (length <= longest || is_too_steep(input, pieces_between(*ends))) continue;
+        if (length <= longest_free) continue;
+        const std::vector<StreetPiece> pieces = pieces_between(*ends);
+        if (is_too_steep(input, pieces)) continue;
+        if (!is_blocked(input, pieces)) {
+          longest_free = length;
+          best_free = ends;
+        }
+        if (length <= longest) continue;
         longest = length;
         best = ends;
       }
     }
-    if (best) return pieces_between(*best);
+    if (best_free) return pieces_between(*best_free);
+    if (!best) continue;
+    std::vector<StreetPiece> pieces = pieces_between(*best);
+    std::erase_if(pieces, [&](const StreetPiece& piece) { return input.is_on_footprint(piece); });
+    return pieces;
   }
   return {};
 }
