@@ -1,5 +1,6 @@
 #pragma once
-/// Operations as values in ShapeML: `func F(length) = { ... };` and `const up = { ... };`, which `^F(2)` and `^up` use.
+/// Expands operations that are values in ShapeML: `func F(length) = { ... };` and `const up = { ... };`, which
+/// `^F(2)` and `^up` use.
 #include <set>
 #include <string>
 #include <vector>
@@ -9,11 +10,11 @@
 
 namespace seedmesh {
 
-/// Replaces each use of a named operation by its tokens. Arguments replace parameters, in parentheses. Definitions are
-/// removed. An argument of the form `^name` is enclosed in braces, and so is a constant of operations as an argument. A rule
-/// that takes operations is written once for each set of them, with a name of its own in `made_names`, to which tokens
-/// point. Tokens keep their offsets. Errors: a wrong number of arguments, more than 30 nested uses, more than 1,000 such
-/// rules, more than 1,000,000 tokens.
+/// Replaces each use of a named operation by its tokens. Arguments replace parameters, in parentheses.
+/// Definitions are removed. Arguments of the form `^name`, and constants of operations as arguments, are enclosed
+/// in braces. A rule that takes operations is written once for each set of them. Each copy has a name of its own
+/// in `made_names`, to which tokens point. Tokens keep their offsets. Errors: a wrong number of arguments, more
+/// than 30 nested uses, more than 1,000 such rules, more than 1,000,000 tokens.
 void expand_shapeml_operations(std::vector<lang::Token>& tokens, std::set<std::string>& made_names,
                                ForeignText& source);
 

@@ -1,6 +1,6 @@
 #pragma once
-/// Which triangles may cover which rows of an image, so that a band of rows is drawn while its samples are in the cache
-/// of a core. For core/render only.
+/// Sorts triangles by the rows of an image that they may cover, so that a band of rows is drawn while its samples
+/// are in the cache of a core. For core/render only.
 #include <span>
 
 #include "core/render/cover.h"
@@ -8,11 +8,11 @@
 
 namespace seedmesh::render {
 
-/// Which triangles of a drawing are left out.
+/// The sides of triangles that are drawn.
 enum class Sides { both, front, front_of_mirrored };
 Sides sides_of(const Shown& shown, const Drawing& drawing);
 
-/// A triangle on its way to the samples, with its corners in the order of Cover.
+/// A projected triangle, with its corners in the order of Cover.
 struct Triangle {
   Cover cover;
   std::array<std::uint32_t, 3> vertex;
@@ -20,8 +20,8 @@ struct Triangle {
   std::uint32_t number;
 };
 
-/// Takes the corners of triangle `number` of a drawing, and sets its box. False: it covers no sample of the rows, or is
-/// left out. Edges are not set.
+/// Reads the corners of triangle `number` of a drawing, and sets its box. Returns false if the triangle covers no
+/// sample of the rows or is left out. Does not set the edges.
 inline bool take(Triangle& t, const Shown& shown, const Drawing& drawing, const Lens& lens, Sides sides,
                  const Rows& rows) {
   Cover& c = t.cover;
@@ -60,7 +60,7 @@ class Bins {
 
   std::size_t bands() const { return bands_; }
   Rows rows(std::size_t band) const;
-  /// The triangles of a band, as lists in order.
+  /// Returns the number of lists. Their triangles in a band, list after list, are those to draw there.
   std::size_t lists() const { return lists_.size(); }
   std::span<const Binned> list(std::size_t number, std::size_t band) const {
     return lists_[number][band].span();

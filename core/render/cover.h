@@ -146,7 +146,7 @@ inline Flags steps(std::int64_t first, std::int64_t step) {
   return static_cast<std::int32_t>(first) + static_cast<std::int32_t>(step) * numbers;
 }
 
-/// each_eight() for triangles with edge functions of 32 bits.
+/// Like each_eight(), for triangles with edge functions of 32 bits.
 template <class Visit>
 void each_eight_of_small(const Cover& c, const Part& part, const Visit& visit) {
   constexpr std::int32_t worth_spans = 32;
@@ -185,8 +185,9 @@ void each_eight_of_small(const Cover& c, const Part& part, const Visit& visit) {
   }
 }
 
-/// Calls visit(x, y, inside, across, down) for each eight samples of the rows with a covered one: the image position of
-/// the first, flags, and their positions in the box. `size` is that of the image; the last ones may end beyond it.
+/// Calls visit(x, y, inside, across, down) for each group of eight samples of a row of which at least one is
+/// covered. The arguments are the image position of the first sample, flags, and the positions of all eight in
+/// the box. `size` is the width of the image; the last group may end beyond it.
 template <class Visit>
 void each_eight(const Cover& c, std::int32_t size, const Rows& rows, const Visit& visit) {
   const Part part = part_of(c, size, rows);

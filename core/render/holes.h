@@ -1,5 +1,5 @@
 #pragma once
-/// Where cut-out textures are empty on a triangle. For core/render only.
+/// The samples of a triangle where its cut-out texture is empty. For core/render only.
 #include <algorithm>
 #include <cmath>
 
@@ -24,7 +24,7 @@ class Holes {
     v_ = plane_of(t, {at[0].y, at[1].y, at[2].y}, level_->height);
   }
 
-  /// Those of the samples that show the surface.
+  /// Returns flags of those of the eight samples that show the surface.
   Flags filled(Floats depth, Floats across, float down) const {
     Floats u = u_.of(across, down), v = v_.of(across, down);
     if (is_perspective_) {

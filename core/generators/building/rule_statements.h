@@ -20,12 +20,12 @@ struct Statement {
   std::size_t name_end = 0;         ///< behind its name, which has points if it replaces a rule of an import
   std::size_t value = 0;            ///< of an attribute: token of its value; 0 for other declarations
   bool is_start = false, is_extension = false;
-  bool has_start_note = false;  ///< whether @StartRule stands before it
+  bool has_start_note = false;  ///< whether the annotation @StartRule is before it
 
   bool is_foreign() const { return name_end > name + 1; }  ///< a rule of an imported file
 };
 
-/// The tokens of one file and of those that it includes, and how their brackets fit together.
+/// The tokens of one file and of the files that it includes, and the partner of each bracket.
 struct RuleTokens {
   std::vector<lang::Token> tokens;
   std::vector<std::size_t> partner;
@@ -41,7 +41,7 @@ bool is_name(const lang::Token& token, std::string_view text);
 /// Whether a token follows the one before it without a blank.
 bool touches(const RuleTokens& file, std::size_t i);
 
-/// The tokens of one file of the joined text without comments. Errors of the lexer are added to `errors`.
+/// Returns the tokens of one file of the joined text without comments. Adds errors of the lexer to `errors`.
 RuleTokens read_tokens(std::string_view plain, const RuleText::Part& part,
                        std::vector<lang::TextError>& errors);
 
@@ -50,10 +50,11 @@ void match_brackets(RuleTokens& file);
 
 std::vector<Statement> statements_of(const RuleTokens& file);
 
-/// The path of `import "file.cga"` and `import file.cga`, which have no name for a prefix; else empty.
+/// Returns the path of `import "file.cga"` or `import file.cga`, which have no name for a prefix. Empty for other
+/// statements.
 std::string included_path(const RuleTokens& file, const Statement& each);
 
-/// Removes what a file before them declares, too, from the declarations of included files.
+/// Removes definitions and rules of included files whose names an earlier file declares, too.
 void drop_replaced(const RuleTokens& file, std::vector<Statement>& statements);
 
 }  // namespace seedmesh::building

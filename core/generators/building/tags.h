@@ -13,17 +13,17 @@ std::uint32_t tag_set(Derivation& d, std::vector<std::uint32_t> tags);
 std::uint32_t joined_tags(Derivation& d, std::uint32_t a, std::uint32_t b);
 /// Returns the set with one more tag.
 std::uint32_t with_tag(Derivation& d, std::uint32_t set, std::string_view name);
-/// Whether a tag fits a query: its parts between points are those of the query, where `?` is any part and `*` any
-/// number of them, and further parts can follow.
+/// Whether a tag matches a query. Points divide both into parts. The parts of the query must be the first parts
+/// of the tag; `?` matches any part and `*` one or more parts.
 bool fits_tag(std::string_view tag, std::string_view query);
-/// Whether a component of `dimension` (2 faces, 1 edges, 0 vertices) with a set of tags has one that fits. Tags of edges
-/// count for edges and vertices, those of vertices for these alone.
+/// Whether a component of `dimension` (2 faces, 1 edges, 0 vertices) with a set of tags has one that matches the
+/// query. Tags of edges count for edges and vertices, tags of vertices only for vertices.
 bool has_tag(const Derivation& d, std::uint32_t set, std::string_view query, int dimension);
-/// The name of a tag without the sign of edges or vertices.
+/// Returns the name of a tag without the sign of edges or vertices.
 std::string_view name_of_tag(std::string_view tag);
 
-/// The number of a style with the tags of the faces around an edge, and `bool.cut` where faces of both operands of a
-/// Boolean operation meet.
+/// Returns the index of a style that has the tags of the faces around an edge, and `bool.cut` where faces of both
+/// operands of a Boolean operation meet.
 std::uint32_t style_of_edge(Derivation& d, const Solid& solid, std::span<const std::uint32_t> faces,
                             std::uint32_t style);
 

@@ -16,16 +16,17 @@ enum class Joining : std::uint8_t {
   recompose,  ///< all faces, with shared corners
 };
 
-/// Joins pieces of a surface where they meet: corners within a micrometre become one, and corners on an edge of
-/// another piece divide it. Faces that become inner ones are dropped.
+/// Returns the surface of pieces, joined where they meet. Corners within a micrometre become one, and corners on
+/// an edge of another piece divide that edge. Faces that become inner ones are removed.
 Solid recomposed(const Solid& pieces, const Job& job);
 
-/// Union, difference or intersection of two flat surfaces in one plane, with the normal of the first; nothing if they are
-/// not in one plane.
+/// Returns the union, difference or intersection of two flat surfaces in one plane, with the normal of the first;
+/// nullopt if they are not in one plane.
 std::optional<Solid> flat_boolean(const Solid& a, const Solid& b, BooleanKind kind, const Job& job);
 
-/// Returns the geometry of these shapes in metres of the scope of `state`. Edges and points are left out, assets with
-/// a warning at byte `offset` of the rules. Rejects more than most_faces. Without geometry it has no faces.
+/// Returns the geometry of these shapes in metres of the scope of `state`. Edges and points are left out; assets
+/// are left out with a warning at byte `offset` of the rules. Rejects more than most_faces faces. The result has
+/// no faces if the shapes have no geometry.
 Solid united_solid(Derivation& d, std::uint32_t offset, const ShapeState& state,
                    std::span<const Shape> shapes, Joining joining);
 

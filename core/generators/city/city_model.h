@@ -15,10 +15,11 @@ class Surface;
 /// Returns the number of triangles of the ground of a plan and of its foundations. Builds these meshes to count them.
 std::uint64_t ground_triangles(const CityPlan& plan, const Surface& surface, bool has_textures, Job& job);
 
-/// Nodes: "city" > "ground" > one node and mesh for each kind of part ("asphalt", "junction", ..., "lot");
-/// "city" > "buildings" > one node for each shared building; "city" > "landmarks", "furniture", "trees", "borders". With
-/// chunks, these groups are below a node for each chunk. Spends Resource::triangles. Frees the outlines of parts that
-/// nothing needs after their meshes, so that large models take less memory.
+/// Returns the model of a plan. Its nodes are: "city" > "ground" > one node and mesh for each kind of part
+/// ("asphalt", "junction", ..., "lot"); "city" > "buildings" > one node for each shared building; "city" >
+/// "landmarks", "furniture", "trees", "borders". With chunks, these groups are below a node for each chunk.
+/// Spends Resource::triangles. Frees the outlines of parts that are not needed after their meshes are made, so
+/// that large models take less memory.
 Result<Model> city_model(CityPlan& plan, const CityParams& params, const GenerateContext& context);
 
 }  // namespace seedmesh::city

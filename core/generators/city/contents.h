@@ -19,7 +19,7 @@ std::optional<Error> add_contents(Model& model, ChunkNodes& nodes, const Chunks&
                                   const GenerateContext& context);
 
 /// Adds the triangles and bytes of all contents to an estimate. Generates one sample building for each rule,
-/// number of floors and width class of 4 m, and one sample of each other model.
+/// number of floors and width class of 2 m, and one sample of each other model.
 std::optional<Error> estimate_contents(Estimate& estimate, const Surface& surface, const CityParams& params,
                                        const GenerateContext& context);
 

@@ -53,7 +53,7 @@ class Division {
   /// Returns the outline of the piece with this index, after cut(). Moves the outline out of the division, so it
   /// may be called once for each piece.
   CmRing take_outline(std::size_t piece);
-  /// Moves the corners of the piece of this number out of the division. Call it after take_outline().
+  /// Moves the corners of the piece with this index out of the division. Call it after take_outline().
   CmRing take_corners(std::size_t piece) { return std::move(pieces_[piece].ring); }
 
   /// Returns the length of a piece along streets, in centimetres.

@@ -1,6 +1,6 @@
 #pragma once
-/// A hash table of directed edges by both of their ends. Both directions of an edge share a slot, since most edges have
-/// a part on either side. Lookups alone depend on it, never an order of output.
+/// A hash table of directed edges by both of their ends. Both directions of an edge share a slot, since most
+/// edges have a part on either side. It serves only lookups, so that its order never affects the output.
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -15,7 +15,7 @@ class EdgeTable {
   static constexpr std::uint32_t absent = 0xFFFFFFFFU;
 
   EdgeTable() = default;
-  /// Has space for this number of edges, without regard to their direction; grows for more.
+  /// Reserves memory for this number of edges, without regard to their direction; grows for more.
   explicit EdgeTable(std::size_t edges) : slots_(edges + edges / 4 + 1) {}
 
   /// Adds an edge with a value other than `absent`. Of edges with the same ends the first one is found.
@@ -43,7 +43,7 @@ class EdgeTable {
     bool is_empty() const { return values[0] == absent && values[1] == absent; }
   };
 
-  /// The slot of an edge, or the empty one that it would take.
+  /// Returns the slot of an edge, or the empty slot that it would take.
   std::size_t slot_of(const CmPoint& low, const CmPoint& high) const {
     const auto word = [](const CmPoint& p) {
       return std::uint64_t{static_cast<std::uint32_t>(p.x)} << 32U | static_cast<std::uint32_t>(p.y);

@@ -1,6 +1,6 @@
 #pragma once
-/// The triangles of the parts of a city: their surfaces, and the walls, kerbs and quays between parts of different heights.
-/// Parts share all vertices along their common edges.
+/// The triangles of the parts of a city: their surfaces, and the walls, kerbs and quays between parts of
+/// different heights. Parts share all vertices along their common edges.
 #include <vector>
 
 #include "core/base/job.h"
@@ -36,7 +36,7 @@ class GroundMesh {
   std::uint64_t triangles() const { return (welded_.index.wide.size() + mesh_.index.wide.size()) / 3; }
   bool is_empty() const { return triangles() == 0; }
 
-  /// Merges equal vertices of what was added last, once it is large, so that it takes less memory.
+  /// Merges equal vertices of the triangles that were added last, once there are many, so that they take less memory.
   void weld_if_large(Job& job);
   Mesh take(Job& job);
 
@@ -79,7 +79,7 @@ class GroundMesh {
   /// Twice the area seen from above, in square metres, up to which a triangle is left out. Corners on a straight border
   /// make triangles without area, which cover nothing.
   float least_ = 0;
-  Mesh welded_, mesh_;  ///< what was added first, with common vertices; what was added last
+  Mesh welded_, mesh_;  ///< triangles added first, with shared vertices; triangles added last
   Triangulator triangulator_;
   // Memory that is kept from one part to the next.
   std::vector<glm::dvec2> points_, between_, inner_;

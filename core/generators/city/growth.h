@@ -72,9 +72,9 @@ std::vector<StreetPiece> grow_cell(const GrowthInput& input, const StreetGraph& 
 /// Whether all streets, with those of other levels, are one network. Cost: linear.
 bool is_one_network(const StreetGraph& graph);
 
-/// Straight minor streets between networks that have no common node: for the shortest network first, the shortest link
-/// that meets streets at wide angles and crosses no street, shore, border or obstacle. Networks without such a link
-/// stay apart. Cost for each network: 64 times the edges.
+/// Returns straight minor streets between networks that have no common node. The shortest network comes first.
+/// Its link is the shortest one that meets streets at wide angles and crosses no street, shore, border or
+/// obstacle. Networks without such a link stay apart. Cost for each network: 64 times the edges.
 std::vector<StreetPiece> links_between_networks(const GrowthInput& input, const StreetGraph& graph,
                                                 const Job& job);
 

@@ -47,7 +47,7 @@ class Landform {
  private:
   terrain::Field field_;
   std::optional<FieldMap> heights_;
-  double base_ = 0, rise_ = 1;  ///< height of the value 0 of `heights_`, and from there to that of 1
+  double base_ = 0, rise_ = 1;  ///< height where `heights_` is 0, and the rise to where it is 1
   std::optional<double> water_level_;
 };
 

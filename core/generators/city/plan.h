@@ -29,7 +29,7 @@ struct CrossSection {
   std::array<double, 2> sidewalk = {0, 0};  ///< left and right
   int lanes = 0;
   double grade_limit = 0.12;                ///< rise over run
-  std::optional<double> tree_spacing = {};  ///< 0: no trees; none: that of the furniture
+  std::optional<double> tree_spacing = {};  ///< 0: no trees; nullopt: that of the furniture
   bool has_wall = false;                    ///< on the right side of its streets, in place of the sidewalk
   friend bool operator==(const CrossSection&, const CrossSection&) = default;
 };

@@ -31,7 +31,7 @@ struct CornerCut {
 };
 
 /// Adds carriageways, junctions, sidewalks and verges to the plan, and returns the outlines of the blocks in the
-/// order of the faces. Sidewalks contain what the cut takes from the blocks.
+/// order of the faces. Areas that the cut takes from the blocks belong to the sidewalks.
 std::vector<BlockOutline> lay_out_streets(CityPlan& plan, const CornerCut& cut, Job& job);
 
 }  // namespace seedmesh::city

@@ -35,7 +35,7 @@ Route route_of(const Region& region, const std::vector<CmPoint>& line, std::uint
 /// the area are left out, and parts over water become bridges where both ends are on land.
 Route given_route(const Region& region, const std::vector<CmPoint>& line, std::uint32_t kind);
 
-/// Whether a bridge of a route meets one of these bridges of its level.
+/// Whether a bridge of a route meets one of the given bridges on the same level.
 bool meets_bridges(const Route& route, const std::vector<BridgeLine>& bridges);
 
 }  // namespace seedmesh::city

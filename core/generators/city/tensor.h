@@ -31,8 +31,8 @@ class TensorField {
   TensorField(const CityStreets& streets, const Region& region, const Landform* landform,
               std::vector<Issue>& issues);
 
-  /// The pattern and the second pattern of the streets, blended by a map that has to outlive the field. An organic pattern
-  /// is a grid that smooth noise turns by up to 40 degrees.
+  /// Blends the pattern and the second pattern of the streets by a map that has to outlive the field. An organic
+  /// pattern is a grid that smooth noise turns by up to 40 degrees.
   TensorField(const CityStreets& streets, const FieldMap& blend, const Landform* landform, Rng rng);
 
   /// Returns the share of an organic pattern at a position in centimetres; 0 without a blend.
@@ -70,9 +70,10 @@ class TensorField {
 /// Returns the pattern where the map of patterns is 1.
 CityPattern second_pattern_of(const CityStreets& streets);
 
-/// Returns the highways and the major streets: streamlines of both directions about `highway_spacing` and `major_spacing` apart (Jobard and Lefer, "Creating
-/// evenly spaced streamlines of arbitrary density", 1997), cut where they cross. At about the share `t_junctions` of the
-/// crossings one arm is removed. Random choices depend on positions only.
+/// Returns the highways and the major streets: streamlines of both directions, about `highway_spacing` and
+/// `major_spacing` apart, divided where they cross (Jobard and Lefer, "Creating evenly spaced streamlines of
+/// arbitrary density", 1997). At about the share `t_junctions` of the crossings one arm is removed. Random
+/// choices depend on positions only.
 Route trace_majors(const GrowthInput& input, const TensorField& field, Job& job);
 
 }  // namespace seedmesh::city

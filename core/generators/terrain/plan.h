@@ -59,8 +59,8 @@ void algorithm_sphere(const TerrainParams& params, Planet& planet, Rng rng, cons
 /// Generates the field with all filters; margin 1 for a tile, else 0. Issues: an unreadable image.
 Result<Field> field_of(const TerrainParams& params, Job& job);
 
-/// Evaluates the expressions at the samples of the field, as far as it has no more than 2,100,000, and throws Stop as
-/// field_of does where a value is not finite. Filters are not run.
+/// Evaluates the expressions at the samples of the field, if there are at most 2,100,000. Like field_of(), throws
+/// Stop if a value is not finite. Filters are not run.
 void try_expressions(const TerrainParams& params, Job& job);
 
 /// Returns the number of points along an edge of the cube of a planetoid at a level; level 0 has that of the

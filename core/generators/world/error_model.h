@@ -20,7 +20,7 @@ struct MetDeviation {
 
 constexpr double sea_floor_coast = 0.05;  ///< coast of Land below which the ground is the floor of the sea
 
-/// What the ground of an area is like: the greatest values over the area.
+/// The roughness of the ground of an area: the greatest values over the area.
 struct Roughness {
   double ruggedness = 0;                       ///< ruggedness of Land
   std::array<double, range_octaves> ridges{};  ///< ridges of Land

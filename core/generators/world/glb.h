@@ -47,19 +47,20 @@ class Glb {
   /// the texture, two for each vertex, or none.
   void add_mesh(std::string_view name, const TileMesh& mesh, int material, double step, double height,
                 const std::vector<float>& coordinates = {});
-  /// The same with accessors of the corners of triangles and of coordinates; -1: none.
+  /// Accessors of the corners of triangles and of texture coordinates; -1: none.
   struct SharedParts {
     int order = -1, coordinates = -1;
   };
+  /// Like add_mesh() above, with corners and texture coordinates from accessors.
   void add_mesh(std::string_view name, const std::vector<TileVertex>& vertices, const SharedParts& parts,
                 int material, double step, double height);
-  /// The accessor of corners of triangles among `vertices` vertices.
+  /// Adds the corners of triangles among `vertices` vertices and returns the index of their accessor.
   int add_indices(const std::vector<std::uint32_t>& indices, std::size_t vertices);
   /// Like add_indices(), with corners of 16 bits in a file of their own.
   int add_shared_indices(std::string uri, std::size_t count);
-  /// The accessor of coordinates of textures in a file of their own.
+  /// Adds texture coordinates in a file of their own and returns the index of their accessor.
   int add_shared_coordinates(std::string uri, std::size_t count);
-  /// A buffer in a file of its own, which tiles share.
+  /// Adds a buffer in a file of its own, which tiles share, and returns its index.
   int add_shared_buffer(std::string uri, std::size_t bytes);
   /// Adds a shared model, whose file is in the directory "a" of `folder`, and returns the indices of its meshes.
   /// An asset that was added before is not added again.

@@ -19,7 +19,7 @@ struct GroundTexture {
   std::uint64_t bytes() const { return sizeof(GroundTexture) + coordinates.size() + image.size(); }
 };
 
-/// Returns the texture, which is the same for all worlds, from the store or made now.
+/// Returns the texture, which is the same for all worlds, from the store; makes it if the store has none.
 std::shared_ptr<const GroundTexture> ground_texture(const World& world, const Job& job);
 
 }  // namespace seedmesh::world

@@ -1,5 +1,5 @@
 #pragma once
-/// Heights of the ground at the corners of square cells, and how far they are from coarser triangles: for areas.cpp.
+/// Heights of the ground at the corners of square cells, and their distances from coarser triangles; used by areas.cpp.
 #include <array>
 #include <vector>
 
@@ -7,7 +7,7 @@
 
 namespace seedmesh::world {
 
-/// Rows from the south, columns from the west.
+/// Heights at the corners of square cells. Rows run from the south, columns from the west.
 struct HeightGrid {
   int wide = 0;                ///< samples along a side
   double spacing = 0;          ///< metres
@@ -18,9 +18,9 @@ struct HeightGrid {
   double at(int i, int j) const { return heights[index_of(i, j)]; }
 };
 
-/// Returns for each of `tiles` x `tiles` squares the greatest distance of its samples from the triangles of a tile
-/// there; where its cells are those of the grid, an estimate of what lies between. Empty where they are smaller, or their
-/// sides are no multiples of the spacing.
+/// Returns, for each of `tiles` x `tiles` squares, the greatest distance of its samples from the triangles of a
+/// tile there. If the cells of the tiles are those of the grid, returns an estimate of the deviation between
+/// samples. Empty if the cells are smaller or their sides are not multiples of the spacing.
 std::vector<double> deviations_of_tiles(const HeightGrid& grid, int tiles, const Job& job);
 
 /// Returns how far five samples are from triangles through every other sample. (i, j) is the south-west corner of
@@ -36,15 +36,15 @@ std::array<std::array<int, 2>, 4> most_bent_cells(const HeightGrid& grid, int co
 /// Returns how far the ground is from the triangles between its heights at the corners of a cell.
 double deviation_of_ground(const HeightGrid& grid, const Ground& ground, int i, int j);
 
-/// Land and ruggedness at the samples of a grid, of which it owns nothing.
+/// Land and ruggedness at the samples of a grid. It does not own them.
 struct UncutLand {
   const std::vector<double>& heights;
   const std::vector<float>& ruggedness;
 };
 
-/// Lowers samples of the land to the valley of a river, which reaches `wide` metres.
+/// Lowers samples of the land to the valley of a river, which extends `wide` metres.
 void carve(HeightGrid& grid, const UncutLand& land, const Reach& reach, double wide);
-/// The same for the valley and the bed of a lake.
+/// Lowers samples of the land to the valley and the bed of a lake.
 void carve(HeightGrid& grid, const UncutLand& land, const Lake& lake);
 
 }  // namespace seedmesh::world

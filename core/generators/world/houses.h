@@ -53,9 +53,10 @@ struct Plan {
 /// Returns the wall of a town, if it has one. `ground` has the roads and streets around the settlement.
 std::vector<House> town_walls(const World& world, const Site& site, const Town& town, const Ground& ground);
 
-/// From the store, or made in some milliseconds after the roads of the settlement.
+/// Returns the houses of a settlement from the store. If the store has none, makes them in some milliseconds,
+/// after the roads of the settlement.
 std::shared_ptr<const Plan> plan_of(const World& world, const Site& site, Job& job);
-/// Houses and pieces of walls with their middle within `reach` of a rectangle.
+/// Returns the houses and pieces of walls whose middle is within `reach` of a rectangle.
 std::vector<House> houses_near(const World& world, const Rectangle& box, double reach, Job& job);
 
 /// Adds the houses whose middle is in the tile. In tiles of up to 128 m they are models, or walls and a gable

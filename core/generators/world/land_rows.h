@@ -1,6 +1,7 @@
 #pragma once
-/// The land at positions in a row, for bounds: as land_at(), without slopes and within about a millimetre. Positions of
-/// a row lie in few cells of each lattice of noise, so a row costs a sixth of its single positions.
+/// The land at positions in a row, for bounds. It agrees with land_at() to about a millimetre, and has no slopes.
+/// Positions of a row lie in few cells of each lattice of noise, so a row takes a sixth of the time of single
+/// positions.
 #include <array>
 #include <vector>
 

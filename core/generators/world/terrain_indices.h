@@ -1,6 +1,6 @@
 #pragma once
-/// The triangles of the terrain of a tile: the same in all tiles with a number of cells, so they are a file that tiles
-/// share.
+/// The triangles of the terrain of a tile. They are the same in all tiles with the same number of cells, so they
+/// are a file that tiles share.
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -25,7 +25,7 @@ std::vector<std::uint16_t> border_of_grid(int count);
 /// Returns the triangles of a grid of `count` x `count` vertices with a skirt, counter-clockwise from outside.
 TerrainIndices terrain_indices(int count);
 
-/// Those of tiles with `cells` cells along a side, from the store.
+/// Returns the triangles of tiles with `cells` cells along a side, from the store.
 std::shared_ptr<const TerrainIndices> terrain_indices_of(const World& world, int cells, const Job& job);
 
 }  // namespace seedmesh::world

@@ -18,12 +18,13 @@ struct TileFrame {
 constexpr int dense_cells = 64;
 constexpr double dense_side = 8192;  ///< metres; of the tiles that have `dense_cells`
 
-/// Cells along the side of a tile. Tiles below those of 8 km show woods and villages as surfaces and boxes, whose
-/// heights are the greatest part of their errors. Tiles of 8 km have samples as near to each other as those. So views from
-/// about a kilometre end there, with one level of tiles and tilesets less.
+/// Returns the number of cells along the side of a tile. Tiles of 4 km show woods and villages as surfaces and
+/// prisms, whose heights are the greatest part of their errors. Tiles of 8 km have the same spacing of samples as
+/// tiles of 4 km. Views from about a kilometre therefore end at tiles of 8 km, with one level of tiles and
+/// tilesets less.
 constexpr int cells_of(double side) { return side == dense_side ? dense_cells : tile_cells; }
 
-/// Metres between the samples of tiles three levels above those with a side.
+/// Returns the metres between the samples of tiles three levels above those with this side.
 constexpr double far_spacing(double side) { return 8 * side / cells_of(8 * side); }
 
 /// Returns the frame of a tile.

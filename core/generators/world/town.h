@@ -36,7 +36,7 @@ struct Town {
 
 constexpr double square_radius = 19;  ///< metres; of the corners of the square of a town
 
-/// The corners of the square of a town, absolute, counter-clockwise.
+/// Returns the corners of the square of a town, absolute, counter-clockwise.
 std::vector<std::array<double, 2>> square_of(const Town& town);
 
 /// Metres by which the square of ground and roads that a town plan reads extends beyond the radius of the town.

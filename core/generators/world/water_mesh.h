@@ -11,8 +11,9 @@ struct WaterMesh {
   double height = 0;  ///< metres at position 0
 };
 
-/// Empty where the tile has no water. The sea is one rectangle wherever the tile has ground below it; those of lakes
-/// lie where the ground of a cell is partly below the water. Rivers and small lakes follow from add_rivers().
+/// Returns the water of a tile; empty if it has none. The sea is one rectangle if some ground of the tile is
+/// below it. Lakes have rectangles where the ground of a cell is partly below their water. Rivers and small lakes
+/// follow from add_rivers().
 WaterMesh water_of(const World& world, const TileFrame& frame, const TileGround& tile, Job& job);
 
 }  // namespace seedmesh::world

@@ -191,6 +191,25 @@ void add_turned(Mesh& mesh, std::size_t vertices, std::size_t corners, math::Sin
   for (std::size_t i = 0; i < corners; ++i) mesh.index.wide.push_back(mesh.index.wide[i] + shift);
 }
 
+/// Triangles across a strongly bent part get their own normal at corners whose shared normal faces away from them.
+void give_own_normals(Mesh& mesh) {
+  for (std::size_t first = 0; first < mesh.index.wide.size(); first += 3) {
+    const glm::vec3 a = mesh.position[mesh.index.wide[first]];
+    const glm::vec3 face = glm::cross(mesh.position[mesh.index.wide[first + 1]] - a,
+                                      mesh.position[mesh.index.wide[first + 2]] - a);
+    for (std::size_t corner = first; corner < first + 3; ++corner) {
+      const std::uint32_t i = mesh.index.wide[corner];
+      if (!(glm::dot(face, mesh.normal[i]) < 0)) continue;
+      const glm::vec3 at = mesh.position[i];
+      const glm::vec2 uv = mesh.uv[0][i];
+      mesh.index.wide[corner] = static_cast<std::uint32_t>(mesh.position.size());
+      mesh.position.push_back(at);
+      mesh.normal.push_back(glm::vec3(math::unit(glm::dvec3(face), {0, 0, 1})) + 0.0F);
+      mesh.uv[0].push_back(uv);
+    }
+  }
+}
+
 /// Columns and rows. The coarsest square is flat; from level to level the number falls step by step.
 std::array<int, 2> bent_square(const LeafForm& form) {
   constexpr std::array<std::array<int, 2>, 4> squares{{{2, 4}, {2, 3}, {2, 2}, {1, 2}}};
@@ -237,6 +256,7 @@ Mesh leaf_mesh(const LeafForm& form, const Job& job) {
   }
   drop_unused(mesh, job);
   settle_normals(mesh);
+  if (form.build == LeafBuild::mesh) give_own_normals(mesh);
   return mesh;
 }
 
