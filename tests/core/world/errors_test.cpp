@@ -73,7 +73,8 @@ TEST(WorldErrors, AreNearThoseOfTheGroundInAllPresets) {
     ASSERT_GT(ratios.size(), 100U);
     std::sort(ratios.begin(), ratios.end());
     EXPECT_LE(ratios[ratios.size() / 2], 2.1) << preset;
-    EXPECT_LE(low, ratios.size() / 90) << preset << ": declared below measured in more than one of ninety tiles";
+    EXPECT_LE(low, ratios.size() / 90)
+        << preset << ": declared below measured in more than one of ninety tiles";
   }
 }
 
