@@ -10,6 +10,8 @@
 #include <fstream>
 #include <utility>
 
+#include "core/base/heap.h"
+
 namespace seedmesh {
 namespace {
 
@@ -25,12 +27,6 @@ std::int64_t resident() {
   std::int64_t whole = 0, pages = 0;
   std::ifstream("/proc/self/statm") >> whole >> pages;
   return pages * ::sysconf(_SC_PAGESIZE);
-}
-
-void trim() {
-#ifdef __GLIBC__
-  ::malloc_trim(0);  // of all arenas, also in their middle
-#endif
 }
 
 }  // namespace
@@ -74,7 +70,7 @@ void GiveBack::look() {
     if (!grown && !rested) continue;
     lock.unlock();
     also_();
-    trim();
+    return_unused_heap();
     lock.lock();
     after = resident();
     answered = activity.answered;
