@@ -176,6 +176,11 @@ TaggedValue ask(Evaluation& at, ValueArguments a) {
       query, {seen(at).origin, seen(at).size, at.d.out.axes[seen(at).axes]}, lineage, at.d.job));
 }
 
+TaggedValue context_compare(Evaluation& at, ValueArguments a) {
+  warn(at.d, at.offset, "contextCompare compares no values: it is the number of other shapes with the label");
+  return ask<Query::Kind::count>(at, a);
+}
+
 constexpr ValueFunctionRow rows[] = {
     {"scope.rx", 0, 0, rotation<0>, "", "The rotation of the scope about x, in degrees.",
      "A --> report(\"x\", scope.rx) B."},
@@ -270,7 +275,7 @@ constexpr ValueFunctionRow rows[] = {
     {"minimumDistance", 1, 2, ask<Query::Kind::distance>, "intra | inter | all, label",
      "The distance of the scopes to the nearest other shape with a label.",
      "A --> split(x){ ~1: label(\"a\") B }*  B --> case minimumDistance(intra, \"a\") < 1: C. else: D."},
-    {"contextCompare", 2, 3, ask<Query::Kind::count>, "intra | inter | all, label, value",
+    {"contextCompare", 2, 3, context_compare, "intra | inter | all, label, value",
      "The number of other shapes with a label; their values are not compared.",
      "A --> case contextCompare(intra, \"a\", scope.sx) == 0: B. else: C."},
     {"edgeAttr.getFloat", 1, 2, zero, "name", "0: footprints of a request have no attributes of edges.",

@@ -8,14 +8,6 @@
 namespace seedmesh::building {
 namespace {
 
-Json result_of(const std::string& rules) { return derived(with("version \"2025.0\" " + rules, {10, 0, 8})); }
-
-/// No operation of a rule file is left out because it cannot be done.
-void expect_done(const Json& answer, const std::string& rules) {
-  EXPECT_EQ(answer["warnings"].dump().find("is left out"), std::string::npos)
-      << rules << answer["warnings"].dump();
-}
-
 struct Case {
   const char* expression;
   double value;
@@ -173,6 +165,17 @@ constexpr Case cases[] = {
     {R"~(float(inside(intra,"a")))~", 0},
     {"float(geometry.isClosedSurface())", 0},
 };
+
+TEST(CgaFunctions, OfWhichAPartIsMissingWarn) {
+  const Json answer = result_of("Lot --> label(\"a\") report(\"x\", contextCompare(all, \"a\", 3)) X.");
+  EXPECT_THAT(answer["warnings"].dump(), testing::HasSubstr("contextCompare compares no values"));
+}
+
+// Else expect_done() would accept everything.
+TEST(CgaFunctions, ThatCannotBeDoneAreLeftOutWithAWarning) {
+  const Json answer = result_of("Lot --> report(\"x\", getGeoCoord(lat)) X.");
+  EXPECT_THAT(answer["warnings"].dump(), testing::HasSubstr("is left out"));
+}
 
 TEST(CgaFunctions, HaveTheValuesOfTheReference) {
   for (const Case& each : cases) {

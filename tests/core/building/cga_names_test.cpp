@@ -8,14 +8,6 @@
 namespace seedmesh::building {
 namespace {
 
-Json result_of(const std::string& rules) { return derived(with("version \"2025.0\" " + rules, {10, 0, 8})); }
-
-/// No operation of a rule file is left out because it cannot be done.
-void expect_done(const Json& answer, const std::string& rules) {
-  EXPECT_EQ(answer["warnings"].dump().find("is left out"), std::string::npos)
-      << rules << answer["warnings"].dump();
-}
-
 struct Case {
   const char *rules, *key;  ///< no key: the rules have to run
   double value;             ///< the sum of the report with this key

@@ -48,6 +48,17 @@ inline std::vector<double> sizes(const Json& answer, int axis) {
   return out;
 }
 
+/// Runs a rule file of CityEngine on a lot of 10 m by 8 m.
+inline Json result_of(const std::string& rules) {
+  return derived(with("version \"2025.0\" " + rules, {10, 0, 8}));
+}
+
+/// No operation of a rule file is left out because it cannot be done.
+inline void expect_done(const Json& answer, const std::string& rules) {
+  EXPECT_EQ(answer["warnings"].dump().find("is left out"), std::string::npos)
+      << rules << answer["warnings"].dump();
+}
+
 /// "line:column message" of the first fault.
 inline std::string fault(const std::string& rules) {
   const std::vector<Issue> issues = check(with(rules), Limits{});
