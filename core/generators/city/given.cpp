@@ -33,7 +33,7 @@ class Properties {
     const auto at = street_.properties.find(name);
     if (at == street_.properties.end()) return otherwise;
     if (!std::holds_alternative<double>(at->second)) {
-      issues_.push_back({IssueKind::wrong_type, pointer_ + name, "expected a number"});
+      issues_.emplace_back(IssueKind::wrong_type, pointer_ + name, "expected a number");
       return otherwise;
     }
     return in_range(name, std::get<double>(at->second), least, most);
@@ -41,9 +41,10 @@ class Properties {
 
   int whole(const char* name, int otherwise, int least, int most) const {
     const double value = number(name, otherwise, least, most);
-    if (value != std::floor(value))
-      issues_.push_back({IssueKind::invalid_value, pointer_ + name,
-                         "found " + number_text(value) + ", expected a whole number"});
+    if (value != std::floor(value)) {
+      issues_.emplace_back(IssueKind::invalid_value, pointer_ + name,
+                           "found " + number_text(value) + ", expected a whole number");
+    }
     return math::to_int32(value);
   }
 
@@ -63,8 +64,8 @@ class Properties {
     const auto* list = std::get_if<std::vector<double>>(&at->second);
     if (list && list->size() == 2)
       return {in_range("sidewalk", (*list)[0], 0.5, 20), in_range("sidewalk", (*list)[1], 0.5, 20)};
-    issues_.push_back(
-        {IssueKind::wrong_type, pointer_ + "sidewalk", "expected a number, or a list of two numbers"});
+    issues_.emplace_back(IssueKind::wrong_type, pointer_ + "sidewalk",
+                         "expected a number, or a list of two numbers");
     return otherwise;
   }
 
@@ -77,17 +78,17 @@ class Properties {
     for (auto k = static_cast<std::size_t>(EdgeClass::highway); name && k < first_given; ++k) {
       if (sections[k].name == *name) return k;
     }
-    issues_.push_back(
-        {IssueKind::invalid_value, pointer_ + "class", "expected highway, major, minor or lane"});
+    issues_.emplace_back(IssueKind::invalid_value, pointer_ + "class",
+                         "expected highway, major, minor or lane");
     return minor;
   }
 
  private:
   double in_range(const char* name, double value, double least, double most) const {
     if (value >= least && value <= most) return value;
-    issues_.push_back(
-        {IssueKind::out_of_range, pointer_ + name,
-         "found " + number_text(value) + ", expected " + number_text(least) + " to " + number_text(most)});
+    issues_.emplace_back(
+        IssueKind::out_of_range, pointer_ + name,
+        "found " + number_text(value) + ", expected " + number_text(least) + " to " + number_text(most));
     return least;
   }
 
@@ -199,10 +200,10 @@ void check_crossings(const std::vector<GivenLine>& lines, std::vector<Issue>& is
     const dvec2 from = in_cm(a), along = in_cm(b) - from, across = in_cm(d) - in_cm(c), off = in_cm(c) - from;
     const double share = (off.x * across.y - off.y * across.x) / (along.x * across.y - along.y * across.x);
     const CmPoint at = rounded_cm(from + along * share);
-    issues.push_back({IssueKind::conflict, lines[m].pointer + "/geometry",
-                      "crosses the street at " + lines[n].pointer + " at " + number_text(at.x / 100.0) +
-                          ", " + number_text(at.y / 100.0) +
-                          "; expected an end or corner of one of them within 3 m, or another level"});
+    issues.emplace_back(IssueKind::conflict, lines[m].pointer + "/geometry",
+                        "crosses the street at " + lines[n].pointer + " at " + number_text(at.x / 100.0) +
+                            ", " + number_text(at.y / 100.0) +
+                            "; expected an end or corner of one of them within 3 m, or another level");
     return issues.size() < most_issues;
   });
 }
@@ -239,9 +240,9 @@ std::vector<GivenLine> given_lines(const CityParams& params, std::vector<CrossSe
     for (const CmRing& line : lines_of(features[i].lines, pointer + "/geometry", issues)) {
       const CmRing points = spaced(line);
       if (points.size() == 2 && distance(points[0], points[1]) < shortest) {
-        issues.push_back({IssueKind::invalid_value, pointer + "/geometry",
-                          "found a line of " + number_text(distance(points[0], points[1]) / 100) +
-                              " m, expected more than 3 m"});
+        issues.emplace_back(IssueKind::invalid_value, pointer + "/geometry",
+                            "found a line of " + number_text(distance(points[0], points[1]) / 100) +
+                                " m, expected more than 3 m");
         continue;
       }
       lines.push_back({pointer, points, number, level});
