@@ -33,22 +33,29 @@ bool is_fountain(const House& h, const Town& town) {
          std::abs(h.north - town.square_north) < 0.01;
 }
 
+/// Calls `body` with the site and the plan of streets and lots of each town.
+template <class Body>
+void each_town(const World& world, Job& job, const Body& body) {
+  for (const auto& site : sites_near(world, country, 0, job)) {
+    const auto town = town_of(world, *site, job);
+    if (town->is_built()) body(*site, *town);
+  }
+}
+
 TEST(WorldTownWalls, KeepOffRoadsAndHousesAndEncloseTheLots) {
   const World world = world_of(walled_land(1));
   Job job = test_job();
   std::size_t walled = 0, pieces = 0;
-  for (const auto& site : sites_near(world, country, 0, job)) {
-    const auto town = town_of(world, *site, job);
-    if (!town->is_built()) continue;
-    const auto plan = plan_of(world, *site, job);
-    const double reach = site->radius + 60;
+  each_town(world, job, [&](const Site& site, const Town& town) {
+    const auto plan = plan_of(world, site, job);
+    const double reach = site.radius + 60;
     const Ground ground = Ground::with_roads(
-        world, {site->east - reach, site->north - reach, site->east + reach, site->north + reach}, job);
+        world, {site.east - reach, site.north - reach, site.east + reach, site.north + reach}, job);
     std::vector<std::pair<double, double>> directions;  // angle and distance
     for (const House& wall : plan->walls) {
-      if (is_fountain(wall, *town)) continue;
+      if (is_fountain(wall, town)) continue;
       ++pieces;
-      const double x = wall.east - site->east, y = wall.north - site->north;
+      const double x = wall.east - site.east, y = wall.north - site.north;
       directions.emplace_back(std::atan2(y, x), std::hypot(x, y));
       for (const double u : {-0.9, 0.0, 0.9}) {
         const double east = wall.east + u * wall.length * wall.x,
@@ -62,14 +69,14 @@ TEST(WorldTownWalls, KeepOffRoadsAndHousesAndEncloseTheLots) {
       }
     }
     walled += directions.empty() ? 0 : 1;
-    for (const TownHouse& house : town->houses) {
-      const double x = house.east - site->east, y = house.north - site->north, angle = std::atan2(y, x);
+    for (const TownHouse& house : town.houses) {
+      const double x = house.east - site.east, y = house.north - site.north, angle = std::atan2(y, x);
       for (const auto& [other, distance] : directions) {
         if (std::abs(other - angle) >= 0.02) continue;
         EXPECT_GT(distance, std::hypot(x, y)) << "a house outside of the wall";
       }
     }
-  }
+  });
   EXPECT_GE(walled, 10U);
   EXPECT_GT(pieces, 60 * walled);
 }
@@ -79,11 +86,10 @@ TEST(WorldTownWalls, StandAroundTheShareOfTownsThatIsAskedFor) {
   for (const auto& [share, low, high] : {std::array{0.0, 0.0, 0.0}, {0.5, 0.15, 0.85}}) {
     const World world = world_of(walled_land(share));
     double towns = 0, walled = 0;
-    for (const auto& site : sites_near(world, country, 0, job)) {
-      if (!town_of(world, *site, job)->is_built()) continue;
+    each_town(world, job, [&](const Site& site, const Town&) {
       towns += 1;
-      walled += plan_of(world, *site, job)->walls.size() > 2 ? 1 : 0;
-    }
+      walled += plan_of(world, site, job)->walls.size() > 2 ? 1 : 0;
+    });
     EXPECT_GE(walled, low * towns);
     EXPECT_LE(walled, high * towns);
   }
@@ -93,26 +99,24 @@ TEST(WorldSquares, HaveNoHouseAndNoStreet) {
   const World world = world_of(walled_land(0));
   Job job = test_job();
   std::size_t towns = 0, squares = 0;
-  for (const auto& site : sites_near(world, country, 0, job)) {
-    const auto town = town_of(world, *site, job);
-    if (!town->is_built()) continue;
+  each_town(world, job, [&](const Site& site, const Town& town) {
     ++towns;
-    if (!town->has_square) continue;
+    if (!town.has_square) return;
     ++squares;
     const double inside = 0.85 * square_radius;
-    for (const House& house : plan_of(world, *site, job)->houses) {
+    for (const House& house : plan_of(world, site, job)->houses) {
       for (int k = 0; k < 8; ++k) {
         const double turn = 0.7853981633974483 * k;
-        EXPECT_FALSE(holds(house, town->square_east + inside * std::cos(turn),
-                           town->square_north + inside * std::sin(turn)));
+        EXPECT_FALSE(holds(house, town.square_east + inside * std::cos(turn),
+                           town.square_north + inside * std::sin(turn)));
       }
-      EXPECT_FALSE(holds(house, town->square_east, town->square_north));
+      EXPECT_FALSE(holds(house, town.square_east, town.square_north));
     }
-    for (const Lane& street : town->streets) {
+    for (const Lane& street : town.streets) {
       for (const RoadPoint& p : street.points)
-        EXPECT_GT(std::hypot(p.east - town->square_east, p.north - town->square_north), inside);
+        EXPECT_GT(std::hypot(p.east - town.square_east, p.north - town.square_north), inside);
     }
-  }
+  });
   EXPECT_GE(2 * squares, towns) << "of " << towns << " towns, " << squares << " have a square";
 }
 
