@@ -21,8 +21,7 @@ constexpr Prompt prompts[] = {
      "2. Read seedmesh://docs/lsystem for plants and curves, or seedmesh://docs/buildings for buildings. "
      "describe_generator shows each parameter.\n"
      "3. Change one thing at a time. Call validate after each change and correct what it reports: each error "
-     "has "
-     "a JSON Pointer, and line and column inside a grammar.\n"
+     "has a JSON Pointer, and line and column inside a grammar.\n"
      "4. Call derive to check the derived word or shapes, then generate, and give the link and the request."},
     {"compose_scene", "Compose a scene", "Composes a scene of terrain, plants and buildings.", "subject",
      "What the scene should show.",
@@ -30,15 +29,13 @@ constexpr Prompt prompts[] = {
      "1. Search list_presets with the generator scene, and read the nearest as seedmesh://presets/{name}.\n"
      "2. Read seedmesh://docs/scenes. Choose presets of plants and buildings for the layers, and a terrain.\n"
      "3. Call validate and compare the estimate of triangles with what the scene may cost; lower `density` "
-     "or set "
-     "`output.max_triangles` where it is too much.\n"
+     "or set `output.max_triangles` where it is too much.\n"
      "4. Call generate with the output profile of the program that shows the scene, and give the link."},
     {"fix_errors", "Correct a request", "Corrects a request that was refused.", "request",
      "The request as JSON.",
      "This Seedmesh request is refused. Correct it with as few changes as possible:\n\n$\n\n"
      "1. Call validate. Each line of the result begins with the JSON Pointer of an error; line and column "
-     "point "
-     "into a grammar.\n"
+     "point into a grammar.\n"
      "2. Look up the parameter with describe_generator and the pointer's path as topic.\n"
      "3. Change only what the pointers name, and call validate again until the request is valid.\n"
      "4. Say what was wrong, and give the corrected request and its link from generate."},

@@ -11,10 +11,8 @@ constexpr std::int64_t hour_ms = 3'600'000;
 
 constexpr std::string_view instructions =
     "Seedmesh makes 3D models (plants, buildings, terrain, fractals, scenes, cities) as glTF from a request "
-    "with "
-    "a seed. The same request always gives the same bytes. Find a preset with list_presets, learn its "
-    "parameters "
-    "with describe_generator, check with validate, and call generate for a link to the model.";
+    "with a seed. The same request always gives the same bytes. Find a preset with list_presets, learn its "
+    "parameters with describe_generator, check with validate, and call generate for a link to the model.";
 
 Answer discover(Context&, const Json&);
 Answer initialize(Context&, const Json&);

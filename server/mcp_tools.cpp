@@ -271,10 +271,12 @@ Json presets_schema() {
 }
 
 Json description_schema() {
-  return object_schema({{"generator", text_schema("Name of the generator.")},
-                        {"topic", text_schema("Path such as productions, leaves/shape or output/lods; "
-                                              "without it the list of parameters.")}},
-                       Json::array({"generator"}));
+  return object_schema(
+      {{"generator", text_schema("Name of the generator.")},
+       {"topic",
+        text_schema(
+            "Path such as productions, leaves/shape or output/lods; without it the list of parameters.")}},
+      Json::array({"generator"}));
 }
 
 Json comparison_schema() {
@@ -299,8 +301,7 @@ constexpr Tool tools[] = {
      request_schema, check},
     {"generate", "Generate a model",
      "Makes the model of a request. Returns its link, statistics and a picture. The same request gives the "
-     "same "
-     "bytes.",
+     "same bytes.",
      request_schema, generate},
     {"derive", "Derive a request",
      "Shows the generator's result before geometry, such as the word of an L-system. Long parts are cut.",

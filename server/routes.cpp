@@ -183,10 +183,10 @@ std::variant<Request, http::Response> read_text(Call& call, const std::string& t
 std::variant<Request, http::Response> read_body(Call& call) {
   const std::string type = call.request.header("Content-Type");
   if (!is_json_type(type)) {
-    http::Response response = refuse(
-        call, problem(415, "found the Content-Type \"" + type.substr(0, 100) +
-                               "\"; expected application/json in UTF-8, or none (with curl: --json, or "
-                               "-H 'Content-Type: application/json')"));
+    http::Response response =
+        refuse(call, problem(415, "found the Content-Type \"" + type.substr(0, 100) +
+                                      "\"; expected application/json in UTF-8, or none (with curl: --json, "
+                                      "or -H 'Content-Type: application/json')"));
     response.set("Accept", "application/json");
     return response;
   }

@@ -263,10 +263,9 @@ void CpfgReader::production(Line line) {
   std::optional<CpfgRule> read = read_cpfg_rule(rule, contexts, source_, words_, statements_);
   if (!read) return;
   if (read->is_strict && part_ != Part::derivation) {
-    source_.warn(
-        read->at,
-        "a rule of a decomposition or homomorphism rewrites one module here; this one with several is "
-        "left out");
+    source_.warn(read->at,
+                 "a rule of a decomposition or homomorphism rewrites one module here; this one with several "
+                 "is left out");
     return;
   }
   rules_[static_cast<std::size_t>(part_)].push_back(std::move(*read));

@@ -130,11 +130,10 @@ Result<Imported> import_proctree(std::string_view text, const ImportOptions& opt
     } else if (name == state) {
       continue;
     } else if (std::find(materials.begin(), materials.end(), name) != materials.end()) {
-      imported.warnings.push_back({"",
-                                   "\"" + name +
-                                       "\" names an image that does not exist here; `bark` and `leaf` "
-                                       "choose the materials",
-                                   0, 0});
+      imported.warnings.push_back(
+          {"",
+           "\"" + name + "\" names an image that does not exist here; `bark` and `leaf` choose the materials",
+           0, 0});
     } else {
       issues.emplace_back(IssueKind::unknown_key, pointer_token(name), unknown_name(name));
     }

@@ -32,9 +32,7 @@ Result<ExportedFile> export_request(const Request& request, std::string_view for
   if (parameters.value("sequence", "") != "original") {
     file.warnings.push_back(
         {"/parameters/sequence",
-         "proctree has its own random numbers; only with the sequence original is its tree "
-         "the same",
-         0, 0});
+         "proctree has its own random numbers; only with the sequence original is its tree the same", 0, 0});
   }
   for (const auto& [name, value] : parameters.items()) {
     if (name == "sequence" || name == "mSeed" || (kept.contains(name) && kept.at(name) == value)) continue;

@@ -100,8 +100,7 @@ std::optional<Issue> add_impostors(Model& model, const Request& request, Job& jo
   if (output.impostor && !is_scene && texture::add_impostor_levels(model, job) == 0) {
     return Issue{
         IssueKind::not_available, "/output/impostor",
-        "the model has no static mesh of its own that an impostor could replace; expected `instancing` "
-        "auto"};
+        "the model has no static mesh of its own that an impostor could replace; expected `instancing` auto"};
   }
   texture::draw_impostors(model, is_scene ? std::max(size / 2, 64) : size, job);
   return std::nullopt;

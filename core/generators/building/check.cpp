@@ -157,10 +157,10 @@ void check_start(const BuildingParams& params, const RuleText& rules, Grammar& g
   } else if (least > 1 && grammar.is_cityengine) {
     warn(" has parameters, for which the first shape has no values; they are 0");
   } else if (least > 1) {
-    issues.emplace_back(IssueKind::invalid_value, params.start ? "/start" : "/rules",
-                        "the rules of \"" + start.name +
-                            "\" have parameters, for which the first shape has no "
-                            "values; begin with a rule that gives them");
+    issues.emplace_back(
+        IssueKind::invalid_value, params.start ? "/start" : "/rules",
+        "the rules of \"" + start.name +
+            "\" have parameters, for which the first shape has no values; begin with a rule that gives them");
   }
 }
 
@@ -233,8 +233,7 @@ void check_alone(const BuildingParams& params, std::vector<Issue>& issues) {
   const auto refuse = [&](bool is_given, const char* name) {
     if (is_given) {
       issues.emplace_back(IssueKind::conflict, std::string("/") + name,
-                          "has no meaning for a shape grammar, which begins with its "
-                          "initial shape");
+                          "has no meaning for a shape grammar, which begins with its initial shape");
     }
   };
   refuse(params.rules.has_value(), "rules");
@@ -248,9 +247,9 @@ void check_alone(const BuildingParams& params, std::vector<Issue>& issues) {
   refuse(!params.assets.empty(), "assets");
   refuse(params.derivation.order != plain.derivation.order, "derivation/order");
   if (params.restrict == BuildingRestrict::split) {
-    issues.emplace_back(IssueKind::conflict, "/restrict",
-                        "found split, which restricts rules; expected none, non_erasing or unimarker for a "
-                        "shape grammar");
+    issues.emplace_back(
+        IssueKind::conflict, "/restrict",
+        "found split, which restricts rules; expected none, non_erasing or unimarker for a shape grammar");
   }
 }
 

@@ -110,10 +110,9 @@ double number_of(Derivation& d, const Value& given) {
     reject(d, given.offset, message);
   }
   if (std::isnan(result.number)) {
-    reject(
-        d, given.offset,
-        "the value is not a number: it divides 0 by 0, takes the root of a negative number or computes with "
-        "a text");
+    reject(d, given.offset,
+           "the value is not a number: it divides 0 by 0, takes the root of a negative number or computes "
+           "with a text");
   }
   if (std::isinf(result.number)) reject(d, given.offset, "the value is infinite: something is divided by 0");
   if (std::abs(result.number) > longest) reject(d, given.offset, "the value is beyond 10,000 km");

@@ -156,13 +156,11 @@ Part parse_selector(Parser& p) {
     to = behind;
   } else if (to == from || (is_plain && token.kind == TokenKind::name && p.names.find(dotted) == nullptr &&
                             !p.functions.contains(dotted) && !is_tree_name(dotted))) {
-    add_error(
-        p, token,
-        "found " + in_quotes(token) +
-            ", expected a selector: front, back, left, right, side, top, bottom, horizontal, aslant, "
-            "vertical, "
-            "nutant, inside, border, eave, hip, valley, ridge, all, one of them with world. or object., "
-            "isTagged(\"...\") or a number");
+    add_error(p, token,
+              "found " + in_quotes(token) +
+                  ", expected a selector: front, back, left, right, side, top, bottom, horizontal, aslant, "
+                  "vertical, nutant, inside, border, eave, hip, valley, ridge, all, one of them with world. "
+                  "or object., isTagged(\"...\") or a number");
     to = std::max(behind, from + 1);
   } else {
     // A condition; a name or sum of numbers is the number of a component.
@@ -204,8 +202,8 @@ void parse_selectors_2006(Parser& p, Step& step, const std::vector<Argument>& li
     if (!word.empty())
       add_error(p, p.tokens.at(p.at > 0 ? p.at - 1 : 0),
                 "found the component " + lang::in_quotes(word) +
-                    ", expected faces, sidefaces, topfaces, bottomfaces, "
-                    "edges, topedges, bottomedges, sideedges or vertices");
+                    ", expected faces, sidefaces, topfaces, bottomfaces, edges, topedges, bottomedges, "
+                    "sideedges or vertices");
   } else {
     part.classes = found->classes;
   }

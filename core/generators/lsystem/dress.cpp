@@ -312,12 +312,11 @@ float size_of(const Skeleton& skeleton) {
 void warn_of_thin(Model& model, const Limbs& limbs, const LsystemParams& params) {
   const std::uint64_t count = too_thin(limbs, params.sides);
   if (count == 0 || count * worth_a_word < limbs.size()) return;
-  model.warnings.push_back(
-      {"/width",
-       std::to_string(count) + (count == 1 ? " internode is" : " internodes are") +
-           " too thin for a tube compared with the whole plant and left out; use a larger `width` "
-           "or the style lines",
-       0, 0});
+  model.warnings.push_back({"/width",
+                            std::to_string(count) + (count == 1 ? " internode is" : " internodes are") +
+                                " too thin for a tube compared with the whole plant and left out; use a "
+                                "larger `width` or the style lines",
+                            0, 0});
 }
 
 /// Adds convex bodies, if the output asks for them.

@@ -265,8 +265,7 @@ void Compiler::read_tables() {
     if (count > most_of_tables) {
       issues_.emplace_back(IssueKind::out_of_range, "/tables",
                            "found more than " + std::to_string(most_of_tables) +
-                               " productions in all tables, each with the productions of every "
-                               "step");
+                               " productions in all tables, each with the productions of every step");
       return;
     }
     own.insert(own.end(), common.begin(), common.end());
@@ -299,10 +298,9 @@ void Compiler::check_directions() {
   });
   grammar_.backward = right != nullptr;
   if (right && grammar_.strict) {
-    issues_.emplace_back(
-        IssueKind::conflict, right->pointer,
-        "found a new right context and strict predecessors of several modules; a word is written in "
-        "one direction");
+    issues_.emplace_back(IssueKind::conflict, right->pointer,
+                         "found a new right context and strict predecessors of several modules; a word is "
+                         "written in one direction");
   }
   if (left && right) {
     issues_.emplace_back(IssueKind::conflict, right->pointer,

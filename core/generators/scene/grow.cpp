@@ -106,12 +106,11 @@ Result<std::uint32_t> bones_for(const Plan& plan, GeneratorList generators) {
     }
   }
   if (growing * least_bones > most_joints) {
-    return Error{Code::invalid,
-                 {{IssueKind::out_of_range, "/output/animation",
-                   "found " + std::to_string(growing) +
-                       " growing plants with bones of their own; expected at "
-                       "most " +
-                       std::to_string(most_joints / least_bones)}}};
+    return Error{
+        Code::invalid,
+        {{IssueKind::out_of_range, "/output/animation",
+          "found " + std::to_string(growing) + " growing plants with bones of their own; expected at most " +
+              std::to_string(most_joints / least_bones)}}};
   }
   const std::size_t each = growing == 0 ? most_joints : most_joints / growing;
   return static_cast<std::uint32_t>(std::min<std::size_t>(Demand{}.most_bones, each));

@@ -93,9 +93,9 @@ void check_layer_algorithm(const TerrainParams& params, std::size_t index, std::
   belongs(layer.fault_min.has_value(), is_fault, "fault_min", "faults");
   if (!is_divided) return;
   if (params.shape == TerrainShape::sphere) {
-    issues.emplace_back(IssueKind::not_available, own + "algorithm",
-                        "a sphere has no subdivision; expected expression, fault_formation, poisson_faulting "
-                        "or fbm");
+    issues.emplace_back(
+        IssueKind::not_available, own + "algorithm",
+        "a sphere has no subdivision; expected expression, fault_formation, poisson_faulting or fbm");
   }
   if (layer.iterations && *layer.iterations > most_rounds) {
     issues.emplace_back(IssueKind::out_of_range, own + "iterations",

@@ -249,20 +249,19 @@ void check_restriction(const PicturePair& pair, const std::string& pointer, bool
   const double near = 1e-6 * std::max(reach_of(pair.left), 1e-9);
   for (const PictureLine& line : pair.left.lines) {
     if (!contains(pair.right.lines, line, near)) {
-      issues.emplace_back(IssueKind::invalid_value, pointer + "/pair/1",
-                          "the line from " + text_of(line.from, is_flat) + " to " +
-                              text_of(line.to, is_flat) +
-                              " of the left shape is not in the right shape, which a "
-                              "non-erasing grammar does not allow");
+      issues.emplace_back(
+          IssueKind::invalid_value, pointer + "/pair/1",
+          "the line from " + text_of(line.from, is_flat) + " to " + text_of(line.to, is_flat) +
+              " of the left shape is not in the right shape, which a non-erasing grammar does not allow");
     }
   }
   for (const PictureSolid& solid : pair.left.solids) {
     if (std::ranges::none_of(pair.right.solids,
                              [&](const PictureSolid& each) { return are_equal(each, solid, near); })) {
-      issues.emplace_back(IssueKind::invalid_value, pointer + "/pair/1",
-                          "the solid at " + text_of(solid.base, is_flat) +
-                              " of the left shape is not in the right shape, which a "
-                              "non-erasing grammar does not allow");
+      issues.emplace_back(
+          IssueKind::invalid_value, pointer + "/pair/1",
+          "the solid at " + text_of(solid.base, is_flat) +
+              " of the left shape is not in the right shape, which a non-erasing grammar does not allow");
     }
   }
   if (restriction != PictureRestriction::unimarker) return;
@@ -275,8 +274,7 @@ void check_restriction(const PicturePair& pair, const std::string& pointer, bool
   if (pair.right.markers.size() > 1) {
     issues.emplace_back(IssueKind::invalid_value, pointer + "/pair/1",
                         "found " + markers(pair.right) +
-                            " markers, expected at most one in the right shape of a "
-                            "unimarker grammar");
+                            " markers, expected at most one in the right shape of a unimarker grammar");
   }
 }
 

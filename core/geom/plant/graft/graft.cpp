@@ -69,11 +69,10 @@ void refuse_overlapping_clusters(const JoinedBark& bark, const Scale& scale, con
   const float reach = 1e-6F * std::min(scale.size, glm::length(box.max - box.min));
   const Array<std::uint8_t> near = near_others(points, bark.twin.span(), box, reach, job);
   if (near.empty() || !has_nonmanifold_edges(part_with(bark.mesh, near, job), reach, job)) return;
-  refuse_bark(
-      options,
-      "The limbs are less than a millionth of the tree's size apart, so their bark is no surface. Use fewer "
-      "or thicker limbs.",
-      job);
+  refuse_bark(options,
+              "The limbs are less than a millionth of the tree's size apart, so their bark is no surface. "
+              "Use fewer or thicker limbs.",
+              job);
 }
 
 GraftCounts counts_of(const BarkBuffers& bark, const std::vector<Crease>& creases,
