@@ -7,14 +7,18 @@
 
 namespace seedmesh {
 
+/// Returns the opaque linear colour of a sRGB colour with the members red, green and blue.
+template <class Given>
+glm::vec4 linear_color(const Given& color) {
+  return {linear_of_srgb(color.red), linear_of_srgb(color.green), linear_of_srgb(color.blue), 1};
+}
+
 /// Sets colour and strength of the reflections of a material. Without a value the material stays as it is. `Given` is
 /// a generated struct with `color` and `strength`.
 template <class Given>
 void set_specular(Material& material, const std::optional<Given>& given) {
   if (!given) return;
-  const auto& color = given->color;
-  material.specular_color = {linear_of_srgb(color.red), linear_of_srgb(color.green),
-                             linear_of_srgb(color.blue)};
+  material.specular_color = linear_color(given->color);
   material.specular = static_cast<float>(given->strength);
 }
 
@@ -22,10 +26,7 @@ void set_specular(Material& material, const std::optional<Given>& given) {
 template <class Given>
 void set_emission(Material& material, const std::optional<Given>& given) {
   if (!given) return;
-  const auto& color = given->color;
-  material.emissive =
-      glm::vec3(linear_of_srgb(color.red), linear_of_srgb(color.green), linear_of_srgb(color.blue)) *
-      static_cast<float>(given->strength);
+  material.emissive = glm::vec3(linear_color(given->color)) * static_cast<float>(given->strength);
 }
 
 /// Returns (packed colour, strength) of `specular` and of `emission`. Materials with equal members have equal keys. A

@@ -60,11 +60,6 @@ std::uint64_t hash_of(const Image& image) {
   return hash.digest();
 }
 
-std::array<TextureUse*, 5> uses_of(Material& material) {
-  return {&material.base_color_texture, &material.normal_texture, &material.metallic_roughness_texture,
-          &material.occlusion_texture, &material.emissive_texture};
-}
-
 std::uint64_t hash_of(Material& material, const std::vector<std::uint64_t>& images) {
   Hasher hash;
   for (int i = 0; i < 4; ++i) hash.value(material.base_color[i]);
@@ -81,7 +76,7 @@ std::uint64_t hash_of(Material& material, const std::vector<std::uint64_t>& imag
     hash.value(material.transmission);
     for (int i = 0; i < 3; ++i) hash.value(material.transmission_color[i]);
   }
-  for (const TextureUse* use : uses_of(material)) {
+  for (const TextureUse* use : material.textures()) {
     hash.value(use->texture < 0 ? 0 : images[static_cast<std::size_t>(use->texture)]);
     hash.value(use->uv_set);
     hash.value(use->repeat);
@@ -171,7 +166,7 @@ void share_images(Model& model, const std::vector<std::uint64_t>& hashes) {
     shared.push_back(is_equal ? known->second : static_cast<int>(i));
   }
   for (Material& material : model.materials) {
-    for (TextureUse* use : uses_of(material)) {
+    for (TextureUse* use : material.textures()) {
       if (use->texture >= 0) use->texture = shared[static_cast<std::size_t>(use->texture)];
     }
   }

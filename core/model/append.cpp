@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <iterator>
 
+#include "core/model/build.h"
+
 namespace seedmesh {
 namespace {
 
@@ -13,15 +15,6 @@ void move_behind(std::vector<T>& all, std::vector<T>& others) {
 
 void shift(int& index, std::size_t by) {
   if (index >= 0) index += static_cast<int>(by);
-}
-
-void shift(Material& material, std::size_t textures, std::size_t meshes) {
-  for (ImpostorRecipe::Part& part : material.impostor.parts) shift(part.mesh, meshes);
-  for (TextureUse* use :
-       {&material.base_color_texture, &material.normal_texture, &material.metallic_roughness_texture,
-        &material.occlusion_texture, &material.emissive_texture}) {
-    shift(use->texture, textures);
-  }
 }
 
 void append_animation(Model& model, Animation other, std::size_t nodes) {
@@ -41,18 +34,13 @@ void append_animation(Model& model, Animation other, std::size_t nodes) {
 
 void append(Model& model, Model other, int parent, const Transform& at) {
   const std::size_t nodes = model.nodes.size() + 1, meshes = model.meshes.size(),
-                    materials = model.materials.size(), textures = model.textures.size(),
-                    skins = model.skins.size();
-  Node stand;
-  stand.name = other.name;
-  stand.parent = parent;
-  stand.transform = at;
-  const auto stand_at = static_cast<int>(model.nodes.size());
-  model.nodes.push_back(std::move(stand));
+                    materials = model.materials.size(), skins = model.skins.size();
+  const auto stand = static_cast<int>(model.nodes.size());
+  add_node(model, other.name, parent).transform = at;
   for (Node& node : other.nodes) {
     shift(node.parent, nodes);
     // A skinned mesh is placed by its bones and stays a root.
-    if (node.parent < 0 && node.skin < 0) node.parent = stand_at;
+    if (node.parent < 0 && node.skin < 0) node.parent = stand;
     shift(node.mesh, meshes);
     for (int& lod : node.lods) shift(lod, meshes);
     shift(node.skin, skins);
@@ -63,18 +51,18 @@ void append(Model& model, Model other, int parent, const Transform& at) {
       for (int& material : primitive.variant_materials) shift(material, materials);
     }
   }
-  for (Material& material : other.materials) shift(material, textures, meshes);
+  for (Material& material : other.materials) {
+    for (ImpostorRecipe::Part& part : material.impostor.parts) shift(part.mesh, meshes);
+  }
   for (Skin& skin : other.skins) {
     for (int& joint : skin.joints) shift(joint, nodes);
     shift(skin.skeleton, nodes);
   }
   move_behind(model.nodes, other.nodes);
   move_behind(model.meshes, other.meshes);
-  move_behind(model.materials, other.materials);
-  move_behind(model.textures, other.textures);
   move_behind(model.skins, other.skins);
   for (Animation& each : other.animations) append_animation(model, std::move(each), nodes);
-  move_behind(model.warnings, other.warnings);
+  move_materials(model, other);
 }
 
 }  // namespace seedmesh

@@ -6,16 +6,10 @@
 #include <limits>
 
 #include "core/base/math.h"
+#include "core/model/build.h"
 
 namespace seedmesh {
 namespace {
-
-glm::mat4 matrix_of(const Transform& t) {
-  glm::mat4 matrix = glm::mat4_cast(t.rotation);
-  for (int axis = 0; axis < 3; ++axis) matrix[axis] *= t.scale[axis];
-  matrix[3] = glm::vec4(t.translation, 1);
-  return matrix;
-}
 
 void grow(Box& box, const glm::mat4& matrix, const Box& part) {
   for (int corner = 0; corner < 8; ++corner) {
@@ -61,17 +55,15 @@ ModelCounts count(const Model& model) {
 Box bounds_of(const Model& model) {
   constexpr float huge = std::numeric_limits<float>::max();
   Box box{glm::vec3(huge), glm::vec3(-huge)};
-  std::vector<glm::mat4> world(model.nodes.size());
+  const std::vector<glm::mat4> world = world_matrices<float>(model);
   for (std::size_t i = 0; i < model.nodes.size(); ++i) {
     const Node& node = model.nodes[i];
-    world[i] = matrix_of(node.transform);
-    if (node.parent >= 0) world[i] = world[static_cast<std::size_t>(node.parent)] * world[i];
     if (node.mesh < 0) continue;
     for (const Primitive& primitive : model.meshes[static_cast<std::size_t>(node.mesh)].primitives) {
       if (primitive.mesh.vertices() == 0) continue;
       const Box part = bounds_of(primitive.mesh);
       if (node.instances.transforms.empty()) grow(box, world[i], part);
-      for (const Transform& t : node.instances.transforms) grow(box, world[i] * matrix_of(t), part);
+      for (const Transform& t : node.instances.transforms) grow(box, world[i] * matrix_of<float>(t), part);
     }
   }
   return box.min.x > box.max.x ? Box{} : box;

@@ -6,28 +6,16 @@
 #include <utility>
 
 #include "core/model/append.h"
+#include "core/model/build.h"
 
 namespace seedmesh {
 namespace {
 
 constexpr float gap_share = 0.2F;
 
-bool same(const TextureUse& a, const TextureUse& b) {
-  return std::tie(a.texture, a.uv_set, a.repeat) == std::tie(b.texture, b.uv_set, b.repeat);
-}
-
 /// True where the materials differ at most in the seed of their textures.
-bool alike(const Material& a, const Material& b) {
-  if (!a.impostor.parts.empty() || !b.impostor.parts.empty()) return false;
-  const auto plain = [](const Material& m) {
-    return std::tie(m.name, m.base_color, m.metallic, m.roughness, m.emissive, m.alpha_mode, m.alpha_cutoff,
-                    m.double_sided, m.unlit, m.specular, m.specular_color, m.transmission,
-                    m.transmission_color, m.recipe.kind, m.recipe.color, m.recipe.has_own_sides);
-  };
-  return plain(a) == plain(b) && same(a.base_color_texture, b.base_color_texture) &&
-         same(a.normal_texture, b.normal_texture) &&
-         same(a.metallic_roughness_texture, b.metallic_roughness_texture) &&
-         same(a.occlusion_texture, b.occlusion_texture) && same(a.emissive_texture, b.emissive_texture);
+bool may_share(const Material& a, const Material& b) {
+  return a.name == b.name && a.impostor.parts.empty() && b.impostor.parts.empty() && are_alike(a, b);
 }
 
 /// Replaces images with the same bytes by the first of them.
@@ -43,9 +31,7 @@ void share_textures(Model& model) {
     if (known == kept.end()) kept.push_back(model.textures[i]);
   }
   for (Material& material : model.materials) {
-    for (TextureUse* use :
-         {&material.base_color_texture, &material.normal_texture, &material.metallic_roughness_texture,
-          &material.occlusion_texture, &material.emissive_texture}) {
+    for (TextureUse* use : material.textures()) {
       if (use->texture >= 0) use->texture = place[static_cast<std::size_t>(use->texture)];
     }
   }
@@ -56,8 +42,8 @@ void share_materials(Model& model) {
   std::vector<int> place(model.materials.size());
   std::vector<Material> kept;
   for (std::size_t i = 0; i < model.materials.size(); ++i) {
-    const auto known = std::find_if(kept.begin(), kept.end(),
-                                    [&](const Material& each) { return alike(each, model.materials[i]); });
+    const auto known = std::find_if(
+        kept.begin(), kept.end(), [&](const Material& each) { return may_share(each, model.materials[i]); });
     place[i] = static_cast<int>(known - kept.begin());
     if (known == kept.end()) kept.push_back(std::move(model.materials[i]));
   }

@@ -9,8 +9,8 @@
 
 #include "core/geom/lod/simplify.h"
 #include "core/geom/lod/thin.h"
+#include "core/model/build.h"
 #include "core/model/index_width.h"
-#include "core/model/transform.h"
 
 namespace seedmesh {
 namespace {
@@ -192,10 +192,7 @@ bool add_level(Model& model, std::uint64_t least, double share, const SimplifyLi
     const MeshGroup& group = model.meshes[static_cast<std::size_t>(coarsest)];
     if (triangles_of(group) < least || is_packed(group)) continue;
     int& copy = next[static_cast<std::size_t>(coarsest)];
-    if (copy < 0) {
-      copy = static_cast<int>(model.meshes.size());
-      model.meshes.push_back(copy_of(group));
-    }
+    if (copy < 0) copy = add_mesh(model, copy_of(group));
     node.lods.resize(last, coarsest);
     node.lods.push_back(copy);
   }

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "core/model/build.h"
 #include "core/model/index_width.h"
 #include "core/pipeline/fit.h"
 
@@ -84,10 +85,7 @@ class Fitting {
       int mesh = own_[i][std::min(source, own_[i].size() - 1)];
       if (mesh >= 0 && copies) {
         int& made = copy[static_cast<std::size_t>(mesh)];
-        if (made < 0) {
-          made = static_cast<int>(model_.meshes.size());
-          model_.meshes.push_back(copy_of(model_.meshes[static_cast<std::size_t>(mesh)]));
-        }
+        if (made < 0) made = add_mesh(model_, copy_of(model_.meshes[static_cast<std::size_t>(mesh)]));
         mesh = made;
       }
       Node& node = model_.nodes[i];

@@ -9,6 +9,7 @@
 #include "core/generators/building/merge_bodies.h"
 #include "core/generators/building/mesh_writer.h"
 #include "core/geom/mesh/weld.h"
+#include "core/model/build.h"
 
 namespace seedmesh::building {
 namespace {
@@ -40,12 +41,7 @@ class Assembly {
     if (merged.empty()) return;
     for (MeshGroup& group :
          merged_bodies(model_, {shapes_, materials_, source_, low_, diagonal_}, merged, 0, job_)) {
-      Node node;
-      node.name = "layer";
-      node.parent = root_;
-      node.mesh = static_cast<int>(model_.meshes.size());
-      model_.meshes.push_back(std::move(group));
-      model_.nodes.push_back(std::move(node));
+      add_node(model_, "layer", root_, add_mesh(model_, std::move(group)));
     }
   }
 
@@ -62,17 +58,14 @@ class Assembly {
     std::vector<int> layers;
     for (MeshGroup& group :
          merged_bodies(model_, {shapes_, materials_, source_, low_, diagonal_}, merged, least, job_)) {
-      layers.push_back(static_cast<int>(model_.meshes.size()));
-      model_.meshes.push_back(std::move(group));
+      layers.push_back(add_mesh(model_, std::move(group)));
     }
     return layers;
   }
 
  private:
   void begin() {
-    Node root;
-    root.name = "building";
-    model_.nodes.push_back(std::move(root));
+    add_node(model_, "building", -1);
     root_ = static_cast<int>(model_.nodes.size()) - 1;
   }
 
@@ -225,8 +218,7 @@ class Assembly {
         for (glm::vec2& uv : primitive.mesh.uv[0]) uv /= glm::vec2(*tile);
       }
     }
-    model_.meshes.push_back(std::move(group));
-    return static_cast<int>(model_.meshes.size()) - 1;
+    return add_mesh(model_, std::move(group));
   }
 
   int add_shared_mesh(const Shape& shape) {
@@ -237,11 +229,7 @@ class Assembly {
     primitive.mesh = empty_mesh(false, job_);
     append(surface_, primitive.mesh, glm::dmat3(1), glm::dvec3(0), {});
     if (shape.geometry != box_geometry) weld(primitive.mesh, job_);
-    MeshGroup group;
-    group.name = materials_.symbol(shape);
-    group.primitives.push_back(std::move(primitive));
-    model_.meshes.push_back(std::move(group));
-    return static_cast<int>(model_.meshes.size()) - 1;
+    return add_mesh(model_, materials_.symbol(shape), std::move(primitive.mesh), primitive.material);
   }
 
   Model& model_;

@@ -19,6 +19,7 @@
 #include "core/generators/child.h"
 #include "core/geom/mesh/flatten.h"
 #include "core/gltf/read/read.h"
+#include "core/model/build.h"
 #include "core/model/levels.h"
 #include "core/schema/warning_list.h"
 #include "generated/params/building.h"
@@ -54,18 +55,7 @@ void add_asset(Work& work, const std::string& name, Model own, Job& job) {
   if (std::erase_if(asset.primitives,
                     [](const Primitive& p) { return p.mesh.topology != Topology::triangles; }) > 0)
     own.warnings.push_back({"/assets/" + name, "the asset has lines or points, which are left out", 0, 0});
-  const auto materials = static_cast<int>(work.model.materials.size()),
-             textures = static_cast<int>(work.model.textures.size());
-  for (Material& material : own.materials) {
-    for (TextureUse* use :
-         {&material.base_color_texture, &material.normal_texture, &material.metallic_roughness_texture,
-          &material.occlusion_texture, &material.emissive_texture}) {
-      if (use->texture >= 0) use->texture += textures;
-    }
-    work.model.materials.push_back(std::move(material));
-  }
-  work.model.textures.insert(work.model.textures.end(), own.textures.begin(), own.textures.end());
-  work.model.warnings.insert(work.model.warnings.end(), own.warnings.begin(), own.warnings.end());
+  const int materials = move_materials(work.model, own);
   glm::dvec3 low(1e300), high(-1e300);
   for (Primitive& primitive : asset.primitives) {
     if (primitive.material >= 0) {
@@ -225,8 +215,7 @@ void add_levels(Model& model, Work& work, const BuildingParams& params, const Sh
         ++i;
         continue;
       }
-      level.push_back(static_cast<int>(model.meshes.size()));
-      model.meshes.push_back(*std::move(half));
+      level.push_back(add_mesh(model, *std::move(half)));
     }
   }
   for (const std::vector<int>& level : levels) layers = std::min(layers, level.size());
@@ -241,12 +230,8 @@ void add_levels(Model& model, Work& work, const BuildingParams& params, const Sh
     }
   }
   for (std::size_t i = 0; i < layers; ++i) {
-    Node node;
-    node.name = "layer";
-    node.parent = 0;
-    node.mesh = levels[0][i];
-    for (std::size_t level = 1; level < levels.size(); ++level) node.lods.push_back(levels[level][i]);
-    model.nodes.push_back(std::move(node));
+    Node& node = add_node(model, "layer", 0);
+    for (const std::vector<int>& level : levels) seedmesh::add_level(node, level[i]);
   }
 }
 

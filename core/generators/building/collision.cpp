@@ -6,7 +6,7 @@
 #include "core/base/math.h"
 #include "core/generators/building/body_surface.h"
 #include "core/generators/building/hull.h"
-#include "core/model/collision_name.h"
+#include "core/model/build.h"
 
 namespace seedmesh::building {
 namespace {
@@ -162,19 +162,9 @@ void add_collision(Model& model, const Shapes& shapes, const GenerateContext& co
   const double least = least_share * masses.front().hull_volume;
   std::erase_if(masses,
                 [&](const Mass& mass) { return mass.hull.faces.empty() || mass.hull_volume < least; });
-  const auto material = static_cast<int>(model.materials.size());
-  model.materials.emplace_back().name = "collision";
-  for (std::size_t i = 0; i < masses.size(); ++i) {
-    Node node;
-    node.name = collision_name(context.demand.collision, "building", i + 1);
-    node.parent = 0;
-    node.collision = CollisionShape::convex;
-    node.mesh = static_cast<int>(model.meshes.size());
-    MeshGroup group{"collision", {}};
-    group.primitives.push_back({mesh_of(masses[i].hull, job), material, {}});
-    model.nodes.push_back(std::move(node));
-    model.meshes.push_back(std::move(group));
-  }
+  std::vector<Mesh> hulls;
+  for (const Mass& mass : masses) hulls.push_back(mesh_of(mass.hull, job));
+  add_collision_shapes(model, context.demand.collision, "building", std::move(hulls));
 }
 
 }  // namespace seedmesh::building

@@ -1,6 +1,7 @@
 /// The component split: faces, edges and corners as shapes.
 #include <algorithm>
 
+#include "core/base/disjoint_sets.h"
 #include "core/generators/building/components.h"
 #include "core/generators/building/evaluate.h"
 #include "core/generators/building/interpret.h"
@@ -17,28 +18,24 @@ std::vector<ShapeState> sets_of(Derivation& d, const ShapeState& state,
                                 const std::vector<ShapeState>& faces) {
   const ShapeState all = merged_faces(d, state, faces);
   const Solid& solid = d.out.solid_of(all.geometry);
-  std::vector<std::uint32_t> set(solid.faces.size()), first_of(solid.points.size(), none);
-  const auto root = [&](std::uint32_t i) {
-    while (set[i] != i) i = set[i] = set[set[i]];
-    return i;
-  };
-  for (std::uint32_t f = 0; f < set.size(); ++f) {
-    set[f] = f;
+  DisjointSets sets(solid.faces.size());
+  std::vector<std::uint32_t> first_of(solid.points.size(), none);
+  for (std::uint32_t f = 0; f < sets.size(); ++f) {
     for (const Loop& loop : loops_of(solid, solid.faces[f])) {
       for (const std::uint32_t point : points_of(solid, loop)) {
         if (first_of[point] == none)
           first_of[point] = f;
         else
-          set[root(f)] = root(first_of[point]);
+          sets.join(f, first_of[point]);
       }
     }
   }
   std::vector<ShapeState> out;
-  for (std::uint32_t f = 0; f < set.size(); ++f) {
-    if (root(f) != f) continue;
+  for (std::uint32_t f = 0; f < sets.size(); ++f) {
+    if (sets.of(f) != f) continue;
     std::vector<ShapeState> own;
-    for (std::uint32_t g = 0; g < set.size(); ++g) {
-      if (root(g) == f) own.push_back(faces[g]);
+    for (std::uint32_t g = 0; g < sets.size(); ++g) {
+      if (sets.of(g) == f) own.push_back(faces[g]);
     }
     out.push_back(merged_faces(d, state, own));
   }

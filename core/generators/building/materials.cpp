@@ -91,11 +91,6 @@ std::string lower(std::string text) {
 
 std::string name_of_color(const std::string& color) { return "color_" + lower(color.substr(1)); }
 
-void paint(Material& material, const Color& color) {
-  material.base_color = {linear_of_srgb(color.red), linear_of_srgb(color.green), linear_of_srgb(color.blue),
-                         1};
-}
-
 }  // namespace
 
 std::vector<std::string_view> built_in_materials() {
@@ -257,7 +252,7 @@ int MaterialTable::make(const MaterialRequest& request) {
   // "#rrggbbaa" has an opacity.
   Color main = takes_color ? *color_of(color->substr(0, 7)) : preset.color;
   if (given != params_.materials.end() && given->second.color) main = *given->second.color;
-  paint(material, main);
+  material.base_color = linear_color(main);
   material.roughness = static_cast<float>(preset.roughness);
   material.metallic = static_cast<float>(preset.metallic);
   if (takes_color && color->size() == 9) {

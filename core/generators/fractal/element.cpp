@@ -213,13 +213,9 @@ std::array<glm::u8vec4, 6> rainbow() {
 Material plain_material(const FractalParams& params) {
   Material material;
   material.name = "fractal";
-  const Color& color = params.color;
   const bool painted = params.method == FractalMethod::escape || is_named(params, Name::rainbow_cube) ||
                        (params.method == FractalMethod::frcm && params.cloud == FractalCloud::points);
-  if (!painted) {
-    material.base_color = {linear_of_srgb(color.red), linear_of_srgb(color.green), linear_of_srgb(color.blue),
-                           1};
-  }
+  if (!painted) material.base_color = linear_color(params.color);
   material.roughness = 0.9F;
   set_specular(material, params.specular);
   set_emission(material, params.emission);
@@ -241,8 +237,7 @@ Result<Element> element_of(const FractalParams& params, const GenerateContext& c
     element.warnings = std::move(model->warnings);
     if (!model->textures.empty()) {
       for (Material& material : element.materials) {
-        material.base_color_texture = material.normal_texture = material.metallic_roughness_texture = {};
-        material.occlusion_texture = material.emissive_texture = {};
+        for (TextureUse* use : material.textures()) *use = {};
       }
       element.warnings.push_back({"/element/model", "The textures of the element are not used.", 0, 0});
     }

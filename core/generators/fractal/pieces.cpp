@@ -5,6 +5,7 @@
 
 #include "core/base/math.h"
 #include "core/geom/mesh/weld.h"
+#include "core/model/build.h"
 
 namespace seedmesh::fractal {
 namespace {
@@ -182,11 +183,7 @@ void add_pieces(Model& model, int parent, const Instructions& instructions, cons
       each_copy(instructions, plan.meshed, [&](const Affine& map) { joiner.add(compose(outer, map)); });
     group.primitives.push_back({joiner.take(), primitive.material, {}});
   }
-  model.meshes.push_back(std::move(group));
-  Node& node = model.nodes.emplace_back();
-  node.name = "copies";
-  node.parent = parent;
-  node.mesh = static_cast<int>(model.meshes.size()) - 1;
+  Node& node = add_node(model, "copies", parent, seedmesh::add_mesh(model, std::move(group)));
   if (plan.nodes <= 1) return;
   each_copy(instructions, rounds - plan.meshed, [&](const Affine& map) {
     Affine moved = map;
@@ -244,19 +241,8 @@ void add_divided(Model& model, int parent, const Instructions& instructions, con
     }
     group.primitives.push_back({joiner.take(), primitive.material, {}});
   }
-  const auto add = [&](MeshGroup meshes) {
-    Node& node = model.nodes.emplace_back();
-    node.name = meshes.name;
-    node.parent = parent;
-    node.mesh = static_cast<int>(model.meshes.size());
-    model.meshes.push_back(std::move(meshes));
-  };
-  if (count.elements > 0) add(std::move(group));
-  if (count.points == 0) return;
-  MeshGroup cloud;
-  cloud.name = "points";
-  cloud.primitives.push_back({std::move(points), 0, {}});
-  add(std::move(cloud));
+  if (count.elements > 0) add_node(model, "copies", parent, seedmesh::add_mesh(model, std::move(group)));
+  if (count.points > 0) add_mesh(model, parent, "points", std::move(points));
 }
 
 Mesh scattered(const Mesh& element, std::span<const glm::vec3> positions, double edge, Job& job) {

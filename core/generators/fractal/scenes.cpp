@@ -7,6 +7,7 @@
 #include "core/generators/fractal/faces.h"
 #include "core/generators/fractal/measure.h"
 #include "core/geom/polygon/triangulate.h"
+#include "core/model/build.h"
 #include "generated/params/fractal.h"
 
 namespace seedmesh::fractal {
@@ -96,19 +97,12 @@ std::vector<glm::dvec2> snowflake(int rounds, const Job& job) {
 }  // namespace
 
 void add_mesh(Model& model, int parent, const std::string& name, Mesh mesh) {
-  MeshGroup& group = model.meshes.emplace_back();
-  group.name = name;
-  group.primitives.push_back({std::move(mesh), 0, {}});
-  Node& node = model.nodes.emplace_back();
-  node.name = name;
-  node.parent = parent;
-  node.mesh = static_cast<int>(model.meshes.size()) - 1;
+  add_node(model, name, parent, seedmesh::add_mesh(model, name, std::move(mesh), 0));
 }
 
 void each_stage(Model& model, const FractalParams& params, std::int64_t amount, const Job& job,
                 const std::function<void(int node, std::int64_t amount)>& make) {
-  Node& root = model.nodes.emplace_back();
-  root.name = "fractal";
+  add_node(model, "fractal", -1);
   if (params.stages.empty()) {
     make(0, amount);
     return;
@@ -116,9 +110,7 @@ void each_stage(Model& model, const FractalParams& params, std::int64_t amount, 
   const double pitch = (1 + gap) * space_of(params, job);
   for (std::size_t i = 0; i < params.stages.size(); ++i) {
     const auto columns = static_cast<std::size_t>(params.columns);
-    Node& node = model.nodes.emplace_back();
-    node.name = "stage_" + std::to_string(params.stages[i]);
-    node.parent = 0;
+    Node& node = add_node(model, "stage_" + std::to_string(params.stages[i]), 0);
     const std::size_t row = i / columns;
     node.transform.translation =
         glm::vec3(glm::dvec3(static_cast<double>(i % columns), -static_cast<double>(row), 0) * pitch);
@@ -143,11 +135,7 @@ void add_cloud(Model& model, int parent, const FractalParams& params, Cloud clou
     group.primitives.push_back(
         {scattered(primitive.mesh, cloud.position.span(), edge, job), primitive.material, {}});
   }
-  model.meshes.push_back(std::move(group));
-  Node& node = model.nodes.emplace_back();
-  node.name = "elements";
-  node.parent = parent;
-  node.mesh = static_cast<int>(model.meshes.size()) - 1;
+  add_node(model, "elements", parent, seedmesh::add_mesh(model, std::move(group)));
 }
 
 Mesh koch_plate(int rounds, double size, Job& job) {

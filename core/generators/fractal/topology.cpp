@@ -5,7 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <numeric>
+
+#include "core/base/disjoint_sets.h"
 
 namespace seedmesh::fractal {
 namespace {
@@ -118,14 +119,14 @@ class Bodies {
   };
 
   std::uint32_t add() {
-    parent_.push_back(static_cast<std::uint32_t>(parent_.size()));
     ++count;
-    return parent_.back();
+    return sets_.add();
   }
 
   void join(const std::vector<Run>& a, const std::vector<Run>& b) {
     for (std::size_t i = 0, j = 0; i < a.size() && j < b.size();) {
-      if (std::max(a[i].begin, b[j].begin) < std::min(a[i].end, b[j].end)) unite(a[i].set, b[j].set);
+      if (std::max(a[i].begin, b[j].begin) < std::min(a[i].end, b[j].end) && sets_.join(a[i].set, b[j].set))
+        --count;
       if (a[i].end < b[j].end) {
         ++i;
       } else {
@@ -137,19 +138,7 @@ class Bodies {
   std::uint64_t count = 0;
 
  private:
-  std::uint32_t root(std::uint32_t set) {
-    while (parent_[set] != set) set = parent_[set] = parent_[parent_[set]];
-    return set;
-  }
-  void unite(std::uint32_t a, std::uint32_t b) {
-    a = root(a);
-    b = root(b);
-    if (a == b) return;
-    parent_[std::max(a, b)] = std::min(a, b);
-    --count;
-  }
-
-  std::vector<std::uint32_t> parent_;
+  DisjointSets sets_;
 };
 
 /// Runs of full cells; or, if `empty` is all ones, of empty cells in the grid with a layer of empty cells

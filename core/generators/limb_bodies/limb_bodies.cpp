@@ -6,7 +6,7 @@
 
 #include "core/base/quick_math.h"
 #include "core/geom/plant/graft/limb_axis.h"
-#include "core/model/collision_name.h"
+#include "core/model/build.h"
 
 namespace seedmesh {
 namespace {
@@ -115,20 +115,12 @@ std::vector<LimbBody> limb_bodies(const Limbs& limbs, BelowGround below, Job& jo
 void add_limb_bodies(Model& model, const std::vector<LimbBody>& bodies, const GenerateContext& context) {
   Job& job = context.job;
   if (context.demand.collision == CollisionNames::none || bodies.empty()) return;
-  const auto material = static_cast<int>(model.materials.size());
-  model.materials.emplace_back().name = "collision";
-  for (std::size_t i = 0; i < bodies.size(); ++i) {
-    Node node;
-    node.name = collision_name(context.demand.collision, "bark", i + 1);
-    node.parent = 0;
-    node.collision = CollisionShape::convex;
-    node.mesh = static_cast<int>(model.meshes.size());
-    MeshGroup group{"collision", {}};
-    group.primitives.push_back({prism(bodies[i], job), material, {}});
-    job.spend(Resource::triangles, group.primitives.back().mesh.elements());
-    model.nodes.push_back(std::move(node));
-    model.meshes.push_back(std::move(group));
+  std::vector<Mesh> prisms;
+  for (const LimbBody& body : bodies) {
+    prisms.push_back(prism(body, job));
+    job.spend(Resource::triangles, prisms.back().elements());
   }
+  add_collision_shapes(model, context.demand.collision, "bark", std::move(prisms));
 }
 
 }  // namespace seedmesh

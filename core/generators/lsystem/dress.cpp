@@ -17,6 +17,7 @@
 #include "core/geom/plant/grow.h"
 #include "core/geom/plant/polygons.h"
 #include "core/geom/plant/skin.h"
+#include "core/model/build.h"
 
 namespace seedmesh::lsystem {
 namespace {
@@ -41,12 +42,8 @@ void add_meshes(Model& model, const char* name, std::vector<Bark> parts, Sides s
   for (Bark& part : parts) {
     if (part.layer != layer) {
       layer = part.layer;
-      Node node;
-      node.name = layer == 0 ? name : name + ("_" + std::to_string(layer));
-      node.parent = 0;
-      node.mesh = static_cast<int>(model.meshes.size());
-      model.meshes.push_back({node.name, {}});
-      model.nodes.push_back(std::move(node));
+      const std::string own = layer == 0 ? name : name + ("_" + std::to_string(layer));
+      add_node(model, own, 0, add_mesh(model, {own, {}}));
     }
     model.meshes.back().primitives.push_back(
         {std::move(part.mesh), material_set.material(part.color, sides), {}});
@@ -175,8 +172,7 @@ void add_level(Model& model, int level, std::vector<Bark> parts, MaterialSet& ma
   MeshGroup group{"bark_LOD" + std::to_string(level), {}};
   for (Bark& part : parts)
     group.primitives.push_back({std::move(part.mesh), material_set.material(part.color, Sides::one), {}});
-  model.nodes.back().lods.push_back(static_cast<int>(model.meshes.size()));
-  model.meshes.push_back(std::move(group));
+  model.nodes.back().lods.push_back(add_mesh(model, std::move(group)));
 }
 
 /// Adds levels with all limbs, and with the sides and stacks of Tunnel's table 8.

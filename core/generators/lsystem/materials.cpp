@@ -26,8 +26,7 @@ using Given = LsystemMaterial;
 bool has_texture(const Given& given) { return given.texture != LsystemTexture::none; }
 
 void paint(Material& material, const Color& color, double roughness, double metallic) {
-  material.base_color = {linear_of_srgb(color.red), linear_of_srgb(color.green), linear_of_srgb(color.blue),
-                         1};
+  material.base_color = linear_color(color);
   material.roughness = static_cast<float>(roughness);
   material.metallic = static_cast<float>(metallic);
 }

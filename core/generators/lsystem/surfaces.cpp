@@ -12,6 +12,7 @@
 #include "core/geom/plant/leaf_mesh.h"
 #include "core/geom/plant/organs.h"
 #include "core/gltf/read/read.h"
+#include "core/model/build.h"
 #include "core/texture/leaf.h"
 
 namespace seedmesh::lsystem {
@@ -120,18 +121,7 @@ std::vector<Primitive> imported(Model surface_model, Model& model, const std::st
   if (parts.empty())
     job.refuse(
         {IssueKind::invalid_value, pointer, "found a model without triangles; a surface needs triangles"});
-  const auto materials = static_cast<int>(model.materials.size()),
-             textures = static_cast<int>(model.textures.size());
-  for (Material& material : surface_model.materials) {
-    for (TextureUse* use :
-         {&material.base_color_texture, &material.normal_texture, &material.metallic_roughness_texture,
-          &material.occlusion_texture, &material.emissive_texture}) {
-      if (use->texture >= 0) use->texture += textures;
-    }
-    model.materials.push_back(std::move(material));
-  }
-  model.textures.insert(model.textures.end(), surface_model.textures.begin(), surface_model.textures.end());
-  model.warnings.insert(model.warnings.end(), surface_model.warnings.begin(), surface_model.warnings.end());
+  const int materials = move_materials(model, surface_model);
   for (Primitive& part : parts) {
     if (part.material >= 0) part.material += materials;
     if (part.mesh.normal.empty())
@@ -312,14 +302,7 @@ void add_merged(Model& model, const Foliated& foliated, const LsystemParams& par
     }
     before = others;
     for (const Primitive& part : group.primitives) before += part.mesh.elements();
-    if (group.primitives.empty()) continue;
-    const int mesh = static_cast<int>(model.meshes.size());
-    model.meshes.push_back(std::move(group));
-    if (node.mesh < 0) {
-      node.mesh = mesh;
-    } else {
-      node.lods.push_back(mesh);
-    }
+    if (!group.primitives.empty()) add_level(node, add_mesh(model, std::move(group)));
   }
   if (node.mesh >= 0) model.nodes.push_back(std::move(node));
 }
@@ -342,15 +325,8 @@ void add_shared(Model& model, const Foliated& foliated, const LsystemParams& par
     node.instances.transforms = std::move(places.places);
     const int material = finest.material(places.surface, places.color, material_set);
     for (std::size_t level = 0; level < levels.size(); ++level) {
-      const int mesh = static_cast<int>(model.meshes.size());
-      model.meshes.push_back({level_name(node.name, static_cast<int>(level)), {}});
-      model.meshes.back().primitives.push_back(
-          {copy_of(levels[level].meshes[places.surface], job), material, {}});
-      if (level == 0) {
-        node.mesh = mesh;
-      } else {
-        node.lods.push_back(mesh);
-      }
+      add_level(node, add_mesh(model, level_name(node.name, static_cast<int>(level)),
+                               copy_of(levels[level].meshes[places.surface], job), material));
     }
     model.nodes.push_back(std::move(node));
   }

@@ -10,6 +10,7 @@
 #include "core/generators/material_members.h"
 #include "core/generators/scene/buildings.h"
 #include "core/geom/polygon/plan.h"
+#include "core/model/build.h"
 #include "generated/params/scene.h"
 
 namespace seedmesh::scene {
@@ -82,20 +83,12 @@ void add_areas(Model& model, const std::vector<SceneArea>& areas, Job& job) {
     const SceneArea& area = *first[i];
     Material material;
     material.name = area.name;
-    material.base_color = {linear_of_srgb(area.color.red), linear_of_srgb(area.color.green),
-                           linear_of_srgb(area.color.blue), 1};
+    material.base_color = linear_color(area.color);
     material.roughness = static_cast<float>(area.roughness);
     set_specular(material, area.specular);
     set_emission(material, area.emission);
-    Node node;
-    node.name = area.name;
-    node.parent = 0;
-    node.mesh = static_cast<int>(model.meshes.size());
-    model.meshes.push_back({area.name, {}});
-    model.meshes.back().primitives.push_back(
-        {std::move(meshes[i]), static_cast<int>(model.materials.size()), {}});
-    model.materials.push_back(std::move(material));
-    model.nodes.push_back(std::move(node));
+    const int number = add_material(model, std::move(material));
+    add_node(model, area.name, 0, add_mesh(model, area.name, std::move(meshes[i]), number));
   }
 }
 

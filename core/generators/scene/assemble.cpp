@@ -11,6 +11,7 @@
 #include "core/generators/scene/levels.h"
 #include "core/generators/scene/model_levels.h"
 #include "core/model/append.h"
+#include "core/model/build.h"
 #include "core/model/levels.h"
 #include "core/schema/json.h"
 #include "core/texture/impostor.h"
@@ -148,9 +149,7 @@ class Assembly {
       each.variant_materials.clear();
       group.primitives.push_back(std::move(each));
     }
-    if (group.primitives.empty()) return -1;
-    model_.meshes.push_back(std::move(group));
-    return static_cast<int>(model_.meshes.size()) - 1;
+    return group.primitives.empty() ? -1 : seedmesh::add_mesh(model_, std::move(group));
   }
 
   /// Measures a variant and adds an impostor where it is requested and has fewer triangles than the coarsest
@@ -173,9 +172,7 @@ class Assembly {
   }
 
   int add_material(Material material, const Model& made, std::size_t layer) {
-    for (TextureUse* use :
-         {&material.base_color_texture, &material.normal_texture, &material.metallic_roughness_texture,
-          &material.occlusion_texture, &material.emissive_texture}) {
+    for (TextureUse* use : material.textures()) {
       if (use->texture >= 0)
         use->texture = add_texture(made.textures[static_cast<std::size_t>(use->texture)]);
     }
@@ -205,10 +202,7 @@ class Assembly {
     const Array<Placement>& placements = planting_.layers[number];
     const std::string name = layer.name.value_or("layer_" + std::to_string(number));
     const auto parent = static_cast<int>(model_.nodes.size());
-    Node node;
-    node.name = name;
-    node.parent = 0;
-    model_.nodes.push_back(std::move(node));
+    add_node(model_, name, 0);
     Array<Copy> copies(job_);
     copies.reserve(placements.size());
     std::uint64_t triangles = 0;

@@ -11,6 +11,7 @@
 #include "core/generators/scene/areas.h"
 #include "core/generators/scene/ground.h"
 #include "core/geom/mesh/weld.h"
+#include "core/model/build.h"
 #include "generated/params/scene.h"
 
 namespace seedmesh::scene {
@@ -182,22 +183,14 @@ class Materials {
   std::array<int, 3> number_{-1, -1, -1};
 };
 
-int add_mesh(Model& model, const std::string& name, Mesh mesh, int material) {
-  model.meshes.push_back({name, {}});
-  model.meshes.back().primitives.push_back({std::move(mesh), material, {}});
-  return static_cast<int>(model.meshes.size()) - 1;
-}
-
 void add_nodes(Model& model, const SceneParams& params, std::vector<Body> bodies, int parent) {
   Materials materials(model);
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     const SceneBuilding& building = params.buildings[i];
-    Node node;
-    node.name = building.name.value_or("building_" + std::to_string(i + 1));
-    node.parent = parent;
-    node.transform.translation = glm::vec3(raised(bodies[i].middle, bodies[i].ground)) + 0.0F;
-    node.mesh = add_mesh(model, node.name, std::move(bodies[i].mesh), materials.of(building.material));
-    model.nodes.push_back(std::move(node));
+    const std::string name = building.name.value_or("building_" + std::to_string(i + 1));
+    const int mesh = add_mesh(model, name, std::move(bodies[i].mesh), materials.of(building.material));
+    add_node(model, name, parent, mesh).transform.translation =
+        glm::vec3(raised(bodies[i].middle, bodies[i].ground)) + 0.0F;
   }
 }
 
@@ -224,11 +217,8 @@ void add_merged(Model& model, const SceneParams& params, const std::vector<Body>
     Mesh mesh;
     const auto flush = [&] {
       if (mesh.position.empty()) return;
-      Node node;
-      node.name = "buildings";
-      node.parent = parent;
-      node.mesh = add_mesh(model, "buildings", std::move(mesh), materials.of(surface));
-      model.nodes.push_back(std::move(node));
+      add_node(model, "buildings", parent,
+               add_mesh(model, "buildings", std::move(mesh), materials.of(surface)));
       mesh = Mesh{};
     };
     for (std::size_t i = 0; i < bodies.size(); ++i) {
@@ -258,11 +248,8 @@ void add_outlines(Model& model, const SceneParams& params, const Ground& ground,
   for (Body& body : bodies) {
     for (Warning& warning : body.warnings) model.warnings.push_back(std::move(warning));
   }
-  Node node;
-  node.name = "buildings";
-  node.parent = 0;
   const int parent = static_cast<int>(model.nodes.size());
-  model.nodes.push_back(std::move(node));
+  add_node(model, "buildings", 0);
   if (bodies.size() <= most_building_nodes) {
     add_nodes(model, params, std::move(bodies), parent);
   } else {

@@ -11,6 +11,7 @@
 #include "core/generators/terrain/plan.h"
 #include "core/generators/terrain/terrain.h"
 #include "core/model/append.h"
+#include "core/model/build.h"
 #include "generated/params/scene.h"
 #include "generated/params/terrain.h"
 
@@ -72,15 +73,11 @@ Model flat_model(const SceneGround& ground, const Extent& extent, bool round, co
   if (ground.outline != SceneOutline::none) {
     Material material;
     material.name = "ground";
-    material.base_color = {linear_of_srgb(ground.color.red), linear_of_srgb(ground.color.green),
-                           linear_of_srgb(ground.color.blue), 1};
+    material.base_color = linear_color(ground.color);
     material.roughness = 0.95F;
     set_specular(material, ground.specular);
     set_emission(material, ground.emission);
-    model.materials.push_back(material);
-    model.meshes.push_back({"ground", {}});
-    model.meshes.back().primitives.push_back({flat_mesh(extent, round, job), 0, {}});
-    node.mesh = 0;
+    node.mesh = add_mesh(model, "ground", flat_mesh(extent, round, job), add_material(model, material));
   }
   model.nodes.push_back(std::move(node));
   return model;

@@ -6,15 +6,11 @@
 
 #include "core/geom/mesh/flatten.h"
 #include "core/geom/mesh/weld.h"
+#include "core/model/build.h"
 #include "core/model/levels.h"
-#include "core/model/transform.h"
 
 namespace seedmesh::scene {
 namespace {
-
-bool is_same(const TextureUse& a, const TextureUse& b) {
-  return a.texture == b.texture && a.uv_set == b.uv_set && a.repeat == b.repeat;
-}
 
 /// Returns true where no node has a transform.
 bool is_plain(const Model& model) {
@@ -53,17 +49,7 @@ std::vector<Primitive> taken(Model& model, std::size_t level) {
 }  // namespace
 
 bool is_same(const Material& a, const Material& b, Seeds seeds) {
-  const bool same_recipe = a.recipe.kind == b.recipe.kind && a.recipe.color == b.recipe.color &&
-                           a.recipe.has_own_sides == b.recipe.has_own_sides &&
-                           (seeds == Seeds::may_differ || a.recipe.seed == b.recipe.seed);
-  return same_recipe && a.base_color == b.base_color && a.metallic == b.metallic &&
-         a.roughness == b.roughness && a.emissive == b.emissive && a.alpha_mode == b.alpha_mode &&
-         a.alpha_cutoff == b.alpha_cutoff && a.double_sided == b.double_sided && a.unlit == b.unlit &&
-         a.specular == b.specular && a.specular_color == b.specular_color &&
-         a.transmission == b.transmission && a.transmission_color == b.transmission_color &&
-         is_same(a.base_color_texture, b.base_color_texture) && is_same(a.normal_texture, b.normal_texture) &&
-         is_same(a.metallic_roughness_texture, b.metallic_roughness_texture) &&
-         is_same(a.occlusion_texture, b.occlusion_texture) && is_same(a.emissive_texture, b.emissive_texture);
+  return (seeds == Seeds::may_differ || a.recipe.seed == b.recipe.seed) && are_alike(a, b);
 }
 
 void separate_bodies(Model& model) {

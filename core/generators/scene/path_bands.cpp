@@ -11,6 +11,7 @@
 #include "core/base/math.h"
 #include "core/generators/material_members.h"
 #include "core/generators/scene/ground.h"
+#include "core/model/build.h"
 #include "core/schema/json.h"
 #include "generated/params/scene.h"
 
@@ -149,12 +150,6 @@ Mesh copy_of(const Mesh& mesh, double lifted, const Job& job) {
   return copy;
 }
 
-void add_mesh(Model& model, const std::string& name, Mesh mesh) {
-  model.meshes.push_back({name, {}});
-  model.meshes.back().primitives.push_back(
-      {std::move(mesh), static_cast<int>(model.materials.size()) - 1, {}});
-}
-
 /// Paths of one mesh.
 struct PathGroup {
   PathGroup(const Ground& ground, double cell, const Job& shared, const ScenePath& path)
@@ -172,27 +167,18 @@ struct PathGroup {
 void add_group(Model& model, PathGroup& group, const std::vector<double>& errors, Job& job) {
   Material material;
   material.name = "path";
-  const Color& color = group.first.color;
-  material.base_color = {linear_of_srgb(color.red), linear_of_srgb(color.green), linear_of_srgb(color.blue),
-                         1};
+  material.base_color = linear_color(group.first.color);
   material.roughness = 1;
   set_specular(material, group.first.specular);
   set_emission(material, group.first.emission);
-  Node node;
-  node.name = "path";
-  node.parent = 0;
-  node.mesh = static_cast<int>(model.meshes.size());
-  model.materials.push_back(std::move(material));
+  const int number = add_material(model, std::move(material));
   Mesh mesh = group.band.take();
   std::vector<Mesh> coarser;
   job.spend(Resource::triangles, errors.size() * mesh.elements());
   for (const double error : errors) coarser.push_back(copy_of(mesh, error, job));
-  add_mesh(model, "path", std::move(mesh));
-  for (std::size_t i = 0; i < coarser.size(); ++i) {
-    node.lods.push_back(static_cast<int>(model.meshes.size()));
-    add_mesh(model, "path_LOD" + std::to_string(i + 1), std::move(coarser[i]));
-  }
-  model.nodes.push_back(std::move(node));
+  Node& node = add_node(model, "path", 0, add_mesh(model, "path", std::move(mesh), number));
+  for (std::size_t i = 0; i < coarser.size(); ++i)
+    add_level(node, add_mesh(model, "path_LOD" + std::to_string(i + 1), std::move(coarser[i]), number));
 }
 
 }  // namespace

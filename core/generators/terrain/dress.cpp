@@ -91,8 +91,7 @@ class Dressing {
   /// Adds a mesh of the ground, or with details its primitives by class.
   int add_ground_mesh(Model& model, std::string name, Mesh mesh, int ground) const {
     if (!classes_) return add_mesh(model, std::move(name), std::move(mesh), ground);
-    model.meshes.push_back({std::move(name), classes_->divide(mesh, *sites_, job_)});
-    return static_cast<int>(model.meshes.size()) - 1;
+    return add_mesh(model, {std::move(name), classes_->divide(mesh, *sites_, job_)});
   }
 
   Sites sites() const { return {field_, window_of(params_), job_.rng().at("terrain"), job_}; }

@@ -23,25 +23,8 @@ Material water_material() {
   return material;
 }
 
-int add_material(Model& model, Material material) {
-  model.materials.push_back(std::move(material));
-  return static_cast<int>(model.materials.size()) - 1;
-}
-
-int add_mesh(Model& model, std::string name, Mesh mesh, int material) {
-  MeshGroup group;
-  group.name = std::move(name);
-  group.primitives.push_back({std::move(mesh), material, {}});
-  model.meshes.push_back(std::move(group));
-  return static_cast<int>(model.meshes.size()) - 1;
-}
-
 int add_child(Model& model, std::string name, int mesh) {
-  Node node;
-  node.name = std::move(name);
-  node.parent = 0;
-  node.mesh = mesh;
-  model.nodes.push_back(std::move(node));
+  add_node(model, std::move(name), 0, mesh);
   return static_cast<int>(model.nodes.size()) - 1;
 }
 

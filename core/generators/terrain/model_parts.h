@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "core/model/model.h"
+#include "core/model/build.h"
 
 namespace seedmesh {
 struct TerrainParams;
@@ -14,10 +14,7 @@ namespace seedmesh::terrain {
 Material ground_material(const TerrainParams& params);
 Material water_material();
 
-/// Add a part to the model and return its index.
-int add_material(Model& model, Material material);
-int add_mesh(Model& model, std::string name, Mesh mesh, int material);
-/// Adds a node below the root, which is node 0.
+/// Adds a node below the root, which is node 0, and returns its index.
 int add_child(Model& model, std::string name, int mesh);
 
 /// Returns the name of a level: "ground", "ground_LOD1", ...

@@ -13,6 +13,7 @@
 #include "core/generators/terrain/profile.h"
 #include "core/generators/terrain/triangulation.h"
 #include "core/generators/terrain/voids.h"
+#include "core/model/build.h"
 #include "generated/params/terrain.h"
 
 namespace seedmesh::terrain {
@@ -52,8 +53,7 @@ void add_level(Model& model, Model coarser, int level) {
     if (mesh < 0) continue;
     int& position = positions[static_cast<std::size_t>(mesh)];
     if (position < 0) {
-      position = static_cast<int>(model.meshes.size());
-      model.meshes.push_back(std::move(coarser.meshes[static_cast<std::size_t>(mesh)]));
+      position = add_mesh(model, std::move(coarser.meshes[static_cast<std::size_t>(mesh)]));
       model.meshes.back().name += "_LOD" + std::to_string(level);
     }
     model.nodes[i].lods.push_back(position);

@@ -7,6 +7,7 @@
 #include <tuple>
 #include <vector>
 
+#include "core/base/disjoint_sets.h"
 #include "core/base/rng.h"
 
 namespace seedmesh {
@@ -45,23 +46,13 @@ std::vector<std::uint32_t> least_at_position(const Mesh& mesh, const Job& job) {
 }
 
 Pieces pieces_of(const Mesh& mesh, const Job& job) {
-  std::vector<std::uint32_t> parent(mesh.position.size());
-  std::iota(parent.begin(), parent.end(), 0U);
-  const auto root = [&parent](std::uint32_t v) {
-    while (parent[v] != v) v = parent[v] = parent[parent[v]];
-    return v;
-  };
-  const auto join = [&](std::uint32_t a, std::uint32_t b) {
-    a = root(a);
-    b = root(b);
-    parent[std::max(a, b)] = std::min(a, b);
-  };
+  DisjointSets sets(mesh.position.size());
   const std::vector<std::uint32_t> least = least_at_position(mesh, job);
   std::vector<std::pair<std::uint64_t, std::uint32_t>> edges;  // two positions, a vertex at one of them
   edges.reserve(mesh.index.size());
   for (std::size_t i = 0; i < mesh.index.size(); ++i) {
     if (i % look_every == 0) job.check();
-    join(mesh.index.at(i / 3 * 3), mesh.index.at(i));
+    sets.join(mesh.index.at(i / 3 * 3), mesh.index.at(i));
     const std::uint32_t a = mesh.index.at(i), b = mesh.index.at(i % 3 == 2 ? i - 2 : i + 1);
     const std::uint64_t low = std::min(least[a], least[b]), high = std::max(least[a], least[b]);
     edges.emplace_back(low << 32U | high, a);
@@ -73,17 +64,17 @@ Pieces pieces_of(const Mesh& mesh, const Job& job) {
   });
   for (std::size_t i = 1; i < edges.size(); ++i) {
     if (i % look_every == 0) job.check();
-    if (edges[i].first == edges[i - 1].first) join(edges[i].second, edges[i - 1].second);
+    if (edges[i].first == edges[i - 1].first) sets.join(edges[i].second, edges[i - 1].second);
   }
   Pieces pieces;
-  pieces.of_vertex.resize(parent.size());
-  for (std::uint32_t v = 0; v < parent.size(); ++v) {
+  pieces.of_vertex.resize(sets.size());
+  for (std::uint32_t v = 0; v < sets.size(); ++v) {
     if (v % look_every == 0) job.check();
-    if (root(v) == v) {
+    if (sets.of(v) == v) {
       pieces.of_vertex[v] = static_cast<std::uint32_t>(pieces.first.size());
       pieces.first.push_back(v);
     } else {
-      pieces.of_vertex[v] = pieces.of_vertex[root(v)];
+      pieces.of_vertex[v] = pieces.of_vertex[sets.of(v)];
     }
   }
   pieces.triangles.assign(pieces.first.size(), 0);

@@ -5,18 +5,12 @@
 #include <tuple>
 
 #include "core/base/math.h"
+#include "core/model/build.h"
 
 namespace seedmesh {
 namespace {
 
 constexpr std::size_t look_every = 4096;
-
-glm::dmat4 matrix_of(const Transform& t) {
-  glm::dmat4 matrix = glm::mat4_cast(glm::dquat(t.rotation));
-  for (int axis = 0; axis < 3; ++axis) matrix[axis] *= t.scale[axis];
-  matrix[3] = glm::dvec4(glm::dvec3(t.translation), 1);
-  return matrix;
-}
 
 std::vector<std::uint64_t> uses_of(const Model& model) {
   std::vector<std::uint64_t> uses(model.meshes.size(), 0);
@@ -132,11 +126,9 @@ Copies copies_of(const Model& model) {
   Copies copies;
   const std::vector<std::uint64_t> uses = uses_of(model);
   const std::vector<bool> moves = moving(model);
-  std::vector<glm::dmat4> world(model.nodes.size());
+  const std::vector<glm::dmat4> world = world_matrices(model);
   for (std::size_t i = 0; i < model.nodes.size(); ++i) {
     const Node& node = model.nodes[i];
-    world[i] = matrix_of(node.transform);
-    if (node.parent >= 0) world[i] = world[static_cast<std::size_t>(node.parent)] * world[i];
     const bool wanted = node.mesh >= 0 && uses[static_cast<std::size_t>(node.mesh)] > 1 && !moves[i] &&
                         node.collision == CollisionShape::none;
     if (!wanted) continue;

@@ -4,16 +4,10 @@
 #include <map>
 
 #include "core/base/math.h"
+#include "core/model/build.h"
 
 namespace seedmesh {
 namespace {
-
-glm::dmat4 matrix_of(const Transform& t) {
-  glm::dmat4 matrix = glm::mat4_cast(glm::dquat(t.rotation));
-  for (int axis = 0; axis < 3; ++axis) matrix[axis] *= t.scale[axis];
-  matrix[3] = glm::dvec4(glm::dvec3(t.translation), 1);
-  return matrix;
-}
 
 /// One primitive as one node shows it.
 struct Shown {
@@ -89,11 +83,9 @@ std::vector<Primitive> flatten(const Model& model, Job& job) {
   std::map<std::pair<int, Topology>, std::size_t> number;
   std::vector<std::vector<Shown>> groups;
   std::vector<int> materials;
-  std::vector<glm::dmat4> world(model.nodes.size());
+  const std::vector<glm::dmat4> world = world_matrices(model);
   for (std::size_t i = 0; i < model.nodes.size(); ++i) {
     const Node& node = model.nodes[i];
-    world[i] = matrix_of(node.transform);
-    if (node.parent >= 0) world[i] = world[static_cast<std::size_t>(node.parent)] * world[i];
     if (node.mesh < 0) continue;
     std::vector<glm::dmat4> places;
     for (const Transform& copy : node.instances.transforms) places.push_back(world[i] * matrix_of(copy));

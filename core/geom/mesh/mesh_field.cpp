@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/model/build.h"
+
 namespace seedmesh {
 namespace {
 
@@ -67,13 +69,6 @@ bool ray_meets_triangle(const glm::dvec3& from, const glm::dvec3& a, const glm::
   return v >= 0 && u + v <= whole && glm::dot(ac, q) * sign > 0;
 }
 
-glm::dmat4 matrix_of(const Transform& t) {
-  glm::dmat4 matrix = glm::mat4_cast(glm::dquat(t.rotation));
-  for (int axis = 0; axis < 3; ++axis) matrix[axis] *= double{t.scale[axis]};
-  matrix[3] = glm::dvec4(glm::dvec3(t.translation), 1);
-  return matrix;
-}
-
 }  // namespace
 
 MeshField::MeshField(const Model& model, const glm::dvec3& stretch, const glm::dvec3& shift, const Job& job)
@@ -89,11 +84,9 @@ MeshField::MeshField(const Model& model, const glm::dvec3& stretch, const glm::d
       }
     }
   };
-  std::vector<glm::dmat4> world(model.nodes.size());
+  const std::vector<glm::dmat4> world = world_matrices(model);
   for (std::size_t i = 0; i < model.nodes.size(); ++i) {
     const Node& node = model.nodes[i];
-    world[i] = matrix_of(node.transform);
-    if (node.parent >= 0) world[i] = world[static_cast<std::size_t>(node.parent)] * world[i];
     if (node.mesh < 0) continue;
     const MeshGroup& group = model.meshes[static_cast<std::size_t>(node.mesh)];
     if (node.instances.transforms.empty()) add(group, world[i]);

@@ -4,6 +4,8 @@
 #include <glm/geometric.hpp>
 #include <numeric>
 
+#include "core/base/disjoint_sets.h"
+
 namespace seedmesh {
 namespace {
 
@@ -17,29 +19,17 @@ constexpr std::size_t comparisons_a_check = 50'000;
 class NearGroups {
  public:
   NearGroups(std::span<const dvec3> points, double reach, const Job& job)
-      : points_(points), reach_(reach), job_(job), parent_(points.size()), order_(points.size()) {
-    std::iota(parent_.begin(), parent_.end(), 0U);
+      : points_(points), reach_(reach), job_(job), sets_(points.size()), order_(points.size()) {
     std::iota(order_.begin(), order_.end(), 0U);
     cut(order_, 0, 0);
   }
 
   std::vector<std::uint32_t> take() {
-    for (std::uint32_t i = 0; i < parent_.size(); ++i) parent_[i] = root(i);
-    return std::move(parent_);
+    for (std::uint32_t i = 0; i < order_.size(); ++i) order_[i] = sets_.of(i);
+    return std::move(order_);
   }
 
  private:
-  std::uint32_t root(std::uint32_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-
-  void unite(std::uint32_t a, std::uint32_t b) {
-    a = root(a);
-    b = root(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-
   void count_comparisons(std::size_t count) {
     comparisons_ += count;
     if (comparisons_ < comparisons_a_check) return;
@@ -74,12 +64,12 @@ class NearGroups {
     // Points within half the reach of the first are all near each other.
     const auto rest = std::stable_partition(group.begin() + 1, group.end(), [&](std::uint32_t i) {
       const bool is_near = are_near(group[0], i, 0.5 * reach_);
-      if (is_near) unite(group[0], i);
+      if (is_near) sets_.join(group[0], i);
       return is_near;
     });
     for (auto a = rest; a != group.end(); ++a) {
       for (auto b = group.begin(); b != a; ++b) {
-        if (are_near(*a, *b, reach_)) unite(*a, *b);
+        if (are_near(*a, *b, reach_)) sets_.join(*a, *b);
       }
       count_comparisons(static_cast<std::size_t>(a - group.begin()));
     }
@@ -88,7 +78,8 @@ class NearGroups {
   std::span<const dvec3> points_;
   double reach_;
   const Job& job_;
-  std::vector<std::uint32_t> parent_, order_;
+  DisjointSets sets_;
+  std::vector<std::uint32_t> order_;
   std::size_t comparisons_ = 0;
 };
 

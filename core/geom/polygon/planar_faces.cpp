@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/disjoint_sets.h"
 #include "core/geom/polygon/planar_graph.h"
 
 namespace seedmesh {
@@ -51,14 +52,24 @@ LoopBox box_of(const PlanarFaces& faces, const PlanarFaces::Loop& loop, std::spa
   return box;
 }
 
+/// Connected nodes as sets.
+DisjointSets components_of(std::size_t nodes, std::span<const PlanarEdge> edges) {
+  DisjointSets sets(nodes);
+  for (const PlanarEdge& edge : edges) {
+    if (!edge.is_removed()) sets.join(edge.from, edge.to);
+  }
+  return sets;
+}
+
 /// Puts the outer walk of each component into the smallest face around it. A point of the component's own
 /// outline is inside no loop of the component itself, apart from those that pass through the point.
 void nest(PlanarFaces& faces, std::span<const CmPoint> nodes, std::span<const PlanarEdge> edges,
-          std::span<const std::uint32_t> component, const Job& job) {
+          const Job& job) {
+  DisjointSets components = components_of(nodes.size(), edges);
   std::vector<LoopBox> boxes;
   for (const PlanarFaces::Loop& loop : faces.loops) boxes.push_back(box_of(faces, loop, nodes, edges));
   const auto component_of = [&](const PlanarFaces::Loop& loop) {
-    return component[start_of(edges, faces.half_edges[loop.first])];
+    return components.of(start_of(edges, faces.half_edges[loop.first]));
   };
   for (std::uint32_t i = 0; i < faces.loops.size(); ++i) {
     PlanarFaces::Loop& loop = faces.loops[i];
@@ -77,23 +88,6 @@ void nest(PlanarFaces& faces, std::span<const CmPoint> nodes, std::span<const Pl
     loop.face = faces.loops[owner].face;
     faces.faces[loop.face].holes.push_back(i);
   }
-}
-
-/// By node: the lowest node that it is connected with.
-std::vector<std::uint32_t> components_of(std::size_t nodes, std::span<const PlanarEdge> edges) {
-  std::vector<std::uint32_t> root(nodes);
-  for (std::uint32_t i = 0; i < nodes; ++i) root[i] = i;
-  const auto find = [&root](std::uint32_t i) {
-    while (root[i] != i) i = root[i] = root[root[i]];
-    return i;
-  };
-  for (const PlanarEdge& edge : edges) {
-    if (edge.is_removed()) continue;
-    const std::uint32_t a = find(edge.from), b = find(edge.to);
-    root[std::max(a, b)] = std::min(a, b);
-  }
-  for (std::uint32_t i = 0; i < nodes; ++i) root[i] = find(i);
-  return root;
 }
 
 }  // namespace
@@ -148,8 +142,7 @@ PlanarFaces faces_of(std::span<const CmPoint> nodes, std::span<const PlanarEdge>
     }
     faces.loops.push_back(loop);
   }
-  const std::vector<std::uint32_t> component = components_of(nodes.size(), edges);
-  nest(faces, nodes, edges, component, job);
+  nest(faces, nodes, edges, job);
   return faces;
 }
 

@@ -4,6 +4,7 @@
 #include <glm/geometric.hpp>
 #include <map>
 
+#include "core/base/disjoint_sets.h"
 #include "core/geom/polygon/near_groups.h"
 #include "core/geom/polygon/wavefront.h"
 
@@ -17,17 +18,6 @@ double distance(const dvec2& a, const dvec2& b) {
   return std::sqrt(d.x * d.x + d.y * d.y);
 }
 
-std::uint32_t first_of(std::vector<std::uint32_t>& parent, std::uint32_t i) {
-  while (parent[i] != i) i = parent[i] = parent[parent[i]];
-  return i;
-}
-
-void unite(std::vector<std::uint32_t>& parent, std::uint32_t a, std::uint32_t b) {
-  a = first_of(parent, a);
-  b = first_of(parent, b);
-  parent[std::max(a, b)] = std::min(a, b);
-}
-
 }  // namespace
 
 /// All corners and positions on edges that take part in the events. `first` groups those at the same
@@ -35,11 +25,10 @@ void unite(std::vector<std::uint32_t>& parent, std::uint32_t a, std::uint32_t b)
 std::vector<Wavefront::Touch> Wavefront::touches_of(const std::vector<Event>& batch) const {
   std::vector<Touch> touches;
   std::map<std::uint32_t, std::uint32_t> number;
-  std::vector<std::uint32_t> parent;
+  DisjointSets sets;
   const auto add = [&](const Touch& touch) {
     touches.push_back(touch);
-    parent.push_back(static_cast<std::uint32_t>(parent.size()));
-    return parent.back();
+    return sets.add();
   };
   const auto add_corner = [&](std::uint32_t corner) {
     const auto [found, is_new] = number.try_emplace(corner, static_cast<std::uint32_t>(touches.size()));
@@ -49,7 +38,7 @@ std::vector<Wavefront::Touch> Wavefront::touches_of(const std::vector<Event>& ba
   for (const Event& event : batch) {
     const Edge& edge = edges_[event.edge];
     if (event.corner == none) {
-      unite(parent, add_corner(edge.start), add_corner(edge.end));
+      sets.join(add_corner(edge.start), add_corner(edge.end));
       continue;
     }
     const std::uint32_t hit = add_corner(event.corner);
@@ -57,10 +46,10 @@ std::vector<Wavefront::Touch> Wavefront::touches_of(const std::vector<Event>& ba
     bool is_at_end = false;
     for (const std::uint32_t end : {edge.start, edge.end}) {
       if (distance(place, place_of(end)) > near_) continue;
-      unite(parent, hit, add_corner(end));
+      sets.join(hit, add_corner(end));
       is_at_end = true;
     }
-    if (!is_at_end) unite(parent, hit, add({place, none, event.edge, 0}));
+    if (!is_at_end) sets.join(hit, add({place, none, event.edge, 0}));
   }
   // Shrinking edges shorter than the tolerance beside an event end with it. Otherwise a front that shrinks to one
   // point would take thousands of events there, whose times differ by rounding errors alone.
@@ -73,15 +62,15 @@ std::vector<Wavefront::Touch> Wavefront::touches_of(const std::vector<Event>& ba
         const Edge& edge = edges_[forward ? corners_[at].out : corners_[at].in];
         at = forward ? edge.end : edge.start;
         if (!std::isfinite(edge.until) || distance(place, place_of(at)) > near_ || number.contains(at)) break;
-        unite(parent, seed, add_corner(at));
+        sets.join(seed, add_corner(at));
       }
     }
   }
   std::vector<glm::dvec3> places;
   for (const Touch& touch : touches) places.emplace_back(touch.place, 0.0);
   const std::vector<std::uint32_t> group = near_groups(places, near_, job_);
-  for (std::uint32_t i = 0; i < touches.size(); ++i) unite(parent, i, group[i]);
-  for (std::uint32_t i = 0; i < touches.size(); ++i) touches[i].first = first_of(parent, i);
+  for (std::uint32_t i = 0; i < touches.size(); ++i) sets.join(i, group[i]);
+  for (std::uint32_t i = 0; i < touches.size(); ++i) touches[i].first = sets.of(i);
   return touches;
 }
 

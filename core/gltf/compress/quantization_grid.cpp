@@ -2,35 +2,15 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <set>
 
+#include "core/base/disjoint_sets.h"
 #include "core/gltf/compress/quantize.h"
 
 namespace seedmesh::gltf {
 namespace {
 
 constexpr float most_steps = 65'534;  ///< one less than 65,535, because the origin is rounded down
-
-/// Disjoint sets of meshes (union-find). The smallest member represents its set.
-class DisjointSets {
- public:
-  explicit DisjointSets(std::size_t size) : parent_(size) {
-    std::iota(parent_.begin(), parent_.end(), std::size_t{0});
-  }
-  std::size_t of(std::size_t member) {
-    while (parent_[member] != member) member = parent_[member] = parent_[parent_[member]];
-    return member;
-  }
-  void join(std::size_t a, std::size_t b) {
-    a = of(a);
-    b = of(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<std::size_t> parent_;
-};
 
 std::vector<int> shown_by(const Node& node) {
   std::vector<int> meshes = node.lods;
@@ -46,11 +26,11 @@ DisjointSets shared(const Model& model) {
   for (const Node& node : model.nodes) {
     const std::vector<int> meshes = shown_by(node);
     for (const int mesh : meshes)
-      sets.join(static_cast<std::size_t>(meshes.front()), static_cast<std::size_t>(mesh));
+      sets.join(static_cast<std::uint32_t>(meshes.front()), static_cast<std::uint32_t>(mesh));
     if (node.skin < 0 || meshes.empty()) continue;
     int& first = first_of_skin[static_cast<std::size_t>(node.skin)];
     if (first < 0) first = meshes.front();
-    sets.join(static_cast<std::size_t>(first), static_cast<std::size_t>(meshes.front()));
+    sets.join(static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(meshes.front()));
   }
   return sets;
 }
@@ -119,7 +99,7 @@ std::vector<Grid> grids_of(const Model& model, const GridOptions& options) {
   constexpr float far = std::numeric_limits<float>::max();
   DisjointSets sets = shared(model);
   std::vector<Box> boxes(model.meshes.size(), Box{glm::vec3(far), glm::vec3(-far)});
-  for (std::size_t i = 0; i < model.meshes.size(); ++i) {
+  for (std::uint32_t i = 0; i < sets.size(); ++i) {
     Box& box = boxes[sets.of(i)];
     for (const Primitive& primitive : model.meshes[i].primitives) {
       if (primitive.mesh.vertices() == 0) continue;
@@ -128,16 +108,16 @@ std::vector<Grid> grids_of(const Model& model, const GridOptions& options) {
     }
   }
   std::vector<Grid> grids;
-  for (std::size_t i = 0; i < model.meshes.size(); ++i)
+  for (std::uint32_t i = 0; i < sets.size(); ++i)
     grids.push_back(grid_of(boxes[sets.of(i)], options.least_extent));
   if (!options.keeps_copies) return grids;
   std::vector<bool> is_copied(model.meshes.size(), false);
   for (const Node& node : model.nodes) {
     const std::vector<int> meshes = shown_by(node);
     if (!meshes.empty() && !node.instances.transforms.empty())
-      is_copied[sets.of(static_cast<std::size_t>(meshes.front()))] = true;
+      is_copied[sets.of(static_cast<std::uint32_t>(meshes.front()))] = true;
   }
-  for (std::size_t i = 0; i < grids.size(); ++i) {
+  for (std::uint32_t i = 0; i < grids.size(); ++i) {
     if (is_copied[sets.of(i)]) grids[i] = {.is_exact = true};
   }
   return grids;

@@ -15,7 +15,7 @@
 #include "core/gltf/write/lists.h"
 #include "core/gltf/write/materials.h"
 #include "core/gltf/write/nodes.h"
-#include "core/model/transform.h"
+#include "core/model/build.h"
 
 namespace seedmesh::gltf {
 namespace {

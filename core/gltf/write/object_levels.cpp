@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/model/transform.h"
+#include "core/model/build.h"
 
 namespace seedmesh::gltf {
 
