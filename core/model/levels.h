@@ -2,6 +2,7 @@
 /// Queries on the levels of detail of a model.
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "core/model/model.h"
@@ -19,6 +20,12 @@ int mesh_at(const Node& node, std::size_t level);
 /// coarsest is shown from 0 on. An impostor is shown from 12 % of the screen's height at the earliest, because
 /// its texture is not sharp enough for larger sizes.
 std::vector<float> screen_shares(const Node& node, std::size_t coarser);
+
+/// Returns the name of a mesh at a level: "bark", "bark_LOD1", ...
+template <class Integer>
+std::string level_name(const std::string& name, Integer level) {
+  return level == 0 ? name : name + "_LOD" + std::to_string(level);
+}
 
 /// Triangles of all primitives of `group`.
 std::uint64_t triangles_of(const MeshGroup& group);

@@ -13,6 +13,7 @@
 #include "core/geom/plant/organs.h"
 #include "core/gltf/read/read.h"
 #include "core/model/build.h"
+#include "core/model/levels.h"
 #include "core/texture/leaf.h"
 
 namespace seedmesh::lsystem {
@@ -227,10 +228,6 @@ Organs with_material_index(const Organs& organs, const MaterialSet& material_set
   return own;
 }
 
-std::string level_name(const std::string& name, int level) {
-  return level == 0 ? name : name + "_LOD" + std::to_string(level);
-}
-
 /// Returns the coarsest mesh of each surface, as its footprint.
 std::vector<Mesh> footprints_of(const LsystemParams& params, const SurfaceModels& surface_models,
                                 const Job& job) {
@@ -325,7 +322,7 @@ void add_shared(Model& model, const Foliated& foliated, const LsystemParams& par
     node.instances.transforms = std::move(places.places);
     const int material = finest.material(places.surface, places.color, material_set);
     for (std::size_t level = 0; level < levels.size(); ++level) {
-      add_level(node, add_mesh(model, level_name(node.name, static_cast<int>(level)),
+      add_level(node, add_mesh(model, level_name(node.name, level),
                                copy_of(levels[level].meshes[places.surface], job), material));
     }
     model.nodes.push_back(std::move(node));

@@ -131,8 +131,7 @@ class Assembly {
     if (generator_of(variant_table_.variants[number])->repeats_parts) separate_bodies(made);
     std::vector<std::vector<Primitive>> levels = extract_levels(made, job_);
     for (std::size_t level = 0; level < levels.size(); ++level) {
-      const int mesh = add_mesh(name + (level > 0 ? "_LOD" + std::to_string(level) : ""),
-                                std::move(levels[level]), materials);
+      const int mesh = add_mesh(level_name(name, level), std::move(levels[level]), materials);
       if (mesh < 0) continue;
       own.meshes.push_back(mesh);
       own.lod_info.triangles.push_back(triangles_of(model_.meshes[static_cast<std::size_t>(mesh)]));

@@ -12,6 +12,7 @@
 #include "core/generators/material_members.h"
 #include "core/generators/scene/ground.h"
 #include "core/model/build.h"
+#include "core/model/levels.h"
 #include "core/schema/json.h"
 #include "generated/params/scene.h"
 
@@ -178,7 +179,7 @@ void add_group(Model& model, PathGroup& group, const std::vector<double>& errors
   for (const double error : errors) coarser.push_back(copy_of(mesh, error, job));
   Node& node = add_node(model, "path", 0, add_mesh(model, "path", std::move(mesh), number));
   for (std::size_t i = 0; i < coarser.size(); ++i)
-    add_level(node, add_mesh(model, "path_LOD" + std::to_string(i + 1), std::move(coarser[i]), number));
+    add_level(node, add_mesh(model, level_name("path", i + 1), std::move(coarser[i]), number));
 }
 
 }  // namespace

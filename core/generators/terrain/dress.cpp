@@ -192,9 +192,8 @@ class Dressing {
       Piece& made = pieces[i];
       const int node = add_child(model, name, -1);
       for (std::size_t k = 0; k < made.meshes.size(); ++k) {
-        show(
-            model.nodes[static_cast<std::size_t>(node)],
-            add_ground_mesh(model, level_name(name, static_cast<int>(k)), std::move(made.meshes[k]), ground));
+        show(model.nodes[static_cast<std::size_t>(node)],
+             add_ground_mesh(model, level_name(name, k), std::move(made.meshes[k]), ground));
       }
       for (std::size_t k = 0; k < made.notes.size(); ++k) note(static_cast<int>(k), made.notes[k]);
     }

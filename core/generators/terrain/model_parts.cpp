@@ -28,8 +28,4 @@ int add_child(Model& model, std::string name, int mesh) {
   return static_cast<int>(model.nodes.size()) - 1;
 }
 
-std::string level_name(const std::string& name, int level) {
-  return level == 0 ? name : name + "_LOD" + std::to_string(level);
-}
-
 }  // namespace seedmesh::terrain

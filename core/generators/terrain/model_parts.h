@@ -4,6 +4,7 @@
 #include <string>
 
 #include "core/model/build.h"
+#include "core/model/levels.h"
 
 namespace seedmesh {
 struct TerrainParams;
@@ -16,8 +17,5 @@ Material water_material();
 
 /// Adds a node below the root, which is node 0, and returns its index.
 int add_child(Model& model, std::string name, int mesh);
-
-/// Returns the name of a level: "ground", "ground_LOD1", ...
-std::string level_name(const std::string& name, int level);
 
 }  // namespace seedmesh::terrain

@@ -6,6 +6,7 @@
 
 #include "core/base/math.h"
 #include "core/model/build.h"
+#include "core/model/levels.h"
 
 namespace seedmesh {
 namespace {
@@ -159,7 +160,7 @@ MeshGroup joined(const Model& model, const Copies& copies, std::size_t level, Jo
       for (const glm::dmat4& place : copies.places[i]) groups[found->second].push_back({&primitive, &place});
     }
   }
-  MeshGroup group{level == 0 ? "copies" : "copies_LOD" + std::to_string(level), {}};
+  MeshGroup group{level_name("copies", level), {}};
   for (const std::vector<Placed>& parts : groups) {
     const Primitive& first = *parts.front().primitive;
     group.primitives.push_back({Joining(parts, job).take(), first.material, first.variant_materials});
