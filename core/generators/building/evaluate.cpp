@@ -146,14 +146,14 @@ lang::TaggedValue number_or_text(Derivation& d, const Value& value) {
 namespace {
 
 /// The value of an attribute. In a rule file of CityEngine one that cannot be computed is 0, with a warning.
-lang::TaggedValue value_or_fault(Derivation& d, const Attribute& attribute) {
+lang::TaggedValue value_or_zero(Derivation& d, const Attribute& attribute) {
   if (!d.grammar.is_cityengine) return evaluate(d, attribute.value);
   lang::TaggedValue value;
   ++d.guarded_steps;
   try {
     value = evaluate(d, attribute.value);
-  } catch (const StepError& fault) {
-    warn(d, fault.offset, fault.message + "; " + lang::in_quotes(attribute.name) + " is 0");
+  } catch (const StepError& error) {
+    warn(d, error.offset, error.message + "; " + lang::in_quotes(attribute.name) + " is 0");
   }
   --d.guarded_steps;
   return value;
@@ -173,7 +173,7 @@ void evaluate_attributes(Derivation& d, const ShapeState& first) {
     } else {
       d.random = d.job.rng().at("attribute").at(attribute.name);
       d.is_filled = true;
-      value = value_or_fault(d, attribute);
+      value = value_or_zero(d, attribute);
     }
     d.slots[attribute.slot] = value;
     values[attribute.slot - d.grammar.first_attribute_slot] = value;

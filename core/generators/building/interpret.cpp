@@ -213,11 +213,11 @@ void run_step(Derivation& d, const OperatorRow& row, const Step& step, ShapeStat
     const ShapeState face = state;
     row.run(d, step, state, site);
     if (is_theirs) stand_up(d, step, face, state);
-  } catch (const StepError& fault) {
+  } catch (const StepError& error) {
     state = before;
     d.depth_of_inline = depth;
     d.component = component;
-    warn(d, fault.offset, fault.message + "; the operation is left out");
+    warn(d, error.offset, error.message + "; the operation is left out");
   }
   --d.guarded_steps;
 }
@@ -294,8 +294,8 @@ bool expand(Derivation& d, std::uint32_t index) {
   if (d.grammar.is_cityengine) ++d.guarded_steps;
   try {
     choice = choose(d, index);
-  } catch (const StepError& fault) {  // the shape stays as it is
-    warn(d, fault.offset, fault.message + "; the rule is left out");
+  } catch (const StepError& error) {  // the shape stays as it is
+    warn(d, error.offset, error.message + "; the rule is left out");
   }
   if (d.grammar.is_cityengine) --d.guarded_steps;
   if (choice == nullptr) {

@@ -1,6 +1,7 @@
 #include "core/generators/terrain/terrain.h"
 
 #include <algorithm>
+#include <array>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -14,6 +15,7 @@
 #include "core/generators/terrain/triangulation.h"
 #include "core/generators/terrain/voids.h"
 #include "core/model/build.h"
+#include "core/schema/warning_list.h"
 #include "generated/params/terrain.h"
 
 namespace seedmesh::terrain {
@@ -184,8 +186,7 @@ Result<Json> derive(const TerrainParams& params, const GenerateContext& context)
   if (!made) return made.error();
   if (made->voids > 0) {
     answer["voids"] = made->voids;
-    const Warning warning = void_warning(*made);
-    answer["warnings"].push_back({{"pointer", warning.pointer}, {"message", warning.message}});
+    answer["warnings"] = warning_list(std::array{void_warning(*made)});
   }
   const Field field = cropped(std::move(*made), 0, job);
   const Range range = range_of(field, job);
