@@ -112,7 +112,7 @@ class Translator {
       clause.words += (i == 0 ? "" : i + 1 < list.size() ? ", " : " or ") + words_of(list[i]);
     }
     clause.holds = (is_none ? "!(" : "(") + clause.holds + ")";
-    const bool is_absence = list[0].is_null() || list[0].empty() || list[0] == "";
+    const bool is_absence = list[0].is_null() || list[0].empty() || list[0].empty();
     const std::string positive = target.name + " is " + clause.words;
     if (is_absence) {
       clause.words = target.name + (is_none ? " is given" : " is left out");
@@ -145,7 +145,7 @@ class Translator {
       case Kind::integer:
         return value.is_number_integer() ? name + " == " + value.dump() : "";
       case Kind::text:
-        return value == ""         ? name + ".empty()"
+        return value.empty()       ? name + ".empty()"
                : value.is_string() ? name + " == " + quoted(value.get<std::string>())
                                    : "";
       case Kind::list:
@@ -228,9 +228,10 @@ std::string descend(const Type& type, const std::string& value, const std::strin
       std::string text;
       for (std::size_t i = 0; i < type.parts.size(); ++i) {
         const std::string inside = descend(type.parts[i], "(*part" + number + ")", pointer, depth + 1);
-        if (!inside.empty())
+        if (!inside.empty()) {
           text += "if (const auto* part" + number + " = std::get_if<" + std::to_string(i) + ">(&" + value +
                   ")) {\n" + inside + "}\n";
+        }
       }
       return text;
     }

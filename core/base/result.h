@@ -1,6 +1,6 @@
 #pragma once
 /// Results of operations that can fail because of the request. Failures that a request can cause are returned
-/// as a Result; violated preconditions are asserts; Stop, thrown by Job (job.h), is the only exception.
+/// as a Result; violated preconditions are asserts; Stop, thrown by Job (job.h), ends a request early.
 #include <cassert>
 #include <cstdint>
 #include <optional>

@@ -1,6 +1,6 @@
 #pragma once
-/// Species of the model of Weber and Penn as other programs save them: the parameters of the paper under their names,
-/// with the position of each.
+/// Parameters of a tree of Weber and Penn, as files of other programs have them: by the name that the paper uses, with
+/// the offset of each value in the file.
 #include <array>
 #include <map>
 #include <string>
@@ -40,7 +40,7 @@ class WeberPennSpecies {
   std::map<std::string, Value> values_;
 };
 
-/// Returns the shape of leaves for a number of a program; "simple" for other numbers.
+/// Returns the name of the leaf shape that a program stores as a number; "simple" if `names` has none for it.
 std::string leaf_shape_of(double number, std::array<const char*, 11> names);
 
 }  // namespace seedmesh

@@ -11,7 +11,7 @@ namespace seedmesh {
 /// Returns the number of levels.
 int level_count(const OutputParams& output);
 
-/// Whether the triangles of levels are given: a list of several levels, or of one that is smaller than the model.
+/// Whether output.lods gives numbers of triangles: a list of several levels, or of one level smaller than the model.
 bool has_listed_levels(const OutputParams& output);
 
 /// Returns the list as numbers of triangles, for a model with `whole` triangles: shares up to 1 of it, and numbers

@@ -19,7 +19,7 @@
 
 namespace seedmesh::building {
 
-/// A cell with its evaluated size. The cells of a group are adjacent, somewhere behind the group.
+/// A cell with its evaluated size. A group refers to a range of cells that follow it in the array.
 struct Cell {
   double size = 0;
   Measure measure = Measure::absolute;

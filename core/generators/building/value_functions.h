@@ -8,7 +8,7 @@
 
 namespace seedmesh::building {
 
-/// Where a function is called: in the derivation, for the shape that it looks at, at a byte of the rules.
+/// The context of a call: the derivation, whose current shape the function reads, and a byte offset in the rules.
 struct Evaluation {
   Derivation& d;
   std::uint32_t offset = 0;
@@ -42,8 +42,9 @@ std::uint32_t value_function_count();
 [[noreturn]] void reject(const Evaluation& at, const std::string& message);
 
 // Arguments and results.
-std::string text_in(const Evaluation& at, const lang::TaggedValue& value);  ///< numbers are written out
-double number_in(const Evaluation& at, const lang::TaggedValue& value);     ///< a text is rejected
+std::string text_in(const Evaluation& at,
+                    const lang::TaggedValue& value);  ///< a number gives its decimal digits
+double number_in(const Evaluation& at, const lang::TaggedValue& value);  ///< a text is rejected
 lang::TaggedValue text_value(Evaluation& at, std::string_view text);
 inline lang::TaggedValue number_value(double number) { return {number, 0}; }
 inline lang::TaggedValue truth_value(bool truth) { return {truth ? 1.0 : 0.0, 0}; }

@@ -1,5 +1,5 @@
 #pragma once
-/// Joins the meshes of many models that have one copy each by chunk and material. Engines draw few large meshes
+/// Joins meshes of models that stand only once. Meshes of the same chunk and material become one mesh. Engines draw few large meshes
 /// faster than thousands of small ones, and files are smaller.
 #include <map>
 #include <tuple>

@@ -20,8 +20,8 @@ enum class BelowGround { counted, left_out };
 /// Returns the pieces of limbs with at least a third of the radius of the trunk, at most 32. Cost: linear.
 std::vector<LimbBody> limb_bodies(const Limbs& limbs, BelowGround below, Job& job);
 
-/// Adds a node and a mesh for each body: a closed prism with eight sides. Names follow context.demand.collision;
-/// nothing is added where it is none.
+/// Adds a node and a mesh for each body: a closed prism with eight sides. context.demand.collision
+/// selects the form of the names; with CollisionNames::none nothing is added.
 void add_limb_bodies(Model& model, const std::vector<LimbBody>& bodies, const GenerateContext& context);
 
 }  // namespace seedmesh

@@ -17,7 +17,7 @@ struct WrittenConstant {
 
 /// Evaluates the constants in order of dependency and returns them as bound names. Issues at
 /// "/constants/<name>": syntax errors, a cycle with all its names, a value that is not finite. Random
-/// functions draw from `rng` at the name of the constant.
+/// functions in a constant draw from the stream rng.at(name of the constant).
 lang::Names resolve_constants(const std::vector<WrittenConstant>& constants, const Rng& rng,
                               std::vector<Issue>& issues);
 

@@ -13,8 +13,8 @@ namespace seedmesh::scene {
 
 class Ground;
 
-/// Adds a mesh below the first node for each visible path, slightly above the ground. If there are more than 256
-/// paths, adds one mesh for each colour instead. `cell` is the cell size of the ground grid, 0 for level ground.
+/// Adds a mesh for each visible path, slightly above the ground. Its node is a child of the first node. If there are more
+/// than 256 paths, adds one mesh for each colour instead. `cell` is the cell size of the ground grid, 0 for level ground.
 /// Spends triangles; an exceeded limit points to the path.
 void add_path_bands(Model& model, const std::vector<ScenePath>& paths, const Ground& ground, double cell,
                     Job& job);

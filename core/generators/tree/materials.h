@@ -41,7 +41,8 @@ bool has_bark_relief(const TreeParams& params);
 /// Adds a material and returns its index. Throws Stop (Code::invalid) for a damaged image.
 int add_bark_material(Model& model, const TreeParams& params, const Job& job);
 
-/// Materials of all seasons with leaves as Model::variants. They share one texture and differ in colour.
+/// The materials of leaves, one for each season that has leaves. They are Model::variants, which share one texture and
+/// differ in colour.
 struct LeafMaterials {
   int material = -1;          ///< material of the season of the request
   std::vector<int> variants;  ///< indices by Model::variants; may be empty

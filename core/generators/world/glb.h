@@ -1,6 +1,6 @@
 #pragma once
-/// A small writer of binary glTF for tiles. Tiles have double translations and quantized attributes by a step that
-/// the level fixes, which the writer of models does not offer.
+/// A small writer of binary glTF for tiles. The writer of models offers neither translations of double precision nor
+/// a quantization step that the caller chooses; tiles need both.
 #include <cstdint>
 #include <map>
 #include <nlohmann/json.hpp>

@@ -6,8 +6,8 @@
 
 namespace seedmesh::world {
 
-/// Returns the least width of the ribbon of a large river. Tiles with a greater spacing are seen from farther
-/// away, also by clients that ask for small errors.
+/// Returns the least width of the ribbon of a large river, for a tile with this spacing of samples. Such a tile is seen
+/// from a distance that grows with the spacing, even by clients that ask for small errors.
 constexpr double least_ribbon(double spacing) { return spacing * (0.016 + 0.3 * spacing / (spacing + 300)); }
 
 /// Returns the height in metres of draped water above the terrain.

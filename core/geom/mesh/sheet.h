@@ -9,7 +9,7 @@ namespace seedmesh {
 /// Returns a mesh with these four arrays, all empty.
 Mesh empty_sheet(const Job& job);
 
-/// Rotates each vertex normal that points behind one of its faces to the front of this face.
+/// Rotates vertex normals so that none faces away from a face of its vertex.
 void settle_normals(Mesh& mesh);
 
 /// Removes triangles without area, unused vertices and duplicates of vertices.

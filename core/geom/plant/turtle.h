@@ -49,7 +49,7 @@ class Turtle {
   void turn_around() { state_.frame = seedmesh::turn_around(state_.frame); }
   void upright() { state_.frame = seedmesh::upright(state_.frame); }
   void set_heading(const glm::dvec3& direction);  ///< sets the heading and rolls upright
-  void set_frame(const Frame& frame);             ///< any axes; heading counts first, then left
+  void set_frame(const Frame& frame);             ///< makes the axes orthonormal: keeps heading, then left
   void reset_frame();                             ///< the frame of the start: heading +Y, left -X, up +Z
 
   /// Limits the number of segments; without a call there is no limit.
@@ -118,7 +118,8 @@ class Turtle {
     std::vector<double> elasticity;
   };
   Pose pose() const;
-  /// Interpolates from `earlier` to the present pose: by `share`, and the rotation by `turned`.
+  /// Interpolates from `earlier` to the present pose: `share` is the share of all but the rotation, `turned` that of the
+  /// rotation.
   void take_share(const Pose& earlier, double share, double turned);
   /// Continues from the last joint if the turtle has moved away from it and back.
   void rejoin();

@@ -30,14 +30,15 @@ struct RoofStage {
 /// The plan of a roof, or that plan offset outwards for an overhang.
 struct RoofBase {
   Plan plan;
-  std::vector<std::uint32_t> source;  ///< edge of the plan of the roof, indexed by edge
+  std::vector<std::uint32_t>
+      source;  ///< for each edge of `plan`: the edge of the roof's plan that it comes from
   double height = 0;
 };
 
-/// Returns slopes by the straight skeleton, one stage after another. The rest of the last stage is horizontal.
-/// `jitter`: the points of the plan are first moved at random by up to this share of the diagonal. The lower
-/// border is not moved. Returns nullopt if no valid skeleton is found, even after moving points by `jitter`, at
-/// least a millionth of the diagonal.
+/// Returns slopes by the straight skeleton, one stage after another. A horizontal face closes the opening that the last
+/// stage leaves. The points of the plan are first moved at random by up to `jitter`, a share of the diagonal. The lower
+/// border is not moved. If no valid skeleton is found, a second attempt moves the points by at least a millionth of the
+/// diagonal; if that fails too, the result is nullopt.
 std::optional<RoofSurface> sloped_surface(const RoofBase& base, const std::vector<RoofStage>& stages,
                                           double jitter, const Job& job);
 
@@ -45,8 +46,8 @@ std::optional<RoofSurface> sloped_surface(const RoofBase& base, const std::vecto
 /// not visible from there or the plan has holes.
 std::optional<RoofSurface> fan_surface(const RoofBase& base, const glm::dvec3& apex);
 
-/// A plane of height 0 along the line through `at` in `direction`, which rises to its left with the slope `tangent`.
-/// Unless `is_bare`, vertical faces close it down to base.height.
+/// A sloped plane. It has the height 0 along the line through `at` in `direction`, and rises to the left of this line
+/// with the slope `tangent`. Unless `is_bare`, vertical faces close it down to base.height.
 struct RoofPlane {
   glm::dvec2 at{0}, direction{1, 0};
   double tangent = 0;
@@ -69,9 +70,9 @@ bool is_closed(const Roof& roof, bool is_cover, const Job& job);
 /// Returns the height of the highest point.
 double height_of(const RoofSurface& surface);
 
-/// Returns the height where the slope of a two-slope roof changes, so that it is a share of the whole height.
-/// `depth` is the distance from the eave to the innermost point of the plan. `steep` and `flat` are tangents. A
-/// share above 1 counts as 1.
+/// Returns the height at which the slope of a two-slope roof changes from `steep` to `flat`, which are tangents. This
+/// height is `share` of the height of the roof; a share above 1 counts as 1. `depth` is the distance from the eave to the
+/// innermost point of the plan.
 double break_at(double share, double depth, double steep, double flat);
 
 }  // namespace seedmesh

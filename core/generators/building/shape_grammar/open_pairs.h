@@ -13,14 +13,14 @@ struct BuildingPair;
 
 namespace seedmesh::building {
 
-/// Shares of the ranges of open variables for which left shapes are read.
+/// Left shapes are read for two values of each open variable: at these shares of its range.
 constexpr double first_sample = 0.38, second_sample = 0.62;
 
 /// Returns a value for each open variable, at this share of its range.
 std::vector<double> samples_of(const PicturePair& pair, double share);
 PictureValues named(const PicturePair& pair, const std::vector<double>& values);
 
-/// Reports variables that are named twice or like a parameter, and empty ranges.
+/// Reports empty ranges, and variables that share a name with another variable or with a parameter.
 void check_open_variables(const BuildingPair& given, const std::string& pointer, std::vector<Issue>& issues);
 
 /// Returns the left shape for these values.
@@ -39,12 +39,12 @@ struct OpenAnchor {
   std::vector<std::uint32_t> beside;  ///< anchors at the other ends of lines that begin here
 };
 
-/// Returns one anchor for each point. Ends of lines that meet others are crossings.
+/// Returns one anchor for each point. An end that lines of several directions share has the kind anchor_crossing.
 std::vector<OpenAnchor> open_anchors(const PicturePair& pair);
 
-/// Returns the order in which anchors are searched: enough of them, those with few candidates first. In space the
-/// first three have directions that do not depend on the variables. `per_line` is the mean number of points on a
-/// line of the picture. The result is empty if they do not determine a similarity and values.
+/// Returns the anchors to search for, in this order: as many as determine the similarity and the values, those with few
+/// candidates first. In space, the directions between the first three do not depend on the variables. `per_line` is the
+/// mean number of points on a line of the picture. The result is empty if all anchors together are not enough.
 std::vector<std::uint32_t> search_order(const std::vector<OpenAnchor>& anchors, bool is_flat,
                                         const std::map<std::uint32_t, std::size_t>& counts, double per_line);
 

@@ -12,11 +12,11 @@
 /// match.
 ///
 /// A left shape with open variables is a family (Stiny, "Ice-ray: a note on the generation of Chinese lattice
-/// designs", 1977): a match also determines their values. Points of the left shape are linear in the values, and
-/// so are the equations of an inverse similarity that maps points of the picture to them.
+/// designs", 1977): a match also determines their values. Points of the left shape are linear in these values.
+/// The inverse similarity, from the picture to the left shape, therefore has linear equations.
 ///
 /// Shapes smaller than 10^-5 of the picture are not found, so that rules that make ever smaller shapes end.
-/// The rule (by weight) and the match are random, by the number of the step.
+/// In each step, the rule (by weight) and the match are chosen at random; the number of the step is the key.
 #include <map>
 #include <optional>
 #include <string>

@@ -20,8 +20,8 @@ inline bool has_deep_ribs(const GraftOptions& options) {
   return options.lobes > 0 && options.lobe_depth > deep_ribs;
 }
 
-/// Returns the corners of a ring with ribs, which would have `sides` corners without ribs: at least three for each rib.
-/// With deep ribs all rings of the limb have the same number, at least four for each rib.
+/// Returns the number of corners of a ring that would have `sides` corners without ribs: at least three for each rib.
+/// With deep ribs, all rings of a limb have the same number, at least four for each rib.
 inline int ribbed_corners(const GraftOptions& options, int sides) {
   if (options.lobes == 0) return sides;
   if (!has_deep_ribs(options)) return std::max({sides, 3 * options.lobes, 8});
