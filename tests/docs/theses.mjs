@@ -161,7 +161,7 @@ Use this page when you have one of the five theses beside you and look for the p
 
 Seedmesh began with five theses. This page lists their systems, tables and figures, and compares each number with what the program gives.
 
-- *Printed* is the number or word in the thesis. In parentheses it is not printed, but follows from what is printed.
+- *Printed* is the number or word in the thesis. One in parentheses follows from what is printed.
 - *We get* is computed by the program for the preset or request of the row.
 - *Missing* rows are things that Seedmesh cannot make yet.
 - *No number* rows have a model, but the thesis prints nothing to compare with.
