@@ -4,7 +4,7 @@
 #include <charconv>
 #include <cmath>
 
-#include "core/generators/lsystem/compiler.h"
+#include "core/generators/lsystem/compilation.h"
 #include "core/schema/json.h"
 
 namespace seedmesh::lsystem {
@@ -41,41 +41,146 @@ bool is_name_part(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
 }
 
-}  // namespace
-
-void Compiler::warn(Warning warning) {
-  if (grammar_.warnings.size() < most_warnings) {
-    grammar_.warnings.push_back(std::move(warning));
+void warn(Compilation& c, Warning warning) {
+  if (c.grammar.warnings.size() < most_warnings) {
+    c.grammar.warnings.push_back(std::move(warning));
   } else {
-    ++unreported_;
+    ++c.unreported;
   }
 }
 
-void Compiler::warn(Source& source, std::size_t offset, std::string message) {
-  if (grammar_.warnings.size() >= most_warnings) {
-    ++unreported_;
+/// Probabilities are weights. A sum other than 1 is usually a mistake: a warning, or an error where the weights are strict.
+void warn_of_weights(Compilation& c, const Rules& rules) {
+  for (const Range& range : rules.of_kind) {
+    double sum = 0;
+    const Production* first = nullptr;
+    bool known = true;
+    for (std::uint32_t i = range.first; i < range.first + range.count; ++i) {
+      const Production& each = rules.productions[i];
+      if (!each.weighted) continue;
+      if (!first) first = &each;
+      known = known && each.weight.is_constant && !each.conditional && !each.has_context();
+      sum += each.weight.value;
+    }
+    if (!first || !known || std::abs(sum - 1) <= 1e-6) continue;
+    if (!c.warned.insert(first->pointer + ":").second) continue;
+    const std::string& symbol = c.grammar.kinds[first->predecessor].symbol;
+    if (c.params.weights == LsystemParams::Weights::strict) {
+      c.issues.push_back({IssueKind::invalid_value, first->pointer,
+                          "the probabilities of the productions of `" + symbol + "` sum to " +
+                              number_text(std::round(sum * 1e9) / 1e9) +
+                              ", expected 1 because `weights` is strict"});
+      continue;
+    }
+    warn(c, {first->pointer,
+             "the probabilities of the productions of `" + symbol +
+                 "` do not sum to 1; they are used as weights",
+             0, 0});
+  }
+}
+
+/// A production after one that always applies is never used. The same holds for a production without
+/// probability after one with a probability. Tables can hide productions that apply in every step.
+void warn_of_dead(Compilation& c, const Rules& rules) {
+  for (const Range& range : rules.of_kind) {
+    const Production* plain = nullptr;
+    const Production* weighted = nullptr;
+    for (std::uint32_t i = range.first; i < range.first + range.count; ++i) {
+      const Production& each = rules.productions[i];
+      const Production* before = plain ? plain : each.weighted ? nullptr : weighted;
+      if (before && folder_of(*before) == folder_of(each) && c.warned.insert(each.pointer).second) {
+        const std::string& symbol = c.grammar.kinds[each.predecessor].symbol;
+        warn(c, {each.pointer,
+                 "this production of `" + symbol + "` is never used: the production at " + before->pointer +
+                     (plain ? " before it always applies"
+                            : " before it has a probability and this one has none; add one, as in `: 0.5`"),
+                 0, 0});
+      }
+      if (plain || !is_sure(each)) continue;
+      if (!each.weighted && !weighted) plain = &each;
+      if (each.weighted && each.weight.is_constant && each.weight.value > 0 && !weighted) weighted = &each;
+    }
+  }
+}
+
+/// By kind: whether the axiom and the productions can lead to it. Conditions and contexts count as met.
+std::vector<bool> reachable_kinds(Compilation& c) {
+  std::vector<bool> reached(c.grammar.kinds.size(), false);
+  std::vector<KindId> open;
+  const auto reach = [&](Range templates) {
+    for (const Template& each : c.grammar.successor(templates)) {
+      if (reached[each.kind]) continue;
+      reached[each.kind] = true;
+      open.push_back(each.kind);
+    }
+  };
+  reach(c.grammar.axiom);
+  while (!open.empty()) {
+    const KindId kind = open.back();
+    open.pop_back();
+    for_all_rules(c, [&](const Rules& rules) {
+      const Range range = rules.of_kind[kind];
+      for (std::uint32_t i = range.first; i < range.first + range.count; ++i)
+        reach(rules.productions[i].successor);
+    });
+  }
+  return reached;
+}
+
+/// A production whose predecessor never occurs with its number of parameters, but with another number.
+void warn_of_arity(Compilation& c) {
+  const std::vector<bool> reached = reachable_kinds(c);
+  const auto other_arity = [&](const Kind& kind) -> const Kind* {
+    for (auto each = c.ids.lower_bound({kind.symbol, 0});
+         each != c.ids.end() && each->first.first == kind.symbol; ++each) {
+      if (reached[each->second]) return &c.grammar.kinds[each->second];
+    }
+    return nullptr;
+  };
+  const auto parameters = [](const Kind& kind) {
+    return std::to_string(kind.written()) + (kind.written() == 1 ? " parameter" : " parameters");
+  };
+  for_all_rules(c, [&](const Rules& rules) {
+    for (const Production& each : rules.productions) {
+      if (reached[each.predecessor]) continue;
+      const Kind& kind = c.grammar.kinds[each.predecessor];
+      const Kind* other = other_arity(kind);
+      if (!other || !c.warned.insert(each.pointer).second) continue;
+      warn(c, {each.pointer,
+               "this production is never used: `" + kind.symbol + "` occurs with " + parameters(*other) +
+                   ", and the production expects " + parameters(kind),
+               0, 0});
+    }
+  });
+}
+
+}  // namespace
+
+void warn(Compilation& c, Source& source, std::size_t offset, std::string message) {
+  if (c.grammar.warnings.size() >= most_warnings) {
+    ++c.unreported;
     return;
   }
   const TextPosition position = source.positions.of(offset);
-  warn({source.pointer, std::move(message), position.line, position.column});
+  warn(c, {source.pointer, std::move(message), position.line, position.column});
 }
 
 /// Records a doubt about a module of a word: a turtle symbol with too few parameters, or with a value that
 /// the turtle cannot use.
-void Compiler::doubt_module(Source& source, const WrittenModule& module, const Template& made) {
-  const Kind& kind = grammar_.kinds[made.kind];
+void doubt_module(Compilation& c, Source& source, const WrittenModule& module, const Template& made) {
+  const Kind& kind = c.grammar.kinds[made.kind];
   const auto number = [&](std::uint32_t i) -> const double* {
-    const lang::Expression& argument = grammar_.arguments[made.first_argument + i];
+    const lang::Expression& argument = c.grammar.arguments[made.first_argument + i];
     return argument.is_constant ? &argument.value : nullptr;
   };
   const auto doubt = [&](Doubt::Is is, std::string message) {
-    if (doubts_.size() == most_doubts) return;
+    if (c.doubts.size() == most_doubts) return;
     const TextPosition position = source.positions.of(module.offset);
-    doubts_.push_back({made.kind, is, {source.pointer, std::move(message), position.line, position.column}});
+    c.doubts.push_back({made.kind, is, {source.pointer, std::move(message), position.line, position.column}});
   };
   const auto name = [&] { return "`" + kind.symbol + "`"; };
   const auto check_tropism = [&](const double* index) {
-    const double count = static_cast<double>(params_.tropism.size());
+    const double count = static_cast<double>(c.params.tropism.size());
     if (count == 0)
       return doubt(Doubt::Is::warning, "found " + name() + " without `tropism`; the symbol has no effect");
     if (index && !(*index >= 0 && *index < count)) {
@@ -86,9 +191,9 @@ void Compiler::doubt_module(Source& source, const WrittenModule& module, const T
   };
   switch (kind.command) {
     case Command::none: {
-      if (doubted_.size() < grammar_.kinds.size()) doubted_.resize(grammar_.kinds.size(), 0);
-      if (doubted_[made.kind] != 0) return;
-      doubted_[made.kind] = 1;
+      if (c.doubted.size() < c.grammar.kinds.size()) c.doubted.resize(c.grammar.kinds.size(), 0);
+      if (c.doubted[made.kind] != 0) return;
+      c.doubted[made.kind] = 1;
       const CommandRow* row = row_of(kind.symbol);
       if (!row || kind.arity >= row->least) return;
       return doubt(Doubt::Is::warning, name() + " expects " + std::string(row->parameters) + ", found " +
@@ -98,7 +203,7 @@ void Compiler::doubt_module(Source& source, const WrittenModule& module, const T
     }
     case Command::contour: {
       const double* wanted = number(0);
-      const auto count = static_cast<double>(params_.contours.size());
+      const auto count = static_cast<double>(c.params.contours.size());
       if (!wanted || (std::trunc(*wanted) >= 0 && std::trunc(*wanted) <= count)) return;
       return doubt(Doubt::Is::error, "found @#(" + text_of_number(*wanted) + "); expected 0 (circle) to " +
                                          text_of_number(count) + " (last of `contours`)");
@@ -129,7 +234,7 @@ void Compiler::doubt_module(Source& source, const WrittenModule& module, const T
 }
 
 /// Finds text in a word that is not meant as modules: a second production, or `n = 4;` for a parameter.
-void Compiler::check_word(Source& source, Slice slice) const {
+void check_word(const Compilation& c, Source& source, Slice slice) {
   const std::string_view text = source.text;
   const std::size_t arrow = find_second_arrow(text, slice);
   if (arrow < slice.to) {
@@ -148,7 +253,7 @@ void Compiler::check_word(Source& source, Slice slice) const {
     while (end > slice.from && text[end - 1] == ' ') --end;
     std::size_t from = end;
     while (from > slice.from && end - from <= 64 && is_name_part(text[from - 1])) --from;
-    const lang::Names::Binding* bound = from < end ? names_.find(text.substr(from, end - from)) : nullptr;
+    const lang::Names::Binding* bound = from < end ? c.names.find(text.substr(from, end - from)) : nullptr;
     if (!bound || bound->is_constant) continue;
     source.errors.push_back({from, "found " + lang::in_quotes(text.substr(from, i + 1 - from)) +
                                        ", which are modules here; `let m = 4;` declares a local value"});
@@ -156,133 +261,28 @@ void Compiler::check_word(Source& source, Slice slice) const {
   }
 }
 
-/// Probabilities are weights. A sum other than 1 is usually a mistake: a warning, or an error where the weights are strict.
-void Compiler::warn_of_weights(const Rules& rules) {
-  for (const Range& range : rules.of_kind) {
-    double sum = 0;
-    const Production* first = nullptr;
-    bool known = true;
-    for (std::uint32_t i = range.first; i < range.first + range.count; ++i) {
-      const Production& each = rules.productions[i];
-      if (!each.weighted) continue;
-      if (!first) first = &each;
-      known = known && each.weight.is_constant && !each.conditional && !each.has_context();
-      sum += each.weight.value;
-    }
-    if (!first || !known || std::abs(sum - 1) <= 1e-6) continue;
-    if (!warned_.insert(first->pointer + ":").second) continue;
-    const std::string& symbol = grammar_.kinds[first->predecessor].symbol;
-    if (params_.weights == LsystemParams::Weights::strict) {
-      issues_.push_back({IssueKind::invalid_value, first->pointer,
-                         "the probabilities of the productions of `" + symbol + "` sum to " +
-                             number_text(std::round(sum * 1e9) / 1e9) +
-                             ", expected 1 because `weights` is strict"});
-      continue;
-    }
-    warn(
-        {first->pointer,
-         "the probabilities of the productions of `" + symbol + "` do not sum to 1; they are used as weights",
-         0, 0});
-  }
-}
-
-/// A production after one that always applies is never used. The same holds for a production without
-/// probability after one with a probability. Tables can hide productions that apply in every step.
-void Compiler::warn_of_dead(const Rules& rules) {
-  for (const Range& range : rules.of_kind) {
-    const Production* plain = nullptr;
-    const Production* weighted = nullptr;
-    for (std::uint32_t i = range.first; i < range.first + range.count; ++i) {
-      const Production& each = rules.productions[i];
-      const Production* before = plain ? plain : each.weighted ? nullptr : weighted;
-      if (before && folder_of(*before) == folder_of(each) && warned_.insert(each.pointer).second) {
-        const std::string& symbol = grammar_.kinds[each.predecessor].symbol;
-        warn({each.pointer,
-              "this production of `" + symbol + "` is never used: the production at " + before->pointer +
-                  (plain ? " before it always applies"
-                         : " before it has a probability and this one has none; add one, as in `: 0.5`"),
-              0, 0});
-      }
-      if (plain || !is_sure(each)) continue;
-      if (!each.weighted && !weighted) plain = &each;
-      if (each.weighted && each.weight.is_constant && each.weight.value > 0 && !weighted) weighted = &each;
-    }
-  }
-}
-
-/// By kind: whether the axiom and the productions can lead to it. Conditions and contexts count as met.
-std::vector<bool> Compiler::reachable_kinds() {
-  std::vector<bool> reached(grammar_.kinds.size(), false);
-  std::vector<KindId> open;
-  const auto reach = [&](Range templates) {
-    for (const Template& each : grammar_.successor(templates)) {
-      if (reached[each.kind]) continue;
-      reached[each.kind] = true;
-      open.push_back(each.kind);
-    }
-  };
-  reach(grammar_.axiom);
-  while (!open.empty()) {
-    const KindId kind = open.back();
-    open.pop_back();
-    for_all_rules([&](const Rules& rules) {
-      const Range range = rules.of_kind[kind];
-      for (std::uint32_t i = range.first; i < range.first + range.count; ++i)
-        reach(rules.productions[i].successor);
-    });
-  }
-  return reached;
-}
-
-/// A production whose predecessor never occurs with its number of parameters, but with another number.
-void Compiler::warn_of_arity() {
-  const std::vector<bool> reached = reachable_kinds();
-  const auto other_arity = [&](const Kind& kind) -> const Kind* {
-    for (auto each = ids_.lower_bound({kind.symbol, 0});
-         each != ids_.end() && each->first.first == kind.symbol; ++each) {
-      if (reached[each->second]) return &grammar_.kinds[each->second];
-    }
-    return nullptr;
-  };
-  const auto parameters = [](const Kind& kind) {
-    return std::to_string(kind.written()) + (kind.written() == 1 ? " parameter" : " parameters");
-  };
-  for_all_rules([&](const Rules& rules) {
-    for (const Production& each : rules.productions) {
-      if (reached[each.predecessor]) continue;
-      const Kind& kind = grammar_.kinds[each.predecessor];
-      const Kind* other = other_arity(kind);
-      if (!other || !warned_.insert(each.pointer).second) continue;
-      warn({each.pointer,
-            "this production is never used: `" + kind.symbol + "` occurs with " + parameters(*other) +
-                ", and the production expects " + parameters(kind),
-            0, 0});
-    }
-  });
-}
-
-void Compiler::check_rules() {
+void check_rules(Compilation& c) {
   const auto is_rewritten = [&](KindId kind) {
     bool is = false;
-    for_all_rules([&](const Rules& rules) { is = is || rules.rewrites(kind); });
+    for_all_rules(c, [&](const Rules& rules) { is = is || rules.rewrites(kind); });
     return is;
   };
-  for (const Doubt& each : doubts_) {
+  for (const Doubt& each : c.doubts) {
     if (is_rewritten(each.kind)) continue;
     if (each.is == Doubt::Is::warning) {
-      warn(each.warning);
+      warn(c, each.warning);
     } else {
-      issues_.push_back({IssueKind::unknown_name, each.warning.pointer, each.warning.message,
-                         each.warning.line, each.warning.column});
+      c.issues.push_back({IssueKind::unknown_name, each.warning.pointer, each.warning.message,
+                          each.warning.line, each.warning.column});
     }
   }
-  for_all_rules([&](const Rules& rules) {
-    warn_of_weights(rules);
-    warn_of_dead(rules);
+  for_all_rules(c, [&](const Rules& rules) {
+    warn_of_weights(c, rules);
+    warn_of_dead(c, rules);
   });
-  warn_of_arity();
-  if (unreported_ > 0)
-    grammar_.warnings.push_back({"", "and " + std::to_string(unreported_) + " more warnings", 0, 0});
+  warn_of_arity(c);
+  if (c.unreported > 0)
+    c.grammar.warnings.push_back({"", "and " + std::to_string(c.unreported) + " more warnings", 0, 0});
 }
 
 }  // namespace seedmesh::lsystem

@@ -11,7 +11,7 @@
 /// `if` without braces needs a comparison, because no turtle symbol takes a comparison as a length.
 #include <algorithm>
 
-#include "core/generators/lsystem/compiler.h"
+#include "core/generators/lsystem/compilation.h"
 #include "core/generators/lsystem/statements.h"
 
 namespace seedmesh::lsystem {
@@ -20,24 +20,22 @@ namespace {
 constexpr int deepest = 64;                 // nesting depth of statements
 constexpr std::size_t most_locals = 1'000;  // of one production, including those of closed blocks
 
-}  // namespace
-
-class Compiler::CodeReader {
+class CodeReader {
  public:
   enum class Allowed { modules, statements_alone };
-  CodeReader(Compiler& compiler, Source& source, std::uint32_t& slots, Allowed allowed)
-      : compiler_(compiler),
+  CodeReader(Compilation& compilation, Source& source, std::uint32_t& slots, Allowed allowed)
+      : c_(compilation),
         source_(source),
         text_(source.text),
         marks_(source.marks_of_text()),
         statements_(text_, marks_),
-        steps_(compiler.grammar_.steps),
+        steps_(compilation.grammar.steps),
         slots_(slots),
         allowed_(allowed) {}
 
   /// Compiles the items of a block. Brackets must pair inside it.
   void items(Slice slice) {
-    const std::size_t names = compiler_.names_.size();
+    const std::size_t names = c_.names.size();
     const std::size_t outer = locals_.size();
     std::vector<std::size_t> open;
     std::size_t at = skip_spaces(text_, slice.from, slice.to);
@@ -48,7 +46,7 @@ class Compiler::CodeReader {
       at = skip_spaces(text_, at, slice.to);
     }
     if (!open.empty()) add_error(open.back(), "found `[` without its `]` in the same block");
-    compiler_.names_.forget_after(names);
+    c_.names.forget_after(names);
     forget_locals_after(outer);
   }
 
@@ -86,7 +84,7 @@ class Compiler::CodeReader {
 
   /// Returns the array of this name, or null.
   const lang::Names::Binding* array(std::string_view name) const {
-    const lang::Names::Binding* bound = compiler_.names_.find(name);
+    const lang::Names::Binding* bound = c_.names.find(name);
     return bound && bound->count > 0 ? bound : nullptr;
   }
 
@@ -107,8 +105,8 @@ class Compiler::CodeReader {
     step.does = Step::Does::set_element;
     step.slot = binding.slot;
     step.target = binding.count;
-    step.index = compiler_.expression(source_, {open + 1, close});
-    step.value = text_[sign] == '=' ? compiler_.expression(source_, {sign + 1, end})
+    step.index = compile_expression(c_, source_, {open + 1, close});
+    step.value = text_[sign] == '=' ? compile_expression(c_, source_, {sign + 1, end})
                                     : changed({at, close + 1}, sign, end);
     steps_.push_back(step);
     return end + 1;
@@ -117,7 +115,7 @@ class Compiler::CodeReader {
   void bind_local(const std::string& name, std::uint32_t slot) {
     slots_of_[name].push_back(slot);
     locals_.push_back(name);
-    compiler_.names_.bind_slot(name, slot);
+    c_.names.bind_slot(name, slot);
   }
 
   void forget_locals_after(std::size_t count) {
@@ -146,7 +144,7 @@ class Compiler::CodeReader {
     const bool assigns = text_[sign] == '=';
     lang::Expression value;
     if (assigns) {
-      value = compiler_.expression(source_, {sign + 1, end});
+      value = compile_expression(c_, source_, {sign + 1, end});
     } else {
       value = changed({at, name_end}, sign, end);
     }
@@ -178,8 +176,8 @@ class Compiler::CodeReader {
     symbol(")");
     tokens.push_back({lang::TokenKind::end, "", end, 0, 0});
     std::size_t read = 0;
-    const lang::Expression value = compiler_.grammar_.program.parse(
-        tokens, read, compiler_.names_, source_.errors, compiler_.limits_.expression_depth);
+    const lang::Expression value =
+        c_.grammar.program.parse(tokens, read, c_.names, source_.errors, c_.limits.expression_depth);
     if (source_.errors.size() == before && tokens[read].kind != lang::TokenKind::end) {
       add_error(tokens[read].offset,
                 "found `" + std::string(tokens[read].text) + "` after the end of the expression");
@@ -190,7 +188,7 @@ class Compiler::CodeReader {
   /// Adds the step that sets `name`. Where `binds` allows it, an unknown name becomes a local.
   void set(const std::string& name, const lang::Expression& value, bool binds, std::size_t at) {
     const std::uint32_t* known = local(name);
-    const lang::Names::Binding* bound = compiler_.names_.find(name);
+    const lang::Names::Binding* bound = c_.names.find(name);
     const bool alone = allowed_ == Allowed::statements_alone;
     std::uint32_t slot = known ? *known : 0;
     if (!known && alone && bound && !bound->is_constant) {
@@ -226,19 +224,19 @@ class Compiler::CodeReader {
       stopped_ = true;
       return to;
     }
-    const std::size_t names = compiler_.names_.size();
+    const std::size_t names = c_.names.size();
     const std::size_t outer = locals_.size();
     const std::size_t start = skip_spaces(text_, open + 1, first);
     if (start < first) change(start, first, Ends::here, Binds::yes);
     add(Step::Does::enter_loop);
     const std::uint32_t again = here();
-    const lang::Expression condition = compiler_.expression(source_, {first + 1, second});
+    const lang::Expression condition = compile_expression(c_, source_, {first + 1, second});
     const std::uint32_t leave = add(Step::Does::jump_unless, condition);
     const std::size_t end = body(close + 1, to);
     const std::size_t next = skip_spaces(text_, second + 1, close);
     if (next < close) change(next, close, Ends::here, Binds::no);
     end_loop(again, leave);
-    compiler_.names_.forget_after(names);
+    c_.names.forget_after(names);
     forget_locals_after(outer);
     return end;
   }
@@ -278,7 +276,7 @@ class Compiler::CodeReader {
 
   lang::Expression condition(std::size_t open, std::size_t close, std::size_t to) {
     if (close == to) add_error(open, "found `(` without its `)`");
-    return compiler_.expression(source_, {open + 1, close});
+    return compile_expression(c_, source_, {open + 1, close});
   }
 
   /// Compiles a block, one statement or one module.
@@ -315,7 +313,7 @@ class Compiler::CodeReader {
 
   /// Returns the end of the module at `at`, including its parameters.
   std::size_t module_at(std::size_t at, std::size_t to) const {
-    const std::size_t length = std::max<std::size_t>(compiler_.symbols_.length_at(text_, at, to), 1);
+    const std::size_t length = std::max<std::size_t>(c_.symbols.length_at(text_, at, to), 1);
     const std::size_t end = at + length;
     if (end >= to || text_[end] != '(') return end;
     return std::min(marks_.closing(end, to) + 1, to);
@@ -336,7 +334,7 @@ class Compiler::CodeReader {
       stopped_ = true;
       return to;
     }
-    steps_.push_back({Step::Does::write, compiler_.word(source_, {from, at}), {}, 0, 0});
+    steps_.push_back({Step::Does::write, compile_word(c_, source_, {from, at}), {}, 0, 0});
     return at;
   }
 
@@ -348,7 +346,7 @@ class Compiler::CodeReader {
            local(text_.substr(at, end - at));
   }
 
-  Compiler& compiler_;
+  Compilation& c_;
   Source& source_;
   std::string_view text_;
   const Marks& marks_;
@@ -364,17 +362,19 @@ class Compiler::CodeReader {
   bool stopped_ = false;
 };
 
-Range Compiler::code(Source& source, Slice slice, std::uint32_t& slots) {
-  const auto first = static_cast<std::uint32_t>(grammar_.steps.size());
-  CodeReader(*this, source, slots, CodeReader::Allowed::modules).items(slice);
-  return {first, static_cast<std::uint32_t>(grammar_.steps.size()) - first};
+}  // namespace
+
+Range compile_code(Compilation& c, Source& source, Slice slice, std::uint32_t& slots) {
+  const auto first = static_cast<std::uint32_t>(c.grammar.steps.size());
+  CodeReader(c, source, slots, CodeReader::Allowed::modules).items(slice);
+  return {first, static_cast<std::uint32_t>(c.grammar.steps.size()) - first};
 }
 
 /// The locals stay visible in the rest of the production.
-Range Compiler::assignments(Source& source, Slice slice, std::uint32_t& slots) {
-  const auto first = static_cast<std::uint32_t>(grammar_.steps.size());
+Range compile_assignments(Compilation& c, Source& source, Slice slice, std::uint32_t& slots) {
+  const auto first = static_cast<std::uint32_t>(c.grammar.steps.size());
   if (slice.empty()) return {first, 0};
-  CodeReader reader(*this, source, slots, CodeReader::Allowed::statements_alone);
+  CodeReader reader(c, source, slots, CodeReader::Allowed::statements_alone);
   std::size_t at = skip_spaces(source.text, slice.from, slice.to);
   while (at < slice.to && source.errors.size() < lang::max_errors) {
     const std::size_t end = reader.statement(at, slice.to);
@@ -384,7 +384,7 @@ Range Compiler::assignments(Source& source, Slice slice, std::uint32_t& slots) {
     }
     at = skip_spaces(source.text, end, slice.to);
   }
-  return {first, static_cast<std::uint32_t>(grammar_.steps.size()) - first};
+  return {first, static_cast<std::uint32_t>(c.grammar.steps.size()) - first};
 }
 
 }  // namespace seedmesh::lsystem

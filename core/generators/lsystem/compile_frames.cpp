@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <array>
 
-#include "core/generators/lsystem/compiler.h"
+#include "core/generators/lsystem/compilation.h"
 
 namespace seedmesh::lsystem {
 namespace {
@@ -44,7 +44,7 @@ std::vector<Slice> parts_between(std::string_view text, std::size_t open, std::s
 }  // namespace
 
 /// Walks from the outermost move inwards; the moves are executed from the innermost outwards.
-lang::Expression Compiler::frame(Source& source, Slice slice) {
+lang::Expression compile_frame(Compilation& c, Source& source, Slice slice) {
   const std::string_view text = source.text;
   FrameExpression made;
   const auto add_error = [&](std::size_t at, std::string message) {
@@ -61,8 +61,8 @@ lang::Expression Compiler::frame(Source& source, Slice slice) {
     const std::string_view name = text.substr(at, end - at);
     const std::size_t open = skip_spaces(text, end, slice.to);
     if (open == slice.to) {
-      const auto known = frame_slots_.find(name);
-      if (known == frame_slots_.end()) {
+      const auto known = c.frame_slots.find(name);
+      if (known == c.frame_slots.end()) {
         add_error(at, "found " + lang::in_quotes(name) + "; expected a frame parameter or frame()");
       } else {
         made.slot = known->second;
@@ -96,7 +96,7 @@ lang::Expression Compiler::frame(Source& source, Slice slice) {
     }
     if (row != moves.end()) {
       FrameExpression::Part part{row->move, {}};
-      for (std::size_t i = 0; i < numbers; ++i) part.by[i] = expression(source, parts[i + 1]);
+      for (std::size_t i = 0; i < numbers; ++i) part.by[i] = compile_expression(c, source, parts[i + 1]);
       if (row->move == Move::scale && numbers == 1) part.by[1] = part.by[2] = part.by[0];
       made.parts.push_back(part);
     }
@@ -105,8 +105,8 @@ lang::Expression Compiler::frame(Source& source, Slice slice) {
   std::reverse(made.parts.begin(), made.parts.end());
   lang::Expression index;
   index.is_constant = true;
-  index.value = static_cast<double>(grammar_.frames.size());
-  grammar_.frames.push_back(std::move(made));
+  index.value = static_cast<double>(c.grammar.frames.size());
+  c.grammar.frames.push_back(std::move(made));
   return index;
 }
 

@@ -1,6 +1,6 @@
 /// Compiles what a grammar declares before its rules: modules, functions, the alphabet, and symbols that
 /// contexts skip.
-#include "core/generators/lsystem/compiler.h"
+#include "core/generators/lsystem/compilation.h"
 
 namespace seedmesh::lsystem {
 namespace {
@@ -12,16 +12,27 @@ bool is_keyword(std::string_view name) {
   return name == "for" || name == "while" || name == "if" || name == "else" || name == "let";
 }
 
+std::set<std::string, std::less<>> symbols_of(Compilation& c, const std::string& text, const char* pointer) {
+  std::set<std::string, std::less<>> symbols;
+  Source source(text, pointer);
+  for (const WrittenModule& module :
+       read_modules(source.text, {0, source.text.size()}, c.symbols, source.errors)) {
+    symbols.insert(std::string(module.symbol));
+  }
+  take_errors(c, source);
+  return symbols;
+}
+
 }  // namespace
 
 /// Reads `name` or `name(parameter, ...)`, where a parameter is a name, "frame", or both.
-void Compiler::declare_modules() {
+void declare_modules(Compilation& c) {
   for (const CommandRow& row : commands()) {
-    if (row.parameters == "(frame)") signatures_.emplace(row.symbol, std::vector<std::uint8_t>{1});
-    if (row.parameters == "(frame,object)") signatures_.emplace(row.symbol, std::vector<std::uint8_t>{1, 0});
+    if (row.parameters == "(frame)") c.signatures.emplace(row.symbol, std::vector<std::uint8_t>{1});
+    if (row.parameters == "(frame,object)") c.signatures.emplace(row.symbol, std::vector<std::uint8_t>{1, 0});
   }
-  for (std::size_t i = 0; i < params_.modules.size(); ++i) {
-    Source source(params_.modules[i], "/modules/" + std::to_string(i));
+  for (std::size_t i = 0; i < c.params.modules.size(); ++i) {
+    Source source(c.params.modules[i], "/modules/" + std::to_string(i));
     const std::vector<lang::Token> tokens = lang::tokenize(source.text, 0, source.text.size(), source.errors);
     const auto add_error = [&](std::size_t at, const char* expected) {
       source.errors.push_back({tokens[at].offset, "expected " + std::string(expected) + ", found " +
@@ -51,78 +62,67 @@ void Compiler::declare_modules() {
       } else if (tokens[at + (parameters ? 1 : 0)].kind != lang::TokenKind::end) {
         add_error(at + (parameters ? 1 : 0), "the end of the declaration");
       } else {
-        symbols_.declare(tokens[0].text);
-        if (parameters) signatures_.insert_or_assign(std::string(tokens[0].text), std::move(signature));
+        c.symbols.declare(tokens[0].text);
+        if (parameters) c.signatures.insert_or_assign(std::string(tokens[0].text), std::move(signature));
       }
     }
-    take_errors(source);
+    take_errors(c, source);
   }
 }
 
-void Compiler::define_functions() {
+void define_functions(Compilation& c) {
   std::vector<Source> sources;
   std::vector<std::string> names;
-  for (std::size_t i = 0; i < params_.functions.size(); ++i) {
-    sources.emplace_back(params_.functions[i], "/functions/" + std::to_string(i));
+  for (std::size_t i = 0; i < c.params.functions.size(); ++i) {
+    sources.emplace_back(c.params.functions[i], "/functions/" + std::to_string(i));
     lang::Names::Defined function;
     names.push_back(lang::read_definition(sources[i].text, function, sources[i].errors));
     function.is_valid = sources[i].errors.empty();
-    if (!names[i].empty() && names_.find_function(names[i]) != nullptr) {
+    if (!names[i].empty() && c.names.find_function(names[i]) != nullptr) {
       sources[i].errors.push_back(
           {0, "the function " + lang::in_quotes(names[i]) + " is defined twice", IssueKind::duplicate_key});
     } else {
-      names_.define(names[i], std::move(function));
+      c.names.define(names[i], std::move(function));
     }
   }
   lang::Program tried;  // shared, so that all inlined functions count towards one limit
   // all functions are declared now, so that each body can be checked
   for (std::size_t i = 0; i < sources.size(); ++i) {
-    const lang::Names::Defined* function = names_.find_function(names[i]);
+    const lang::Names::Defined* function = c.names.find_function(names[i]);
     if (sources[i].errors.empty() && function != nullptr) {
       std::uint32_t slot = 0;
-      for (const std::string& parameter : function->parameters) names_.bind_slot(parameter, slot++);
+      for (const std::string& parameter : function->parameters) c.names.bind_slot(parameter, slot++);
       std::size_t at = 0;
-      tried.parse(function->body, at, names_, sources[i].errors, limits_.expression_depth);
+      tried.parse(function->body, at, c.names, sources[i].errors, c.limits.expression_depth);
       if (sources[i].errors.empty() && function->body[at].kind != lang::TokenKind::end) {
         sources[i].errors.push_back(
             {function->body[at].offset, "found more after the end of the expression"});
       }
-      names_.forget_after(constant_count_);
-      if (!sources[i].errors.empty()) names_.mark_invalid(names[i]);
+      c.names.forget_after(c.constant_count);
+      if (!sources[i].errors.empty()) c.names.mark_invalid(names[i]);
     }
-    take_errors(sources[i]);
+    take_errors(c, sources[i]);
   }
 }
 
-std::set<std::string, std::less<>> Compiler::symbols_of(const std::string& text, const char* pointer) {
-  std::set<std::string, std::less<>> symbols;
-  Source source(text, pointer);
-  for (const WrittenModule& module :
-       read_modules(source.text, {0, source.text.size()}, symbols_, source.errors)) {
-    symbols.insert(std::string(module.symbol));
-  }
-  take_errors(source);
-  return symbols;
-}
-
-void Compiler::mark_ignored() {
-  ignored_ = symbols_of(params_.ignore, "/ignore");
-  considered_ = symbols_of(params_.consider, "/consider");
-  if (!ignored_.empty() && !considered_.empty()) {
-    issues_.push_back(
+void mark_ignored(Compilation& c) {
+  c.ignored = symbols_of(c, c.params.ignore, "/ignore");
+  c.considered = symbols_of(c, c.params.consider, "/consider");
+  if (!c.ignored.empty() && !c.considered.empty()) {
+    c.issues.push_back(
         {IssueKind::conflict, "/consider", "found both `consider` and `ignore`; expected one of them"});
   }
 }
 
-void Compiler::read_alphabet() {
-  if (!params_.alphabet) return;
-  variables_ = symbols_of(params_.alphabet->variables, "/alphabet/variables");
-  alphabet_constants_ = symbols_of(params_.alphabet->constants, "/alphabet/constants");
+void read_alphabet(Compilation& c) {
+  if (!c.params.alphabet) return;
+  c.variables = symbols_of(c, c.params.alphabet->variables, "/alphabet/variables");
+  c.alphabet_constants = symbols_of(c, c.params.alphabet->constants, "/alphabet/constants");
 }
 
-void Compiler::check_symbol(const WrittenModule& module, Source& source) const {
+void check_symbol(const Compilation& c, const WrittenModule& module, Source& source) {
   if (!lang::has_room(source.errors)) return;
-  if (!params_.alphabet || variables_.count(module.symbol) || alphabet_constants_.count(module.symbol))
+  if (!c.params.alphabet || c.variables.count(module.symbol) || c.alphabet_constants.count(module.symbol))
     return;
   source.errors.push_back(
       {module.offset, "found `" + std::string(module.symbol) + "`, which is not in the alphabet"});

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/generators/lsystem/compiler.h"
+#include "core/generators/lsystem/compilation.h"
 #include "core/generators/lsystem/constants.h"
 #include "core/generators/unused.h"
 #include "core/schema/json.h"
@@ -54,136 +54,272 @@ void check_between_steps(const LsystemParams& params, const Grammar& grammar, st
                           "; such a grammar needs a whole number of iterations or `timed`");
 }
 
-}  // namespace
+/// The name of a surface is a reference to it in every expression, unless a constant, a variable or an array has the
+/// name: its number in the order of the names.
+void bind_objects(Compilation& c) {
+  double number = 0;
+  for (const auto& [name, surface] : c.params.surfaces) {
+    const bool is_taken = c.params.constants.contains(name) || c.params.variables.contains(name) ||
+                          c.params.arrays.contains(name);
+    if (!is_taken) c.names.bind_constant(name, number);
+    ++number;
+  }
+}
 
-Compiler::Compiler(const LsystemParams& params, std::uint64_t seed, const Limits& limits,
-                   std::vector<Issue>& issues, const Job* job)
-    : params_(params), limits_(limits), issues_(issues), job_(job) {
-  for (const auto& [name, surface] : params_.surfaces) symbols_.declare("~" + name);
-  std::vector<WrittenConstant> written = written_constants(params);
-  for (const auto& [name, value] : params.variables) {
+/// Gives variables and arrays the first slots of all productions.
+void bind_variables(Compilation& c, const lang::Names& values) {
+  for (const auto& [name, value] : c.params.variables) {
+    c.names.bind_slot(name, static_cast<std::uint32_t>(c.grammar.variables.size()));
+    c.grammar.variables.push_back(values.find(name)->value);
+  }
+  std::size_t elements = 0;
+  for (const auto& [name, list] : c.params.arrays) {
+    elements += list.size();
+    if (elements > most_elements) {
+      c.issues.emplace_back(IssueKind::out_of_range, "/arrays",
+                            "found more than " + std::to_string(most_elements) + " elements of all arrays");
+      return;
+    }
+    if (c.params.constants.contains(name))
+      c.issues.emplace_back(IssueKind::conflict, "/arrays/" + name, "found a constant of this name");
+    c.names.bind_array(name, static_cast<std::uint32_t>(c.grammar.variables.size()),
+                       static_cast<std::uint32_t>(list.size()));
+    c.grammar.variables.insert(c.grammar.variables.end(), list.begin(), list.end());
+  }
+  c.grammar.most_slots =
+      std::max(c.grammar.most_slots, static_cast<std::uint32_t>(c.grammar.variables.size()));
+}
+
+/// Binds the names of surfaces, constants, variables and arrays.
+void bind_values(Compilation& c, std::uint64_t seed) {
+  for (const auto& [name, surface] : c.params.surfaces) c.symbols.declare("~" + name);
+  std::vector<WrittenConstant> written = written_constants(c.params);
+  for (const auto& [name, value] : c.params.variables) {
     written.push_back({name, value});
-    if (params.constants.contains(name) || params.arrays.contains(name)) {
-      issues_.emplace_back(IssueKind::conflict, "/variables/" + name,
-                           "found a constant or an array of this name");
+    if (c.params.constants.contains(name) || c.params.arrays.contains(name)) {
+      c.issues.emplace_back(IssueKind::conflict, "/variables/" + name,
+                            "found a constant or an array of this name");
     }
   }
   std::vector<Issue> found;
   const lang::Names values = resolve_constants(written, Rng::of_seed(seed).at("constants"), found);
   for (Issue& issue : found) {
     const std::string name = issue.pointer.substr(issue.pointer.rfind('/') + 1);
-    if (params.variables.contains(name) && !params.constants.contains(name))
+    if (c.params.variables.contains(name) && !c.params.constants.contains(name))
       issue.pointer = "/variables/" + name;
-    issues_.push_back(std::move(issue));
+    c.issues.push_back(std::move(issue));
   }
-  bind_objects();
-  for (const WrittenConstant& each : written_constants(params))
-    names_.bind_constant(each.name, values.find(each.name)->value);
-  bind_variables(values);
-  constant_count_ = names_.size();
-}
-
-/// The name of a surface is a reference to it in every expression, unless a constant, a variable or an array has the
-/// name: its number in the order of the names.
-void Compiler::bind_objects() {
-  double number = 0;
-  for (const auto& [name, surface] : params_.surfaces) {
-    const bool is_taken =
-        params_.constants.contains(name) || params_.variables.contains(name) || params_.arrays.contains(name);
-    if (!is_taken) names_.bind_constant(name, number);
-    ++number;
-  }
-}
-
-/// Gives variables and arrays the first slots of all productions.
-void Compiler::bind_variables(const lang::Names& values) {
-  for (const auto& [name, value] : params_.variables) {
-    names_.bind_slot(name, static_cast<std::uint32_t>(grammar_.variables.size()));
-    grammar_.variables.push_back(values.find(name)->value);
-  }
-  std::size_t elements = 0;
-  for (const auto& [name, list] : params_.arrays) {
-    elements += list.size();
-    if (elements > most_elements) {
-      issues_.emplace_back(IssueKind::out_of_range, "/arrays",
-                           "found more than " + std::to_string(most_elements) + " elements of all arrays");
-      return;
-    }
-    if (params_.constants.contains(name))
-      issues_.emplace_back(IssueKind::conflict, "/arrays/" + name, "found a constant of this name");
-    names_.bind_array(name, static_cast<std::uint32_t>(grammar_.variables.size()),
-                      static_cast<std::uint32_t>(list.size()));
-    grammar_.variables.insert(grammar_.variables.end(), list.begin(), list.end());
-  }
-  grammar_.most_slots = std::max(grammar_.most_slots, static_cast<std::uint32_t>(grammar_.variables.size()));
+  bind_objects(c);
+  for (const WrittenConstant& each : written_constants(c.params))
+    c.names.bind_constant(each.name, values.find(each.name)->value);
+  bind_variables(c, values);
+  c.constant_count = c.names.size();
 }
 
 /// Compiles what runs before and after every step.
-void Compiler::read_statements_between() {
+void read_statements_between(Compilation& c) {
   const auto read = [&](const std::string& text, const char* pointer) {
     Source source(text, pointer);
-    names_.forget_after(constant_count_);
-    auto slots = static_cast<std::uint32_t>(grammar_.variables.size());
-    const Range steps = assignments(source, {0, text.size()}, slots);
-    grammar_.most_slots = std::max(grammar_.most_slots, slots);
-    take_errors(source);
+    c.names.forget_after(c.constant_count);
+    auto slots = static_cast<std::uint32_t>(c.grammar.variables.size());
+    const Range steps = compile_assignments(c, source, {0, text.size()}, slots);
+    c.grammar.most_slots = std::max(c.grammar.most_slots, slots);
+    take_errors(c, source);
     return steps;
   };
-  grammar_.start_each = read(params_.start_each, "/start_each");
-  grammar_.end_each = read(params_.end_each, "/end_each");
-  names_.forget_after(constant_count_);
+  c.grammar.start_each = read(c.params.start_each, "/start_each");
+  c.grammar.end_each = read(c.params.end_each, "/end_each");
+  c.names.forget_after(c.constant_count);
 }
 
-Grammar Compiler::compile() {
-  declare_modules();
-  define_functions();
-  mark_ignored();
-  read_alphabet();
-  Source none;
-  grammar_.open = kind("[", 0, none, 0);
-  grammar_.close = kind("]", 0, none, 0);
-  grammar_.cut = kind("%", 0, none, 0);
-  grammar_.ring = params_.ring;
-  grammar_.contexts_first = params_.rule_order == LsystemParams::RuleOrder::contexts_first;
-  grammar_.weights_sum_to_1 = params_.weights == LsystemParams::Weights::strict;
-  grammar_.decomposition_depth = static_cast<std::uint32_t>(params_.decomposition_depth);
-  read_axiom();
-  read_rules("/productions/", params_.productions, grammar_.productions);
-  read_rules("/interpretation/", params_.interpretation, grammar_.interpretation);
-  read_rules("/decomposition/", params_.decomposition, grammar_.decomposition);
-  read_tables();
-  read_statements_between();
-  check_alone(grammar_.interpretation, "an interpretation rule");
-  check_alone(grammar_.decomposition, "a decomposition rule");
-  check_directions();
-  for_all_rules([&](Rules& rules) { order(rules); });
-  for (const Rules& table : grammar_.tables) {
-    grammar_.productions.random |= table.random;
-    grammar_.productions.context |= table.context;
-  }
-  grammar_.productions.random |= grammar_.decomposition.random || draws(grammar_.axiom);
-  check_rules();
-  return std::move(grammar_);
+std::uint32_t surface_of(const Compilation& c, std::string_view symbol) {
+  if (symbol.size() < 2 || symbol[0] != '~') return Kind::none;
+  const auto found = c.params.surfaces.find(std::string(symbol.substr(1)));
+  if (found == c.params.surfaces.end()) return Kind::none;
+  return static_cast<std::uint32_t>(std::distance(c.params.surfaces.begin(), found));
 }
+
+void read_axiom(Compilation& c) {
+  Source source(c.params.axiom, "/axiom");
+  c.occurrences.clear();
+  c.grammar.axiom = compile_word(c, source, {0, source.text.size()});
+  check_brackets(c, source, {0, source.text.size()});
+  take_errors(c, source);
+}
+
+void read_rules(Compilation& c, const std::string& folder, const std::vector<std::string>& texts,
+                Rules& rules) {
+  for (std::size_t i = 0; i < texts.size() && c.issues.size() < most_issues; ++i) {
+    if (c.job && (i & 255U) == 0) c.job->check();
+    Source source(texts[i], folder + std::to_string(i));
+    const std::size_t label = label_length(source.text, c.symbols);
+    const WrittenProduction written = read_production(source.text, source.errors, label);
+    if (source.errors.empty()) rules.productions.push_back(compile_production(c, source, written));
+    take_errors(c, source);
+  }
+}
+
+/// The productions of a table precede those that apply in every step.
+void read_tables(Compilation& c) {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < c.params.tables.size(); ++i) {
+    const auto& table = c.params.tables[i];
+    c.grammar.tables.emplace_back();
+    read_rules(c, "/tables/" + std::to_string(i) + "/productions/", table.productions,
+               c.grammar.tables.back());
+    const std::vector<Production>& common = c.grammar.productions.productions;
+    std::vector<Production>& own = c.grammar.tables.back().productions;
+    count += own.size() + common.size();
+    if (count > most_of_tables) {
+      c.issues.emplace_back(IssueKind::out_of_range, "/tables",
+                            "found more than " + std::to_string(most_of_tables) +
+                                " productions in all tables, each with the productions of every step");
+      return;
+    }
+    own.insert(own.end(), common.begin(), common.end());
+    c.grammar.table_of_turn.insert(c.grammar.table_of_turn.end(), static_cast<std::size_t>(table.steps),
+                                   static_cast<std::uint32_t>(i));
+  }
+}
+
+void check_alone(Compilation& c, const Rules& rules, const char* what) {
+  for (const Production& each : rules.productions) {
+    if (!each.has_context()) continue;
+    c.issues.emplace_back(IssueKind::invalid_value, each.pointer,
+                          std::string(what) + " cannot have a context, because it applies to one module");
+  }
+}
+
+/// A word is written in one direction: from the left for new left contexts, from the right for new right
+/// contexts.
+void check_directions(Compilation& c) {
+  const Production* left = nullptr;
+  const Production* right = nullptr;
+  for_all_rules(c, [&](const Rules& rules) {
+    for (const Production& each : rules.productions) {
+      if (!each.new_left.empty()) left = &each;
+      if (!each.new_right.empty()) right = &each;
+      c.grammar.strict = c.grammar.strict || !each.rest.empty();
+      if (&rules == &c.grammar.interpretation) continue;
+      c.grammar.statements = c.grammar.statements || each.code.count > 0 || each.before.count > 0;
+    }
+  });
+  c.grammar.backward = right != nullptr;
+  if (right && c.grammar.strict) {
+    c.issues.emplace_back(IssueKind::conflict, right->pointer,
+                          "found a new right context and strict predecessors of several modules; a word is "
+                          "written in one direction");
+  }
+  if (left && right) {
+    c.issues.emplace_back(IssueKind::conflict, right->pointer,
+                          "found a new right context, but " + left->pointer +
+                              " has a new left one; a word is written in one direction");
+  }
+}
+
+bool draws_in(const Compilation& c, Range steps) {
+  for (std::uint32_t i = steps.first; i < steps.first + steps.count; ++i) {
+    if (c.grammar.program.draws(c.grammar.steps[i].value)) return true;
+  }
+  return false;
+}
+
+bool draws(const Compilation& c, Range successor) {
+  const auto draws_one = [&](const lang::Expression& each) { return c.grammar.program.draws(each); };
+  for (const Template& each : c.grammar.successor(successor)) {
+    const Kind& kind = c.grammar.kinds[each.kind];
+    for (std::uint32_t i = 0; i < kind.written(); ++i) {
+      const lang::Expression& argument = c.grammar.arguments[each.first_argument + i];
+      if (draws_one(argument)) return true;
+      if (kind.frames.empty() || kind.frames[i] == 0) continue;
+      for (const FrameExpression::Part& part : c.grammar.frames[frame_index(argument)].parts) {
+        if (std::any_of(std::begin(part.by), std::end(part.by), draws_one)) return true;
+      }
+    }
+  }
+  return false;
+}
+
+bool draws(const Compilation& c, const Production& production) {
+  return draws(c, production.successor) || draws_in(c, production.code) || draws_in(c, production.before);
+}
+
+/// Sorts by predecessor, then with context before without unless the order of the list counts, then by the order of
+/// the text.
+void order(Compilation& c, Rules& rules) {
+  const bool by_context = c.params.rule_order == LsystemParams::RuleOrder::contexts_first;
+  std::stable_sort(rules.productions.begin(), rules.productions.end(),
+                   [by_context](const Production& a, const Production& b) {
+                     if (a.predecessor != b.predecessor) return a.predecessor < b.predecessor;
+                     return by_context && a.has_context() && !b.has_context();
+                   });
+  rules.of_kind.assign(c.grammar.kinds.size(), {});
+  rules.redraws.assign(c.grammar.kinds.size(), 0);
+  for (std::uint32_t i = 0; i < rules.productions.size(); ++i) {
+    const Production& each = rules.productions[i];
+    Range& range = rules.of_kind[each.predecessor];
+    if (range.count++ == 0) range.first = i;
+    rules.context = rules.context || each.has_context();
+    if (each.conditional && c.grammar.program.draws(each.condition)) rules.redraws[each.predecessor] = 1;
+    rules.random = rules.random || each.weighted || rules.redraws[each.predecessor] || draws(c, each);
+  }
+}
+
+/// Compiles in the order in which the parts depend on each other.
+Grammar compile_all(Compilation& c, std::uint64_t seed) {
+  bind_values(c, seed);
+  declare_modules(c);
+  define_functions(c);
+  mark_ignored(c);
+  read_alphabet(c);
+  Source none;
+  c.grammar.open = kind_of(c, "[", 0, none, 0);
+  c.grammar.close = kind_of(c, "]", 0, none, 0);
+  c.grammar.cut = kind_of(c, "%", 0, none, 0);
+  c.grammar.ring = c.params.ring;
+  c.grammar.contexts_first = c.params.rule_order == LsystemParams::RuleOrder::contexts_first;
+  c.grammar.weights_sum_to_1 = c.params.weights == LsystemParams::Weights::strict;
+  c.grammar.decomposition_depth = static_cast<std::uint32_t>(c.params.decomposition_depth);
+  read_axiom(c);
+  read_rules(c, "/productions/", c.params.productions, c.grammar.productions);
+  read_rules(c, "/interpretation/", c.params.interpretation, c.grammar.interpretation);
+  read_rules(c, "/decomposition/", c.params.decomposition, c.grammar.decomposition);
+  read_tables(c);
+  read_statements_between(c);
+  check_alone(c, c.grammar.interpretation, "an interpretation rule");
+  check_alone(c, c.grammar.decomposition, "a decomposition rule");
+  check_directions(c);
+  for_all_rules(c, [&](Rules& rules) { order(c, rules); });
+  for (const Rules& table : c.grammar.tables) {
+    c.grammar.productions.random |= table.random;
+    c.grammar.productions.context |= table.context;
+  }
+  c.grammar.productions.random |= c.grammar.decomposition.random || draws(c, c.grammar.axiom);
+  check_rules(c);
+  return std::move(c.grammar);
+}
+
+}  // namespace
 
 /// Reports a kind that contradicts its declared signature, at `offset`.
-KindId Compiler::kind(std::string_view symbol, std::uint32_t written, Source& source, std::size_t offset) {
-  const auto known = ids_.find({std::string(symbol), written});
-  if (known != ids_.end()) return known->second;
-  if (grammar_.kinds.size() == most_kinds) {
+KindId kind_of(Compilation& c, std::string_view symbol, std::uint32_t written, Source& source,
+               std::size_t offset) {
+  const auto known = c.ids.find({std::string(symbol), written});
+  if (known != c.ids.end()) return known->second;
+  if (c.grammar.kinds.size() == most_kinds) {
     source.errors.push_back({offset, "found more than " + std::to_string(most_kinds) +
                                          " symbols; each number of parameters counts as a symbol"});
-    return grammar_.open;
+    return c.grammar.open;
   }
   Kind made;
   made.symbol = symbol;
   made.arity = written;
-  const auto signature = signatures_.find(symbol);
-  if (signature != signatures_.end() && signature->second.size() != written) {
+  const auto signature = c.signatures.find(symbol);
+  if (signature != c.signatures.end() && signature->second.size() != written) {
     source.errors.push_back({offset, "found " + std::to_string(written) + " parameters of `" + made.symbol +
                                          "`; expected " + std::to_string(signature->second.size()) +
                                          ", as declared"});
-  } else if (signature != signatures_.end()) {
+  } else if (signature != c.signatures.end()) {
     const std::vector<std::uint8_t>& frames = signature->second;
     const auto count = static_cast<std::uint32_t>(std::count(frames.begin(), frames.end(), 1));
     if (count > 0) made.frames = frames;
@@ -193,168 +329,37 @@ KindId Compiler::kind(std::string_view symbol, std::uint32_t written, Source& so
     }
   }
   made.command = command_of(symbol.substr(0, symbol[0] == '~' ? 1 : symbol.size()), made.arity);
-  made.surface = surface_of(symbol);
-  made.ignored = considered_.empty() ? ignored_.count(symbol) != 0 : considered_.count(symbol) == 0;
+  made.surface = surface_of(c, symbol);
+  made.ignored = c.considered.empty() ? c.ignored.count(symbol) != 0 : c.considered.count(symbol) == 0;
   if (symbol == "[" || symbol == "]") {
     made.ignored = false;  // brackets always count, as in the book
     if (written > 0) source.errors.push_back({offset, "found parameters of a bracket; it takes none"});
   }
-  grammar_.widest = std::max(grammar_.widest, made.arity);
-  const auto id = static_cast<KindId>(grammar_.kinds.size());
-  grammar_.kinds.push_back(std::move(made));
-  ids_.emplace(std::pair{std::string(symbol), written}, id);
+  c.grammar.widest = std::max(c.grammar.widest, made.arity);
+  const auto id = static_cast<KindId>(c.grammar.kinds.size());
+  c.grammar.kinds.push_back(std::move(made));
+  c.ids.emplace(std::pair{std::string(symbol), written}, id);
   return id;
 }
 
-std::uint32_t Compiler::surface_of(std::string_view symbol) const {
-  if (symbol.size() < 2 || symbol[0] != '~') return Kind::none;
-  const auto found = params_.surfaces.find(std::string(symbol.substr(1)));
-  if (found == params_.surfaces.end()) return Kind::none;
-  return static_cast<std::uint32_t>(std::distance(params_.surfaces.begin(), found));
-}
-
 /// A ~ without a surface name is an error where there are surfaces. Otherwise it can be an ordinary symbol.
-void Compiler::check_surface(const WrittenModule& module, Source& source) {
+void check_surface(Compilation& c, const WrittenModule& module, Source& source) {
   if (module.symbol != "~") return;
-  if (params_.surfaces.empty()) {
-    warn(source, module.offset,
+  if (c.params.surfaces.empty()) {
+    warn(c, source, module.offset,
          "found `~` without `surfaces`; it adds no organ, and the text after it is read as modules");
     return;
   }
   if (!lang::has_room(source.errors)) return;
   std::string known;
-  for (const auto& [name, surface] : params_.surfaces) known += (known.empty() ? "~" : ", ~") + name;
+  for (const auto& [name, surface] : c.params.surfaces) known += (known.empty() ? "~" : ", ~") + name;
   source.errors.push_back(
       {module.offset, "found `~` without the name of a surface; expected one of " + known});
 }
 
-void Compiler::take_errors(Source& source) {
+void take_errors(Compilation& c, Source& source) {
   if (source.errors.empty()) return;
-  lang::add_issues(source.pointer, source.text, source.errors, issues_);
-}
-
-void Compiler::read_axiom() {
-  Source source(params_.axiom, "/axiom");
-  occurrences_.clear();
-  grammar_.axiom = word(source, {0, source.text.size()});
-  check_brackets(source, {0, source.text.size()});
-  take_errors(source);
-}
-
-void Compiler::read_rules(const std::string& folder, const std::vector<std::string>& texts, Rules& rules) {
-  for (std::size_t i = 0; i < texts.size() && issues_.size() < most_issues; ++i) {
-    if (job_ && (i & 255U) == 0) job_->check();
-    Source source(texts[i], folder + std::to_string(i));
-    const std::size_t label = label_length(source.text, symbols_);
-    const WrittenProduction written = read_production(source.text, source.errors, label);
-    if (source.errors.empty()) rules.productions.push_back(production(source, written));
-    take_errors(source);
-  }
-}
-
-/// The productions of a table precede those that apply in every step.
-void Compiler::read_tables() {
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < params_.tables.size(); ++i) {
-    const auto& table = params_.tables[i];
-    grammar_.tables.emplace_back();
-    read_rules("/tables/" + std::to_string(i) + "/productions/", table.productions, grammar_.tables.back());
-    const std::vector<Production>& common = grammar_.productions.productions;
-    std::vector<Production>& own = grammar_.tables.back().productions;
-    count += own.size() + common.size();
-    if (count > most_of_tables) {
-      issues_.emplace_back(IssueKind::out_of_range, "/tables",
-                           "found more than " + std::to_string(most_of_tables) +
-                               " productions in all tables, each with the productions of every step");
-      return;
-    }
-    own.insert(own.end(), common.begin(), common.end());
-    grammar_.table_of_turn.insert(grammar_.table_of_turn.end(), static_cast<std::size_t>(table.steps),
-                                  static_cast<std::uint32_t>(i));
-  }
-}
-
-void Compiler::check_alone(const Rules& rules, const char* what) {
-  for (const Production& each : rules.productions) {
-    if (!each.has_context()) continue;
-    issues_.emplace_back(IssueKind::invalid_value, each.pointer,
-                         std::string(what) + " cannot have a context, because it applies to one module");
-  }
-}
-
-/// A word is written in one direction: from the left for new left contexts, from the right for new right
-/// contexts.
-void Compiler::check_directions() {
-  const Production* left = nullptr;
-  const Production* right = nullptr;
-  for_all_rules([&](const Rules& rules) {
-    for (const Production& each : rules.productions) {
-      if (!each.new_left.empty()) left = &each;
-      if (!each.new_right.empty()) right = &each;
-      grammar_.strict = grammar_.strict || !each.rest.empty();
-      if (&rules == &grammar_.interpretation) continue;
-      grammar_.statements = grammar_.statements || each.code.count > 0 || each.before.count > 0;
-    }
-  });
-  grammar_.backward = right != nullptr;
-  if (right && grammar_.strict) {
-    issues_.emplace_back(IssueKind::conflict, right->pointer,
-                         "found a new right context and strict predecessors of several modules; a word is "
-                         "written in one direction");
-  }
-  if (left && right) {
-    issues_.emplace_back(IssueKind::conflict, right->pointer,
-                         "found a new right context, but " + left->pointer +
-                             " has a new left one; a word is written in one direction");
-  }
-}
-
-/// Sorts by predecessor, then with context before without unless the order of the list counts, then by the order of
-/// the text.
-void Compiler::order(Rules& rules) {
-  const bool by_context = params_.rule_order == LsystemParams::RuleOrder::contexts_first;
-  std::stable_sort(rules.productions.begin(), rules.productions.end(),
-                   [by_context](const Production& a, const Production& b) {
-                     if (a.predecessor != b.predecessor) return a.predecessor < b.predecessor;
-                     return by_context && a.has_context() && !b.has_context();
-                   });
-  rules.of_kind.assign(grammar_.kinds.size(), {});
-  rules.redraws.assign(grammar_.kinds.size(), 0);
-  for (std::uint32_t i = 0; i < rules.productions.size(); ++i) {
-    const Production& each = rules.productions[i];
-    Range& range = rules.of_kind[each.predecessor];
-    if (range.count++ == 0) range.first = i;
-    rules.context = rules.context || each.has_context();
-    if (each.conditional && grammar_.program.draws(each.condition)) rules.redraws[each.predecessor] = 1;
-    rules.random = rules.random || each.weighted || rules.redraws[each.predecessor] || draws(each);
-  }
-}
-
-bool Compiler::draws(const Production& production) const {
-  return draws(production.successor) || draws_in(production.code) || draws_in(production.before);
-}
-
-bool Compiler::draws_in(Range steps) const {
-  for (std::uint32_t i = steps.first; i < steps.first + steps.count; ++i) {
-    if (grammar_.program.draws(grammar_.steps[i].value)) return true;
-  }
-  return false;
-}
-
-bool Compiler::draws(Range successor) const {
-  const auto draws_one = [&](const lang::Expression& each) { return grammar_.program.draws(each); };
-  for (const Template& each : grammar_.successor(successor)) {
-    const Kind& kind = grammar_.kinds[each.kind];
-    for (std::uint32_t i = 0; i < kind.written(); ++i) {
-      const lang::Expression& argument = grammar_.arguments[each.first_argument + i];
-      if (draws_one(argument)) return true;
-      if (kind.frames.empty() || kind.frames[i] == 0) continue;
-      for (const FrameExpression::Part& part : grammar_.frames[frame_index(argument)].parts) {
-        if (std::any_of(std::begin(part.by), std::end(part.by), draws_one)) return true;
-      }
-    }
-  }
-  return false;
+  lang::add_issues(source.pointer, source.text, source.errors, c.issues);
 }
 
 Grammar compile(const LsystemParams& params, std::uint64_t seed, const Limits& limits,
@@ -363,7 +368,8 @@ Grammar compile(const LsystemParams& params, std::uint64_t seed, const Limits& l
     issues.push_back(iterations_issue(static_cast<std::uint64_t>(params.iterations), limits));
   }
   check_age(params, issues);
-  Grammar grammar = Compiler(params, seed, limits, issues, job).compile();
+  Compilation compilation(params, limits, issues, job);
+  Grammar grammar = compile_all(compilation, seed);
   check_between_steps(params, grammar, issues);
   const std::vector<Warning> unused = warnings_of(unused_parameters(params));
   grammar.warnings.insert(grammar.warnings.end(), unused.begin(), unused.end());

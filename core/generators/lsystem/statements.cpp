@@ -70,7 +70,7 @@ std::size_t Statements::find_semicolon(std::size_t at, std::size_t to) const {
   return to;
 }
 
-bool Compiler::has_statements(Source& source, Slice slice) const {
+bool has_statements(Source& source, Slice slice) {
   const std::string_view text = source.text;
   for (std::size_t at = slice.from; at < slice.to; ++at) {
     const char c = text[at];

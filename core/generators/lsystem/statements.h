@@ -1,6 +1,6 @@
 #pragma once
 /// Recognizes statements in the text of a successor; compile_code.cpp compiles them.
-#include "core/generators/lsystem/compiler.h"
+#include "core/generators/lsystem/compilation.h"
 
 namespace seedmesh::lsystem {
 
@@ -13,6 +13,9 @@ std::size_t end_of_name(std::string_view text, std::size_t at, std::size_t to);
 std::size_t end_of_whole_name(std::string_view text, std::size_t at, std::size_t to);
 /// Returns the position of the parenthesis that follows `word` at `at`, or `to`.
 std::size_t open_after(std::string_view text, std::string_view word, std::size_t at, std::size_t to);
+
+/// Whether a part of the text has the form of a statement.
+bool has_statements(Source& source, Slice slice);
 
 /// Queries over one text. Both arguments must outlive the object. Cost of a query: linear in the distance to its
 /// result.
