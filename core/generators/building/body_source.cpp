@@ -30,10 +30,11 @@ Asset& BodySource::asset_of(const Shape& shape) {
 
 void BodySource::fill(const Shape& shape, BodySurface& surface) {
   surface.clear();
-  if (shape.geometry == box_geometry)
+  if (shape.geometry == box_geometry) {
     surfaces_.box(shape.size, surface);
-  else
+  } else {
     surfaces_.solid(shapes_.solid_of(shape.geometry), shape.size, surface);
+  }
 }
 
 BodyCost BodySource::cost_of(const Shape& shape) {

@@ -66,10 +66,11 @@ class Tree {
       job_.check();
       std::ranges::move(sides.same, std::back_inserter(sides.front));
       std::ranges::move(sides.opposite, std::back_inserter(sides.back));
-      if (node.front >= 0)
+      if (node.front >= 0) {
         open.emplace_back(node.front, std::move(sides.front));
-      else
+      } else {
         std::ranges::move(sides.front, std::back_inserter(out));
+      }
       if (node.back >= 0) open.emplace_back(node.back, std::move(sides.back));
     }
     return out;

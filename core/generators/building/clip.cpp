@@ -152,9 +152,10 @@ class Clipper {
 
   double doubled_area(const std::vector<std::uint32_t>& loop, const glm::dvec3& normal) const {
     glm::dvec3 sum(0);
-    for (std::size_t i = 0; i < loop.size(); ++i)
+    for (std::size_t i = 0; i < loop.size(); ++i) {
       sum += glm::cross(out_.points[loop[i]] - out_.points[loop[0]],
                         out_.points[loop[(i + 1) % loop.size()]] - out_.points[loop[0]]);
+    }
     return glm::dot(sum, normal) / std::max(glm::length(normal), 1e-300);
   }
 
@@ -177,10 +178,11 @@ class Clipper {
       if (!tidy(loop)) continue;
       const double area = doubled_area(loop, normal);
       if (std::abs(area) < 1e-14) continue;
-      if (area > 0)
+      if (area > 0) {
         groups.push_back({std::move(loop)});
-      else
+      } else {
         holes.push_back(std::move(loop));
+      }
     }
     for (auto& hole : holes) {
       for (auto& group : groups) {
@@ -209,10 +211,11 @@ class Clipper {
       const auto range = next.equal_range(from);
       const auto back =
           std::find_if(range.first, range.second, [&](const auto& each) { return each.second == to; });
-      if (back != range.second)
+      if (back != range.second) {
         next.erase(back);
-      else
+      } else {
         next.emplace(to, from);
+      }
     }
     std::vector<std::vector<std::uint32_t>> loops;
     while (!next.empty()) {

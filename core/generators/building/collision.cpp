@@ -152,10 +152,11 @@ void add_collision(Model& model, const Shapes& shapes, const GenerateContext& co
     }
     if (worst == nullptr) break;
     Mass other;
-    if (cut_in_two(*worst, other, job))
+    if (cut_in_two(*worst, other, job)) {
       masses.push_back(std::move(other));
-    else
+    } else {
       worst->is_done = true;
+    }
   }
   std::ranges::stable_sort(masses, is_larger);
   if (masses.empty()) return;
@@ -163,6 +164,7 @@ void add_collision(Model& model, const Shapes& shapes, const GenerateContext& co
   std::erase_if(masses,
                 [&](const Mass& mass) { return mass.hull.faces.empty() || mass.hull_volume < least; });
   std::vector<Mesh> hulls;
+  hulls.reserve(masses.size());
   for (const Mass& mass : masses) hulls.push_back(mesh_of(mass.hull, job));
   add_collision_shapes(model, context.demand.collision, "building", std::move(hulls));
 }

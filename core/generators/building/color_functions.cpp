@@ -28,12 +28,13 @@ std::array<double, 3> hsv_of_rgb(const Rgb& c) {
   const double high = std::max({c[0], c[1], c[2]}), chroma = high - std::min({c[0], c[1], c[2]});
   double hue = 0;
   if (chroma > 0) {
-    if (high == c[0])
+    if (high == c[0]) {
       hue = 60 * (c[1] - c[2]) / chroma;
-    else if (high == c[1])
+    } else if (high == c[1]) {
       hue = 60 * (2 + (c[2] - c[0]) / chroma);
-    else
+    } else {
       hue = 60 * (4 + (c[0] - c[1]) / chroma);
+    }
     if (hue < 0) hue += 360;
   }
   return {hue, high > 0 ? chroma / high : 0, high};
@@ -136,11 +137,12 @@ TaggedValue ramp(Evaluation& at, ValueArguments a) {
     first = color_named(name.substr(0, to));
     last = color_named(name.substr(to + 2));
   }
-  if (first == nullptr || last == nullptr)
+  if (first == nullptr || last == nullptr) {
     reject(at, "found the colour ramp " + lang::in_quotes(name) +
                    ", expected spectrum or two colours as in greenToRed: white, black, red, green, blue, "
                    "yellow, orange, "
                    "brown, purple, cyan, magenta or gray");
+  }
   Rgb out{};
   for (std::size_t i = 0; i < 3; ++i) out[i] = (*first)[i] + ((*last)[i] - (*first)[i]) * share;
   return text_value(at, hex_of(out));

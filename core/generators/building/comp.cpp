@@ -23,10 +23,11 @@ std::vector<ShapeState> sets_of(Derivation& d, const ShapeState& state,
   for (std::uint32_t f = 0; f < sets.size(); ++f) {
     for (const Loop& loop : loops_of(solid, solid.faces[f])) {
       for (const std::uint32_t point : points_of(solid, loop)) {
-        if (first_of[point] == none)
+        if (first_of[point] == none) {
           first_of[point] = f;
-        else
+        } else {
           sets.join(f, first_of[point]);
+        }
       }
     }
   }
@@ -69,10 +70,11 @@ void comp(Derivation& d, const Step& step, ShapeState& state, const Site& site) 
       taken.push_back(all[i].state);
     }
     if (taken.empty()) continue;
-    if (step.axis == component_faces && part.is_by_set)
+    if (step.axis == component_faces && part.is_by_set) {
       taken = sets_of(d, state, taken);
-    else if (part.is_merged && step.axis == component_faces)
+    } else if (part.is_merged && step.axis == component_faces) {
       taken.assign(1, merged_faces(d, state, taken));
+    }
     for (std::uint32_t i = 0; i < taken.size(); ++i) {
       taken[i].comp_index = i;
       taken[i].comp_total = static_cast<std::uint32_t>(taken.size());

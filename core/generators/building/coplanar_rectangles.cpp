@@ -249,10 +249,11 @@ bool CoplanarRectangles::fill(std::size_t i, BodySurface& surface) const {
     surface.normal.push_back(normal);
     flat.emplace_back(plane.u[corner.first], plane.v[corner.second]);
   }
-  if (corners.size() == 4)
+  if (corners.size() == 4) {
     surface.index = {0, 1, 2, 0, 2, 3};
-  else
+  } else {
     cut_ears(flat, surface.index);
+  }
   for (int side = 0; side < 4; ++side) {
     if (rect.is_backed[side]) add_strip(rect, side, surface);
   }

@@ -80,12 +80,13 @@ class Cutter {
     Sums sums;
     for (std::uint32_t i = first; i < first + count; ++i) {
       const Cell& cell = cells_[i];
-      if (cell.is_group)
+      if (cell.is_group) {
         ++sums.groups;
-      else if (cell.measure == Measure::floating)
+      } else if (cell.measure == Measure::floating) {
         sums.floating += std::max(0.0, cell.size);
-      else
+      } else {
         sums.fixed += fixed(cell);
+      }
     }
     return sums;
   }
@@ -113,10 +114,11 @@ class Cutter {
       if (cycle > 0) {
         const double x = share / cycle;
         const bool floats = floating > 0 || sums.floating > 0;
-        if (!floats || rounding_ == Rounding::ceil)
+        if (!floats || rounding_ == Rounding::ceil) {
           n = std::ceil(x - slack);
-        else
+        } else {
           n = std::floor(x + 0.5 + slack);
+        }
         if (floats && inner.fixed > 0)
           n = std::min(n, std::floor((room - sums.fixed) / sums.groups / inner.fixed + slack));
         if (n < 1 && sums.floating <= 0 && floating > 0) n = 1;

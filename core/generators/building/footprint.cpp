@@ -111,8 +111,8 @@ void check_crossings(const std::vector<Ring>& rings, const Job* job, std::vector
                        (k == i + 1 ? is_between(a, b, d) || is_between(c, d, a)
                                    : is_between(a, b, c) || is_between(c, d, b));
     if (is_next ? !folds : !meet(a, b, c, d)) return true;
-    issues.push_back({IssueKind::invalid_value, pointer_to(s) + "/" + std::to_string(k),
-                      s == r ? crosses_itself(i) : "the edge from here meets ring " + std::to_string(r)});
+    issues.emplace_back(IssueKind::invalid_value, pointer_to(s) + "/" + std::to_string(k),
+                        s == r ? crosses_itself(i) : "the edge from here meets ring " + std::to_string(r));
     return false;
   });
 }
@@ -133,25 +133,27 @@ std::vector<Issue> check_footprint(const Rings& given, const Job* job) {
   for (std::size_t r = 0; r < given.size(); ++r) {
     rings.push_back(opened(given[r]));
     for (std::size_t i = 0; i + 1 < rings[r].size(); ++i) {
-      if (rings[r][i] == rings[r][i + 1])
-        issues.push_back({IssueKind::invalid_value, pointer_to(r) + "/" + std::to_string(i + 1),
-                          "the point repeats the point before it"});
+      if (rings[r][i] == rings[r][i + 1]) {
+        issues.emplace_back(IssueKind::invalid_value, pointer_to(r) + "/" + std::to_string(i + 1),
+                            "the point repeats the point before it");
+      }
     }
-    if (rings[r].size() < 3)
-      issues.push_back(
-          {IssueKind::out_of_range, pointer_to(r),
-           "found " + std::to_string(rings[r].size()) + " different points, expected at least 3"});
-    else if (std::abs(doubled_area(rings[r])) < 1e-6)
+    if (rings[r].size() < 3) {
+      issues.emplace_back(
+          IssueKind::out_of_range, pointer_to(r),
+          "found " + std::to_string(rings[r].size()) + " different points, expected at least 3");
+    } else if (std::abs(doubled_area(rings[r])) < 1e-6) {
       issues.push_back(issue_of_flat(rings[r], pointer_to(r), job));
+    }
   }
   if (!issues.empty()) return issues;
   check_crossings(rings, job, issues);
   for (std::size_t r = 1; r < rings.size() && issues.empty(); ++r) {
     if (!contains(rings[0], rings[r][0]))
-      issues.push_back({IssueKind::invalid_value, pointer_to(r), "the hole lies outside the outer ring"});
+      issues.emplace_back(IssueKind::invalid_value, pointer_to(r), "the hole lies outside the outer ring");
     for (std::size_t s = 1; s < r; ++s) {
       if (contains(rings[s], rings[r][0]) || contains(rings[r], rings[s][0]))
-        issues.push_back({IssueKind::invalid_value, pointer_to(r), "the hole lies inside another hole"});
+        issues.emplace_back(IssueKind::invalid_value, pointer_to(r), "the hole lies inside another hole");
     }
   }
   return issues;

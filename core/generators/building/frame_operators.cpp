@@ -34,10 +34,11 @@ void translate_in(Derivation& d, const Step& step, ShapeState& state, const Site
   glm::dvec3 by(0);
   for (int axis = 0; axis < 3; ++axis) by[axis] = length_of(d, a[axis], state.size[axis]);
   const glm::dmat3& axes = d.out.axes[state.axes];
-  if (words.is_absolute && !words.is_scope)
+  if (words.is_absolute && !words.is_scope) {
     state.origin = by;
-  else
+  } else {
     state.origin += words.is_scope ? axes * by : by;
+  }
 }
 
 void rotate_in(Derivation& d, const Step& step, ShapeState& state, const Site&) {

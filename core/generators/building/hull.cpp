@@ -26,6 +26,7 @@ std::vector<glm::dvec3> farthest_of(std::span<const glm::dvec3> points) {
   std::ranges::sort(chosen);
   chosen.erase(std::unique(chosen.begin(), chosen.end()), chosen.end());
   std::vector<glm::dvec3> out;
+  out.reserve(chosen.size());
   for (const std::size_t i : chosen) out.push_back(points[i]);
   return out;
 }

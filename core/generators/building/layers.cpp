@@ -61,10 +61,11 @@ class KeyMaker {
   std::vector<std::uint64_t>& of_body(const Shape& shape) {
     keys_.clear();
     corners_.clear();
-    if (shape.geometry == box_geometry || is_asset(shape))
+    if (shape.geometry == box_geometry || is_asset(shape)) {
       add_box(shape);
-    else
+    } else {
       add_solid(shape);
+    }
     return keys_;
   }
 

@@ -41,10 +41,11 @@ std::vector<glm::dvec2> rectified(const std::vector<glm::dvec2>& ring, double sl
     const glm::dvec2 e = edge(i) / std::max(glm::length(edge(i)), 1e-300);
     const double a = glm::dot(e, x), b = glm::dot(e, y), limit = math::sin(slack);
     glm::dvec2 along = e;
-    if (std::abs(b) <= limit)
+    if (std::abs(b) <= limit) {
       along = a > 0 ? x : -x;
-    else if (std::abs(a) <= limit)
+    } else if (std::abs(a) <= limit) {
       along = b > 0 ? y : -y;
+    }
     lines.push_back({0.5 * (ring[i] + ring[(i + 1) % n]), along});
   }
   std::vector<glm::dvec2> out;
@@ -137,9 +138,10 @@ void delete_holes(Derivation& d, const Step&, ShapeState& state, const Site&) {
 
 void rectify(Derivation& d, const Step& step, ShapeState& state, const Site&) {
   const double angle = number_or(d, step, 0, 15);
-  if (!(angle >= 0 && angle <= 45))
+  if (!(angle >= 0 && angle <= 45)) {
     reject(d, step.offset,
            "found an angle of " + text_of_number(angle) + ", expected one from 0 to 45 degrees");
+  }
   if (!state.has_solid() || dimension(state.size) != 2) return;
   Solid solid = solid_in_metres(d, state);
   const int w = flat_axis(state.size), u = (w + 1) % 3, v = (w + 2) % 3;
@@ -164,9 +166,10 @@ void reduce(Derivation& d, const Step& step, ShapeState& state, const Site&) {
   if (!(share >= 0 && share <= 1))
     reject(d, step.offset, "found a share of " + text_of_number(share) + ", expected one from 0 to 1");
   if (!has_faces(state) || share == 0) return;
-  if (dimension(state.size) == 3)
+  if (dimension(state.size) == 3) {
     return warn(d, step.offset,
                 "reduceGeometry has no effect on solids, whose faces share corners; use output.lods");
+  }
   const Solid solid = solid_in_metres(d, state);
   Solid out;
   for (const Face& face : solid.faces) {

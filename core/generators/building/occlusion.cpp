@@ -255,10 +255,11 @@ double Context::answer(const Query& query, const Scope& scope, std::span<const s
       if (share < 1e-6) return true;
       is_full = share > 1 - 1e-4;
     }
-    if (query.kind == Query::Kind::overlaps)
+    if (query.kind == Query::Kind::overlaps) {
       answer = 1;
-    else if (is_full)
+    } else if (is_full) {
       answer = query.kind == Query::Kind::inside ? 1 : 2;
+    }
     cover = Cover::part;
     return !answer;
   });

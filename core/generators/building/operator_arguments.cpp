@@ -16,17 +16,19 @@ std::string word_or(Derivation& d, const Step& step, std::uint32_t i, std::strin
 double number_or(Derivation& d, const Step& step, std::uint32_t i, double other) {
   if (i >= step.argument_count) return other;
   const Argument& argument = argument_at(d, step, i);
-  if (argument.word != none)
+  if (argument.word != none) {
     reject(d, step.offset,
            "found " + lang::in_quotes(d.grammar.words[argument.word]) + ", expected a number");
+  }
   return number_of(d, argument.value);
 }
 
 int uv_set_at(Derivation& d, const Step& step, std::uint32_t i) {
   const double set = number_or(d, step, i, 0);
-  if (!(set >= 0 && set <= 9 && set == std::floor(set)))
+  if (!(set >= 0 && set <= 9 && set == std::floor(set))) {
     reject(d, step.offset,
            "found the set of texture coordinates " + text_of_number(set) + ", expected one from 0 to 9");
+  }
   return static_cast<int>(set);
 }
 

@@ -51,9 +51,10 @@ void read_axis(Parser& p, const OperationRow& row, Step& step, const std::vector
       return;
     }
     step.axis = static_cast<std::uint8_t>(letter - 'x');
-    if (list.size() > 2 && row.op == Op::split)
+    if (list.size() > 2 && row.op == Op::split) {
       add_error(p, p.tokens.at(p.at - 1),
                 "found a set of texture coordinates, expected one only with the axes u and v");
+    }
     step.keeps_to_snaps = keeps_to_snaps;
     p.grammar.has_snap_splits |= keeps_to_snaps;
     step.is_2006 = row.op == Op::repeat;
@@ -199,19 +200,21 @@ void parse_selectors_2006(Parser& p, Step& step, const std::vector<Argument>& li
   const std::string word = list.empty() || list[0].word == none ? "" : p.grammar.words[list[0].word];
   const auto* const found = std::ranges::find(names_2006, std::string_view(word), &ClassName::name);
   if (found == std::end(names_2006)) {
-    if (!word.empty())
+    if (!word.empty()) {
       add_error(p, p.tokens.at(p.at > 0 ? p.at - 1 : 0),
                 "found the component " + lang::in_quotes(word) +
                     ", expected faces, sidefaces, topfaces, bottomfaces, edges, topedges, bottomedges, "
                     "sideedges or vertices");
+    }
   } else {
     part.classes = found->classes;
   }
   step.axis = word.find("edge") != std::string::npos ? 1 : word.find("vert") == 0 ? 2 : 0;
   if (list.size() > 1) {
-    if (!list[1].value.expression.is_constant)
+    if (!list[1].value.expression.is_constant) {
       add_error(p, p.tokens.at(p.at - 1),
                 "found an expression, expected a constant for the number of a component");
+    }
     part.index = static_cast<std::int32_t>(std::clamp(list[1].value.expression.value, 0.0, 1e9));
   }
   out.push_back(part);

@@ -121,10 +121,11 @@ void parse_symbol(Parser& p, std::vector<Step>& out) {
   if (p.tokens.is_missing(token.text)) step.is_leaf = true;
   if (!list.empty() && !step.is_leaf && !p.symbols_with_rules.contains(token.text)) {
     const std::string_view hint = mistyped_operation(token.text);
-    if (!hint.empty() || is_here(p, "{"))
+    if (!hint.empty() || is_here(p, "{")) {
       add_error(p, token,
                 "there is no operation and no rule " + in_quotes(token) +
                     (hint.empty() ? std::string() : "; did you mean " + lang::in_quotes(hint) + "?"));
+    }
   }
   out.push_back(step);
 }

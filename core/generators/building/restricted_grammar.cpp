@@ -35,9 +35,10 @@ class RestrictionCheck {
         fault(step, "the rule removes the shape, which a non-erasing grammar does not allow");
       const bool is_marker =
           step.op == Op::symbol && !step.is_leaf && !grammar_.symbols[step.symbol].rules.empty();
-      if (is_marker && ++markers > 1 && is_unimarker_)
+      if (is_marker && ++markers > 1 && is_unimarker_) {
         fault(step, "`" + grammar_.symbols[step.symbol].name +
                         "` is a second symbol with a rule in this successor; a unimarker grammar has one");
+      }
       markers = parts_of(step.first_part, step.part_count, markers);
     }
     return markers;
@@ -46,10 +47,11 @@ class RestrictionCheck {
   std::uint32_t parts_of(std::uint32_t first, std::uint32_t count, std::uint32_t markers) {
     for (std::uint32_t p = first; p < first + count; ++p) {
       const Part& part = grammar_.parts[p];
-      if (part.is_group)
+      if (part.is_group) {
         markers = parts_of(part.first_part, part.part_count, markers);
-      else if (part.body != none)
+      } else if (part.body != none) {
         markers = each_choice(part.body, markers);
+      }
     }
     return markers;
   }

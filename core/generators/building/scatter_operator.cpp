@@ -108,9 +108,10 @@ void scatter(Derivation& d, const Step& step, ShapeState& state, const Site& sit
         if (!is_gaussian || !(deviation > 0) || random.unit() < math::exp(-0.5 * far * far)) break;
         continue;
       }
-      for (int axis = 0; axis < 3; ++axis)
+      for (int axis = 0; axis < 3; ++axis) {
         p[axis] = is_gaussian ? seedmesh::normal(random, centre[axis], deviation)
                               : random.uniform(0, state.size[axis]);
+      }
       bool is_in = true;
       for (int axis = 0; axis < 3; ++axis) is_in &= p[axis] >= 0 && p[axis] <= state.size[axis];
       if (is_in && (domain == Domain::scope || is_inside_of(surface, p))) break;

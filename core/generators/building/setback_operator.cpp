@@ -75,9 +75,10 @@ std::vector<double> edge_distances(Derivation& d, const Step& step, const ShapeS
   const Argument& argument = argument_at(d, step, 0);
   std::vector<double> out(edges, 0.0);
   const auto positive = [&](double distance) {
-    if (distance < 0)
+    if (distance < 0) {
       reject(d, argument.value.offset,
              "found a distance of " + text_of_number(distance) + " m, expected 0 or more");
+    }
     return distance;
   };
   if (step.op == Op::setback_per_edge) {
@@ -140,9 +141,10 @@ void set_for_area(Derivation& d, const Step& step, const ShapeState& state, std:
   const Argument& argument = argument_at(d, step, 0);
   const double all = area_of(d, state);
   const double wanted = length_of(d, argument, all);
-  if (!(wanted >= 0))
+  if (!(wanted >= 0)) {
     reject(d, argument.value.offset,
            "found an area of " + text_of_number(wanted) + " m2, expected 0 or more");
+  }
   double low = 0, high = std::max({state.size.x, state.size.y, state.size.z});
   if (wanted >= all) high = 0;
   for (int i = 0; i < area_steps && high > 0; ++i) {
@@ -228,14 +230,16 @@ void setback(Derivation& d, const Step& step, ShapeState& state, const Site& sit
   const std::span<const Part> parts(d.grammar.parts.data() + step.first_part, step.part_count);
   const std::vector<Moved> faces = moved_faces(d, step, state, site, plane);
   std::vector<Setback> made;
+  made.reserve(faces.size());
   for (const Moved& face : faces) made.push_back(seedmesh::setback(face.plan, face.distances, d.job));
   for (const Part& part : parts) {
     std::vector<Plan> merged;
     const auto give = [&](const Plan& plan) {
-      if (part.is_merged)
+      if (part.is_merged) {
         merged.push_back(plan);
-      else
+      } else {
         run(part, {plan});
+      }
     };
     for (std::size_t f = 0; f < faces.size(); ++f) {
       const std::optional<Plan> band = has_selectors(step) || part.is_remainder

@@ -86,10 +86,11 @@ json vector(const glm::dvec3& v) { return json::array({v.x + 0.0, v.y + 0.0, v.z
 json array_json(const Shapes& shapes, const lang::TaggedValue& value) {
   json out = json::array();
   for (const lang::TaggedValue& each : shapes.arrays[value.text & ~array_bit].values) {
-    if (each.is_text() && !is_array(each))
+    if (each.is_text() && !is_array(each)) {
       out.push_back(*shapes.texts.find(each.text));
-    else
+    } else {
       out.push_back(each.number);
+    }
   }
   return out;
 }
@@ -100,12 +101,13 @@ json described(const Shapes& shapes, const Grammar& grammar, std::uint32_t index
   json parameters = json::array();
   for (std::uint32_t i = 0; i < shape.parameter_count; ++i) {
     const lang::TaggedValue& value = shapes.parameters[shape.first_parameter + i];
-    if (is_array(value))
+    if (is_array(value)) {
       parameters.push_back(array_json(shapes, value));
-    else if (value.is_text())
+    } else if (value.is_text()) {
       parameters.push_back(*shapes.texts.find(value.text));
-    else
+    } else {
       parameters.push_back(value.number);
+    }
   }
   json parent = nullptr;
   if (shape.parent != none) parent = shape.parent;

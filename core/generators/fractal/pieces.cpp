@@ -183,7 +183,7 @@ void add_pieces(Model& model, int parent, const Instructions& instructions, cons
       each_copy(instructions, plan.meshed, [&](const Affine& map) { joiner.add(compose(outer, map)); });
     group.primitives.push_back({joiner.take(), primitive.material, {}});
   }
-  Node& node = add_node(model, "copies", parent, seedmesh::add_mesh(model, std::move(group)));
+  Node& node = add_node(model, "copies", parent, add_mesh(model, std::move(group)));
   if (plan.nodes <= 1) return;
   each_copy(instructions, rounds - plan.meshed, [&](const Affine& map) {
     Affine moved = map;
@@ -241,8 +241,8 @@ void add_divided(Model& model, int parent, const Instructions& instructions, con
     }
     group.primitives.push_back({joiner.take(), primitive.material, {}});
   }
-  if (count.elements > 0) add_node(model, "copies", parent, seedmesh::add_mesh(model, std::move(group)));
-  if (count.points > 0) add_mesh(model, parent, "points", std::move(points));
+  if (count.elements > 0) add_node(model, "copies", parent, add_mesh(model, std::move(group)));
+  if (count.points > 0) add_node(model, "points", parent, add_mesh(model, "points", std::move(points), 0));
 }
 
 Mesh scattered(const Mesh& element, std::span<const glm::vec3> positions, double edge, Job& job) {

@@ -193,9 +193,10 @@ std::vector<PartPiece> make_balcony(const dvec3& size, const PartOptions& option
   };
   const int across = count_of(size.x - 2 * middle, 0.2, 1, 200),
             along = count_of(size.z - middle, 0.2, 1, 60);
-  for (int i = 0; i <= across; ++i)
+  for (int i = 0; i <= across; ++i) {
     post(middle + (size.x - 2 * middle) * i / across, size.z - middle,
          i == 0 || i == across ? 2 * bar / 1.5 : bar);
+  }
   for (int i = 0; i < along; ++i) {
     const double z = 0.5 * rail + (size.z - middle - 0.5 * rail) * i / along;
     post(middle, z, bar);
