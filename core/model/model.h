@@ -40,7 +40,7 @@ struct TextureRecipe {
   std::uint64_t seed = 0;
   std::optional<std::array<std::uint8_t, 3>> color;  ///< sRGB main colour; without it, that of the kind
   glm::vec3 factor{1};  ///< linear; multiplies the texture, so that several materials can share one image
-  /// Of leaves whose mesh has both sides and normals of its own: without a normal map, and not double-sided.
+  /// Of thin leaves with normals of their own, and of panes: without a normal map, and not double-sided.
   bool has_own_sides = false;
 };
 

@@ -52,14 +52,14 @@ Relief plated(const Plates& plates, int size, Rng rng, const Job& job) {
 }
 
 Relief oak(int size, Rng rng, const Job& job) {
-  return plated({{9, 3}, {10, 4}, 0.34F, 0.4F, 0.3F, 0.25F}, size, rng, job);
+  return plated({{14, 5}, {14, 6}, 0.4F, 0.34F, 0.3F, 0.25F}, size, rng, job);
 }
 
 /// Long plates of many sizes between deep furrows, each with overlapping thin flakes.
 Relief pine(int size, Rng rng, const Job& job) {
   const Field wobble = field_of({size, {6, 3}, {5, 0.6F}, 1, rng.at("wobble")}, size, job);
   const Noise gap_noise(size, {5, 3}, {3, 0.6F}, 1, rng.at("gap"));
-  const Cells plates(size, {7, 3}, rng.at("plates")), flakes(size, {16, 9}, rng.at("flakes"));
+  const Cells plates(size, {9, 5}, rng.at("plates")), flakes(size, {18, 13}, rng.at("flakes"));
   const Noise grain_noise = grain(size, rng), patch_noise = patches(size, rng);
   return paint_rows(size, Accent::none, job, [&](int begin, int end, const auto& row_at) {
     CellRows plate_rows(plates, wobble, 0.4F), flake_rows(flakes, wobble, 0.75F);
@@ -85,7 +85,7 @@ Relief pine(int size, Rng rng, const Job& job) {
 }
 
 Relief spruce(int size, Rng rng, const Job& job) {
-  return plated({{14, 14}, {12, 12}, 0.3F, 0.3F, 0.6F, 0.2F}, size, rng, job);
+  return plated({{26, 22}, {18, 16}, 0.45F, 0.3F, 0.6F, 0.2F}, size, rng, job);
 }
 
 /// A net of ridges around long furrows, as of old willows and ashes: raised borders of cells.
@@ -228,10 +228,10 @@ struct Kind {
 };
 
 constexpr Kind kinds[] = {
-    {"oak_bark", oak, {124, 106, 86}, 0.40F, 1.45F, {96, 110, 70}, 0.045F, 0.98F, 0.88F, 0.95F, 0.7F},
-    {"pine_bark", pine, {140, 96, 72}, 0.40F, 1.40F, {170, 120, 80}, 0.040F, 0.98F, 0.85F, 0.9F, 0.75F},
-    {"spruce_bark", spruce, {120, 96, 80}, 0.45F, 1.35F, {120, 120, 100}, 0.022F, 0.97F, 0.88F, 0.9F, 0.6F},
-    {"willow_bark", willow, {122, 110, 90}, 0.32F, 1.40F, {110, 120, 80}, 0.045F, 0.98F, 0.88F, 0.95F, 0.7F},
+    {"oak_bark", oak, {148, 133, 114}, 0.40F, 1.35F, {96, 110, 70}, 0.032F, 0.98F, 0.88F, 0.95F, 0.7F},
+    {"pine_bark", pine, {160, 116, 88}, 0.40F, 1.35F, {170, 120, 80}, 0.034F, 0.98F, 0.85F, 0.9F, 0.75F},
+    {"spruce_bark", spruce, {140, 119, 101}, 0.45F, 1.35F, {120, 120, 100}, 0.013F, 0.97F, 0.88F, 0.9F, 0.6F},
+    {"willow_bark", willow, {142, 130, 110}, 0.34F, 1.35F, {110, 120, 80}, 0.045F, 0.98F, 0.88F, 0.95F, 0.7F},
     {"birch_bark", birch, {206, 200, 188}, 0.82F, 1.12F, {44, 38, 34}, 0.012F, 0.9F, 0.6F, 0.95F, 0.35F},
     {"beech_bark", beech, {134, 132, 124}, 0.72F, 1.22F, {150, 158, 128}, 0.010F, 0.9F, 0.75F, 0.95F, 0.3F},
     {"cherry_bark", cherry, {104, 62, 50}, 0.62F, 1.45F, {168, 124, 96}, 0.012F, 0.7F, 0.42F, 0.9F, 0.4F},

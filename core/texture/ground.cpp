@@ -206,7 +206,7 @@ Relief grass_ground(int size, Rng rng, const Job& job) {
                       .low = 0.3F,
                       .high = 1,
                       .differ = 0.45F};
-  const Noise clumps(size, {9, 9}, {3, 0.6F}, 0.17F, rng.at("clumps"));
+  const Noise clumps(size, {9, 9}, {3, 0.6F}, 0.26F, rng.at("clumps"));
   add_blades(relief, blades, field_of(clumps, size, job), rng.at("blades"), job);
   return centred(std::move(relief), 0.57);
 }
@@ -249,8 +249,9 @@ Relief rock_ground(int size, Rng rng, const Job& job) {
                     edge = step_between(0, 0.16F, chip.border[x]);
         out.height[x] = clamp_share(crack * (0.35F + 0.35F * plate.shade[x]) +
                                     edge * (0.06F + 0.16F * chip.shade[x]) + 0.08F * pits[x]);
-        out.tone[x] = clamp_share(0.2F + 0.22F * crack + 0.12F * plate.shade[x] + 0.16F * chip.shade[x] +
-                                  0.05F * edge + 0.16F * pits[x]);
+        // Cracks are shown by their relief; lines of another tone would look like veins.
+        out.tone[x] = clamp_share(0.3F + 0.1F * crack + 0.14F * plate.shade[x] + 0.22F * chip.shade[x] +
+                                  0.04F * edge + 0.26F * pits[x]);
       }
     }
   }));

@@ -10,8 +10,11 @@
 
 #include "core/model/model.h"
 #include "core/texture/bond.h"
+#include "core/texture/grime.h"
 #include "core/texture/ground.h"
+#include "core/texture/joinery.h"
 #include "core/texture/noise.h"
+#include "core/texture/rooms.h"
 
 namespace seedmesh::texture {
 namespace {
@@ -150,7 +153,7 @@ Relief roof_tile(int size, Rng rng, const Job& job) {
       const ReliefRow out = row_at(y);
       const float rise = 0.2F * step_between(0, 0.05F, course.y) * (0.3F + 0.7F * course.y);
       const float under = 0.42F * (1 - step_between(0, 0.1F, course.y));  // in the shade of the tile above
-      for (int x = 0; x < size; ++x) out.tone[x] = 0.5F * (shades.at(course, course.column[x]) - 0.5F);
+      for (int x = 0; x < size; ++x) out.tone[x] = 0.26F * (shades.at(course, course.column[x]) - 0.5F);
       for (int x = 0; x < size; ++x) {
         // A trough of two thirds and a roll of one third of the width, both parabolas.
         const float across = course.x[x];
@@ -177,7 +180,7 @@ Relief slate(int size, Rng rng, const Job& job) {
       const ReliefRow out = row_at(y);
       const float butt = step_between(0, 0.05F, course.y) * (0.4F + 0.5F * course.y);
       const float under = 0.4F * (1 - step_between(0, 0.08F, course.y));
-      for (int x = 0; x < size; ++x) out.tone[x] = 0.6F * (shades.at(course, course.column[x]) - 0.5F);
+      for (int x = 0; x < size; ++x) out.tone[x] = 0.34F * (shades.at(course, course.column[x]) - 0.5F);
       for (int x = 0; x < size; ++x) {
         const float gap = 1 - step_between(0.002F, 0.006F, course.to_side[x]);
         out.height[x] = clamp_share(butt * (1 - 0.6F * gap) + 0.06F * fine[x]);
@@ -297,6 +300,9 @@ constexpr WallKind kinds[] = {
     {"panels", panel_tile, true},
     {"dressed_stone", plain_tile, true},
     {"paint", plain_tile, true},
+    {"rooms", plain_tile, false},
+    {"joinery", plain_tile, true},
+    {"grime", plain_tile, false},
     {"grass_ground", {ground_tile, ground_tile}, true},
     {"soil_ground", {ground_tile, ground_tile}, true},
     {"rock_ground", {ground_tile, ground_tile}, true},
@@ -317,7 +323,10 @@ constexpr Painter painters[] = {
     {panels, {}, 0.72F, 1.08F, {}, 0.01F, 0.6F, 0.45F, 0.6F, 0.5F},
     {dressed_stone, {}, 0.74F, 1.12F, {}, 0.004F, 0.95F, 0.82F, 0.95F, 0.25F},
     {paint, {}, 0.86F, 1.08F, {}, 0.001F, 0.7F, 0.5F, 0.7F, 0.1F},
-    {grass_ground, {}, 0.28F, 1.3F, {}, 0.022F, 0.98F, 0.8F, 0.9F, 0.55F},
+    {rooms, {64, 67, 69}, 0.5F, 2.7F, {186, 142, 84}, 0, 0.06F, 0.06F, 0.06F, 0},
+    {joinery, {}, 0.34F, 1.1F, {}, 0.012F, 0.75F, 0.5F, 0.7F, 0.55F},
+    {grime, {74, 68, 58}, 0.9F, 1.1F, {}, 0, 0.95F, 0.95F, 0.95F, 0},
+    {grass_ground, {}, 0.28F, 1.3F, {}, 0.028F, 0.98F, 0.8F, 0.9F, 0.55F},
     {soil_ground, {}, 0.42F, 1.3F, {}, 0.03F, 0.98F, 0.82F, 0.9F, 0.5F},
     {rock_ground, {}, 0.34F, 1.3F, {}, 0.03F, 0.96F, 0.75F, 0.9F, 0.55F},
     {scree_ground, {}, 0.32F, 1.3F, {}, 0.08F, 0.98F, 0.78F, 0.9F, 0.6F},

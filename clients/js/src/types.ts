@@ -1485,6 +1485,22 @@ export interface TerrainParametersLayersItem {
   fault_min?: number;
 }
 
+/** For fracture: the body that breaks, where it breaks, and its layers. */
+export interface TerrainParametersFracture {
+  /** Half axes of the body along X, Y and Z, as shares of half the size. */
+  axes?: [number, number, number];
+  /** Least and greatest distance of a plane from the centre, as shares of the distance at which it touches the body. */
+  depth?: [number, number];
+  /** Width over which edges are worn, as a share of half the size. */
+  bevel?: number;
+  /** How far the softest layers recede, as a share of half the size. 0: no layers. */
+  strata?: number;
+  /** Median thickness of a layer, as a share of half the size. */
+  layer?: number;
+  /** How far layers lean from level, to a random side. */
+  tilt?: number;
+}
+
 /** Heights as an image, for the algorithm image. */
 export interface TerrainParametersImage {
   /** A PNG, JPEG, WebP or TIFF file, raw 16-bit samples or an .hgt file, in base64. A data: URL is accepted, too. The first row is the northern one. */
@@ -1606,23 +1622,23 @@ export interface TerrainParametersHeightmap {
 
 /** A height field by one of the classic algorithms, filtered, meshed and coloured, or as a height map for an engine; or a planetoid. */
 export interface TerrainParameters {
-  /** The algorithm. fault_formation and poisson_faulting lift one side of random lines. triangular_edge, diamond_square and square_square refine a few heights repeatedly. fbm sums octaves of noise. brownian is fractional Brownian motion along a line, for the shape profile. image takes heights from an image. expression computes each height. */
-  algorithm?: "fault_formation" | "poisson_faulting" | "triangular_edge" | "diamond_square" | "square_square" | "fbm" | "brownian" | "image" | "expression";
+  /** The algorithm. fault_formation and poisson_faulting lift one side of random lines. triangular_edge, diamond_square and square_square refine a few heights repeatedly. fbm sums octaves of noise. brownian is fractional Brownian motion along a line, for the shape profile. image takes heights from an image. expression computes each height. fracture breaks a solid along random planes, for rocks of the shape sphere. */
+  algorithm?: "fault_formation" | "poisson_faulting" | "triangular_edge" | "diamond_square" | "square_square" | "fbm" | "brownian" | "image" | "expression" | "fracture";
   /** The height of a sample, for the algorithm expression: x and y are metres to the east and north of the centre, on a sphere x, y and z its position, and latitude and longitude in degrees. size is the size. noise(x, y) is gradient noise; fbm, ridged and billow(x, y, octaves) are sums of it; all take a z as well. ran draws anew at each sample. */
   expression?: string;
   /** Further heights that are combined with those of the algorithm, one after the other, before the filters. */
   layers?: TerrainParametersLayersItem[];
-  /** Rounds of a subdivision (n rounds give 2^n + 1 samples a side, square_square 2^n + 2), the number of faults, or the octaves of noise. Default: 8 rounds, 64 faults, 8 octaves. Not for image and expression. */
+  /** Rounds of a subdivision (n rounds give 2^n + 1 samples a side, square_square 2^n + 2), the number of faults, the octaves of noise, or the planes of fracture. Default: 8 rounds, 64 faults, 8 octaves, 16 planes. Not for image and expression. */
   iterations?: number;
   /** Additional iterations after the planned ones. A subdivision or noise becomes finer by that many rounds and keeps its old heights. Faults are added without the falling bound. */
   extra_iterations?: number;
-  /** Samples a side for algorithms that do not determine it: faults, fbm, brownian and expression. On a sphere, samples along an edge of its cube. Default: 257, on a sphere 65. */
+  /** Samples a side for algorithms that do not determine it: faults, fbm, brownian, expression and fracture. On a sphere, samples along an edge of its cube. Default: 257, on a sphere 65. */
   resolution?: number;
   /** Length of the terrain from west to east, or the diameter of a sphere. */
   size?: number;
-  /** plane: a height field. sphere: a planetoid (fault_formation, poisson_faulting, fbm and expression). profile: the heights along one line from west to east, as a graph of lines (brownian and fbm). */
+  /** plane: a height field. sphere: a planetoid or a rock (fault_formation, poisson_faulting, fbm, expression and fracture). profile: the heights along one line from west to east, as a graph of lines (brownian and fbm). */
   shape?: "plane" | "sphere" | "profile";
-  /** Greatest random deviation of the first round of a subdivision, the weight of the first octave of noise, or for brownian the standard deviation of the height difference between both ends. Default: a tenth of the size, on a sphere a twentieth of the diameter. */
+  /** Greatest random deviation of the first round of a subdivision, the weight of the first octave of noise, for brownian the standard deviation of the height difference between both ends, or for fracture the noise on the facets. Default: a tenth of the size, on a sphere a twentieth of the diameter, for fracture a sixtieth. */
   amplitude?: number;
   /** How fast the deviation falls with finer detail: every round or octave has 2^-hurst times the deviation of the one before. 1 is smooth, 0 is very rough. Default: 0.8. The mode random of triangular_edge does not use it. For brownian, it lies between 0 and 1, and heights at a distance d differ by about d^hurst; the default is 0.5. */
   hurst?: number;
@@ -1642,6 +1658,8 @@ export interface TerrainParameters {
   fault_step?: "hard" | "line" | "cosine";
   /** Width of the slope across a fault with the profile line or cosine. Default: an eighth of the size. */
   fault_width?: number;
+  /** For fracture: the body that breaks, where it breaks, and its layers. */
+  fracture?: TerrainParametersFracture;
   /** For fbm: rolling (fractal Brownian motion), ridged (ridged multifractal: sharp crests, smooth valleys) or billow (rounded hills). Default: rolling. */
   noise?: "rolling" | "ridged" | "billow";
   /** Size of the largest features of fbm. Default: a third of the size. */
@@ -1676,15 +1694,15 @@ export interface TerrainParameters {
   skirt?: number;
   /** Makes a closed solid for printing, with a floor at this distance below the lowest height. */
   base?: number;
-  /** Colours by height, slope and hollows. */
-  palette?: "alpine" | "desert" | "tropical" | "arctic" | "volcanic" | "moon" | "grey" | "none";
+  /** Colours by height, slope and hollows. stone and mossy are those of rocks: light tops, and tops with moss. */
+  palette?: "alpine" | "desert" | "tropical" | "arctic" | "volcanic" | "moon" | "stone" | "mossy" | "grey" | "none";
   specular?: Specular;
   emission?: Emission;
   /** A sheet of water at this height; on a sphere above its mean radius. */
   water_level?: number;
   /** Pixels a side of a colour texture and a normal map of the whole field, instead of vertex colours. 0: none. Not on a sphere. */
   texture?: number;
-  /** Textures that repeat each two metres on the ground: grass, soil, rock, scree, sand or snow by palette, height and slope, each with colour, normals and roughness. They multiply the vertex colours. Steep ground is mapped from its side. Not with texture, and not on a sphere or a model. */
+  /** Textures that repeat each two metres on the ground: grass, soil, rock, scree, sand or snow by palette, height and slope, each with colour, normals and roughness. They multiply the vertex colours. Steep ground is mapped from its side. A sphere is rock. Not with texture, and not on a model. */
   detail?: boolean;
   /** Applies the heights to the surface of another model instead of a plane. They keep their metres and continue mirrored beyond their edges, so that there is no seam. The model keeps its materials. */
   onto?: TerrainParametersOnto;

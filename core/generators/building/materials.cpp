@@ -37,26 +37,31 @@ constexpr MaterialPreset presets[] = {
     {"building", {222, 214, 200}, 0.95, 0, 1},
 };
 
+// What shows behind the glass of windows, and dirt on walls. Their colours do not follow those of the request.
+constexpr std::string_view rooms_surface = "rooms", grime_surface = "grime";
+
 /// The kind of surface that materials of a name have.
 struct Surface {
   std::string_view material, kind;
 };
 constexpr Surface surfaces[] = {
-    {"brick", "brick"},      {"plaster", "plaster"},
-    {"wall", "plaster"},     {"facade", "plaster"},
-    {"stone", "ashlar"},     {"concrete", "concrete"},
-    {"wood", "planks"},      {"roof", "roof_tile"},
-    {"slate", "slate"},      {"roof_tile", "roof_tile"},
-    {"cladding", "sheet"},   {"chimney", "brick"},
-    {"building", "plaster"}, {"dressed_stone", "dressed_stone"},
-    {"painted", "paint"},    {"panels", "panels"},
+    {"brick", "brick"},       {"plaster", "plaster"},
+    {"wall", "plaster"},      {"facade", "plaster"},
+    {"stone", "ashlar"},      {"concrete", "concrete"},
+    {"wood", "planks"},       {"roof", "roof_tile"},
+    {"slate", "slate"},       {"roof_tile", "roof_tile"},
+    {"cladding", "sheet"},    {"chimney", "brick"},
+    {"building", "plaster"},  {"dressed_stone", "dressed_stone"},
+    {"painted", "paint"},     {"panels", "panels"},
+    {"joinery", "joinery"},   {"glass_room", "rooms"},
+    {"grime", grime_surface},
 };
 
 // Parts of blueprints: doors and frames are painted wood, and what has a colour of its own is one piece of stone.
 constexpr Surface part_surfaces[] = {
-    {"door", "paint"},     {"frame", "paint"},       {"color", "dressed_stone"},
-    {"stone", "ashlar"},   {"brick", "brick"},       {"wall", "plaster"},
-    {"roof", "roof_tile"}, {"concrete", "concrete"}, {"wood", "planks"},
+    {"door", "joinery"}, {"frame", "paint"},       {"color", "dressed_stone"}, {"stone", "ashlar"},
+    {"brick", "brick"},  {"wall", "plaster"},      {"roof", "roof_tile"},      {"concrete", "concrete"},
+    {"wood", "planks"},  {"glass", rooms_surface},
 };
 // Flat bodies of blueprints with a colour alone.
 constexpr std::string_view painted_surface = "plaster";
@@ -74,7 +79,8 @@ const texture::WallKind* surface_named(std::string_view material) {
 
 /// Whether a surface is one of walls, not of roofs, joinery or trim.
 bool is_wall(std::string_view material) {
-  constexpr std::array<std::string_view, 4> others = {"roof_tile", "slate", "paint", "dressed_stone"};
+  constexpr std::array<std::string_view, 7> others = {"roof_tile", "slate", "paint",      "dressed_stone",
+                                                      "joinery",   "rooms", grime_surface};
   const texture::WallKind* const kind = surface_named(material);
   return kind != nullptr && std::ranges::find(others, kind->name) == others.end();
 }
@@ -219,6 +225,8 @@ const texture::WallKind* MaterialTable::surface_of(const MaterialRequest& reques
     if (own.images || own.texture == BuildingTexture::none) return nullptr;
     if (own.texture != BuildingTexture::auto_) return texture::wall_kind(text_of(own.texture));
   }
+  const bool is_glass = request.name.starts_with("glass");
+  if (request.is_role && is_glass && given != params_.materials.end()) return nullptr;
   if (request.is_role) return params_.blueprint ? surface_of_part(request.name) : nullptr;
   if (params_.blueprint && request.name.starts_with("color_")) return texture::wall_kind(painted_surface);
   const bool by_name = params_.textures == BuildingTextures::made || params_.blueprint.has_value();
@@ -287,7 +295,10 @@ int MaterialTable::make(const MaterialRequest& request) {
     material.recipe.kind = surface->name;
     if (given != params_.materials.end())
       material.recipe.seed = static_cast<std::uint64_t>(given->second.texture_seed);
-    if (surface->is_grey) {
+    if (surface->name == rooms_surface || surface->name == grime_surface) {
+      material.recipe.has_own_sides = true;  // both are flat
+      if (surface->name == grime_surface) material.alpha_mode = AlphaMode::blend;
+    } else if (surface->is_grey) {
       material.recipe.factor = glm::min(glm::vec3(material.base_color) / texture::wall_grey(), glm::vec3(1));
     } else {
       material.recipe.color = {{main.red, main.green, main.blue}};

@@ -10,6 +10,7 @@
 #include "core/generators/building/operators.h"
 #include "core/generators/building/parts/parts.h"
 #include "core/generators/building/raised_solids.h"
+#include "core/texture/rooms.h"
 
 namespace seedmesh::building {
 
@@ -123,7 +124,7 @@ std::uint32_t options_of(Derivation& d, const Step& step) {
   options.count = math::to_int32(given(1, 1'000, "the count of a part"));
   options.frame = given(2, 10, "the frame of a part");
   options.angle = math::radians(given(3, 85, "the angle of a part"));
-  options.room = math::to_int32(given(4, 3, "the room behind a window"));
+  options.room = math::to_int32(given(4, texture::room_count - 1, "the room behind a window"));
   const auto [found, is_new] =
       d.part_option_ids.try_emplace(options, static_cast<std::uint32_t>(d.out.part_options.size()));
   if (is_new) d.out.part_options.push_back(options);

@@ -191,7 +191,9 @@ Result<Model> Ground::model(const SceneParams& params, const GenerateContext& co
   } else {
     model = flat_model(params.ground.value_or(SceneGround{}), extent_, round_, job);
   }
-  add_path_bands(model, params.paths, *this, terrain_ ? field_.cell : 0, job);
+  const bool has_detail = terrain_ && terrain_->detail && context.demand.textures > 0;
+  add_path_bands(model, params.paths, *this, terrain_ ? field_.cell : 0,
+                 has_detail ? PathSurface::soil : PathSurface::plain, job);
   add_outlines(model, params, *this, job);
   return model;
 }

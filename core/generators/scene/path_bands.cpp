@@ -14,6 +14,8 @@
 #include "core/model/build.h"
 #include "core/model/levels.h"
 #include "core/schema/json.h"
+#include "core/texture/ground.h"
+#include "core/texture/wall.h"
 #include "generated/params/scene.h"
 
 namespace seedmesh::scene {
@@ -27,9 +29,35 @@ constexpr int corners_of_a_joint = 16;
 constexpr std::size_t most_path_nodes = 256;  ///< more paths are joined to one mesh for each colour
 constexpr double most_squares = 4096;         ///< along one segment
 
+// Wheels leave two ruts. At both edges weeds grow, and the ground is darker.
+constexpr float rut_at = 0.46F, rut_width = 0.16F, edge_from = 0.7F;
+constexpr glm::vec3 rut_color{0.78F, 0.77F, 0.76F}, weed_color{0.5F, 0.56F, 0.4F},
+    middle_color{0.82F, 0.85F, 0.72F};
+constexpr const char* soil = "soil_ground";
+
+float ease(float from, float to, float value) {
+  const float t = std::clamp((value - from) / (to - from), 0.0F, 1.0F);
+  return t * t * (3 - 2 * t);
+}
+
+/// The vertex colour at a distance from the middle line, as a share of half the width.
+glm::u8vec4 color_across(float share) {
+  const auto mixed = [](const glm::vec3& a, const glm::vec3& b, float by) { return a + (b - a) * by; };
+  glm::vec3 color = mixed(middle_color, glm::vec3(1), ease(0.05F, 0.3F, share));
+  color = mixed(color, rut_color, 1 - ease(0, rut_width, std::abs(share - rut_at)));
+  color = mixed(color, weed_color, ease(edge_from, 1, share)) * 255.0F + 0.5F;
+  return {static_cast<std::uint8_t>(color.x), static_cast<std::uint8_t>(color.y),
+          static_cast<std::uint8_t>(color.z), 255};
+}
+
 class Band {
  public:
-  Band(const Ground& ground, double cell, Job& job) : ground_(ground), cell_(cell), job_(job) {
+  Band(const Ground& ground, double cell, PathSurface surface, Job& job)
+      : ground_(ground), cell_(cell), surface_(surface), job_(job) {
+    if (surface == PathSurface::soil) {
+      mesh_.uv[0] = Array<glm::vec2>(job);
+      mesh_.color = Array<glm::u8vec4>(job);
+    }
     mesh_.position = Array<glm::vec3>(job);
     mesh_.normal = Array<glm::vec3>(job);
     mesh_.index.wide = Array<std::uint32_t>(job);
@@ -52,9 +80,14 @@ class Band {
   }
 
  private:
-  std::uint32_t vertex(const glm::dvec2& p) {
+  /// `share`: the distance from the middle line by half the width.
+  std::uint32_t vertex(const glm::dvec2& p, double share) {
     const double above = lift + lift_a_cell * cell_ + step_up * (piece_ % different_lifts);
     mesh_.position.push_back(glm::vec3(glm::dvec3(p.x, ground_.height(p) + above, p.y)));
+    if (surface_ == PathSurface::soil) {
+      mesh_.uv[0].push_back(glm::vec2(p / texture::ground_tile) + 0.0F);
+      mesh_.color.push_back(color_across(static_cast<float>(share)));
+    }
     return static_cast<std::uint32_t>(mesh_.position.size()) - 1;
   }
   void face(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
@@ -77,7 +110,10 @@ class Band {
     for (int i = 0; i <= far; ++i) {
       const glm::dvec2 middle = a + onward * (length * i / far);
       const auto row = static_cast<std::uint32_t>(mesh_.position.size());
-      for (int k = 0; k <= wide; ++k) vertex(middle + left * (half_width * (1 - 2.0 * k / wide)));
+      for (int k = 0; k <= wide; ++k) {
+        const double side = 1 - 2.0 * k / wide;
+        vertex(middle + left * (half_width * side), std::abs(side));
+      }
       for (std::uint32_t k = 0; i > 0 && k < static_cast<std::uint32_t>(wide); ++k) {
         face(before + k, before + k + 1, row + k + 1);
         face(before + k, row + k + 1, row + k);
@@ -90,12 +126,13 @@ class Band {
     ++piece_;
     const int rings = squares(radius);
     spend(corners_of_a_joint * (2 * static_cast<std::uint64_t>(rings) - 1));
-    const std::uint32_t centre = vertex(middle);
+    const std::uint32_t centre = vertex(middle, 0);
     for (int ring = 1; ring <= rings; ++ring) {
       const auto first = static_cast<std::uint32_t>(mesh_.position.size());
       for (int i = 0; i < corners_of_a_joint; ++i) {
         const math::SinCos turn = math::sincos(2 * math::pi * i / corners_of_a_joint);
-        vertex(middle + glm::dvec2(turn.cos, -turn.sin) * (radius * ring / rings));
+        const double share = static_cast<double>(ring) / rings;
+        vertex(middle + glm::dvec2(turn.cos, -turn.sin) * (radius * share), share);
       }
       for (std::uint32_t i = 0; i < corners_of_a_joint; ++i) {
         const std::uint32_t j = (i + 1) % corners_of_a_joint;
@@ -124,6 +161,7 @@ class Band {
 
   const Ground& ground_;
   double cell_;
+  PathSurface surface_;
   Job& job_;
   Mesh mesh_;
   int piece_ = 0;
@@ -144,6 +182,10 @@ Mesh copy_of(const Mesh& mesh, double lifted, const Job& job) {
   copy.position = Array<glm::vec3>(job);
   copy.normal = Array<glm::vec3>(job);
   copy.index.wide = Array<std::uint32_t>(job);
+  copy.uv[0] = Array<glm::vec2>(job);
+  copy.color = Array<glm::u8vec4>(job);
+  copy.uv[0].append(mesh.uv[0].span());
+  copy.color.append(mesh.color.span());
   copy.position.append(mesh.position.span());
   copy.normal.append(mesh.normal.span());
   copy.index.wide.append(mesh.index.wide.span());
@@ -153,8 +195,8 @@ Mesh copy_of(const Mesh& mesh, double lifted, const Job& job) {
 
 /// Paths of one mesh.
 struct PathGroup {
-  PathGroup(const Ground& ground, double cell, const Job& shared, const ScenePath& path)
-      : job(shared), band(ground, cell, job), first(path) {}
+  PathGroup(const Ground& ground, double cell, PathSurface surface, const Job& shared, const ScenePath& path)
+      : job(shared), band(ground, cell, surface, job), first(path) {}
   PathGroup(const PathGroup&) = delete;
   PathGroup& operator=(const PathGroup&) = delete;
   ~PathGroup() = default;
@@ -165,11 +207,16 @@ struct PathGroup {
 };
 
 /// The mesh of a group, with the coarser levels of the ground.
-void add_group(Model& model, PathGroup& group, const std::vector<double>& errors, Job& job) {
+void add_group(Model& model, PathGroup& group, PathSurface surface, const std::vector<double>& errors,
+               Job& job) {
   Material material;
   material.name = "path";
   material.base_color = linear_color(group.first.color);
   material.roughness = 1;
+  if (surface == PathSurface::soil) {
+    material.recipe.kind = soil;
+    material.recipe.factor = glm::min(glm::vec3(material.base_color) / texture::grey_of(soil), glm::vec3(1));
+  }
   set_specular(material, group.first.specular);
   set_emission(material, group.first.emission);
   const int number = add_material(model, std::move(material));
@@ -185,7 +232,7 @@ void add_group(Model& model, PathGroup& group, const std::vector<double>& errors
 }  // namespace
 
 void add_path_bands(Model& model, const std::vector<ScenePath>& paths, const Ground& ground, double cell,
-                    Job& job) {
+                    PathSurface surface, Job& job) {
   const std::vector<double> errors = errors_of_levels(model);
   const bool joins = paths.size() > most_path_nodes;
   std::vector<std::unique_ptr<PathGroup>> groups;
@@ -198,12 +245,12 @@ void add_path_bands(Model& model, const std::vector<ScenePath>& paths, const Gro
     const std::uint32_t rgb = std::uint32_t{path.color.red} << 16U | std::uint32_t{path.color.green} << 8U |
                               std::uint32_t{path.color.blue};
     const auto [known, is_new] = group_of.emplace(std::pair(rgb, light_key(path)), groups.size());
-    if (is_new || !joins) groups.push_back(std::make_unique<PathGroup>(ground, cell, job, path));
+    if (is_new || !joins) groups.push_back(std::make_unique<PathGroup>(ground, cell, surface, job, path));
     PathGroup& group = joins ? *groups[known->second] : *groups.back();
     const Job::PointerScope scope(group.job, "/paths/" + std::to_string(number));
     group.band.lay(points, path.width / 2);
   }
-  for (const std::unique_ptr<PathGroup>& group : groups) add_group(model, *group, errors, job);
+  for (const std::unique_ptr<PathGroup>& group : groups) add_group(model, *group, surface, errors, job);
 }
 
 }  // namespace seedmesh::scene

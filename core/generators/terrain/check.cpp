@@ -31,6 +31,7 @@ class Check {
     iterations();
     heights();
     if (params_.shape == TerrainShape::sphere) sphere();
+    if (is({Algorithm::fracture})) rock();
     profile();
     if (params_.tile) tile();
     if (params_.hydraulic) hydraulic();
@@ -65,12 +66,14 @@ class Check {
 
   void belongings() {
     using enum TerrainAlgorithm;
-    belongs("resolution", params_.resolution, {fault_formation, poisson_faulting, fbm, brownian, expression});
+    belongs("resolution", params_.resolution,
+            {fault_formation, poisson_faulting, fbm, brownian, expression, fracture});
     belongs("expression", params_.expression, {expression});
     if (is({expression}) && !params_.expression)
       fault(IssueKind::missing, "",
             "\"expression\" is missing; the algorithm expression takes its heights from it");
-    belongs("amplitude", params_.amplitude, {triangular_edge, diamond_square, square_square, fbm, brownian});
+    belongs("amplitude", params_.amplitude,
+            {triangular_edge, diamond_square, square_square, fbm, brownian, fracture});
     belongs("hurst", params_.hurst, {triangular_edge, diamond_square, square_square, fbm, brownian});
     belongs("corners", params_.corners, {triangular_edge, diamond_square});
     belongs("grid", params_.grid, {square_square});
@@ -84,6 +87,7 @@ class Check {
     belongs("wavelength", params_.wavelength, {fbm});
     belongs("lacunarity", params_.lacunarity, {fbm});
     belongs("warp", params_.warp, {fbm});
+    belongs("fracture", params_.fracture, {fracture});
     belongs("image", params_.image, {image});
     if (is({image}) && !params_.image)
       fault(IssueKind::missing, "", "\"image\" is missing; the algorithm image reads its heights from it");
@@ -171,11 +175,11 @@ class Check {
 
   void sphere() {
     using enum TerrainAlgorithm;
-    if (!is({fault_formation, poisson_faulting, fbm, expression}))
-      return fault(
-          IssueKind::not_available, "/shape",
-          std::string(text_of(params_.algorithm)) +
-              " cannot make a sphere; expected fault_formation, poisson_faulting, fbm or expression");
+    if (!is({fault_formation, poisson_faulting, fbm, expression, fracture}))
+      return fault(IssueKind::not_available, "/shape",
+                   std::string(text_of(params_.algorithm)) +
+                       " cannot make a sphere; expected fault_formation, poisson_faulting, fbm, expression "
+                       "or fracture");
     if (params_.resolution && *params_.resolution > longest_sphere)
       fault(IssueKind::out_of_range, "/resolution",
             "found " + std::to_string(*params_.resolution) + "; expected at most " +
@@ -183,6 +187,16 @@ class Check {
     if (params_.fault_step.value_or(TerrainFaultStep::hard) != TerrainFaultStep::hard)
       fault(IssueKind::not_available, "/fault_step", "a sphere has only hard steps");
     planes_only("a sphere");
+  }
+
+  void rock() {
+    if (params_.shape != TerrainShape::sphere)
+      fault(IssueKind::conflict, "/shape",
+            "found \"" + std::string(text_of(params_.shape)) +
+                "\"; fracture breaks a solid, expected \"sphere\"");
+    if (params_.fracture && params_.fracture->depth[0] > params_.fracture->depth[1])
+      fault(IssueKind::out_of_range, "/fracture/depth",
+            "the least distance of a plane is above the greatest");
   }
 
   void planes_only(const std::string& shape) {
@@ -203,8 +217,8 @@ class Check {
     refuse(params_.skirt > 0, "/skirt");
     refuse(params_.base.has_value(), "/base");
     refuse(params_.texture > 0, "/texture");
-    refuse(params_.detail, "/detail");
     if (params_.shape != TerrainShape::profile) return;
+    refuse(params_.detail, "/detail");
     refuse(!params_.layers.empty(), "/layers");
     refuse(params_.water_level.has_value(), "/water_level");
     refuse(params_.onto.has_value(), "/onto");

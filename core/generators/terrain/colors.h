@@ -6,7 +6,7 @@
 
 namespace seedmesh::terrain {
 
-enum class PaletteName { alpine, desert, tropical, arctic, volcanic, moon, grey, none };
+enum class PaletteName { alpine, desert, tropical, arctic, volcanic, moon, stone, mossy, grey, none };
 
 /// Shares of four ground types, which sum to 1: the weights of a splat map.
 struct Cover {

@@ -1,14 +1,18 @@
 #include <algorithm>
 #include <string>
 
+#include "core/generators/terrain/box_mapping.h"
 #include "core/generators/terrain/dress.h"
 #include "core/generators/terrain/model_parts.h"
 #include "core/generators/terrain/plan.h"
 #include "core/generators/terrain/surface.h"
+#include "core/texture/wall.h"
 #include "generated/params/terrain.h"
 
 namespace seedmesh::terrain {
 namespace {
+
+constexpr const char* rock_kind = "rock_ground";
 
 class PlanetDressing {
  public:
@@ -18,7 +22,7 @@ class PlanetDressing {
   Model dress() {
     Planet planet = planet_of(params_, 0, job_);
     job_.progress("mesh", 0);
-    const Range range = range_of(planet);
+    const Range range = colored_range(planet);
     const auto level = static_cast<float>(params_.water_level.value_or(static_cast<double>(range.low)));
     const GroundColors ground_colors(palette_of(params_), range, level);
     Model model;
@@ -38,15 +42,44 @@ class PlanetDressing {
   }
 
  private:
+  bool is_rock() const { return params_.algorithm == TerrainAlgorithm::fracture; }
+  bool has_detail() const { return params_.detail && demand_.textures > 0; }
+
+  /// The range of heights that colours refer to: that of the positions of a rock.
+  Range colored_range(const Planet& planet) const {
+    if (!is_rock()) return range_of(planet);
+    const auto half = static_cast<float>(planet.radius);
+    return {-half, half};
+  }
+
+  Material material() const {
+    Material made = ground_material(params_);
+    if (has_detail()) made.recipe.kind = made.name = rock_kind;
+    return made;
+  }
+
+  /// The mesh of a planet, with texture coordinates if it has detail.
+  Mesh mesh_of(const Planet& planet, const GroundColors* colors) {
+    const Upward upward = is_rock() ? Upward::along_y : Upward::outward;
+    Mesh mesh = planet_mesh(planet, colors, upward, job_.rng().at("terrain"), job_);
+    if (!has_detail()) return mesh;
+    BoxMapped mapped(mesh, {}, 1 / texture::grey_of(rock_kind), job_);
+    for (std::size_t i = 0; i < mesh.index.size(); i += 3) {
+      if (i % 12'288 == 0) job_.check();
+      mapped.add({mesh.index.at(i), mesh.index.at(i + 1), mesh.index.at(i + 2)});
+    }
+    return std::move(mapped.mesh);
+  }
+
   void add_ground(Model& model, Planet planet, const GroundColors& ground_colors) {
-    const int ground = add_material(model, ground_material(params_));
+    const int ground = add_material(model, material());
     const GroundColors* colors = params_.palette == TerrainPalette::none ? nullptr : &ground_colors;
     for (int level = 0; level < demand_.lods; ++level) {
       if (level > 0) {
         if (planet_side(params_, level) == planet.side) break;
         planet = planet_of(params_, level, job_);
       }
-      Mesh mesh = planet_mesh(planet, colors, job_.rng().at("terrain"), job_);
+      Mesh mesh = mesh_of(planet, colors);
       mesh.cache_ordered = level == 0;  // the order of the faces fits the vertex cache
       const int number = add_mesh(model, level_name("planet", level), std::move(mesh), ground);
       if (level == 0) {
@@ -68,7 +101,7 @@ class PlanetDressing {
       before = own;
       Planet sea = sphere_of(own, params_.size / 2, job_);
       for (float& height : sea.height) height = level_of_water;
-      Mesh mesh = planet_mesh(sea, nullptr, job_.rng(), job_);
+      Mesh mesh = planet_mesh(sea, nullptr, Upward::outward, job_.rng(), job_);
       mesh.cache_ordered = level == 0;
       const int number = add_mesh(model, level_name("water", level), std::move(mesh), water);
       if (node < 0) {

@@ -8,8 +8,9 @@
 #include "core/base/math.h"
 #include "core/base/quick_math.h"
 #include "core/base/rng.h"
+#include "core/generators/terrain/box_mapping.h"
 #include "core/generators/terrain/model_parts.h"
-#include "core/texture/ground.h"
+#include "core/generators/terrain/noise.h"
 #include "core/texture/wall.h"
 
 namespace seedmesh::terrain {
@@ -22,102 +23,48 @@ constexpr float least_share = 0.01F;
 constexpr std::int32_t most_rows = 256;
 // Bare rock is steeper than loose stones lie (35 degrees), by this much at the borders between both.
 constexpr float scree_slope = 0.7F, rock_slope = 0.95F;
-constexpr auto by_tile = static_cast<float>(1 / texture::ground_tile);
-// The vertical part of a normal at 50 degrees.
-constexpr float least_upright = 0.64278761F;
 
 float ease(float from, float to, float value) {
   const float t = std::clamp((value - from) / (to - from), 0.0F, 1.0F);
   return t * t * (3 - 2 * t);
 }
 
-/// The side from which a face is mapped.
-enum Side : std::uint32_t { above, along_x, along_z, side_count };
+// Low shrubs and heather cover patches of meadows. The noise is the same in all tiles of a world.
+constexpr int shrub_octaves = 3;
+constexpr double shrub_cells = 6, shrub_gain = 0.7;
+constexpr std::uint64_t shrub_key = 0x5348'5255;
+// Tussocks and boulders that are smaller than the squares of the mesh tilt its normals, in cells and by class.
+constexpr double bump_cells = 2.3;
+constexpr std::uint64_t bump_keys[] = {0x4255'4D58, 0x4255'4D5A};
+constexpr float bumps[] = {0.28F, 0.24F, 0.38F, 0.3F, 0.06F, 0.08F};
+constexpr glm::vec3 shrub_color{0.55F, 0.53F, 0.5F};
 
-Side side_of(const glm::vec3& across) {
-  const float length = std::sqrt(glm::dot(across, across));
-  if (across.y >= least_upright * length) return above;
-  return std::abs(across.x) >= std::abs(across.z) ? along_x : along_z;
+/// The factor of a vertex colour by shrubs, for a noise value and the share of grass.
+glm::vec3 shrubs(double noise, float grass) {
+  const float share = grass * ease(-0.05F, 0.25F, static_cast<float>(noise));
+  return glm::vec3(1) + (shrub_color - 1.0F) * share;
 }
 
-glm::vec2 mapped(const glm::vec3& p, Side side) {
-  if (side == above) return {p.x * by_tile, p.z * by_tile};
-  return {(side == along_x ? p.z : p.x) * by_tile, -p.y * by_tile};
-}
-
-/// The direction in which u grows, at right angles to the normal.
-glm::vec4 tangent_of(const glm::vec3& normal, Side side) {
-  const glm::vec3 u = side == along_x ? glm::vec3(0, 0, 1) : glm::vec3(1, 0, 0);
-  const float turned = side == above ? 1.0F : side == along_x ? -normal.x : normal.z;
-  return {math::quick_unit(u - normal * glm::dot(u, normal), glm::vec3(1, 0, 0)), turned < 0 ? -1.0F : 1.0F};
+/// Gives vertices the normals of the mesh again where others are behind one of their faces.
+void restore_turned_off(const Mesh& mesh, Array<glm::vec3>& normals, const Job& job) {
+  for (std::size_t i = 0; i < mesh.index.size(); i += 3) {
+    if (i % 12'288 == 0) job.check();
+    const std::array<std::uint32_t, 3> at{mesh.index.at(i), mesh.index.at(i + 1), mesh.index.at(i + 2)};
+    const glm::vec3& a = mesh.position[at[0]];
+    const glm::vec3 across = glm::cross(mesh.position[at[1]] - a, mesh.position[at[2]] - a);
+    for (const std::uint32_t v : at) {
+      if (glm::dot(across, normals[v]) <= 0) normals[v] = mesh.normal[v];
+    }
+  }
 }
 
 /// The factor of a vertex colour: plants are yellow on dry ground and dark on wet ground, by slow noise and from
 /// vertex to vertex, so that the land has detail where its textures are too small to be seen.
 glm::vec3 varied(const Site& site, std::uint64_t key) {
-  constexpr glm::vec3 dry{1.16F, 1.03F, 0.86F}, wet{0.84F, 0.92F, 0.9F};
+  constexpr glm::vec3 dry{1.24F, 1.06F, 0.84F}, wet{0.8F, 0.9F, 0.86F};
   const float share = std::clamp(0.5F + 0.6F * site.patch, 0.0F, 1.0F);
-  const float own = 0.93F + 0.14F * static_cast<float>(key >> 40U) * 0x1p-24F;
+  const float own = 0.91F + 0.18F * static_cast<float>(key >> 40U) * 0x1p-24F;
   return (wet + (dry - wet) * share) * own;
-}
-
-/// Collects the triangles of one class.
-class Part {
- public:
-  /// `factors`: of the vertex colours.
-  Part(const Mesh& from, const Array<glm::vec3>& factors, float lighter, const Job& job)
-      : from_(from),
-        factors_(factors),
-        lighter_(lighter),
-        place_(job, side_count * from.position.size(), unplaced) {}
-
-  void add(const std::array<std::uint32_t, 3>& corners, Side side) {
-    for (const std::uint32_t corner : corners) {
-      std::uint32_t& place = place_[side_count * corner + side];
-      if (place == unplaced) {
-        place = static_cast<std::uint32_t>(mesh.position.size());
-        add_vertex(corner, side);
-      }
-      mesh.index.wide.push_back(place);
-    }
-  }
-
-  Mesh mesh;
-
- private:
-  static constexpr std::uint32_t unplaced = 0xFFFFFFFFU;
-
-  void add_vertex(std::uint32_t v, Side side) {
-    mesh.position.push_back(from_.position[v]);
-    mesh.normal.push_back(from_.normal[v]);
-    mesh.tangent.push_back(tangent_of(from_.normal[v], side));
-    mesh.uv[0].push_back(from_.uv[0][v]);
-    mesh.uv[1].push_back(mapped(from_.position[v], side) + 0.0F);
-    if (from_.color.empty()) return;
-    glm::u8vec4 color = from_.color[v];
-    for (int i = 0; i < 3; ++i) {
-      const float lit = static_cast<float>(color[i]) * factors_[v][i] * lighter_ + 0.5F;
-      color[i] = static_cast<std::uint8_t>(std::min(lit, 255.0F));
-    }
-    mesh.color.push_back(color);
-  }
-
-  const Mesh& from_;
-  const Array<glm::vec3>& factors_;
-  float lighter_;
-  Array<std::uint32_t> place_;
-};
-
-Mesh empty_like(const Job& job) {
-  Mesh mesh;
-  mesh.position = Array<glm::vec3>(job);
-  mesh.normal = Array<glm::vec3>(job);
-  mesh.tangent = Array<glm::vec4>(job);
-  mesh.uv[0] = Array<glm::vec2>(job);
-  mesh.uv[1] = Array<glm::vec2>(job);
-  mesh.color = Array<glm::u8vec4>(job);
-  mesh.index.wide = Array<std::uint32_t>(job);
-  return mesh;
 }
 
 }  // namespace
@@ -169,9 +116,18 @@ GroundClasses::Shares GroundClasses::shares(const Site& site) const {
       break;
     case PaletteName::volcanic:
     case PaletteName::moon:
+    case PaletteName::stone:
       lay(soil, cover.sand + cover.grass);
       lay_stone(cover.rock + cover.snow);
       break;
+    case PaletteName::mossy: {
+      // Between moss and herbs, the floor of a forest is litter.
+      const float litter = ease(-0.3F, 0.3F, site.patch);
+      lay(grass, cover.grass * (1 - litter));
+      lay(soil, cover.grass * litter + cover.sand);
+      lay_stone(cover.rock + cover.snow);
+      break;
+    }
     case PaletteName::tropical:
       lay(grass, cover.grass);
       lay(sand, cover.sand);
@@ -203,7 +159,16 @@ std::vector<Primitive> GroundClasses::divide(const Mesh& mesh, const Sites& site
   const double west = -(field_.width - 1) / 2.0 * field_.cell,
                north = -(field_.depth - 1) / 2.0 * field_.cell;
   Array<Shares> own(job, mesh.position.size());
-  Array<glm::vec3> factors(job, own.size());
+  Array<glm::vec3> factors(job, own.size()), normals(job, own.size());
+  NoisePlan patches;
+  patches.octaves = shrub_octaves;
+  patches.amplitude = 1;
+  patches.gain = shrub_gain;
+  patches.wavelength = shrub_cells * field_.cell;
+  NoisePlan bump;
+  bump.octaves = 1;
+  bump.amplitude = 1;
+  bump.wavelength = bump_cells * field_.cell;
   for (std::size_t v = 0; v < own.size(); ++v) {
     if (v % 4096 == 0) job.check();
     const glm::dvec3 p = mesh.position[v];
@@ -211,22 +176,32 @@ std::vector<Primitive> GroundClasses::divide(const Mesh& mesh, const Sites& site
                        z = std::clamp(math::to_int32((p.z - north) / field_.cell + 0.5), 0, field_.depth - 1);
     const Site site = sites.at(x, z);
     own[v] = shares(site);
-    factors[v] = varied(
-        site, key_at(static_cast<std::uint64_t>(world_.x + x), static_cast<std::uint64_t>(world_.z + z)));
+    const std::uint64_t key =
+        key_at(static_cast<std::uint64_t>(world_.x + x), static_cast<std::uint64_t>(world_.z + z));
+    const double east = static_cast<double>(world_.x + x) * field_.cell,
+                 south = static_cast<double>(world_.z + z) * field_.cell;
+    const auto noise = [&](const NoisePlan& plan, std::uint64_t name) {
+      double value = 0;
+      noise_in_plane(plan, {&east, 1}, {&south, 1}, Rng(name), &value);
+      return value;
+    };
+    factors[v] = varied(site, key) * shrubs(noise(patches, shrub_key), own[v].of[grass]);
+    float rough = 0;
+    for (int k = 0; k < kind_count; ++k) rough += bumps[k] * own[v].of[k];
+    const glm::vec3 tilt{static_cast<float>(noise(bump, bump_keys[0])), 0,
+                         static_cast<float>(noise(bump, bump_keys[1]))};
+    normals[v] = math::quick_unit(mesh.normal[v] + rough * tilt, mesh.normal[v]);
   }
-  std::vector<Part> parts;
-  for (const Used& used : used_) {
-    parts.emplace_back(mesh, factors, used.lighter, job);
-    parts.back().mesh = empty_like(job);
-  }
+  restore_turned_off(mesh, normals, job);
+  std::vector<BoxMapped> parts;
+  for (const Used& used : used_)
+    parts.emplace_back(mesh, VertexLooks{factors.span(), normals.span()}, used.lighter, job);
   for (std::size_t i = 0; i < mesh.index.size(); i += 3) {
     if (i % 12'288 == 0) job.check();
     const std::array<std::uint32_t, 3> at{mesh.index.at(i), mesh.index.at(i + 1), mesh.index.at(i + 2)};
     Shares sum;
     for (int k = 0; k < kind_count; ++k) sum.of[k] = own[at[0]].of[k] + own[at[1]].of[k] + own[at[2]].of[k];
-    const glm::vec3& a = mesh.position[at[0]];
-    const glm::vec3 across = glm::cross(mesh.position[at[1]] - a, mesh.position[at[2]] - a);
-    parts[use_of(sum)].add(at, side_of(across));
+    parts[use_of(sum)].add(at);
   }
   std::vector<Primitive> primitives;
   for (std::size_t k = 0; k < parts.size(); ++k) {

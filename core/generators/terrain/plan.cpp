@@ -168,6 +168,7 @@ Field algorithm_field(const TerrainParams& params, const Window& window, double 
 }
 
 int planned_iterations(const TerrainParams& params) {
+  if (params.algorithm == Algorithm::fracture) return params.iterations.value_or(FracturePlan{}.planes);
   return params.iterations.value_or(is_fault(params) ? 64 : 8);
 }
 int all_iterations(const TerrainParams& params) {
@@ -175,6 +176,7 @@ int all_iterations(const TerrainParams& params) {
 }
 
 double amplitude_of(const TerrainParams& params) {
+  if (params.algorithm == Algorithm::fracture) return params.amplitude.value_or(params.size / 60);
   return params.amplitude.value_or(params.size / (is_sphere(params) ? 20 : 10));
 }
 
@@ -377,6 +379,8 @@ void algorithm_sphere(const TerrainParams& params, Planet& planet, Rng rng, cons
     noise_sphere(planet, noise_plan(params), rng, job);
   } else if (params.algorithm == Algorithm::expression) {
     express_sphere(params, planet, rng, job);
+  } else if (params.algorithm == Algorithm::fracture) {
+    fracture_sphere(planet, fracture_plan(params), rng, job);
   } else {
     fault_sphere(planet, fault_plan(params), rng, job);
   }

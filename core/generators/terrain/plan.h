@@ -7,6 +7,7 @@
 #include "core/generators/terrain/colors.h"
 #include "core/generators/terrain/faults.h"
 #include "core/generators/terrain/filters.h"
+#include "core/generators/terrain/fracture.h"
 #include "core/generators/terrain/noise.h"
 #include "core/generators/terrain/planet.h"
 #include "core/generators/terrain/subdivide.h"
@@ -30,6 +31,7 @@ SquareSubdivision square_plan(const TerrainParams& params);
 NestedSubdivision nested_plan(const TerrainParams& params);
 FaultPlan fault_plan(const TerrainParams& params);
 NoisePlan noise_plan(const TerrainParams& params);
+FracturePlan fracture_plan(const TerrainParams& params);
 
 /// Returns the window of the requested samples; for a tile, in its world.
 Window window_of(const TerrainParams& params);

@@ -110,22 +110,28 @@ void add_normals(Mesh& mesh, const Planet& planet, const Job& job) {
   }
 }
 
-void add_colors(Mesh& mesh, const Planet& planet, const GroundColors& ground_colors, Rng rng,
+// Moss and lichen end irregularly: the change of the slope by patches.
+constexpr float ragged = 0.8F;
+
+void add_colors(Mesh& mesh, const Planet& planet, const GroundColors& ground_colors, Upward upward, Rng rng,
                 const Job& job) {
   NoisePlan patches;
   patches.octaves = 4;
   patches.amplitude = 0.7;
   patches.gain = 0.7;
-  patches.wavelength = planet.radius / 3;
+  patches.wavelength = upward == Upward::along_y ? planet.radius / 2 : planet.radius / 3;
   mesh.color = Array<glm::u8vec4>(job, mesh.position.size());
   each_chunk(planet, job, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      const float up = std::clamp(glm::dot(mesh.normal[i], planet.direction[i]), 0.05F, 1.0F);
+      const bool is_rock = upward == Upward::along_y;
+      const float cosine = is_rock ? mesh.normal[i].y : glm::dot(mesh.normal[i], planet.direction[i]);
+      const float up = std::clamp(cosine, 0.05F, 1.0F);
       Site site;
-      site.height = planet.height[i];
+      site.height = is_rock ? mesh.position[i].y : planet.height[i];
       site.slope = std::sqrt(1 - up * up) / up;
       site.patch =
           static_cast<float>(noise_in_space(patches, glm::dvec3(planet.direction[i]) * planet.radius, rng));
+      if (is_rock) site.slope += ragged * site.patch;
       const glm::dvec3 color = glm::dvec3(ground_colors.color(site)) * 255.0 + 0.5;
       mesh.color[i] = {math::to_int32(color.x), math::to_int32(color.y), math::to_int32(color.z), 255};
     }
@@ -196,7 +202,7 @@ Range range_of(const Planet& planet) {
   return {*low, *high};
 }
 
-Mesh planet_mesh(const Planet& planet, const GroundColors* ground_colors, Rng rng, Job& job) {
+Mesh planet_mesh(const Planet& planet, const GroundColors* ground_colors, Upward upward, Rng rng, Job& job) {
   const std::int32_t last = planet.side - 1;
   const CubeNumbers numbers(planet.side);
   job.spend(Resource::triangles, 12 * static_cast<std::size_t>(last) * static_cast<std::size_t>(last));
@@ -228,7 +234,7 @@ Mesh planet_mesh(const Planet& planet, const GroundColors* ground_colors, Rng rn
   }
   mesh.cache_ordered = true;
   add_normals(mesh, planet, job);
-  if (ground_colors) add_colors(mesh, planet, *ground_colors, rng.at("patches"), job);
+  if (ground_colors) add_colors(mesh, planet, *ground_colors, upward, rng.at("patches"), job);
   return mesh;
 }
 

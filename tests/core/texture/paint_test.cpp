@@ -68,11 +68,12 @@ TEST_P(Kinds, HaveNormalsOfUnitLengthThatFaceOutward) {
   }
 }
 
-TEST_P(Kinds, AreNoMetalAndNeverAMirror) {
+TEST_P(Kinds, AreNoMetalAndNeverAMirrorButGlass) {
+  const int least = std::string_view(GetParam()) == "rooms" ? 10 : 60;
   const Picture surface = decoded(*maps_of(GetParam(), 128, 3).surface);
   for (std::size_t y = 0; y < surface.height; ++y) {
     for (std::size_t x = 0; x < surface.width; ++x) {
-      ASSERT_GT(at(surface, x, y, 1), 60);
+      ASSERT_GT(at(surface, x, y, 1), least);
       ASSERT_EQ(at(surface, x, y, 2), 0);
     }
   }
@@ -110,7 +111,7 @@ TEST(Wall, TexturesAreSmallFiles) {
     const Maps maps = maps_of(kind.name, 512, 0);
     // Blades and stones have more detail than walls.
     EXPECT_LT(maps.bytes(), kind.name.ends_with("_ground") ? 900'000U : 310'000U) << kind.name;
-    EXPECT_EQ(decoded(*maps.color).channels, kind.is_grey ? 1 : 3) << kind.name;
+    EXPECT_EQ(decoded(*maps.color).channels, kind.name == "grime" ? 4 : kind.is_grey ? 1 : 3) << kind.name;
     EXPECT_GT(kind.tile.x, 0.5);
   }
 }
@@ -143,6 +144,40 @@ TEST(Wall, BricksOfTwoColoursShareTheirRelief) {
   EXPECT_EQ(m[0].normal_texture.texture, m[1].normal_texture.texture);
   EXPECT_TRUE(m[0].base_color_texture.repeat);
   EXPECT_EQ(m[0].alpha_mode, AlphaMode::opaque);
+}
+
+TEST(Wall, DirtFadesAwayBelowSillsAndAboveTheGround) {
+  const Picture color = decoded(*maps_of("grime", 128, 0).color);
+  const auto dirt = [&](int y) {
+    double sum = 0;
+    for (std::size_t x = 0; x < 128; ++x) sum += at(color, x, static_cast<std::size_t>(y), 3);
+    return sum / 128;
+  };
+  EXPECT_GT(dirt(2), 30) << "below a sill";
+  EXPECT_LT(dirt(62), 2);
+  EXPECT_LT(dirt(66), 2);
+  EXPECT_GT(dirt(126), 40) << "at the ground";
+}
+
+TEST(Wall, WindowsShowRoomsThatAreDarkAndDiffer) {
+  const Picture color = decoded(*maps_of("rooms", 256, 0).color);
+  std::set<int> means;
+  double all = 0;
+  for (std::size_t room = 0; room < 16; ++room) {
+    double sum = 0;
+    for (std::size_t y = 0; y < 64; ++y) {
+      for (std::size_t x = 0; x < 64; ++x) {
+        const auto byte = static_cast<std::uint8_t>(at(color, room % 4 * 64 + x, room / 4 * 64 + y, 1));
+        sum += static_cast<double>(linear_of_srgb(byte));
+      }
+    }
+    all += sum / (16 * 64 * 64);
+    means.insert(static_cast<int>(sum / (64 * 64) * 100'000));
+  }
+  EXPECT_EQ(means.size(), 16U);
+  // Glass reflects 2 to 5 percent, with what shows in it.
+  EXPECT_GT(all, 0.02);
+  EXPECT_LT(all, 0.05);
 }
 
 TEST(Leaf, IsCutOutWithAnEmptyBorder) {

@@ -962,6 +962,15 @@ class TerrainParametersLayersItem(TypedDict, total=False):
     fault_min: float
 
 
+class TerrainParametersFracture(TypedDict, total=False):
+    axes: List[float]
+    depth: List[float]
+    bevel: float
+    strata: float
+    layer: float
+    tilt: float
+
+
 class _TerrainParametersImageRequired(TypedDict):
     data: str
 
@@ -1040,7 +1049,7 @@ class TerrainParametersHeightmap(TypedDict, total=False):
 
 
 class TerrainParameters(TypedDict, total=False):
-    algorithm: Literal['fault_formation', 'poisson_faulting', 'triangular_edge', 'diamond_square', 'square_square', 'fbm', 'brownian', 'image', 'expression']
+    algorithm: Literal['fault_formation', 'poisson_faulting', 'triangular_edge', 'diamond_square', 'square_square', 'fbm', 'brownian', 'image', 'expression', 'fracture']
     expression: str
     layers: List["TerrainParametersLayersItem"]
     iterations: int
@@ -1058,6 +1067,7 @@ class TerrainParameters(TypedDict, total=False):
     fault_min: float
     fault_step: Literal['hard', 'line', 'cosine']
     fault_width: float
+    fracture: "TerrainParametersFracture"
     noise: Literal['rolling', 'ridged', 'billow']
     wavelength: float
     lacunarity: float
@@ -1075,7 +1085,7 @@ class TerrainParameters(TypedDict, total=False):
     max_error: float
     skirt: float
     base: float
-    palette: Literal['alpine', 'desert', 'tropical', 'arctic', 'volcanic', 'moon', 'grey', 'none']
+    palette: Literal['alpine', 'desert', 'tropical', 'arctic', 'volcanic', 'moon', 'stone', 'mossy', 'grey', 'none']
     specular: "Specular"
     emission: "Emission"
     water_level: float

@@ -4,6 +4,8 @@
 
 #include "core/base/math.h"
 #include "core/generators/building/parts/part_makers.h"
+#include "core/texture/joinery.h"
+#include "core/texture/rooms.h"
 
 namespace seedmesh::building {
 
@@ -16,28 +18,19 @@ double frame_width(const dvec3& size, const PartOptions& options, double share) 
   return std::min(options.frame > 0 ? options.frame : std::min(share * least, 0.12), least / 3);
 }
 
-/// Curtains or a blind, directly before the opaque glass, so that they seem to hang behind it. `low` and `high`:
-/// the glass; they lie between its front and `front`.
-void add_room(PartWriter& out, const dvec3& low, const dvec3& high, double front, int room) {
-  const double width = high.x - low.x, height = high.y - low.y;
-  const double back = 0.5 * (low.z + high.z), face = high.z + 0.3 * (front - high.z);
-  const auto hang = [&](const dvec2& from, const dvec2& to, double gap) {
-    out.box("curtain", {low.x + from.x * width, low.y + from.y * height, back},
-            {low.x + to.x * width, low.y + to.y * height, high.z + gap * (face - high.z)});
-  };
-  if (room == 1) {
-    hang({0.02, 0.02}, {0.27, 0.98}, 1);
-    hang({0.75, 0.03}, {0.98, 0.97}, 0.8);
-  } else if (room == 2) {
-    hang({0.02, 0.55}, {0.98, 0.98}, 1);
-  } else if (room == 3) {
-    hang({0.02, 0.02}, {0.98, 0.46}, 1);
-  }
-}
+/// The number of a room in the texture of rooms.
+int room_of(const PartOptions& options) { return std::clamp(options.room, 0, texture::room_count - 1); }
 
 /// What lies behind the glass shows in it.
 std::string_view glass_of(int room) {
-  return room == 0 ? "glass" : room == 2 ? "glass_shaded" : "glass_curtained";
+  switch (texture::room_kind(room)) {
+    case texture::RoomKind::dark:
+      return "glass";
+    case texture::RoomKind::blind:
+      return "glass_shaded";
+    default:
+      return "glass_curtained";
+  }
 }
 
 /// A frame with openings, and glass in the middle of its depth.
@@ -65,14 +58,28 @@ void add_window(PartWriter& out, const dvec3& low, const dvec3& high, const Part
   const double inset = 0.5 * frame;
   const dvec3 glass_low{low.x + inset, low.y + inset, low.z + 0.4 * size.z},
       glass_high{high.x - inset, high.y - inset, low.z + 0.55 * size.z};
-  out.box(glass_of(options.room), glass_low, glass_high);
-  add_room(out, glass_low, glass_high, high.z, options.room);
+  const int room = room_of(options);
+  constexpr int across = texture::rooms_across;
+  out.picture_box(glass_of(room), glass_low, glass_high,
+                  {dvec2(room % across, room / across) / double(across), dvec2(1.0 / across)});
 }
 
 std::vector<PartPiece> make_window(const dvec3& size, const PartOptions& options, Job& job) {
   PartWriter out(job);
   add_window(out, dvec3(0), size, options);
   return out.take();
+}
+
+/// The leaf of a door by its number from 1; 0: boards for wide leaves, panels for others.
+PartWriter::PictureWindow leaf_picture(int number, double width) {
+  constexpr double widest_panelled = 1.15;
+  using texture::Joinery;
+  const Joinery kind = number > 0                ? static_cast<Joinery>((number - 1) % 3)
+                       : width > widest_panelled ? Joinery::planks
+                                                 : Joinery::six_panels;
+  const int at = static_cast<int>(kind);
+  constexpr int across = texture::joinery_across;
+  return {dvec2(at % across, at / across) / double(across), dvec2(1.0 / across)};
 }
 
 std::vector<PartPiece> make_door(const dvec3& size, const PartOptions& options, Job& job) {
@@ -98,13 +105,7 @@ std::vector<PartPiece> make_door(const dvec3& size, const PartOptions& options, 
     const double outer = leaf + 1 < leaves ? gap : -0.3 * frame;
     const dvec3 low{x + inner, 0.004 * size.y, leaf_back},
         high{x + width - outer, top + 0.3 * frame, leaf_front};
-    out.box("door", low, high);
-    // Two raised panels.
-    const double side = 0.17 * width, field = leaf_front + 0.12 * depth;
-    for (const dvec2 span : {dvec2(0.1, 0.42), dvec2(0.52, 0.9)}) {
-      out.box("door", {x + side, span.x * top, leaf_front - 0.1 * depth},
-              {x + width - side, span.y * top, field});
-    }
+    out.picture_box("door", low, high, leaf_picture(options.count, width));
     // The handle: a stem from the leaf, and a square bar.
     const double side_of_lock = leaf % 2 == 0 ? x + 0.93 * width : x + 0.07 * width;
     const double thick = std::min(0.012 * size.y, 0.025), reach = leaf % 2 == 0 ? -5 * thick : 5 * thick;

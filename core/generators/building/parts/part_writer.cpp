@@ -82,6 +82,22 @@ void PartWriter::box(std::string_view role, const dvec3& low, const dvec3& high)
   push(role, Plan{{rectangle({low.x, low.y}, {high.x, high.y})}}, {Along::z, low.z, high.z});
 }
 
+void PartWriter::picture_box(std::string_view role, const dvec3& low, const dvec3& high,
+                             const PictureWindow& window) {
+  Mesh& mesh = mesh_of(role);
+  const std::size_t first = mesh.position.size();
+  box(role, low, high);
+  constexpr double by_depth =
+      0.5;  // shares of the picture for each metre, so that sides have texture coordinates
+  for (std::size_t i = first; i < mesh.position.size(); ++i) {
+    const dvec3 at(mesh.position[i]);
+    const dvec2 share = (dvec2(at) - dvec2(low)) / (dvec2(high) - dvec2(low));
+    const double behind = by_depth * std::max(high.z - at.z - 1e-7, 0.0);
+    const dvec2 shown = window.corner + window.size * dvec2(share.x + behind, 1 - share.y + behind);
+    mesh.uv[0][i] = glm::vec2(shown.x, -shown.y) + 0.0F;  // v runs up in parts, and down in pictures
+  }
+}
+
 void PartWriter::push(std::string_view role, const Plan& outline, const Push& push) {
   const dvec3 axis = axis_of(push.along);
   std::vector<dvec3> near_end, far_end;

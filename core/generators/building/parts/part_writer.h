@@ -24,6 +24,14 @@ class PartWriter {
 
   void box(std::string_view role, const glm::dvec3& low, const glm::dvec3& high);
 
+  /// The part of a picture that a box shows on its front: the upper left corner and the size, as shares of the picture.
+  struct PictureWindow {
+    glm::dvec2 corner{0}, size{1};
+  };
+  /// A box whose texture coordinates are shares of a picture instead of metres; its sides continue the front.
+  void picture_box(std::string_view role, const glm::dvec3& low, const glm::dvec3& high,
+                   const PictureWindow& window);
+
   /// An extrusion from `from` to `to`. The two coordinates of the outline are (x, y) for Along::z, (-z, y)
   /// for Along::x and (x, -z) for Along::y. Seen from the `to` end it is counter-clockwise, and holes are
   /// clockwise. `side` gives the role of each edge, numbered through all rings; null: `role` for all.

@@ -42,7 +42,6 @@ constexpr std::array<PartMaterial, 17> materials{{
     {"bronze", "#8f6b3e", 0.9F, 0.45F},
     {"clay", "#a8623f", 0, 0.9F},
     {"concrete", "#a9a8a3", 0, 0.95F},
-    {"curtain", "#8d8779", 0, 0.15F},
     {"door", "#5c3b26", 0, 0.7F},
     {"floor", "#9d978d", 0, 0.9F},
     {"frame", "#dedbd2", 0, 0.6F},

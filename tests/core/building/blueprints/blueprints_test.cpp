@@ -284,8 +284,7 @@ TEST(Blueprints, HaveAPictureOnEveryPartButOpeningsAndMetal) {
       for (const Primitive& primitive : model->meshes[static_cast<std::size_t>(node.mesh)].primitives) {
         const Material& material = model->materials[static_cast<std::size_t>(primitive.material)];
         const double area = copies * measure({&primitive.mesh}).area;
-        const bool is_opening = material.name.starts_with("glass") || material.name.starts_with("frame") ||
-                                material.name.starts_with("curtain");
+        const bool is_opening = material.name.starts_with("glass") || material.name.starts_with("frame");
         if (is_opening || material.metallic > 0.5F) continue;
         all += area;
         if (material.recipe.kind.empty()) plain += area;

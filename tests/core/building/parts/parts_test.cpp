@@ -114,25 +114,29 @@ TEST(Parts, WindowHasAFrameAndGlassAndADoorAHandle) {
   EXPECT_THAT(door, testing::ElementsAre("door", "frame", "metal"));
 }
 
-TEST(Parts, WindowsHaveCurtainsOrABlindBeforeTheirGlass) {
-  std::set<float> areas;
-  for (int room = 0; room <= 3; ++room) {
+TEST(Parts, WindowsShowOneRoomOfTheTextureEach) {
+  std::set<std::pair<float, float>> corners;
+  for (int room = 0; room < 16; ++room) {
     Job job = job_of();
     PartOptions options;
     options.room = room;
-    float curtain = 0, glass_front = 0, curtain_front = 0;
     for (const PartPiece& piece : make_part(*part_named("window"), {1, 1.4, 0.1}, options, job)) {
-      const Box box = bounds_of(piece.mesh.position.span());
-      if (piece.role == "glass") glass_front = box.max.z;
-      if (piece.role != "curtain") continue;
-      curtain_front = box.max.z;
-      curtain = static_cast<float>(measure({&piece.mesh}).volume);
+      if (!piece.role.starts_with("glass")) continue;
+      glm::vec2 low(2), high(-2);
+      for (const glm::vec2& uv : piece.mesh.uv[0]) {
+        low = glm::min(low, uv);
+        high = glm::max(high, uv);
+      }
+      EXPECT_NEAR(high.x - low.x, 0.25, 1e-6) << room;
+      EXPECT_NEAR(high.y - low.y, 0.25, 1e-6) << room;
+      corners.insert({low.x, low.y});
+      const char* const role = room == 0 || (room >= 4 && room <= 10)  ? "glass"
+                               : room == 2 || room == 13 || room == 14 ? "glass_shaded"
+                                                                       : "glass_curtained";
+      EXPECT_EQ(piece.role, role) << room;
     }
-    EXPECT_EQ(curtain > 0, room > 0) << room;
-    EXPECT_EQ(curtain_front > glass_front, room > 0) << room;
-    areas.insert(curtain);
   }
-  EXPECT_EQ(areas.size(), 4U) << "each room has other curtains";
+  EXPECT_EQ(corners.size(), 16U);
 }
 
 TEST(Parts, StairsHaveTheRequestedNumberOfSteps) {

@@ -1,0 +1,40 @@
+#pragma once
+/// Texture coordinates for textures of ground that repeat. Each face is mapped from the side that it faces, so that no
+/// texture is stretched by more than 1.8: gentle ground from above, ground steeper than 50 degrees from aside.
+#include <array>
+#include <span>
+
+#include "core/model/mesh.h"
+
+namespace seedmesh::terrain {
+
+/// The side from which a face is mapped.
+enum MappedSide : std::uint32_t { above, along_x, along_z, below, mapped_side_count };
+
+/// What differs from the mesh at each vertex; either may be empty.
+struct VertexLooks {
+  std::span<const glm::vec3> factors;  ///< of the colours
+  std::span<const glm::vec3> normals;  ///< instead of those of the mesh
+};
+
+/// Collects triangles of a mesh. A vertex that faces of several sides share is duplicated.
+class BoxMapped {
+ public:
+  /// `lighter`: factor of all colours. `from` and `looks` are borrowed. The coordinates go to set 1 where `from` has some in set 0, which are kept; otherwise to set 0.
+  BoxMapped(const Mesh& from, const VertexLooks& looks, float lighter, const Job& job);
+
+  void add(const std::array<std::uint32_t, 3>& corners);
+
+  Mesh mesh;
+
+ private:
+  void add_vertex(std::uint32_t v, MappedSide side);
+
+  const Mesh& from_;
+  VertexLooks looks_;
+  float lighter_;
+  std::size_t set_;
+  Array<std::uint32_t> place_;  ///< of each vertex and side in `mesh`
+};
+
+}  // namespace seedmesh::terrain
