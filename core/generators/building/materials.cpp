@@ -227,7 +227,8 @@ const texture::WallKind* MaterialTable::surface_of(const MaterialRequest& reques
   }
   const bool is_glass = request.name.starts_with("glass");
   if (request.is_role && is_glass && given != params_.materials.end()) return nullptr;
-  if (request.is_role) return params_.blueprint ? surface_of_part(request.name) : nullptr;
+  const bool has_rooms = is_glass && params_.textures == BuildingTextures::made;
+  if (request.is_role) return params_.blueprint || has_rooms ? surface_of_part(request.name) : nullptr;
   if (params_.blueprint && request.name.starts_with("color_")) return texture::wall_kind(painted_surface);
   const bool by_name = params_.textures == BuildingTextures::made || params_.blueprint.has_value();
   return by_name ? surface_named(request.name) : nullptr;
