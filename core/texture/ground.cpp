@@ -237,24 +237,27 @@ Relief rock_ground(int size, Rng rng, const Job& job) {
       pit_noise(size, {32, 32}, {3, 0.6F}, 1, rng.at("pits"));
   const Field warp = field_of(warp_noise, size, job);
   const Cells plates(size, {9, 14}, rng.at("plates")), chips(size, {19, 27}, rng.at("chips"));
-  return centred(paint_rows(size, Accent::none, job, [&](int begin, int end, const auto& row_at) {
-    CellRows plate_rows(plates, warp, 0.7F), chip_rows(chips, warp, 1);
-    NoiseRows pit_rows(pit_noise);
-    for (int y = begin; y < end; ++y) {
-      const CellRows::Row plate = plate_rows.row(y), chip = chip_rows.row(y);
-      const float* pits = pit_rows.row(y);
-      const ReliefRow out = row_at(y);
-      for (int x = 0; x < size; ++x) {
-        const float crack = step_between(0, 0.08F, plate.border[x]),
-                    edge = step_between(0, 0.16F, chip.border[x]);
-        out.height[x] = clamp_share(crack * (0.35F + 0.35F * plate.shade[x]) +
-                                    edge * (0.06F + 0.16F * chip.shade[x]) + 0.08F * pits[x]);
-        // Cracks are shown by their relief; lines of another tone would look like veins.
-        out.tone[x] = clamp_share(0.3F + 0.1F * crack + 0.14F * plate.shade[x] + 0.22F * chip.shade[x] +
-                                  0.04F * edge + 0.26F * pits[x]);
-      }
-    }
-  }));
+  return centred(
+      paint_rows(size, Accent::none, job,
+                 [&](int begin, int end, const auto& row_at) {
+                   CellRows plate_rows(plates, warp, 0.7F), chip_rows(chips, warp, 1);
+                   NoiseRows pit_rows(pit_noise);
+                   for (int y = begin; y < end; ++y) {
+                     const CellRows::Row plate = plate_rows.row(y), chip = chip_rows.row(y);
+                     const float* pits = pit_rows.row(y);
+                     const ReliefRow out = row_at(y);
+                     for (int x = 0; x < size; ++x) {
+                       const float crack = step_between(0, 0.08F, plate.border[x]),
+                                   edge = step_between(0, 0.16F, chip.border[x]);
+                       out.height[x] = clamp_share(crack * (0.35F + 0.35F * plate.shade[x]) +
+                                                   edge * (0.06F + 0.16F * chip.shade[x]) + 0.08F * pits[x]);
+                       // Cracks are shown by their relief; lines of another tone would look like veins.
+                       out.tone[x] = clamp_share(0.3F + 0.1F * crack + 0.14F * plate.shade[x] +
+                                                 0.22F * chip.shade[x] + 0.04F * edge + 0.26F * pits[x]);
+                     }
+                   }
+                 }),
+      0.54);
 }
 
 Relief scree_ground(int size, Rng rng, const Job& job) {

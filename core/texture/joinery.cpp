@@ -82,7 +82,7 @@ Surface surface_of(Joinery kind, float x, float y) {
 }  // namespace
 
 Relief joinery(int size, Rng rng, const Job& job) {
-  const Noise brush_noise(size, {96, 12}, {2, 0.6F}, 0.5F, rng.at("brush"));
+  const Noise brush_noise(size, {24, 6}, {3, 0.8F}, 0.5F, rng.at("brush"));
   const int cell = size / joinery_across;
   return paint_rows(size, Accent::none, job, [&](int begin, int end, const auto& row_at) {
     NoiseRows brush_rows(brush_noise);
