@@ -13,6 +13,7 @@
 #include "core/generators/city/contents.h"
 #include "core/generators/city/ground_mesh.h"
 #include "core/generators/city/landmarks.h"
+#include "core/generators/city/objects.h"
 #include "core/generators/city/surface.h"
 #include "core/generators/material_members.h"
 #include "core/texture/png.h"
@@ -161,11 +162,7 @@ struct GroundMeshes {
 
 /// Whether what stands in a level city depends on the outlines of its parts.
 bool needs_outlines(const CityPlan& plan, const CityParams& params) {
-  const CityClasses& classes = params.streets.classes;
-  const bool has_trees =
-      classes.highway.trees || classes.major.trees || classes.minor.trees || classes.lane.trees;
-  return !plan.landmarks.empty() || params.parks || params.yards || has_trees ||
-         params.furniture != CityFurniture{};
+  return !plan.landmarks.empty() || params.parks || params.yards || has_street_furniture(params);
 }
 
 /// One mesh for each kind of part in each chunk. Frees the outlines of the plan that nothing needs any more.
