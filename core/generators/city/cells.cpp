@@ -100,6 +100,48 @@ class Cell final : public RoadRules {
     return all;
   }
 
+  /// Whether a cell on hills has much fewer streets than space: steep ground can end all branches at its start.
+  bool is_sparse() const {
+    if (!input_.landform || !is_along_field_) return false;
+    constexpr double least = 0.4;  // of one street in each mean length
+    double doubled = 0, built = 0;
+    for (const std::vector<std::uint32_t>& ring : rings_) {
+      CmRing points;
+      for (const std::uint32_t node : ring) points.push_back(network_.nodes()[node]);
+      doubled += static_cast<double>(doubled_area(points));
+    }
+    for (const StreetPiece& piece : pieces()) built += distance(piece.a, piece.b);
+    return built * streets_.length * 100 < least * doubled / 2;
+  }
+
+  /// Further starts at the nodes of the streets that grew and of the outline, ahead and to both sides.
+  std::vector<StreetGrammar::Start> restarts(int round) {
+    std::vector<StreetGrammar::Start> all;
+    const auto add = [&](std::uint32_t node, const dvec2& direction) {
+      const std::uint64_t key = rng_.at("restart")
+                                    .at(static_cast<std::uint64_t>(round))
+                                    .at(point_key(network_.nodes()[node]))
+                                    .at(side_of(direction))
+                                    .key();
+      all.push_back({0, 1, propose(node, direction, Rng(key)), key});
+    };
+    for (std::size_t r = 0; r < rings_.size(); ++r) {
+      const std::vector<std::uint32_t>& ring = rings_[r];
+      for (std::size_t i = 0, before = ring.size() - 1; i < ring.size(); before = i++) {
+        if (borders_[r][i] != 0 || borders_[r][before] != 0 || network_.is_closed(ring[i])) continue;
+        add(ring[i], inward(ring[before], ring[i], ring[(i + 1) % ring.size()]));
+      }
+    }
+    for (const NetworkEdge& edge : std::vector<NetworkEdge>(network_.edges())) {
+      if (edge.is_removed || edge.is_fixed || edge.kind != EdgeClass::minor) continue;
+      if (network_.arms(edge.to).size() > 2) continue;
+      const dvec2 along = in_cm(network_.nodes()[edge.to]) - in_cm(network_.nodes()[edge.from]);
+      const dvec2 ahead = along / length_of(along);
+      for (const double turn : {0.0, 90.0, -90.0}) add(edge.to, rotated(ahead, turn));
+    }
+    return all;
+  }
+
   GlobalGoals global_goals(double rule, double road, Rng key) override {
     GlobalGoals goals;
     if (!is_road(road)) return goals;
@@ -343,10 +385,14 @@ std::vector<StreetPiece> grow_cell(const GrowthInput& input, const StreetGraph& 
   cell.set_key(point_key(lowest));
   for (const std::vector<std::uint32_t>& loop : loops) cell.add_loop(majors, loop);
   cell.avoid_tunnels(majors.bridges);
-  if (!input.grammar.grow(cell.starts(), cell, most_steps_of_a_cell, job)) {
+  const auto grow = [&](const std::vector<StreetGrammar::Start>& starts) {
+    if (input.grammar.grow(starts, cell, most_steps_of_a_cell, job)) return;
     job.refuse(limit_issue({Resource::steps, most_steps_of_a_cell, most_steps_of_a_cell + 1},
                            "the streets of a cell do not stop growing", "/streets/productions"));
-  }
+  };
+  grow(cell.starts());
+  constexpr int most_restarts = 6;
+  for (int round = 0; round < most_restarts && cell.is_sparse(); ++round) grow(cell.restarts(round));
   cell.settle_dead_ends();
   return cell.pieces();
 }

@@ -184,7 +184,7 @@ TEST(UnusedOptions, OfBuildingRulesGiveWarnings) {
   bare["buildings"] = {{"rules", Json::array()}, {"variants", 5}, {"detail", 1}};
   EXPECT_EQ(answer_of(bare).warned, (Pointers{"/buildings/detail", "/buildings/variants"}));
   Json polygon = base;
-  polygon["area"]["polygon"] = {{{0, 0}, {300, 0}, {300, 300}, {0, 300}}};
+  polygon["area"]["polygon"] = Json::array({Json::array({{0, 0}, {300, 0}, {300, 300}, {0, 300}})});
   EXPECT_EQ(answer_of(polygon).warned, Pointers{"/area/size"});
 }
 
