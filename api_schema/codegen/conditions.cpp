@@ -129,9 +129,9 @@ class Translator {
 
   std::string equals(const Target& target, const Schema& value) const {
     if (target.member->optional && value.is_null()) return "!" + target.value;
-    if (!target.member->optional) {
-      if (std::string test = equals(target.member->type, target.value, value); !test.empty()) return test;
-    }
+    const std::string name = target.member->optional ? "(*" + target.value + ")" : target.value;
+    if (std::string test = equals(target.member->type, name, value); !test.empty())
+      return target.member->optional ? "(" + target.value + " && " + test + ")" : test;
     refuse(target.name + " is never " + value.dump());
   }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/model/model.h"
+#include "core/texture/bay.h"
 #include "core/texture/bond.h"
 #include "core/texture/grime.h"
 #include "core/texture/ground.h"
@@ -192,8 +193,8 @@ Relief slate(int size, Rng rng, const Job& job) {
 }
 
 /// Overlapping horizontal boards with grain.
-Relief planks(int size, Rng rng, const Job& job) {
-  const Courses courses({1, 8, 0.37F, planks_tile}, size);
+Relief boards(const Bond& bond, int size, Rng rng, const Job& job) {
+  const Courses courses(bond, size);
   const Noise line_noise(size, {4, 128}, {1, 1}, 0.6F, rng.at("grain"));
   const Noise fibre_noise(size, {10, 64}, {2, 0.6F}, 0.4F, rng.at("fibres"));
   const PieceNumbers shades(courses.bond(), rng.at("shade"));
@@ -214,6 +215,24 @@ Relief planks(int size, Rng rng, const Job& job) {
       }
     }
   });
+}
+
+Relief planks(int size, Rng rng, const Job& job) {
+  return boards({1, 8, 0.37F, planks_tile}, size, rng, job);
+}
+
+Relief brick_bay(int size, Rng rng, const Job& job) {
+  return with_window(laid({{11, 37, 0.5F, bay_tile}, 0.006F, 0.006F, 0.6F, 0.06F}, size, rng, job), job);
+}
+
+Relief plaster_bay(int size, Rng rng, const Job& job) { return with_window(plaster(size, rng, job), job); }
+
+Relief planks_bay(int size, Rng rng, const Job& job) {
+  return with_window(boards({1, 20, 0.37F, bay_tile}, size, rng, job), job);
+}
+
+Relief ashlar_bay(int size, Rng rng, const Job& job) {
+  return with_window(laid({{4, 8, 0.5F, bay_tile}, 0.005F, 0.016F, 0.3F, 0.05F}, size, rng, job), job);
 }
 
 /// Vertical ribs.
@@ -303,6 +322,10 @@ constexpr WallKind kinds[] = {
     {"rooms", plain_tile, false},
     {"joinery", plain_tile, true},
     {"grime", plain_tile, false},
+    {"brick_bay", bay_tile, true},
+    {"plaster_bay", bay_tile, true},
+    {"planks_bay", bay_tile, true},
+    {"ashlar_bay", bay_tile, true},
     {"grass_ground", {ground_tile, ground_tile}, true},
     {"soil_ground", {ground_tile, ground_tile}, true},
     {"rock_ground", {ground_tile, ground_tile}, true},
@@ -326,6 +349,10 @@ constexpr Painter painters[] = {
     {rooms, {54, 57, 59}, 0.55F, 2.1F, {186, 142, 84}, 0, 0.06F, 0.06F, 0.06F, 0},
     {joinery, {}, 0.34F, 1.1F, {}, 0.012F, 0.75F, 0.5F, 0.7F, 0.55F},
     {grime, {74, 68, 58}, 0.9F, 1.1F, {}, 0, 0.95F, 0.95F, 0.95F, 0},
+    {brick_bay, {}, 0.66F, 1.2F, {62, 68, 72}, 0.1F, 0.97F, 0.88F, 0.35F, 0.5F},
+    {plaster_bay, {}, 0.86F, 1.1F, {62, 68, 72}, 0.1F, 0.96F, 0.92F, 0.35F, 0.5F},
+    {planks_bay, {}, 0.66F, 1.15F, {62, 68, 72}, 0.1F, 0.9F, 0.78F, 0.35F, 0.5F},
+    {ashlar_bay, {}, 0.74F, 1.14F, {62, 68, 72}, 0.1F, 0.95F, 0.86F, 0.35F, 0.5F},
     {grass_ground, {}, 0.28F, 1.3F, {}, 0.025F, 0.98F, 0.8F, 0.9F, 0.55F},
     {soil_ground, {}, 0.42F, 1.3F, {}, 0.03F, 0.98F, 0.82F, 0.9F, 0.5F},
     {rock_ground, {}, 0.34F, 1.3F, {}, 0.03F, 0.96F, 0.75F, 0.9F, 0.55F},

@@ -1,7 +1,12 @@
 /// Cities on one thread: plans of 1 and 16 square kilometres, one of about 100,000 streets with 500,000 lots, the stages of
-/// a plan, a GLB of 16 square kilometres with shared houses, and one of about 26,000 different houses.
+/// a plan, a GLB of 16 square kilometres with shared houses, and one of about 26,000 different houses, both with
+/// their memory in addition to that of a small city.
+#include <sys/wait.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <cstdlib>
+#include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -11,6 +16,7 @@
 #include "core/pipeline.h"
 #include "core/schema/json.h"
 #include "generated/params/city.h"
+#include "tests/bench/kept_textures.h"
 #include "tests/bench/report.h"
 
 namespace {
@@ -89,17 +95,53 @@ void report_grades() {
   bench::report("grades of 9 km2", "samples", static_cast<double>(plan.heights.points.size()), seconds);
 }
 
+Request request_of(const Json& parameters, const Limits& limits) {
+  const Json body = {{"generator", "city"}, {"seed", 1}, {"parameters", parameters}};
+  Result<Request> request = read_request(body.dump(), limits);
+  if (!request) std::abort();
+  return *std::move(request);
+}
+
+Product produced(const Json& parameters, TextureStore& textures) {
+  Job::Options options;
+  options.threads = 1;
+  Result<Product> product = produce(request_of(parameters, {}), options, &textures);
+  if (!product) std::abort();
+  return *std::move(product);
+}
+
+/// Measures in a forked process that has already generated a small city.
+void report_memory(const std::string& name, const Json& parameters) {
+  std::fflush(stdout);
+  const pid_t child = fork();
+  if (child == 0) {
+    bench::KeptTextures textures;
+    Json small = parameters;
+    small["area"]["size"] = {200, 200};
+    produced(small, textures);
+    std::ofstream("/proc/self/clear_refs") << "5";  // resets the peak
+    const double idle = bench::status_bytes("VmRSS");
+    const Product product = produced(parameters, textures);
+    std::printf("{\"name\":\"memory: %s\",\"unit\":\"bytes\",\"amount\":%llu,\"peak_less_idle\":%.0f}\n",
+                name.c_str(), static_cast<unsigned long long>(product.payload.size()),
+                bench::status_bytes("VmHWM") - idle);
+    std::fflush(stdout);
+    _exit(0);
+  }
+  int status = 1;
+  waitpid(child, &status, 0);
+  if (status != 0) std::abort();
+}
+
 /// Makes the model of a city and reports its bytes and the triangles that it draws.
 void report_model(const char* name, const Json& parameters, const Limits& limits = {}) {
-  const Json body = {{"generator", "city"}, {"seed", 1}, {"parameters", parameters}};
-  const Result<Request> request = read_request(body.dump(), limits);
-  if (!request) std::abort();
+  const Request request = request_of(parameters, limits);
   std::uint64_t bytes = 0, triangles = 0;
   Job::Options options;
   options.threads = 1;
   options.limits = limits;
   const double seconds = bench::median_seconds<bench::CpuClock>(3, [&] {
-    const Result<Product> product = produce(*request, options);
+    const Result<Product> product = produce(request, options);
     if (!product) std::abort();
     bytes = product->payload.size();
     triangles = product->statistics.triangles;
@@ -126,7 +168,12 @@ Json thesis_city() {
 
 }  // namespace
 
-int main() {
+int main(int argc, char** argv) {
+  const std::string only = argc > 1 ? argv[1] : "";
+  // Runs first, while this process is small, because a forked process starts with the memory of its parent.
+  report_memory("city of 16 km2", {{"area", {{"size", {4000, 4000}}}}});
+  report_memory("city of 26,000 houses", thesis_city());
+  if (only == "memory") return 0;
   report_plan("city plan of 1 km2", square(1000), 7);
   report_plan("city plan of 16 km2", square(4000), 5);
   CityParams large = square(12'000);

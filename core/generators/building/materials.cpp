@@ -45,16 +45,29 @@ struct Surface {
   std::string_view material, kind;
 };
 constexpr Surface surfaces[] = {
-    {"brick", "brick"},       {"plaster", "plaster"},
-    {"wall", "plaster"},      {"facade", "plaster"},
-    {"stone", "ashlar"},      {"concrete", "concrete"},
-    {"wood", "planks"},       {"roof", "roof_tile"},
-    {"slate", "slate"},       {"roof_tile", "roof_tile"},
-    {"cladding", "sheet"},    {"chimney", "brick"},
-    {"building", "plaster"},  {"dressed_stone", "dressed_stone"},
-    {"painted", "paint"},     {"panels", "panels"},
-    {"joinery", "joinery"},   {"glass_room", "rooms"},
+    {"brick", "brick"},
+    {"plaster", "plaster"},
+    {"wall", "plaster"},
+    {"facade", "plaster"},
+    {"stone", "ashlar"},
+    {"concrete", "concrete"},
+    {"wood", "planks"},
+    {"roof", "roof_tile"},
+    {"slate", "slate"},
+    {"roof_tile", "roof_tile"},
+    {"cladding", "sheet"},
+    {"chimney", "brick"},
+    {"building", "plaster"},
+    {"dressed_stone", "dressed_stone"},
+    {"painted", "paint"},
+    {"panels", "panels"},
+    {"joinery", "joinery"},
+    {"glass_room", "rooms"},
     {"grime", grime_surface},
+    {"brick_bay", "brick_bay"},
+    {"plaster_bay", "plaster_bay"},
+    {"wood_bay", "planks_bay"},
+    {"stone_bay", "ashlar_bay"},
 };
 
 // Parts of blueprints: doors and frames are painted wood, and what has a colour of its own is one piece of stone.

@@ -47,8 +47,7 @@ class Cell final : public RoadRules {
  public:
   Cell(const GrowthInput& input, Rng rng)
       : input_(input), streets_(input.streets), rng_(rng), network_(limits_of(input.streets)) {
-    is_along_tensor_ =
-        input.tensor && (!streets_.minor_pattern || *streets_.minor_pattern == CityMinorPattern::slope);
+    is_along_field_ = input.minor_field != nullptr;
     if (streets_.minor_pattern) {
       is_raster_ = *streets_.minor_pattern == CityMinorPattern::raster;
       is_radial_ = *streets_.minor_pattern == CityMinorPattern::radial;
@@ -91,11 +90,54 @@ class Cell final : public RoadRules {
       for (std::size_t i = 0; i < count; ++i) {
         const std::size_t before = (i + count - 1) % count;
         if (borders_[r][i] != 0 || borders_[r][before] != 0 || !is_least(ring, draw, i)) continue;
+        if (network_.is_closed(ring[i])) continue;
         const dvec2 in = inward(ring[before], ring[i], ring[(i + 1) % count]);
         const std::uint64_t key =
             rng_.at("start").at(point_key(network_.nodes()[ring[i]])).at(side_of(in)).key();
         all.push_back({0, 1, propose(ring[i], in, Rng(key)), key});
       }
+    }
+    return all;
+  }
+
+  /// Whether a cell on hills has much fewer streets than space: steep ground can end all branches at its start.
+  bool is_sparse() const {
+    if (!input_.landform || !is_along_field_) return false;
+    constexpr double least = 0.4;  // of one street in each mean length
+    double doubled = 0, built = 0;
+    for (const std::vector<std::uint32_t>& ring : rings_) {
+      CmRing points;
+      for (const std::uint32_t node : ring) points.push_back(network_.nodes()[node]);
+      doubled += static_cast<double>(doubled_area(points));
+    }
+    for (const StreetPiece& piece : pieces()) built += distance(piece.a, piece.b);
+    return built * streets_.length * 100 < least * doubled / 2;
+  }
+
+  /// Further starts at the nodes of the streets that grew and of the outline, ahead and to both sides.
+  std::vector<StreetGrammar::Start> restarts(int round) {
+    std::vector<StreetGrammar::Start> all;
+    const auto add = [&](std::uint32_t node, const dvec2& direction) {
+      const std::uint64_t key = rng_.at("restart")
+                                    .at(static_cast<std::uint64_t>(round))
+                                    .at(point_key(network_.nodes()[node]))
+                                    .at(side_of(direction))
+                                    .key();
+      all.push_back({0, 1, propose(node, direction, Rng(key)), key});
+    };
+    for (std::size_t r = 0; r < rings_.size(); ++r) {
+      const std::vector<std::uint32_t>& ring = rings_[r];
+      for (std::size_t i = 0, before = ring.size() - 1; i < ring.size(); before = i++) {
+        if (borders_[r][i] != 0 || borders_[r][before] != 0 || network_.is_closed(ring[i])) continue;
+        add(ring[i], inward(ring[before], ring[i], ring[(i + 1) % ring.size()]));
+      }
+    }
+    for (const NetworkEdge& edge : std::vector<NetworkEdge>(network_.edges())) {
+      if (edge.is_removed || edge.is_fixed || edge.kind != EdgeClass::minor) continue;
+      if (network_.arms(edge.to).size() > 2) continue;
+      const dvec2 along = in_cm(network_.nodes()[edge.to]) - in_cm(network_.nodes()[edge.from]);
+      const dvec2 ahead = along / length_of(along);
+      for (const double turn : {0.0, 90.0, -90.0}) add(edge.to, rotated(ahead, turn));
     }
     return all;
   }
@@ -124,18 +166,19 @@ class Cell final : public RoadRules {
     const double density = input_.density.at(in_metres(network_.nodes()[road.start]));
     const double length = streets_.length * 100 * (1.3 - 0.5 * density) *
                           (1 + draw.uniform(-streets_.length_spread, streets_.length_spread));
-    const bool is_straight = is_raster_ || is_radial_ || is_along_tensor_;
-    const double freedom = is_along_tensor_ ? freedom_at(road.start) : is_straight ? 0 : 1;
+    const bool is_straight = is_raster_ || is_radial_ || is_along_field_;
+    const double freedom = is_along_field_ ? freedom_at(road.start) : is_straight ? 0 : 1;
     const double bend = freedom > 0 ? freedom * draw.uniform(-streets_.bend, streets_.bend) : 0;
     const std::int32_t pieces = std::max(1, math::to_int32(length / piece_length + 0.5));
     dvec2 direction = aligned(road.direction, road.start);
     std::uint32_t node = road.start;
     for (std::int32_t n = 0; n < pieces; ++n) {
       if (n > 0 && bend != 0) direction = rotated(direction, bend / pieces);
-      if (n > 0 && is_along_tensor_) direction = aligned(direction, node);
+      if (n > 0 && is_along_field_) direction = aligned(direction, node);
       const dvec2 end = in_cm(network_.nodes()[node]) + direction * (length / pieces);
+      const dvec2 from = in_cm(network_.nodes()[node]);
       if (input_.density.at(end / 100.0) < least_density ||
-          input_.is_blocked(in_cm(network_.nodes()[node]), end, streets_.classes.minor.grade))
+          input_.is_blocked(from, end, streets_.classes.minor.grade) || is_above_tunnel(from, end))
         return RoadState::failed;
       const PieceResult built = network_.build_piece(node, end, EdgeClass::minor);
       if (built.state != PieceState::free) return RoadState::failed;
@@ -233,21 +276,22 @@ class Cell final : public RoadRules {
 
   /// How little a street along the field keeps to it: the share of an organic pattern.
   double freedom_at(std::uint32_t node) const {
-    return input_.tensor->organic_share_at(in_cm(network_.nodes()[node]));
+    return input_.minor_field->organic_share_at(in_cm(network_.nodes()[node]));
   }
 
   /// The direction, or that of the pattern which is nearest to it, or one between them.
   dvec2 aligned(const dvec2& direction, std::uint32_t node) const {
-    if (!is_raster_ && !is_radial_ && !is_along_tensor_) return direction;
+    if (!is_raster_ && !is_radial_ && !is_along_field_) return direction;
     const dvec2 p = in_cm(network_.nodes()[node]);
-    const dvec2 frame = is_along_tensor_ ? input_.tensor->direction_at(p) : frame_at(streets_, is_radial_, p);
+    const dvec2 frame =
+        is_along_field_ ? input_.minor_field->direction_at(p) : frame_at(streets_, is_radial_, p);
     if (frame == dvec2(0)) return direction;
     dvec2 best = frame;
     for (int quarter = 0; quarter < 4; ++quarter) {
       const dvec2 turned = rotated(frame, 90.0 * quarter);
       if (glm::dot(turned, direction) > glm::dot(best, direction)) best = turned;
     }
-    const double freedom = is_along_tensor_ ? freedom_at(node) : 0;
+    const double freedom = is_along_field_ ? freedom_at(node) : 0;
     if (freedom == 0) return best;
     const dvec2 mean = best * (1 - freedom) + direction * freedom;  // at most 45 degrees apart
     return mean / length_of(mean);
@@ -261,8 +305,8 @@ class Cell final : public RoadRules {
     for (const double turn : {0.0, 20.0, -20.0, 40.0, -40.0, 65.0, -65.0, 90.0, -90.0}) {
       const dvec2 direction = rotated(ahead, turn);
       const dvec2 from = in_cm(network_.nodes()[node]);
-      if (input_.footprints && input_.is_blocked(from, from + direction * (streets_.length * 150), 1e9))
-        continue;
+      const dvec2 far = from + direction * (streets_.length * 150);
+      if (is_above_tunnel(from, far) || (input_.footprints && input_.is_blocked(from, far, 1e9))) continue;
       if (network_.build_to_road(node, direction, streets_.length * 150, EdgeClass::minor).state ==
           PieceState::joined)
         return true;
@@ -282,20 +326,51 @@ class Cell final : public RoadRules {
   }
 
  public:
+  /// Keeps streets off the mouths of tunnels and off ground that is low above them.
+  void avoid_tunnels(const std::vector<Bridge>& bridges) {
+    if (!input_.landform) return;
+    for (const Bridge& each : bridges) {
+      if (each.level > 0) continue;
+      tunnels_.push_back(&each);
+      for (const CmPoint& end : {each.line.front(), each.line.back()}) {
+        const auto known = by_point_.find(end);
+        if (known != by_point_.end()) network_.close_node(known->second);
+      }
+    }
+  }
+
   void set_key(std::uint64_t key) { cell_key_ = key; }
 
  private:
+  /// Whether a street between two positions (cm) would pass a tunnel that is not deep below the ground there.
+  bool is_above_tunnel(const dvec2& from, const dvec2& to) const {
+    constexpr double beside = 1500, least_depth = 14;  // cm, m
+    const auto ground = [&](const dvec2& cm) { return input_.landform->at(cm / 100.0); };
+    for (const Bridge* tunnel : tunnels_) {
+      const CmRing& line = tunnel->line;
+      const double floor = std::max(ground(in_cm(line.front())), ground(in_cm(line.back())));
+      if (std::min(ground(from), ground(to)) > floor + least_depth) continue;
+      for (std::size_t k = 1; k < line.size(); ++k) {
+        if (segments_meet(rounded_cm(from), rounded_cm(to), line[k - 1], line[k]) ||
+            distance_to_segment(to, in_cm(line[k - 1]), in_cm(line[k])) < beside)
+          return true;
+      }
+    }
+    return false;
+  }
+
   const GrowthInput& input_;
   const CityStreets& streets_;
   Rng rng_;
   std::uint64_t cell_key_ = 0;
-  bool is_raster_ = false, is_radial_ = false, is_along_tensor_ = false;
+  bool is_raster_ = false, is_radial_ = false, is_along_field_ = false;
   Network network_;
   std::map<CmPoint, std::uint32_t> by_point_;
   std::map<std::uint32_t, int> seen_;
   std::vector<std::vector<std::uint32_t>> rings_;
   std::vector<std::vector<std::uint8_t>> borders_;
   std::vector<Road> roads_;
+  std::vector<const Bridge*> tunnels_;
 };
 
 }  // namespace
@@ -309,10 +384,15 @@ std::vector<StreetPiece> grow_cell(const GrowthInput& input, const StreetGraph& 
     lowest = std::min(lowest, majors.nodes[start_of(majors.edges, half)]);
   cell.set_key(point_key(lowest));
   for (const std::vector<std::uint32_t>& loop : loops) cell.add_loop(majors, loop);
-  if (!input.grammar.grow(cell.starts(), cell, most_steps_of_a_cell, job)) {
+  cell.avoid_tunnels(majors.bridges);
+  const auto grow = [&](const std::vector<StreetGrammar::Start>& starts) {
+    if (input.grammar.grow(starts, cell, most_steps_of_a_cell, job)) return;
     job.refuse(limit_issue({Resource::steps, most_steps_of_a_cell, most_steps_of_a_cell + 1},
                            "the streets of a cell do not stop growing", "/streets/productions"));
-  }
+  };
+  grow(cell.starts());
+  constexpr int most_restarts = 6;
+  for (int round = 0; round < most_restarts && cell.is_sparse(); ++round) grow(cell.restarts(round));
   cell.settle_dead_ends();
   return cell.pieces();
 }

@@ -14,15 +14,14 @@
 #include "core/generators/city/landmarks.h"
 #include "core/generators/city/lots.h"
 #include "core/generators/city/plan_json.h"
+#include "core/generators/city/remarks.h"
 #include "core/generators/city/statistics.h"
 #include "core/generators/city/surface.h"
 #include "core/generators/city/tensor.h"
 #include "core/generators/city/wards.h"
 #include "core/generators/city/zoning.h"
-#include "core/generators/unused.h"
 #include "core/schema/warning_list.h"
 #include "generated/params/city.h"
-#include "generated/params/city_unused.h"
 
 namespace seedmesh::city {
 namespace {
@@ -132,22 +131,6 @@ Route given_route_of(const Region& region, const std::vector<GivenLine>& lines) 
   return all;
 }
 
-/// The field that streets follow, if they follow one.
-std::optional<TensorField> field_of(const CityParams& params, const Region& region, const FieldMap* blend,
-                                    const Landform* landform, const Job& job, std::vector<Issue>& issues) {
-  const CityStreets& streets = params.streets;
-  std::optional<TensorField> field;
-  if (blend) {
-    field.emplace(streets, *blend, landform, job.rng().at("pattern"));
-    return field;
-  }
-  const bool follows_slope =
-      streets.method == CityMethod::growth &&
-      (streets.pattern == CityPattern::slope || streets.minor_pattern == CityMinorPattern::slope);
-  if (streets.method == CityMethod::tensor || follows_slope) field.emplace(streets, region, landform, issues);
-  return field;
-}
-
 /// Streets stay above the water of a terrain.
 double least_height(const Landform& landform) {
   constexpr double freeboard = 1.5;  // m
@@ -167,42 +150,6 @@ Error too_steep(const CityParams& params) {
       {{IssueKind::conflict, params.terrain ? "/terrain" : "/maps/height",
         "found no position where a street keeps its grade limit; expected less steep ground or greater "
         "limits in streets.classes"}}};
-}
-
-/// Warnings about parameters without effect, and a terrain that is smaller than the area.
-std::vector<Warning> remarks_on(const CityParams& params, const CityPlan& plan) {
-  std::vector<Warning> warnings = warnings_of(unused_parameters(params));
-  if (params.maps.height && plan.landform->has_expression() &&
-      params.maps.height_range != CityMaps{}.height_range) {
-    warnings.push_back(
-        {"/maps/height_range", "`height_range` has no effect, since the height is an expression in metres"});
-  }
-  const Box box = box_of(plan.area);
-  if (!plan.landform->covers(box.low, box.high)) {
-    warnings.push_back(
-        {"/terrain",
-         "the terrain is smaller than the area; beyond its border the ground has the height of the border"});
-  }
-  for (Warning& each : landmark_warnings(plan)) warnings.push_back(std::move(each));
-  const std::vector<Bridge>& bridges = plan.graph.bridges;
-  const bool has_tunnel =
-      std::any_of(bridges.begin(), bridges.end(), [](const Bridge& each) { return each.level < 0; });
-  if (has_tunnel && plan.heights.is_level()) {
-    warnings.push_back(
-        {"/given/streets", "tunnels below level ground have no mesh; expected a terrain or maps.height"});
-  }
-  return warnings;
-}
-
-/// Surfaces that the model does not have, before materials get unique names.
-void warn_of_unused_surfaces(const CityParams& params, Model& model) {
-  for (std::size_t i = 0; i < params.surfaces.size(); ++i) {
-    const std::string_view name = text_of(params.surfaces[i].material);
-    const auto has_name = [&](const Material& material) { return material.name == name; };
-    if (std::any_of(model.materials.begin(), model.materials.end(), has_name)) continue;
-    model.warnings.push_back(
-        {"/surfaces/" + std::to_string(i), "this city has no surface \"" + std::string(name) + "\""});
-  }
 }
 
 std::optional<Error> refusal(const CityParams& params, const GenerateContext& context) {
@@ -262,8 +209,9 @@ Result<CityPlan> plan_on(const CityParams& params, std::shared_ptr<const Landfor
     wards =
         lay_out_wards(params, {plan.region, *maps.density, obstacles, landform}, plan.classes, job, issues);
   }
-  const std::optional<TensorField> tensor =
-      field_of(params, plan.region, maps.pattern ? &*maps.pattern : nullptr, landform, job, issues);
+  const FieldMap* blend = maps.pattern ? &*maps.pattern : nullptr;
+  const StreetFields fields =
+      fields_of(params.streets, {plan.region, blend, landform}, job.rng().at("pattern"), issues);
   if (!issues.empty()) return Error{Code::invalid, std::move(issues)};
   const GrowthInput input = {params.streets,
                              *maps.density,
@@ -272,7 +220,8 @@ Result<CityPlan> plan_on(const CityParams& params, std::shared_ptr<const Landfor
                              obstacles,
                              lines.empty() ? nullptr : &given,
                              has_wards ? &wards : nullptr,
-                             tensor ? &*tensor : nullptr,
+                             fields.majors.get(),
+                             fields.minors.get(),
                              landform,
                              footprints.is_empty() ? nullptr : &footprints,
                              plan.classes,
@@ -305,6 +254,7 @@ Result<Model> planned_model(const CityParams& params, const GenerateContext& con
   Result<CityPlan> plan = plan_of(params, job);
   if (!plan) return plan.error();
   const std::string statistics = canonical_text(statistics_of(*plan, job));
+  std::vector<Warning> remarks = remarks_on(params, *plan);
   parts = plan->parts.size();
   if (parts >= parts_of_large_plans) {
     return_unused_heap();
@@ -315,7 +265,7 @@ Result<Model> planned_model(const CityParams& params, const GenerateContext& con
   if (!model) return model;
   warn_of_unused_surfaces(params, *model);
   model->extras.push_back({"statistics", statistics});
-  for (Warning& each : remarks_on(params, *plan)) model->warnings.push_back(std::move(each));
+  for (Warning& each : remarks) model->warnings.push_back(std::move(each));
   return model;
 }
 

@@ -13,8 +13,10 @@
 #include "core/generators/city/contents.h"
 #include "core/generators/city/ground_mesh.h"
 #include "core/generators/city/landmarks.h"
+#include "core/generators/city/objects.h"
 #include "core/generators/city/surface.h"
 #include "core/generators/material_members.h"
+#include "core/geom/mesh/finish.h"
 #include "core/texture/png.h"
 #include "generated/params/city.h"
 
@@ -161,15 +163,11 @@ struct GroundMeshes {
 
 /// Whether what stands in a level city depends on the outlines of its parts.
 bool needs_outlines(const CityPlan& plan, const CityParams& params) {
-  const CityClasses& classes = params.streets.classes;
-  const bool has_trees =
-      classes.highway.trees || classes.major.trees || classes.minor.trees || classes.lane.trees;
-  return !plan.landmarks.empty() || params.parks || params.yards || has_trees ||
-         params.furniture != CityFurniture{};
+  return !plan.landmarks.empty() || params.parks || params.yards || has_street_furniture(params);
 }
 
 /// One mesh for each kind of part in each chunk. Frees the outlines of the plan that nothing needs any more.
-void add_ground(Model& model, CityPlan& plan, const Surface& surface, const CityParams& params,
+void add_ground(Model& model, CityPlan& plan, Surface& surface, const CityParams& params,
                 const Chunks& chunks, ChunkNodes& nodes, const GenerateContext& context) {
   Job& job = context.job;
   const bool keeps_outlines = !surface.is_level() || needs_outlines(plan, params);
@@ -179,7 +177,10 @@ void add_ground(Model& model, CityPlan& plan, const Surface& surface, const City
     job.spend(Resource::triangles, mesh.triangles());
     const auto [material, is_new] = materials.try_emplace(name, static_cast<int>(model.materials.size()));
     if (is_new) model.materials.push_back(make_material());
-    add_mesh(model, name, material->second, mesh.take(job), nodes.group(chunk, "ground"));
+    Mesh made = mesh.take(job);
+    // The order needs about as much memory as the mesh, and later there are more meshes.
+    order_for_cache(made, job);
+    add_mesh(model, name, material->second, std::move(made), nodes.group(chunk, "ground"));
   };
   for (const GroundPiece& piece : ground_pieces(plan, chunks)) {
     GroundMeshes meshes(plan, surface, context.demand.textures > 0, job);
@@ -202,6 +203,7 @@ void add_ground(Model& model, CityPlan& plan, const Surface& surface, const City
     add("lane_lines", striped("lane_line", {24, 16, 24}), meshes.lane_lines, piece.chunk);
     add(
         look.name, [&] { return material_of(look, params); }, meshes.plain, piece.chunk);
+    if (!chunks.is_divided() && piece.kind == PartKind::carriageway) surface.release_strips();
     constexpr std::size_t many_parts = 5000;
     if (!keeps_outlines && piece.parts.size() >= many_parts) return_unused_heap();
   }
@@ -236,6 +238,15 @@ void add_foundations(Model& model, const CityPlan& plan, const Surface& surface,
   job.spend(Resource::triangles, mesh.triangles());
   add_mesh(model, "foundations", material_of({"foundation", {0x8f, 0x89, 0x80}, 0.95F}, params),
            mesh.take(job), 0);
+}
+
+/// Frees what houses on level ground do not need.
+void release_streets(CityPlan& plan) {
+  plan.graph = {};
+  plan.kerbs = {};
+  plan.corner_reaches = {};
+  plan.blocks = {};
+  for (Lot& lot : plan.lots) lot.corners = {};
 }
 
 void add_bridges_and_tunnels(Model& model, Mesh bridges, const Surface& surface, const CityParams& params,
@@ -273,7 +284,7 @@ Result<Model> city_model(CityPlan& plan, const CityParams& params, const Generat
   Model model;
   model.name = "city";
   add_node(model, "city", -1);
-  const Surface surface(plan, params.streets.wards.wall_height, job);
+  Surface surface(plan, params.streets.wards.wall_height, job);
   const Chunks chunks(plan, params);
   ChunkNodes nodes(model, chunks);
   Mesh bridges = bridge_mesh(plan, job);
@@ -282,6 +293,8 @@ Result<Model> city_model(CityPlan& plan, const CityParams& params, const Generat
   add_foundations(model, plan, surface, params, job);
   add_bridges_and_tunnels(model, std::move(bridges), surface, params, job);
   if (auto warning = tunnel_warning(surface)) model.warnings.push_back(*std::move(warning));
+  surface.release_edges();
+  if (surface.is_level() && !needs_outlines(plan, params)) release_streets(plan);
   if (auto error = add_contents(model, nodes, chunks, surface, params, context)) return std::move(*error);
   return model;
 }

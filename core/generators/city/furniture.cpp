@@ -195,7 +195,14 @@ double turn_of(const glm::dvec2& inward) {
   return std::floor(math::degrees(math::atan2(-inward.x, inward.y)) * 1e4 + 0.5) / 1e4;
 }
 
+bool has_street_furniture(const CityParams& params) {
+  const CityClasses& classes = params.streets.classes;
+  return params.furniture != CityFurniture{} || classes.highway.trees || classes.major.trees ||
+         classes.minor.trees || classes.lane.trees;
+}
+
 std::vector<ObjectKind> street_furniture(const CityPlan& plan, const CityParams& params, const Job& job) {
+  if (!has_street_furniture(params)) return {};
   const CityFurniture& wanted = params.furniture;
   std::vector<ObjectKind> kinds;
   begin_kind(kinds, wanted.lamps, "lamps");

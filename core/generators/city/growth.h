@@ -2,6 +2,7 @@
 /// Streets that grow: major streets first, then the cells between them one by one, so that a change in one
 /// quarter does not affect the others. Kelly and McCabe, "Citygen: an interactive system for procedural city
 /// generation", 2007, over the productions of Parish and Mueller (productions.h).
+#include <optional>
 #include <vector>
 
 #include "core/base/job.h"
@@ -30,7 +31,8 @@ struct GrowthInput {
   const FieldMap* obstacles = nullptr;         ///< null: none
   const Route* given = nullptr;                ///< null: none
   const WardPlan* wards = nullptr;             ///< null: major streets grow
-  const TensorField* tensor = nullptr;         ///< null: streets follow patterns
+  const TensorField* tensor = nullptr;         ///< of major streets; null: they follow a pattern
+  const TensorField* minor_field = nullptr;    ///< of minor streets; null: they follow a pattern
   const Landform* landform = nullptr;          ///< null: level ground
   const FootprintIndex* footprints = nullptr;  ///< null: none
   std::vector<CrossSection> sections = {};     ///< by tag
@@ -45,6 +47,8 @@ struct GrowthInput {
   /// Whether an obstacle is on the segment between two positions in centimetres, sampled every 4 m, or the ground
   /// along it is too steep for a street of this grade limit.
   bool is_blocked(const glm::dvec2& a, const glm::dvec2& b, double grade_limit) const;
+  /// The same for obstacles and given buildings alone.
+  bool is_obstructed(const glm::dvec2& a, const glm::dvec2& b) const;
   /// Whether the ground between the ends of a segment (cm) is more than 1.5 times as steep as `grade_limit`, or the
   /// ground along it is more than 5 m above or below the straight line between the ends.
   bool is_too_steep(const glm::dvec2& a, const glm::dvec2& b, double grade_limit) const;
@@ -52,6 +56,11 @@ struct GrowthInput {
   bool keeps_off_given(const StreetPiece& piece) const;
   /// Returns the grade limit of a street of a kind that grows.
   double limit_of(std::uint32_t kind) const;
+  /// Whether no piece of a route meets an obstacle, a given street or ground that is too steep.
+  bool is_free(const Route& route) const;
+  /// Returns a route whose pieces on ground that is too steep are replaced by tunnels through a ridge, of at most
+  /// `streets.tunnel_length`. Nothing where another reason forbids the route, or where the ground is too low.
+  std::optional<Route> tunnelled(const Route& route) const;
 };
 
 /// Returns the major streets, or all streets of a raster, clipped to the area.
@@ -77,6 +86,10 @@ bool is_one_network(const StreetGraph& graph);
 /// obstacle. Networks without such a link stay apart. Cost for each network: 64 times the edges.
 std::vector<StreetPiece> links_between_networks(const GrowthInput& input, const StreetGraph& graph,
                                                 const Job& job);
+
+/// Makes a share of the minor streets lanes. A street ends at junctions, at dead ends and where its class changes.
+/// Choices depend on the positions of its ends alone.
+void choose_lanes(StreetGraph& graph, double share, const Rng& rng);
 
 /// Returns the whole street graph: the major streets and the streets of all cells. Pieces outside of the area and
 /// loose components have been removed.

@@ -14,8 +14,16 @@ using glm::dvec2;
 
 double GrowthInput::limit_of(std::uint32_t kind) const {
   const CityClasses& classes = streets.classes;
-  if (kind == static_cast<std::uint32_t>(EdgeClass::highway)) return classes.highway.grade;
-  return kind == static_cast<std::uint32_t>(EdgeClass::minor) ? classes.minor.grade : classes.major.grade;
+  switch (static_cast<EdgeClass>(kind)) {
+    case EdgeClass::highway:
+      return classes.highway.grade;
+    case EdgeClass::minor:
+      return classes.minor.grade;
+    case EdgeClass::lane:
+      return classes.lane.grade;
+    default:
+      return classes.major.grade;
+  }
 }
 
 bool GrowthInput::is_blocked(const dvec2& metres) const {
@@ -45,7 +53,10 @@ bool GrowthInput::is_too_steep(const dvec2& a, const dvec2& b, double grade_limi
 }
 
 bool GrowthInput::is_blocked(const dvec2& a, const dvec2& b, double grade_limit) const {
-  if (is_too_steep(a, b, grade_limit)) return true;
+  return is_too_steep(a, b, grade_limit) || is_obstructed(a, b);
+}
+
+bool GrowthInput::is_obstructed(const dvec2& a, const dvec2& b) const {
   if (!obstacles && !footprints) return false;
   const dvec2 along = b - a;
   const std::int32_t count = math::to_int32(std::sqrt(along.x * along.x + along.y * along.y) / 400) + 1;
@@ -53,6 +64,12 @@ bool GrowthInput::is_blocked(const dvec2& a, const dvec2& b, double grade_limit)
     if (is_blocked((a + along * (static_cast<double>(n) / count)) / 100.0)) return true;
   }
   return false;
+}
+
+bool GrowthInput::is_free(const Route& route) const {
+  return std::all_of(route.pieces.begin(), route.pieces.end(), [&](const StreetPiece& piece) {
+    return !is_blocked(in_cm(piece.a), in_cm(piece.b), limit_of(piece.kind)) && keeps_off_given(piece);
+  });
 }
 
 bool GrowthInput::keeps_off_given(const StreetPiece& piece) const {

@@ -158,6 +158,16 @@ Shores shores_of(const CityPlan& plan) {
   return shores;
 }
 
+/// Reserves memory for the lots of all blocks, as many for each as in those that are done. Growing lists would need more
+/// of it, and time to move lots.
+void reserve_lots(CityPlan& plan, std::size_t done, std::size_t blocks) {
+  constexpr std::size_t spare = 32;  // one more of this number
+  const std::size_t lots = plan.lots.size() * blocks / done;
+  plan.lots.reserve(lots + lots / spare);
+  plan.parts.reserve(plan.parts.size() + (lots + lots / spare - plan.lots.size()) + (blocks - done) / 4);
+  plan.blocks.reserve(blocks);
+}
+
 void add_block(CityPlan& plan, const BlockOutline& outline, Divided& divided, const FieldMap& density,
                const Shores& shores) {
   Division& division = *divided.division;
@@ -249,6 +259,7 @@ void divide_blocks(CityPlan& plan, std::vector<BlockOutline> outlines, const Cit
   std::vector<std::optional<Divided>> divided(std::min(outlines.size(), blocks_a_batch));
   for (std::size_t first = 0; first < outlines.size(); first += blocks_a_batch) {
     const std::size_t count = std::min(blocks_a_batch, outlines.size() - first);
+    if (first == blocks_a_batch) reserve_lots(plan, first, outlines.size());
     parallel_for(job, count, blocks_a_chunk, [&](std::size_t begin, std::size_t end, std::size_t) {
       for (std::size_t i = begin; i < end; ++i) {
         job.check();

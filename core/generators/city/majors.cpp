@@ -193,21 +193,20 @@ class NetRules final : public RoadRules {
 
   RoadState local_constraints(double road) override {
     if (!is_road(road)) return RoadState::failed;
-    const Road& each = roads_[static_cast<std::size_t>(road)];
-    const auto link = std::minmax(each.from, each.to);
-    if (!built_.insert({link.first, link.second}).second) return RoadState::failed;
-    const std::vector<CmPoint> line = net_.points(each.from, each.to);
-    const std::size_t middle = line.size() / 2;
-    const bool is_dense = input_.density.at(in_metres(line.front())) >= least_density &&
-                          input_.density.at(in_metres(line[middle])) >= least_density;
-    if (!is_on_land(input_.region, in_cm(line.front())) || !is_dense || !net_.is_filled(each.from, each.to))
-      return RoadState::failed;
-    const auto kind = static_cast<std::uint32_t>(net_.class_of(each.from, each.to));
-    const Route built = route_of(input_.region, line, kind, input_.streets.bridge_length * 100);
-    if (!may_build(built)) return RoadState::failed;
-    route.pieces.insert(route.pieces.end(), built.pieces.begin(), built.pieces.end());
-    route.bridges.insert(route.bridges.end(), built.bridges.begin(), built.bridges.end());
-    if (!built.reaches_end) return RoadState::failed;
+    Road& each = roads_[static_cast<std::size_t>(road)];
+    const Site from = each.from, to = each.to;
+    if (was_tried(from, to)) return RoadState::failed;
+    std::optional<Route> built = link(from, to, false);
+    // A tunnel can pass sites on a ridge.
+    for (std::int32_t steps = 2; steps <= 3 && !built && ends_on_slope(from, each.to); ++steps) {
+      each.to = {from[0] + (to[0] - from[0]) * steps, from[1] + (to[1] - from[1]) * steps};
+      if (was_tried(from, each.to)) return RoadState::failed;
+      built = link(from, each.to, true);
+    }
+    if (!built) return RoadState::failed;
+    route.pieces.insert(route.pieces.end(), built->pieces.begin(), built->pieces.end());
+    route.bridges.insert(route.bridges.end(), built->bridges.begin(), built->bridges.end());
+    if (!built->reaches_end) return RoadState::failed;
     return reached_.insert(each.to).second ? RoadState::succeed : RoadState::failed;
   }
 
@@ -236,6 +235,38 @@ class NetRules final : public RoadRules {
   };
   bool is_road(double road) const { return road >= 0 && road < static_cast<double>(roads_.size()); }
 
+  bool was_tried(const Site& from, const Site& to) {
+    const auto ends = std::minmax(from, to);
+    return !tried_.insert({ends.first, ends.second}).second;
+  }
+
+  /// Whether tunnels may grow and the ground at the end of a link is too steep for it.
+  bool ends_on_slope(const Site& from, const Site& to) const {
+    if (input_.streets.tunnel_length <= 0 || net_.is_radial() || !input_.landform) return false;
+    const std::vector<CmPoint> line = net_.points(from, to);
+    const dvec2 end = in_cm(line.back()), along = in_cm(line[line.size() - 2]) - end;
+    const double length = std::sqrt(along.x * along.x + along.y * along.y);
+    return input_.is_too_steep(end, end + along * std::min(1.0, piece_length / length),
+                               input_.limit_of(static_cast<std::uint32_t>(net_.class_of(from, to))));
+  }
+
+  /// The street between two sites, if it can be built. `has_tunnel`: only with a tunnel.
+  std::optional<Route> link(const Site& from, const Site& to, bool has_tunnel) const {
+    const std::vector<CmPoint> line = net_.points(from, to);
+    const std::size_t middle = line.size() / 2;
+    const bool is_dense = input_.density.at(in_metres(line.front())) >= least_density &&
+                          input_.density.at(in_metres(line[middle])) >= least_density;
+    if (!is_on_land(input_.region, in_cm(line.front())) || !is_dense || !net_.is_filled(from, to))
+      return std::nullopt;
+    const auto kind = static_cast<std::uint32_t>(net_.class_of(from, to));
+    std::optional<Route> built = route_of(input_.region, line, kind, input_.streets.bridge_length * 100);
+    if (has_tunnel || !input_.is_free(*built)) built = input_.tunnelled(*built);
+    if (!built || !is_clear_of_bridges(*built)) return std::nullopt;
+    const bool is_tunnel = std::any_of(built->bridges.begin(), built->bridges.end(),
+                                       [](const auto& each) { return each.level < 0; });
+    return has_tunnel && !is_tunnel ? std::nullopt : built;
+  }
+
   /// The site itself, or one farther in the same direction if it lies in water.
   Site beyond_water(const Site& from, const Site& next) const {
     if (net_.is_radial() || is_on_land(input_.region, net_.position(next))) return next;
@@ -246,12 +277,8 @@ class NetRules final : public RoadRules {
     return next;
   }
 
-  /// Whether no obstacle, no given street and no other bridge is in the way.
-  bool may_build(const Route& built) const {
-    for (const StreetPiece& piece : built.pieces) {
-      if (input_.is_blocked(in_cm(piece.a), in_cm(piece.b), input_.limit_of(piece.kind))) return false;
-      if (!input_.keeps_off_given(piece)) return false;
-    }
+  /// Whether no other bridge or tunnel is in the way.
+  bool is_clear_of_bridges(const Route& built) const {
     return !meets_bridges(built, route.bridges) &&
            !(input_.given && meets_bridges(built, input_.given->bridges));
   }
@@ -282,7 +309,7 @@ class NetRules final : public RoadRules {
   const GrowthInput& input_;
   const Net& net_;
   std::vector<Road> roads_;
-  std::set<std::pair<Site, Site>> built_;
+  std::set<std::pair<Site, Site>> tried_;
   std::set<Site> reached_;
 };
 

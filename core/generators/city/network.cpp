@@ -123,7 +123,7 @@ bool Network::may_link(std::uint32_t from, const CmPoint& to, std::uint32_t targ
                        std::uint32_t split) const {
   const CmPoint& start = nodes_[from];
   if (distance(start, to) < limits_.least_length || !keeps_angles(from, to)) return false;
-  if (target != none && !keeps_angles(target, start)) return false;
+  if (target != none && (is_closed(target) || !keeps_angles(target, start))) return false;
   if (split != none) {
     const NetworkEdge& edge = edges_[split];
     const CmPoint &a = nodes_[edge.from], &b = nodes_[edge.to];

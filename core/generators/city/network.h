@@ -1,6 +1,7 @@
 #pragma once
 /// The street network while it grows within one cell of major streets, and the local constraints of a new piece
 /// of road. Coordinates are centimetres. Everything in a cell depends on the cell alone.
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -54,6 +55,12 @@ class Network {
   /// Removes an edge that is not fixed.
   void remove_edge(std::uint32_t edge);
 
+  /// Lets no further road end at a node.
+  void close_node(std::uint32_t node) { closed_.push_back(node); }
+  bool is_closed(std::uint32_t node) const {
+    return std::find(closed_.begin(), closed_.end(), node) != closed_.end();
+  }
+
   const std::vector<CmPoint>& nodes() const { return nodes_; }
   const std::vector<NetworkEdge>& edges() const { return edges_; }
   const std::vector<std::uint32_t>& arms(std::uint32_t node) const { return arms_[node]; }
@@ -87,6 +94,7 @@ class Network {
   std::vector<CmPoint> nodes_;
   std::vector<NetworkEdge> edges_;
   std::vector<EdgeBox> boxes_;  ///< by edge
+  std::vector<std::uint32_t> closed_;
   std::vector<std::vector<std::uint32_t>> arms_;
 };
 

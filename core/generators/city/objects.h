@@ -35,6 +35,9 @@ struct ObjectKind {
   std::uint32_t model_count() const;
 };
 
+/// Whether a request asks for furniture or trees along streets.
+bool has_street_furniture(const CityParams& params);
+
 /// Returns the lamps, trees, benches, bins, signs and parked cars along all streets of level 0 that the request
 /// asks for. Choices depend on the key of the street, its side, and the number of the position from the end with
 /// the smaller key. Cost: linear in the lengths of the streets.

@@ -43,6 +43,7 @@ class PrunedGraph {
       if (from == at.end() || to == at.end()) continue;
       bridges_.push_back({from->second, to->second, each.kind, each.level, each.line, 0});
     }
+    mark_bridge_ends();
   }
 
   void drop_outside(const Region& region) {
@@ -198,13 +199,19 @@ class PrunedGraph {
     std::erase_if(bridges_, [&](const Bridge& each) {
       return degree_[each.from] == 0 || degree_[each.to] == 0 || each.from == each.to;
     });
+    mark_bridge_ends();
   }
 
-  bool is_bridge_end(std::uint32_t node) const {
-    return std::any_of(bridges_.begin(), bridges_.end(),
-                       [node](const Bridge& each) { return each.from == node || each.to == node; });
+  void mark_bridge_ends() {
+    is_bridge_end_.assign(nodes_.size(), 0);
+    for (const Bridge& each : bridges_) is_bridge_end_[each.from] = is_bridge_end_[each.to] = 1;
   }
-  bool is_loose(std::uint32_t node) const { return degree_[node] == 1 && is_border_[node] == 0; }
+  bool is_bridge_end(std::uint32_t node) const {
+    return !is_bridge_end_.empty() && is_bridge_end_[node] != 0;
+  }
+  bool is_loose(std::uint32_t node) const {
+    return degree_[node] == 1 && is_border_[node] == 0 && !is_bridge_end(node);
+  }
 
   void remove(PlanarEdge& edge) {
     --degree_[edge.from];
@@ -262,7 +269,7 @@ class PrunedGraph {
   std::vector<CmPoint> nodes_;
   std::vector<PlanarEdge> edges_;
   std::vector<std::uint32_t> degree_;
-  std::vector<std::uint8_t> is_border_;
+  std::vector<std::uint8_t> is_border_, is_bridge_end_;  ///< by node
   std::vector<Bridge> bridges_;
 };
 

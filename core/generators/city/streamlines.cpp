@@ -334,14 +334,13 @@ Route trace_majors(const GrowthInput& input, const TensorField& field, Job& job)
     if (input.density.at(in_metres(span.points.front())) < least_density ||
         input.density.at(in_metres(middle)) < least_density)
       continue;
-    const Route built = route_of(input.region, span.points, span.kind, input.streets.bridge_length * 100);
-    const bool is_blocked =
-        std::any_of(built.pieces.begin(), built.pieces.end(), [&](const StreetPiece& piece) {
-          return input.is_blocked(in_cm(piece.a), in_cm(piece.b), input.limit_of(piece.kind)) ||
-                 !input.keeps_off_given(piece);
-        });
-    if (is_blocked || meets_bridges(built, route.bridges) ||
-        (input.given && meets_bridges(built, input.given->bridges)))
+    Route built = route_of(input.region, span.points, span.kind, input.streets.bridge_length * 100);
+    if (!input.is_free(built)) {
+      std::optional<Route> tunnelled = input.tunnelled(built);
+      if (!tunnelled) continue;
+      built = *std::move(tunnelled);
+    }
+    if (meets_bridges(built, route.bridges) || (input.given && meets_bridges(built, input.given->bridges)))
       continue;
     route.pieces.insert(route.pieces.end(), built.pieces.begin(), built.pieces.end());
     route.bridges.insert(route.bridges.end(), built.bridges.begin(), built.bridges.end());

@@ -185,6 +185,7 @@ StreetGraph grow_all(const GrowthInput& input, std::vector<CmPoint>& ring_nodes,
 StreetGraph grow_streets(const GrowthInput& input, Job& job) {
   std::vector<CmPoint> ring_nodes;
   StreetGraph graph = grow_all(input, ring_nodes, job);
+  choose_lanes(graph, input.streets.lane_share, job.rng().at("lanes"));
   graph.ring_nodes = std::move(ring_nodes);
   return graph;
 }

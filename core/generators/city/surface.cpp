@@ -64,19 +64,7 @@ void limit_lattice(std::vector<double>& heights, std::int32_t columns, std::int3
 
 Surface::Surface(const CityPlan& plan, double wall_height, Job& job)
     : plan_(plan), wall_height_(wall_height) {
-  std::size_t count = 0;
-  for (const Part& part : plan.parts) {
-    for (const CmRing& ring : part.rings) count += ring.size();
-  }
-  // Nearly all edges have a part on both sides.
-  part_of_edge_ = EdgeTable(count / 2 + count / 16);
-  for (std::uint32_t n = 0; n < plan.parts.size(); ++n) {
-    if (n % 1024 == 0) job.check();
-    for (const CmRing& ring : plan.parts[n].rings) {
-      for (std::size_t i = 0; i < ring.size(); ++i)
-        part_of_edge_.add(ring[i], ring[i + 1 < ring.size() ? i + 1 : 0], n);
-    }
-  }
+  find_edges(job);
   divide_carriageways(job);
   if (is_level()) return;
   tunnels_ = Tunnels(plan, part_of_edge_);
@@ -98,6 +86,39 @@ Surface::Surface(const CityPlan& plan, double wall_height, Job& job)
   for (std::uint32_t n = 0; n < plan.parts.size(); ++n) {
     if (plan.parts[n].kind == PartKind::water) water_level_[n] = level_of_water(plan.parts[n]);
   }
+}
+
+/// On level ground without town walls, walls stand only at the edges of low parts.
+void Surface::find_edges(const Job& job) {
+  const bool has_wall =
+      std::any_of(plan_.parts.begin(), plan_.parts.end(), [](const Part& part) { return part.is_wall; });
+  const auto counts = [&](const Part& part) {
+    return !is_level() || has_wall || is_low(part.kind) || part.kind == PartKind::water;
+  };
+  std::size_t count = 0;
+  for (const Part& part : plan_.parts) {
+    if (!counts(part)) continue;
+    for (const CmRing& ring : part.rings) count += ring.size();
+  }
+  // Nearly all edges have a part on both sides. Low parts share few of their edges.
+  const bool has_all = !is_level() || has_wall;
+  part_of_edge_ = EdgeTable(has_all ? count / 2 + count / 16 : count - count / 8);
+  for (std::uint32_t n = 0; n < plan_.parts.size(); ++n) {
+    if (n % 1024 == 0) job.check();
+    if (!counts(plan_.parts[n])) continue;
+    for (const CmRing& ring : plan_.parts[n].rings) {
+      for (std::size_t i = 0; i < ring.size(); ++i)
+        part_of_edge_.add(ring[i], ring[i + 1 < ring.size() ? i + 1 : 0], n);
+    }
+  }
+}
+
+void Surface::release_edges() {
+  part_of_edge_ = {};
+  strips_ = {};
+  divided_at_ = {};
+  divided_ = {};
+  edge_points_ = {};
 }
 
 void Surface::divide_edge(const CmPoint& from, const CmPoint& to, std::span<const dvec2> points) {

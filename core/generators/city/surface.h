@@ -38,8 +38,14 @@ class Surface {
   /// Returns the strips of an edge's carriageway.
   const StreetStrips& strips(std::uint32_t edge) const { return strips_[edge]; }
 
-  /// Returns the part on the other side of the edge from `a` to `b` of some part; no_index outside of the area.
+  /// Returns the part on the other side of the edge from `a` to `b` of some part; no_index outside of the area. On level
+  /// ground without town walls, parts as high as sidewalks count as outside.
   std::uint32_t part_beyond(const CmPoint& a, const CmPoint& b) const;
+
+  /// Frees the strips, once all carriageways are made.
+  void release_strips() { strips_ = {}; }
+  /// Frees all that only the meshes of the ground need. Of the functions above, the heights stay.
+  void release_edges();
 
   /// Returns the height of the floor of a building: that of the highest ground below it. Sets `lowest` to the lowest.
   double floor_height(const Footing& footing, double& lowest) const;
@@ -61,6 +67,7 @@ class Surface {
     std::uint32_t first = 0, count = 0;  ///< range in `edge_points_`
   };
 
+  void find_edges(const Job& job);
   void divide_carriageways(const Job& job);
   void divide_edge(const CmPoint& from, const CmPoint& to, std::span<const glm::dvec2> points);
   double street_height(const Part& part, const glm::dvec2& metres) const;
@@ -72,7 +79,7 @@ class Surface {
 
   const CityPlan& plan_;
   double wall_height_;
-  EdgeTable part_of_edge_;  ///< the edges of all parts
+  EdgeTable part_of_edge_;  ///< the edges of all parts, or of the low ones
   Tunnels tunnels_;
   std::vector<StreetStrips> strips_;  ///< by edge
   EdgeTable divided_at_;              ///< indices into `divided_`, from the lesser end to the greater

@@ -59,11 +59,15 @@ TensorField::TensorField(const CityStreets& streets, const FieldMap& blend, cons
   noise_size_ = streets.major_spacing * noise_spacings * 100;
 }
 
+TensorField::TensorField(const CityStreets& streets, const Landform* landform) : landform_(landform) {
+  bases_.push_back({Shape::grid, {0, 0}, grid_of(streets.angle), weak, 0, {}});
+  bases_.push_back({Shape::height, {0, 0}, {1, 0}, 1, 0, {}});
+}
+
 TensorField::TensorField(const CityStreets& streets, const Region& region, const Landform* landform,
                          std::vector<Issue>& issues)
     : landform_(landform) {
   bases_.push_back({Shape::grid, {0, 0}, grid_of(streets.angle), weak, 0, {}});
-  if (streets.pattern == CityPattern::slope) bases_.push_back({Shape::height, {0, 0}, {1, 0}, 1, 0, {}});
   for (std::size_t i = 0; i < streets.tensor.fields.size(); ++i) {
     const CityTensorField& field = streets.tensor.fields[i];
     Base base;
@@ -93,6 +97,28 @@ TensorField::TensorField(const CityStreets& streets, const Region& region, const
     }
     bases_.push_back(std::move(base));
   }
+}
+
+StreetFields fields_of(const CityStreets& streets, const FieldGround& ground, Rng rng,
+                       std::vector<Issue>& issues) {
+  const bool grows = streets.method == CityMethod::growth;
+  StreetFields fields;
+  if (ground.blend) {
+    fields.majors = std::make_shared<TensorField>(streets, *ground.blend, ground.landform, rng);
+  } else if (streets.method == CityMethod::tensor) {
+    fields.majors = std::make_shared<TensorField>(streets, ground.region, ground.landform, issues);
+  } else if (grows && streets.pattern == CityPattern::slope) {
+    fields.majors = std::make_shared<TensorField>(streets, ground.landform);
+  }
+  const bool follows_slope =
+      streets.minor_pattern ? *streets.minor_pattern == CityMinorPattern::slope
+                            : streets.method == CityMethod::wards && streets.pattern == CityPattern::slope;
+  if (follows_slope) {
+    fields.minors = std::make_shared<TensorField>(streets, ground.landform);
+  } else if (!streets.minor_pattern) {
+    fields.minors = fields.majors;
+  }
+  return fields;
 }
 
 dvec2 TensorField::tensor_of(const Base& base, const dvec2& cm, double& squared_distance) const {

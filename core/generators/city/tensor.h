@@ -1,6 +1,7 @@
 #pragma once
 /// Streets along a tensor field. Chen, Esch, Wonka, Mueller and Zhang, "Interactive procedural street modeling", 2008.
 #include <glm/vec2.hpp>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -26,10 +27,14 @@ struct Route;
 /// fields and of a weak grid. Immutable; threads may share it.
 class TensorField {
  public:
-  /// Copies the fields and the shores of the region. `landform`, null on level ground, has to outlive the field. The
-  /// pattern slope adds a field of heights. Issues: a line or boundary without a position to follow.
+  /// Copies the fields and the shores of the region. `landform`, null on level ground, has to outlive the field.
+  /// Issues: a line or boundary without a position to follow.
   TensorField(const CityStreets& streets, const Region& region, const Landform* landform,
               std::vector<Issue>& issues);
+
+  /// The pattern slope: along the contours of the ground, and the grid of the streets where it is level. `landform`,
+  /// null on level ground, has to outlive the field.
+  TensorField(const CityStreets& streets, const Landform* landform);
 
   /// Blends the pattern and the second pattern of the streets by a map that has to outlive the field. An organic
   /// pattern is a grid that smooth noise turns by up to 40 degrees.
@@ -66,6 +71,23 @@ class TensorField {
   double noise_size_ = 1;  ///< of a cell of the noise, centimetres
   Rng rng_{0};
 };
+
+/// The fields that streets follow; null where they follow a pattern or the wards instead.
+struct StreetFields {
+  std::shared_ptr<const TensorField> majors, minors;
+};
+
+/// What the fields of a request depend on besides its streets. `blend` is the map of patterns.
+struct FieldGround {
+  const Region& region;
+  const FieldMap* blend = nullptr;     ///< null: none
+  const Landform* landform = nullptr;  ///< null: level ground
+};
+
+/// Returns the fields of the method and of the patterns. Minor streets follow that of the major ones, unless they have
+/// a pattern of their own. Issues: those of the tensor field.
+StreetFields fields_of(const CityStreets& streets, const FieldGround& ground, Rng rng,
+                       std::vector<Issue>& issues);
 
 /// Returns the pattern where the map of patterns is 1.
 CityPattern second_pattern_of(const CityStreets& streets);

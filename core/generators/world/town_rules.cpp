@@ -96,6 +96,7 @@ void check_towns(const WorldParams& params, std::vector<Issue>& issues) {
   refuse(found.yards, usual.yards, "yards", unknown, issues);
   refuse(found.chunks, usual.chunks, "chunks", unknown, issues);
   refuse(found.camera, usual.camera, "camera", unknown, issues);
+  refuse(found.streets.tunnel_length, usual.streets.tunnel_length, "streets/tunnel_length", unknown, issues);
   refuse(found.streets.centre, usual.streets.centre, "streets/centre",
          "the centre of a town is the middle of its settlement", issues);
   if (found.streets.method == CityMethod::wards && found.streets.wards.wall_height > 0) {

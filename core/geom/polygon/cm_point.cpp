@@ -58,6 +58,20 @@ std::int64_t doubled_area(std::span<const CmPoint> ring) {
 
 namespace {
 
+/// Whether a ring turns left or goes straight on at every point, and once around. Such a ring is simple.
+bool winds_once(std::span<const CmPoint> ring) {
+  const std::size_t count = ring.size();
+  std::size_t lowest = 0;  // points before both neighbours in the order of points: one for each time around
+  for (std::size_t i = 0; i < count; ++i) {
+    const CmPoint &a = ring[i], &p = ring[i + 1 < count ? i + 1 : 0];
+    const CmPoint& b = ring[i + 2 < count ? i + 2 : i + 2 - count];
+    const std::int64_t turn = cross(a, p, b);
+    if (turn < 0 || (turn == 0 && !is_between(p, a, b))) return false;
+    lowest += p < a && p < b ? 1U : 0U;
+  }
+  return lowest == 1;
+}
+
 /// Whether edges i and k of a ring, i != k, meet except at the common end of neighbours.
 bool do_edges_meet(std::span<const CmPoint> ring, std::size_t i, std::size_t k) {
   const auto next = [count = ring.size()](std::size_t n) { return n + 1 == count ? 0 : n + 1; };
@@ -79,6 +93,7 @@ bool is_simple(std::span<const CmPoint> ring) {
   for (std::size_t i = 0; i < count; ++i) {
     if (ring[i] == ring[next(i)]) return false;
   }
+  if (winds_once(ring)) return true;
   if (count <= few) {
     for (std::size_t i = 0; i < count; ++i) {
       for (std::size_t k = i + 1; k < count; ++k) {

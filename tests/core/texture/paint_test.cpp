@@ -128,6 +128,27 @@ TEST(Wall, GreyOnesHaveTheGreyThatTakesAColour) {
   }
 }
 
+TEST(Wall, BaysHaveOneWindowWithAFrameAndABar) {
+  // A window of 1.1 m by 1.3 m in a bay of 2.7 m by 2.8 m, with a frame of 8 cm and a bar of 6 cm.
+  const double glass = (1.1 - 2 * 0.08 - 0.06) * (1.3 - 2 * 0.08) / (2.7 * 2.8);
+  for (const std::string_view kind : {"brick_bay", "plaster_bay", "planks_bay", "ashlar_bay"}) {
+    const Picture color = decoded(*maps_of(kind, 256, 3).color);
+    std::size_t dark = 0, dark_in_upper_half = 0;
+    for (std::size_t y = 0; y < color.height; ++y) {
+      for (std::size_t x = 0; x < color.width; ++x) {
+        if (at(color, x, y, 0) > 90) continue;
+        ++dark;
+        dark_in_upper_half += y < color.height / 2 ? 1U : 0U;
+      }
+    }
+    const double count = static_cast<double>(color.width) * color.height;
+    EXPECT_NEAR(static_cast<double>(dark) / count, glass, 0.01) << kind;
+    // It reaches from 0.98 m to 2.12 m, and the middle of the bay is at 1.4 m.
+    EXPECT_NEAR(static_cast<double>(dark_in_upper_half) / static_cast<double>(dark), 0.72 / 1.14, 0.04)
+        << kind;
+  }
+}
+
 TEST(Wall, BricksOfTwoColoursShareTheirRelief) {
   Model model;
   for (const std::uint8_t red : std::array<std::uint8_t, 3>{120, 160, 120}) {

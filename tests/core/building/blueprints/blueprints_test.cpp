@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -270,6 +271,37 @@ TEST(Blueprints, HaveColoursThatAreSafeInAnyLight) {
         EXPECT_LE(material.roughness, 0.12F) << name;
       }
     }
+  }
+}
+
+/// Texture coordinates of a wall go from 0 to the number of its bays and floors.
+TEST(Blueprints, HaveWholeBaysWithWindowsWhereTheyAreMassesAlone) {
+  const std::map<std::string, int> floors{
+      {"house", 2}, {"office_tower", 6}, {"parisian_block", 4}, {"terraced_house", 3}, {"villa", 2}};
+  for (const auto& [name, count] : floors) {
+    Json json = request(name);
+    json["attributes"] = {{"lod", 2}, {"floors", count}};
+    if (name == "office_tower") json["attributes"]["style"] = "brick";
+    const Result<Model> model = model_of(json, 3);
+    ASSERT_TRUE(model) << name;
+    std::size_t walls = 0;
+    for (const MeshGroup& group : model->meshes) {
+      for (const Primitive& primitive : group.primitives) {
+        const Material& material = model->materials[static_cast<std::size_t>(primitive.material)];
+        if (!material.recipe.kind.ends_with("_bay")) continue;
+        float highest = 0;
+        for (const glm::vec2& uv : primitive.mesh.uv[0]) {
+          EXPECT_NEAR(uv.x, std::round(uv.x), 1e-4) << name;
+          EXPECT_NEAR(uv.y, std::round(uv.y), 1e-4) << name;
+          highest = std::max({highest, uv.y, -uv.y});
+        }
+        // Bases and shops have windows, too.
+        EXPECT_GE(highest, static_cast<float>(count)) << name;
+        EXPECT_LE(highest, static_cast<float>(count) + 1) << name;
+        walls += primitive.mesh.elements() / 2;
+      }
+    }
+    EXPECT_GE(walls, name == "terraced_house" ? 8U : 4U) << name;
   }
 }
 

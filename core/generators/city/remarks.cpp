@@ -1,0 +1,91 @@
+#include "core/generators/city/remarks.h"
+
+#include <algorithm>
+#include <glm/common.hpp>
+#include <string>
+
+#include "core/generators/city/landmarks.h"
+#include "core/generators/city/zoning.h"
+#include "core/generators/unused.h"
+#include "generated/params/city.h"
+#include "generated/params/city_unused.h"
+
+namespace seedmesh::city {
+namespace {
+
+/// Whether the ground of the plan covers the box around its area.
+bool is_covered(const CityPlan& plan) {
+  glm::dvec2 low = in_metres(plan.area[0][0]), high = low;
+  for (const CmPoint& p : plan.area[0]) {
+    low = glm::min(low, in_metres(p));
+    high = glm::max(high, in_metres(p));
+  }
+  return plan.landform->covers(low, high);
+}
+
+/// The centre of the streets is where growth starts. Other methods use it for radial streets and for distances of
+/// rules alone.
+bool uses_centre(const CityParams& params) {
+  const CityStreets& streets = params.streets;
+  if (streets.method == CityMethod::growth || streets.method == CityMethod::wards) return true;
+  const bool is_radial = streets.method == CityMethod::tensor && streets.minor_pattern &&
+                         *streets.minor_pattern == CityMinorPattern::radial;
+  const std::vector<CityBuildingRule>& rules = rules_of(params);
+  return is_radial || std::any_of(rules.begin(), rules.end(), [](const CityBuildingRule& rule) {
+           return rule.distance != CityBuildingRule{}.distance;
+         });
+}
+
+/// Parameters without an effect for reasons that a condition of the schema cannot express.
+void add_unused(const CityParams& params, const CityPlan& plan, std::vector<Warning>& warnings) {
+  if (params.maps.height && plan.landform->has_expression() &&
+      params.maps.height_range != CityMaps{}.height_range) {
+    warnings.push_back(
+        {"/maps/height_range", "`height_range` has no effect, since the height is an expression in metres"});
+  }
+  if (params.streets.centre != CityStreets{}.centre && !uses_centre(params)) {
+    warnings.push_back({"/streets/centre",
+                        "`centre` has no effect: streets are given or follow a tensor field, and no rule of "
+                        "buildings has a distance"});
+  }
+  const std::vector<CityBuildingRule>& rules = rules_of(params);
+  if (rules.empty() && params.buildings.variants != CityBuildings{}.variants)
+    warnings.push_back({"/buildings/variants", "`variants` has no effect: there are no rules of buildings"});
+  const bool has_blueprint =
+      std::any_of(rules.begin(), rules.end(), [](const auto& rule) { return !rule.building; });
+  if (!has_blueprint && params.buildings.detail != CityBuildings{}.detail)
+    warnings.push_back({"/buildings/detail", "`detail` has no effect: no rule of buildings has a blueprint"});
+}
+
+}  // namespace
+
+std::vector<Warning> remarks_on(const CityParams& params, const CityPlan& plan) {
+  std::vector<Warning> warnings = warnings_of(unused_parameters(params));
+  add_unused(params, plan, warnings);
+  if (!is_covered(plan)) {
+    warnings.push_back(
+        {"/terrain",
+         "the terrain is smaller than the area; beyond its border the ground has the height of the border"});
+  }
+  for (Warning& each : landmark_warnings(plan)) warnings.push_back(std::move(each));
+  const std::vector<Bridge>& bridges = plan.graph.bridges;
+  const bool has_tunnel =
+      std::any_of(bridges.begin(), bridges.end(), [](const Bridge& each) { return each.level < 0; });
+  if (has_tunnel && plan.heights.is_level()) {
+    warnings.push_back(
+        {"/given/streets", "tunnels below level ground have no mesh; expected a terrain or maps.height"});
+  }
+  return warnings;
+}
+
+void warn_of_unused_surfaces(const CityParams& params, Model& model) {
+  for (std::size_t i = 0; i < params.surfaces.size(); ++i) {
+    const std::string_view name = text_of(params.surfaces[i].material);
+    const auto has_name = [&](const Material& material) { return material.name == name; };
+    if (std::any_of(model.materials.begin(), model.materials.end(), has_name)) continue;
+    model.warnings.push_back(
+        {"/surfaces/" + std::to_string(i), "this city has no surface \"" + std::string(name) + "\""});
+  }
+}
+
+}  // namespace seedmesh::city
