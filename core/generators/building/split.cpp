@@ -80,7 +80,7 @@ std::vector<Cut> cuts_of(Derivation& d, const Step& step, double whole) {
     cuts.clear();
   }
   double wanted = 0;
-  if (!cut(d.cells, 0, step.part_count, whole, d.task.rounding.value_or(Rounding::nearest), shapes_left(d),
+  if (!cut(d.cells, step.part_count, whole, {d.task.rounding.value_or(Rounding::nearest), shapes_left(d)},
            cuts, wanted)) {
     refuse_shapes(d, step, "split", wanted);
   }
