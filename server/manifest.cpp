@@ -71,9 +71,10 @@ std::string bar(std::size_t done, std::size_t all, std::size_t refused, double r
   std::snprintf(text, sizeof(text), "[%s%s] %zu/%zu, %zu refused, %.1f/s", std::string(filled, '#').c_str(),
                 std::string(width - filled, '.').c_str(), done, all, refused, rate);
   std::string line = text;
-  if (rate > 0 && done < all)
+  if (rate > 0 && done < all) {
     line +=
         ", " + std::to_string(static_cast<long>(static_cast<double>(all - done) / rate + 0.5)) + " s left";
+  }
   return line;
 }
 

@@ -140,9 +140,10 @@ std::variant<std::string, Failure> describe_schema(const std::string& generator,
     rest.remove_prefix(std::min(slash + 1, rest.size()));
     Members members = members_of(schema);
     const auto found = std::ranges::find_if(members, [&](const auto& each) { return each.first == name; });
-    if (found == members.end())
+    if (found == members.end()) {
       return Failure{Code::wrong_parameters, "/topic: found \"" + std::string(name.substr(0, 40)) +
                                                  "\", expected one of " + name_list(members)};
+    }
     schema = Json(found->second);
   }
   return fitting(schema);

@@ -62,9 +62,10 @@ Answer get_prompt(Context&, const Json& parameters) {
   if (prompt == std::end(prompts))
     return Failure{Code::wrong_parameters, "There is no prompt \"" + name.substr(0, 100) + "\"."};
   const std::string value = text_in(parameters.value("arguments", Json::object()), prompt->argument);
-  if (value.empty())
+  if (value.empty()) {
     return Failure{Code::wrong_parameters,
                    "The argument \"" + std::string(prompt->argument) + "\" is missing."};
+  }
   std::string text(prompt->message);
   text.replace(text.find('$'), 1, value);
   const Json message = {{"role", "user"}, {"content", {{"type", "text"}, {"text", std::move(text)}}}};

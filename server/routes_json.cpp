@@ -75,9 +75,10 @@ http::Response post_derive(Call& call) {
 }
 
 http::Response post_import(Call& call) {
-  if (call.service.access.only_presets())
+  if (call.service.access.only_presets()) {
     return deny(call, {problem(403, "This service makes only presets, so that an import has no use."),
                        "only_presets"});
+  }
   auto query = parse_query(call);
   if (auto* refusal = std::get_if<http::Response>(&query)) return std::move(*refusal);
   if (!is_text_or_json_type(call.request.header("Content-Type"))) {

@@ -249,18 +249,20 @@ static http::Response saved_file(Call& call, const Request& request, std::string
 }
 
 http::Response get_model(Call& call) {
-  if (!call.query().empty() && !call.name.ends_with(".webp"))
+  if (!call.query().empty() && !call.name.ends_with(".webp")) {
     return refuse(call,
                   problem_of({Code::invalid, {{IssueKind::unknown_key, "", "A permalink has no query."}}}));
+  }
   auto [text, extension] = split_extension(call.name);
   const std::string_view program = extension == "json" ? saved_program_of(text) : std::string_view();
   if (!program.empty()) text.resize(text.size() - program.size() - 1);
   const std::string target(call.target());
   if (auto remembered = call.service.targets.find(target))
     return model_answer(call, *remembered, Caching::immutable);
-  if (!is_extension(extension))
+  if (!is_extension(extension)) {
     return refuse(call,
                   problem(404, "A permalink ends with " + output_extension_list({"json", "webp"}) + "."));
+  }
 
   Result<Token> token = read_token(text, std::min(call.service.config.body_limit, largest_token_text));
   if (!token) return refuse(call, problem_of(token.error()));
@@ -292,9 +294,10 @@ http::Response get_preset(Call& call) {
   const std::string target(call.target());
   if (auto remembered = call.service.targets.find(target))
     return model_answer(call, *remembered, Caching::revalidate);
-  if (!extension.empty() && !is_extension(extension))
+  if (!extension.empty() && !is_extension(extension)) {
     return refuse(call, problem(404, "The name of a preset ends with " +
                                          output_extension_list({"json", "webp"}) + ", or has no extension."));
+  }
   auto query = parse_query(call);
   if (auto* refusal = std::get_if<http::Response>(&query)) return std::move(*refusal);
   const Overrides overrides = std::get<Overrides>(std::move(query));

@@ -9,9 +9,10 @@ namespace {
 /// Refuses what is left of a query.
 http::Response refuse_keys(const Call& call, const Overrides& rest) {
   std::vector<Issue> issues;
-  for (const auto& [key, value] : rest)
+  for (const auto& [key, value] : rest) {
     issues.push_back({IssueKind::unknown_key, "/" + key.substr(0, 40),
                       "A picture of a permalink has the query keys size, view and ground."});
+  }
   return refuse(call, problem_of({Code::invalid, std::move(issues)}));
 }
 

@@ -45,11 +45,12 @@ http::Response get_texture(Call& call) {
   std::optional<Problem> refused;
   const auto work = [&](const Job::Options& options) {
     Result<std::shared_ptr<const Image>> made = make_texture(name, options, &call.service.textures);
-    if (made)
+    if (made) {
       image = *std::move(made);
-    else
+    } else {
       refused = made.error().code == Code::invalid ? problem(404, made.error().issues.front().message)
                                                    : problem_of(made.error());
+    }
   };
   if (auto busy = with_worker(call, call.request.gone(), work)) return refuse(call, *busy);
   if (refused) return refuse(call, *refused);

@@ -170,9 +170,10 @@ void SharedCache::count_error(const std::string& what) {
     first = !std::exchange(failing_, true);
   }
   changed_.notify_all();
-  if (first)
+  if (first) {
     log_.write(Log::Level::warn, "the shared cache does not respond",
                {{"address", shown_address(*address_)}, {"reason", what}});
+  }
 }
 
 SharedCache::Connection SharedCache::connect() const {

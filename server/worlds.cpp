@@ -25,9 +25,10 @@ std::optional<Number> whole_number(std::string_view text) {
 Named named(NamedWorld::Kind kind, const Result<Request>& request,
             const std::shared_ptr<WorldMemory>& memory) {
   if (!request) return problem_of(request.error());
-  if (!is_world(*request))
+  if (!is_world(*request)) {
     return problem(404,
                    "This is a request for " + std::string(request->generator()) + ", which has no tiles.");
+  }
   Result<OpenWorld> open = open_world(*request, memory);
   if (!open) return problem_of(open.error());
   return std::make_shared<const NamedWorld>(

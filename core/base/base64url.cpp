@@ -33,10 +33,10 @@ std::string base64(std::string_view bytes) {
 
 std::optional<std::string> from_base64url(std::string_view text) {
   static const auto values = [] {
-    std::array<signed char, 256> table{};
+    std::array<std::int16_t, 256> table{};
     table.fill(-1);
     for (std::size_t i = 0; i < alphabet.size(); ++i) {
-      table[static_cast<unsigned char>(alphabet[i])] = static_cast<signed char>(i);
+      table[static_cast<unsigned char>(alphabet[i])] = static_cast<std::int16_t>(i);
     }
     return table;
   }();

@@ -48,7 +48,8 @@ template <class Int>
 Int clamp_to(double x) {
   if (x != x) return 0;
   // 2^63 and 2^31 are exact in a double, their predecessors are not always: compare against the power.
-  constexpr double high = 2.0 * static_cast<double>(std::numeric_limits<Int>::max() / 2 + 1);
+  constexpr Int half = std::numeric_limits<Int>::max() / 2 + 1;
+  constexpr double high = 2.0 * static_cast<double>(half);
   constexpr double low = static_cast<double>(std::numeric_limits<Int>::min());
   if (x >= high) return std::numeric_limits<Int>::max();
   if (x <= low) return std::numeric_limits<Int>::min();

@@ -30,11 +30,12 @@ void CpfgReader::put_rules() {
   for (std::size_t part = 0; part < std::size(names); ++part) {
     for (const CpfgRule& rule : rules_[part]) {
       const auto other = words_.inside().find(rule.predecessor[0]);
-      if (rule.is_for_one_letter() && other != words_.inside().end())
+      if (rule.is_for_one_letter() && other != words_.inside().end()) {
         words_.warn_once(rule.at, other->second,
                          "is one symbol here: the rule for " +
                              lang::in_quotes(std::string_view(rule.predecessor.text()).substr(0, 1)) +
                              " rewrites a part of it only in cpfg");
+      }
       Json& list = parameters_[names[part]];
       if (list.is_null()) list = Json::array();
       const TracedText written = rule.written();

@@ -229,12 +229,13 @@ std::size_t CpfgStatements::change(const TracedText& text, Slice slice, TracedTe
     return slice.to;
   }
   assigned_.insert(name);
-  if (has_index)
+  if (has_index) {
     known_.insert(name);
-  else if (depth_ > 0)
+  } else if (depth_ > 0) {
     inner_.insert(name);
-  else if (!inner_.contains(name))
+  } else if (!inner_.contains(name)) {
     known_.insert(name);
+  }
   out.copy(text, slice.from, value);
   append(text, {value, slice.to}, out);
   out.write("; ", text.origin(slice.to - 1));

@@ -218,9 +218,10 @@ class Files {
       list.push_back("func(n, x) = 1");
     }
     if (!curves.empty()) functions(curves);
-    if (!has_view)
+    if (!has_view) {
       source_.warn(0, "angle, width and colours are in cpfg's view file; the defaults are used",
                    "/parameters");
+    }
   }
 
  private:

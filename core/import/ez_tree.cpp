@@ -66,9 +66,10 @@ struct Reader {
   void known(const Json* from, const std::string& at, const std::set<std::string>& names) {
     if (!from) return;
     for (const auto& [name, value] : from->items()) {
-      if (!names.contains(name))
+      if (!names.contains(name)) {
         report(IssueKind::unknown_key, at + "/" + pointer_token(name).substr(1),
                "\"" + shortened(name, 40) + "\" is not an option of ez-tree");
+      }
     }
   }
 };
@@ -192,9 +193,10 @@ class Writer {
     static const std::map<std::string, std::string> shapes = {
         {"ash", "compound"}, {"aspen", "cordate"}, {"oak", "lobed"}, {"pine", "needles"}, {"", "lobed"}};
     const auto shape = shapes.find(type);
-    if (shape == shapes.end())
+    if (shape == shapes.end()) {
       reader_.report(IssueKind::invalid_value, "/leaves/type",
                      "found \"" + shortened(type, 40) + "\", expected ash, aspen, oak or pine");
+    }
     const double size = reader_.number(leaves, at, "size", 2.5, {0, 100});
     const auto count = static_cast<int>(reader_.number(leaves, at, "count", 1, {0, 500}));
     tree_["leaf_angle"] = reader_.number(leaves, at, "angle", 10, {0, 180});

@@ -257,10 +257,11 @@ class BuildingWriter {
     }
     if (material.empty()) return std::string(otherwise);
     const std::string_view color = map_material_color(material);
-    if (color.empty())
+    if (color.empty()) {
       map_.warnings.add(
           "the material " + shortened(material, 40) + " has no colour here; the usual colour is used",
           feature_.position);
+    }
     return std::string(color.empty() ? otherwise : color);
   }
 

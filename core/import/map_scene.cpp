@@ -111,10 +111,11 @@ Json set_origin(MapConversion& map, const glm::dvec2& middle) {
   const auto rounded = [](double value, double digits) { return std::floor(value * digits + 0.5) / digits; };
   if (map.unit == MapUnit::metres) {
     map.origin = {rounded(middle.x, 1), rounded(middle.y, 1)};
-    if (map.origin != glm::dvec2(0))
+    if (map.origin != glm::dvec2(0)) {
       map.warnings.add("positions are metres from (" + number_text(map.origin.x) + ", " +
                            number_text(map.origin.y) + ") of the file's coordinates",
                        {});
+    }
     return nullptr;
   }
   const double longitude = rounded(unwrapped(middle.x, 0), origin_digits);

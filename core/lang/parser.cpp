@@ -228,10 +228,11 @@ class Program::Parser {
     reader_->advance();
     const std::uint32_t mark = emitter_.mark();
     const Operand index = climb(Rank::either);
-    if (reader_->is_sound() && !reader_->is_here("]"))
+    if (reader_->is_sound() && !reader_->is_here("]")) {
       reader_->abandon(reader_->token(),
                        "found " + in_quotes(reader_->token()) + ", expected an operator or `]`",
                        IssueKind::syntax);
+    }
     if (!reader_->is_sound()) return constant(0);
     reader_->advance();
     reader_->leave();

@@ -137,9 +137,10 @@ void check_impostor(const Generator& generator, const OutputParams& output, Issu
   const auto* choice = std::get_if<OutputTextures>(&output.textures);
   if (!generator.has_impostor)
     refuse("the generator " + std::string(generator.name) + " makes no impostors", IssueKind::not_available);
-  if (choice && *choice == OutputTextures::none)
+  if (choice && *choice == OutputTextures::none) {
     refuse("an impostor is a texture, and `textures` is none; expected textures of at least " +
            std::to_string(least_impostor) + " texels");
+  }
   if (size && *size < least_impostor) {
     refuse("found textures of " + std::to_string(*size) + " texels for an impostor; expected at least " +
            std::to_string(least_impostor));
@@ -189,9 +190,10 @@ void check_output(const OutputParams& output, std::uint64_t seed, IssueList& err
 void check_abilities(const Generator& generator, const OutputParams& output, IssueList& errors) {
   check_impostor(generator, output, errors);
   const auto refuse = [&](const char* option, bool is_wanted, const char* lack) {
-    if (is_wanted)
+    if (is_wanted) {
       errors.add({IssueKind::not_available, std::string("/output/") + option,
                   "the generator " + std::string(generator.name) + lack});
+    }
   };
   refuse("animation", output.animation == OutputParams::Animation::growth && !generator.grows,
          " makes no growth animation");

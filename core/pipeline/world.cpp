@@ -161,9 +161,10 @@ Result<WorldBox> read_world_box(const OpenWorld& world, std::string_view text, d
   if (box.east - box.west > longest || box.north - box.south > longest)
     return bad_box("expected sides of at most " + std::to_string(static_cast<std::int64_t>(longest)) + " m");
   const double half = world.body().world.extent / 2;
-  if (box.west < -half || box.south < -half || box.east > half || box.north > half)
+  if (box.west < -half || box.south < -half || box.east > half || box.north > half) {
     return bad_box("expected a box inside the world, whose sides are " +
                    std::to_string(static_cast<std::int64_t>(half)) + " m from its middle");
+  }
   return box;
 }
 

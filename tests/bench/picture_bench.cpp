@@ -25,7 +25,7 @@ Request request_of(const Subject& subject) {
   const auto request = read_preset(subject.preset, subject.overrides, Limits{});
   if (!request || !*request) {
     std::fprintf(stderr, "%s cannot be requested\n", subject.preset.c_str());
-    std::exit(1);
+    std::abort();
   }
   return **request;
 }

@@ -100,10 +100,11 @@ void measure_one(const Mesh& mesh, MeshMeasures& m, std::uint64_t& misses, std::
   std::vector<bool> is_used(mesh.position.size(), mesh.index.size() == 0);
   std::uint64_t bad = 0;
   for (std::size_t i = 0; i < mesh.index.size(); ++i) {
-    if (mesh.index.at(i) < is_used.size())
+    if (mesh.index.at(i) < is_used.size()) {
       is_used[mesh.index.at(i)] = true;
-    else
+    } else {
       ++bad;
+    }
   }
   m.bad_indices += bad;
   m.unused += static_cast<std::uint64_t>(std::count(is_used.begin(), is_used.end(), false));
@@ -223,10 +224,11 @@ void check_nodes(const Model& model, std::vector<std::string>& out) {
   std::set<std::string> names;
   for (std::size_t i = 0; i < model.nodes.size(); ++i) {
     const Node& node = model.nodes[i];
-    if (node.name.empty())
+    if (node.name.empty()) {
       out.push_back("node " + std::to_string(i) + " has no name");
-    else if (!names.insert(node.name).second)
+    } else if (!names.insert(node.name).second) {
       out.push_back("two nodes are called " + node.name);
+    }
     if (node.parent >= static_cast<int>(i)) out.push_back("node " + node.name + " stands before its parent");
     if (node.mesh != -1 && !holds(model.meshes, node.mesh))
       out.push_back("node " + node.name + " names a mesh that is not there");

@@ -157,12 +157,12 @@ double copies_of(double length, double size, Rounding rounding) {
   return std::max(1.0, rounding == Rounding::ceil ? std::ceil(x - slack) : std::floor(x + 0.5 + slack));
 }
 
-bool cut(std::span<const Cell> cells, std::uint32_t first, std::uint32_t count, double length,
-         Rounding rounding, double most, std::vector<Cut>& out, double& wanted) {
-  Cutter cutter(cells, length, rounding, most, out);
-  cutter.level(first, count, 0, length);
+bool cut(std::span<const Cell> cells, std::uint32_t count, double length, const CutOptions& options,
+         std::vector<Cut>& out, double& wanted) {
+  Cutter cutter(cells, length, options.rounding, options.most, out);
+  cutter.level(0, count, 0, length);
   wanted = cutter.wanted();
-  return wanted <= most;
+  return wanted <= options.most;
 }
 
 }  // namespace seedmesh::building

@@ -36,11 +36,16 @@ struct Cut {
 
 enum class Rounding : std::uint8_t { nearest, ceil };
 
-/// Cuts `length` into the cells [first, first + count). Pieces come in order from the low end. Pieces without
+struct CutOptions {
+  Rounding rounding = Rounding::nearest;
+  double most = 0;  ///< greatest number of pieces
+};
+
+/// Cuts `length` into the first `count` cells; the others belong to groups. Pieces come in order from the low end. Pieces without
 /// a size are left out, and the piece that reaches beyond the end is cut off there. False: there would be
-/// more than `most` pieces; `wanted` says how many. Cost: linear in the pieces.
-bool cut(std::span<const Cell> cells, std::uint32_t first, std::uint32_t count, double length,
-         Rounding rounding, double most, std::vector<Cut>& out, double& wanted);
+/// more than options.most pieces; `wanted` says how many. Cost: linear in the pieces.
+bool cut(std::span<const Cell> cells, std::uint32_t count, double length, const CutOptions& options,
+         std::vector<Cut>& out, double& wanted);
 
 /// Returns the number of equal pieces of Repeat("X", size): length / size rounded up or to the nearest, at least 1.
 double copies_of(double length, double size, Rounding rounding);

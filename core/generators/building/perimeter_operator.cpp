@@ -68,7 +68,7 @@ std::vector<Cut> sections_of(Derivation& d, const Step& step, double length) {
   }
   std::vector<Cut> cuts;
   double wanted = 0;
-  if (!cut(cells, 0, count, length, Rounding::nearest, most_sections, cuts, wanted))
+  if (!cut(cells, count, length, {Rounding::nearest, most_sections}, cuts, wanted))
     reject(d, step.offset, "the border would have more than 10,000 sections");
   return cuts;
 }

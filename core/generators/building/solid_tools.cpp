@@ -84,6 +84,7 @@ std::vector<std::vector<std::uint32_t>> loops_around(const Solid& solid, const s
 void add_faces(Solid& to, const Face& like, const std::vector<std::vector<std::uint32_t>>& loops,
                const PlaneAxes& plane) {
   std::vector<double> areas;
+  areas.reserve(loops.size());
   for (const auto& loop : loops) areas.push_back(area_of_loop(to, loop, plane));
   for (std::size_t i = 0; i < loops.size(); ++i) {
     if (!(areas[i] > 0)) continue;

@@ -80,7 +80,7 @@ std::vector<Cut> cuts_of(Derivation& d, const Step& step, double whole) {
     cuts.clear();
   }
   double wanted = 0;
-  if (!cut(d.cells, 0, step.part_count, whole, d.task.rounding.value_or(Rounding::nearest), shapes_left(d),
+  if (!cut(d.cells, step.part_count, whole, {d.task.rounding.value_or(Rounding::nearest), shapes_left(d)},
            cuts, wanted)) {
     refuse_shapes(d, step, "split", wanted);
   }
@@ -183,9 +183,10 @@ void repeat(Derivation& d, const Step& step, ShapeState& state, const Site& site
   const Argument& argument = d.grammar.arguments[step.first_argument + 1];
   const double size =
       argument.measure == Measure::relative ? length_of(d, argument, whole) : number_of(d, argument.value);
-  if (!(size > 0))
+  if (!(size > 0)) {
     reject(d, step.offset,
            "found a size of " + text_of_number(size) + " for Repeat, expected a number above 0");
+  }
   std::vector<double> borders{0};
   snapped(d, step, state, borders);
   borders.push_back(whole);

@@ -14,10 +14,11 @@ namespace {
 /// face, which gives a warning.
 bool can_change(Derivation& d, const Step& step, const ShapeState& state, int set) {
   if (dimension(state.size) == 2 || has_projection(d, state, set)) return true;
-  if (dimension(state.size) == 3)
+  if (dimension(state.size) == 3) {
     warn(d, step.offset,
          "the faces of this solid have texture coordinates of their own, which this operation cannot change; "
          "use it behind comp(f), or behind setupProjection");
+  }
   return false;
 }
 
@@ -74,9 +75,10 @@ void normalize_uv(Derivation& d, const Step& step, ShapeState& state, const Site
   const std::string axes = word_or(d, step, 1, "uv"), kind = word_or(d, step, 2, "collectiveAllFaces");
   if (axes != "u" && axes != "v" && axes != "uv")
     reject(d, step.offset, "found " + lang::in_quotes(axes) + ", expected u, v or uv");
-  if (kind != "separatePerFace" && kind != "collectiveAllFaces")
+  if (kind != "separatePerFace" && kind != "collectiveAllFaces") {
     reject(d, step.offset,
            "found " + lang::in_quotes(kind) + ", expected separatePerFace or collectiveAllFaces");
+  }
   const UvRange range = uv_range(d, state, set);
   glm::dvec3 u(1, 0, 0), v(0, 1, 0);
   const double wide = range.high[0] - range.low[0], high = range.high[1] - range.low[1];
@@ -128,10 +130,11 @@ void use_image(Derivation& d, const Step& step, ShapeState& state, const std::st
   Style style = d.out.styles[state.style];
   style.material = d.out.texts.id_of(name);
   state.style = style_with(d, style);
-  if (!std::ranges::binary_search(d.task.files, name))
+  if (!std::ranges::binary_search(d.task.files, name)) {
     warn(d, step.offset,
          "the request has no material " + lang::in_quotes(name) + ", whose image would stand for " +
              lang::in_quotes(path) + "; shapes have the plain material of this name");
+  }
 }
 
 }  // namespace seedmesh::building

@@ -55,9 +55,10 @@ std::string text_in(const Evaluation& at, const lang::TaggedValue& value) {
 }
 
 double number_in(const Evaluation& at, const lang::TaggedValue& value) {
-  if (value.is_text())
+  if (value.is_text()) {
     reject(at, "found " + (is_array(value) ? "an array" : "the text " + lang::in_quotes(text_in(at, value))) +
                    ", expected a number");
+  }
   return value.number;
 }
 

@@ -192,7 +192,7 @@ std::uint64_t bytes_of(const Mesh& mesh) {
 
 glm::u8vec4 linear_color(std::uint8_t red, std::uint8_t green, std::uint8_t blue) {
   const auto byte = [](std::uint8_t value) {
-    return static_cast<std::uint8_t>(linear_of_srgb(value) * 255.0F + 0.5F);
+    return static_cast<std::uint8_t>(std::floor(linear_of_srgb(value) * 255.0F + 0.5F));
   };
   return {byte(red), byte(green), byte(blue), 255};
 }

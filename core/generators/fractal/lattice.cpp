@@ -143,9 +143,10 @@ std::optional<Lattice> lattice_of(const Instructions& instructions) {
 BitGrid::BitGrid(const Job& job, glm::ivec3 low, glm::ivec3 size)
     : low_(low), size_(size), words_((static_cast<std::size_t>(size.x) + 63) / 64) {
   const double words = static_cast<double>(words_) * size.y * size.z;
-  if (words > 0x1p40)
+  if (words > 0x1p40) {
     job.refuse(limit_issue({Resource::memory_bytes, job.limits().memory_bytes, std::uint64_t{1} << 43U},
                            "a lattice of more than 2^46 cells", "/iterations"));
+  }
   bits_ = Array<std::uint64_t>(
       job, words_ * static_cast<std::size_t>(size.y) * static_cast<std::size_t>(size.z), 0);
 }

@@ -199,12 +199,13 @@ DividedCount count_divided(const Instructions& instructions, const Element& elem
   const auto check = [&] {
     if (++visits % 4096 == 0) job.check();
     const std::uint64_t drawn = count.elements * element.elements + count.points;
-    if (drawn > job.limits().triangles)
+    if (drawn > job.limits().triangles) {
       job.refuse(limit_issue({Resource::triangles, job.limits().triangles, drawn},
                              "needs more than " + std::to_string(job.limits().triangles) +
                                  " triangles, lines and points for pieces down to " +
                                  number_text(division.smallest) + " m, which is the limit",
                              "/smallest"));
+    }
   };
   const auto is_small = [&](const Affine& map) {
     check();

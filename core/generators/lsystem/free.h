@@ -63,9 +63,10 @@ class FreeDerivation {
   void rewrite(KindId kind, const double* parameters, std::uint64_t key, std::uint32_t step) {
     if ((++rewritten_ & 4095U) == 0) {
       job_.check();
-      if (rewritten_ > 4 * job_.limits().modules)
+      if (rewritten_ > 4 * job_.limits().modules) {
         job_.refuse(limit_issue({Resource::modules, 4 * job_.limits().modules, rewritten_},
                                 "rewrites more modules than " + std::to_string(rewritten_ - 1)));
+      }
     }
     const std::span<const Production> candidates = rules_.candidates(kind);
     for (std::uint32_t now = step; now < steps_; ++now) {

@@ -135,9 +135,10 @@ void Drawing::place_object(const Kind& kind, const double* parameters, double ob
                            std::uint64_t key) {
   const bool is_known =
       object >= 0 && object < static_cast<double>(surfaces_.size()) && object == std::floor(object);
-  if (!is_known)
+  if (!is_known) {
     refuse(kind, parameters,
            "found " + number_text(object) + " as an object, expected the name of an entry of `surfaces`");
+  }
   place_organ(kind, parameters, static_cast<std::uint32_t>(object), scale, key);
 }
 

@@ -272,10 +272,11 @@ Result<Json> derive(const LsystemParams& params, const GenerateContext& context)
       grow_and_tell(*grammar, params, writer, turtle, context);
       counts = writer.counts();
     } else if (is_plain(*grammar)) {
-      if (shares)
+      if (shares) {
         measure_shared(*grammar, params, steps_of(params), drawing, context);
-      else
+      } else {
         draw(*grammar, params, drawing, context);
+      }
       const Array<char> text = plain_text(*grammar, steps_of(params), longest_text, job);
       writer.text.assign(text.begin(), text.end());
       counts = exact_counts(*grammar, steps_of(params));

@@ -44,10 +44,11 @@ class Sizes {
     };
     each_row(steps, [&](std::uint32_t left, KindId kind, Range successor) {
       std::uint64_t own = 0;
-      for (const Template& each : grammar_.successor(successor))
+      for (const Template& each : grammar_.successor(successor)) {
         own = sum(own, is_part(each.kind, left - 1) && grammar_.productions.rewrites(each.kind)
                            ? 1
                            : places[(left - 1) * kinds_ + each.kind]);
+      }
       places[left * kinds_ + kind] = own;
     });
     std::uint64_t all = 0;
@@ -221,9 +222,10 @@ bool has_shared_parts(const Grammar& grammar, const LsystemParams& params, std::
 }
 
 void warn_of_whole(const LsystemParams& params, std::vector<Warning>& warnings) {
-  if (params.share == LsystemParams::Share::always)
+  if (params.share == LsystemParams::Share::always) {
     warnings.push_back(
         {"/share", "has no effect: the system or the output does not allow shared parts", 0, 0});
+  }
 }
 
 Model shared_model(const Grammar& grammar, const LsystemParams& params, std::uint32_t steps,

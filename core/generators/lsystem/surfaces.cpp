@@ -119,9 +119,10 @@ std::vector<Primitive> imported(Model surface_model, Model& model, const std::st
   std::erase_if(parts, [](const Primitive& part) {
     return part.mesh.topology != Topology::triangles || part.mesh.elements() == 0;
   });
-  if (parts.empty())
+  if (parts.empty()) {
     job.refuse(
         {IssueKind::invalid_value, pointer, "found a model without triangles; a surface needs triangles"});
+  }
   const int materials = move_materials(model, surface_model);
   for (Primitive& part : parts) {
     if (part.material >= 0) part.material += materials;

@@ -103,9 +103,10 @@ void warn_of_welded(const LsystemParams& params, std::vector<Warning>& warnings)
   }
   if (params.stacks > 1)
     warnings.push_back({"/stacks", "has no effect: welded bark has rings where it bends", 0, 0});
-  if (params.adapt)
+  if (params.adapt) {
     warnings.push_back(
         {"/adapt", "has no effect: thinner limbs of welded bark have fewer sides anyway", 0, 0});
+  }
 }
 
 }  // namespace seedmesh::lsystem

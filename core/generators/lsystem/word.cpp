@@ -188,16 +188,20 @@ class Writer {
 /// One derivation step.
 class Rewriting {
  public:
-  Rewriting(const Grammar& grammar, const Word& in, std::uint32_t step, bool keyed, CodeRunner& code,
+  struct Turn {
+    std::uint32_t step;
+    bool is_keyed;
+  };
+  Rewriting(const Grammar& grammar, const Word& in, const Turn& turn, CodeRunner& code,
             std::span<double> variables, Job& job)
       : grammar_(grammar),
         in_(in),
-        step_(step),
-        keyed_(keyed),
+        step_(turn.step),
+        keyed_(turn.is_keyed),
         job_(job),
-        rules_(grammar.rules_at(step)),
+        rules_(grammar.rules_at(turn.step)),
         variables_(variables),
-        writer_(grammar, keyed, code, job),
+        writer_(grammar, turn.is_keyed, code, job),
         partner_(job),
         contexts_(grammar, in, partner_, writer_.word, pieces_, job) {
     std::copy(variables.begin(), variables.end(), contexts_.variables());
@@ -325,7 +329,7 @@ void Derivation::run(Range statements, std::uint64_t stream) {
 void Derivation::step() {
   const std::span<double> variables(slots_.data(), grammar_.variables.size());
   run(grammar_.start_each, 2 * std::uint64_t{step_});
-  word = Rewriting(grammar_, word, step_, keyed_, code_, variables, job_).run();
+  word = Rewriting(grammar_, word, {step_, keyed_}, code_, variables, job_).run();
   run(grammar_.end_each, 2 * std::uint64_t{step_} + 1);
   word.variables.assign(variables.begin(), variables.end());
   ++step_;

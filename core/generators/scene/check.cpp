@@ -55,12 +55,14 @@ class Checker {
       return;
     }
     const Json parameters = Json::parse(terrain.parameters);
-    if (const std::string shape = parameters.value("shape", "plane"); shape != "plane")
+    if (const std::string shape = parameters.value("shape", "plane"); shape != "plane") {
       add(IssueKind::not_available, "/terrain/parameters/shape",
           "found a " + shape + "; the ground of a scene is a plane");
-    if (parameters.contains("onto"))
+    }
+    if (parameters.contains("onto")) {
       add(IssueKind::not_available, "/terrain/parameters/onto",
           "the ground of a scene cannot follow a model");
+    }
   }
 
   /// Refuses a scene inside the request, at any depth.
@@ -107,9 +109,10 @@ class Checker {
     const Generator* generator = find_generator(context_.generators, layer.model.generator);
     if (layer.start && generator && !generator->grows)
       add(IssueKind::not_available, pointer + "/start", layer.model.generator + " does not grow");
-    if (layer.foundation && !layer.footprint)
+    if (layer.foundation && !layer.footprint) {
       add(IssueKind::conflict, pointer + "/foundation",
           "a foundation needs a footprint, and the layer has none");
+    }
     for (std::size_t i = 0; i < layer.vary.size(); ++i)
       check_variation(layer.model, layer.vary[i], pointer + "/vary/" + std::to_string(i));
     check_place(layer, number, pointer + "/place");
@@ -190,11 +193,12 @@ class Checker {
     if (needs_count && !place.count)
       add(IssueKind::missing, pointer, "the method " + method + " needs `count`");
     const std::uint64_t most = context_.job.limits().shapes;
-    if (needs_count && place.count && static_cast<std::uint64_t>(*place.count) > most)
+    if (needs_count && place.count && static_cast<std::uint64_t>(*place.count) > most) {
       issues_.push_back(limit_issue(
           {Resource::shapes, most, static_cast<std::uint64_t>(*place.count)},
           "found " + std::to_string(*place.count) + "; the limit on shapes is " + std::to_string(most),
           pointer + "/count"));
+    }
     if (place.method == Method::positions) {
       check_positions(layer, pointer);
       refuse_rules(place, pointer);
@@ -202,9 +206,10 @@ class Checker {
     }
     if (place.points) check_line(*place.points, pointer + "/points");
     if (place.area) check_area(*place.area, pointer + "/area");
-    if (place.density_image && !place.density_image->starts_with(png_head))
+    if (place.density_image && !place.density_image->starts_with(png_head)) {
       add(IssueKind::invalid_value, pointer + "/density_image",
           "expected a PNG as a data URI: data:image/png;base64,…");
+    }
     const auto limits = [&](const auto& given, const char* name) {
       if (given && given->from && given->to && *given->from > *given->to)
         add(IssueKind::out_of_range, pointer + "/" + name, "from is above to");
@@ -259,9 +264,10 @@ class Checker {
     for (std::size_t i = 0; i < number; ++i) {
       if (params_.layers[i].name) names.push_back(*params_.layers[i].name);
     }
-    if (std::find(names.begin(), names.end(), near.layer) == names.end())
+    if (std::find(names.begin(), names.end(), near.layer) == names.end()) {
       add(IssueKind::unknown_name, pointer + "/layer",
           schema::unknown_word("layer before this one called", near.layer, names));
+    }
     if (!near.from && !near.to) add(IssueKind::missing, pointer, "expected `from`, `to` or both");
     if (near.from && near.to && *near.from > *near.to)
       add(IssueKind::out_of_range, pointer + "/from", "from is above to");

@@ -37,9 +37,10 @@ double area_of(const ScenePlace& place, const Extent& extent) {
 
 double length_of(const std::vector<std::array<double, 2>>& points) {
   double length = 0;
-  for (std::size_t i = 1; i < points.size(); ++i)
+  for (std::size_t i = 1; i < points.size(); ++i) {
     length += std::sqrt((points[i][0] - points[i - 1][0]) * (points[i][0] - points[i - 1][0]) +
                         (points[i][1] - points[i - 1][1]) * (points[i][1] - points[i - 1][1]));
+  }
   return length;
 }
 

@@ -138,9 +138,10 @@ Result<Payload> placement_list(const SceneParams& params, const Ground& ground, 
   std::vector<gltf::ZipEntry> entries;
   gltf::ZipEntry list{"placements.json", {}};
   Json models = Json::object();
-  for (const ModelVariant& variant : variant_table.variants)
+  for (const ModelVariant& variant : variant_table.variants) {
     models[variant.name] = {{"file", "models/" + variant.name + ".glb"},
                             {"request", schema::write_child(variant.request)}};
+  }
   list.payload.add("{\"models\":" + canonical_text(models) +
                    ",\"layers\":" + canonical_text(layers_json(params, planting)) + ",\n\"placements\":[");
   for (std::string& lines : lines_of(params, ground, planting, variant_table, job))
@@ -149,9 +150,10 @@ Result<Payload> placement_list(const SceneParams& params, const Ground& ground, 
   entries.push_back(std::move(list));
   Result<std::vector<Model>> made = models_of(forecast, {}, context);
   if (!made) return std::move(made).error();
-  for (std::size_t i = 0; i < variant_table.variants.size(); ++i)
+  for (std::size_t i = 0; i < variant_table.variants.size(); ++i) {
     entries.push_back(
         {"models/" + variant_table.variants[i].name + ".glb", file_of(std::move((*made)[i]), context)});
+  }
   return gltf::zip(std::move(entries), job);
 }
 

@@ -101,9 +101,10 @@ std::vector<std::uint64_t> placements_of(const Planting& planting, const Variant
 
 /// A list of placements has neither the ground nor what belongs to it.
 void warn_of_outlines(const SceneParams& params, Planting& planting) {
-  if (!params.buildings.empty())
+  if (!params.buildings.empty()) {
     planting.warnings.push_back(
         {"/buildings", "buildings belong to the ground, which a list of placements leaves out"});
+  }
 }
 
 bool has_foundations(const SceneParams& params) {

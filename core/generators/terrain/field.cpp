@@ -103,9 +103,10 @@ Field resampled(const Field& field, std::int32_t side, const Job& job) {
                [&](std::size_t begin, std::size_t end, std::size_t) {
                  job.check();
                  for (auto z = static_cast<std::int32_t>(begin); z < static_cast<std::int32_t>(end); ++z) {
-                   for (std::int32_t x = 0; x < side; ++x)
+                   for (std::int32_t x = 0; x < side; ++x) {
                      out.at(x, z) =
                          along(wide.row(0) + x, step, field.depth, down[static_cast<std::size_t>(z)]);
+                   }
                  }
                });
   return out;

@@ -51,9 +51,10 @@ HeightExpression::HeightExpression(std::string_view text, lang::Names names, std
   if (errors.size() > before) return;
   std::size_t at = 0;
   height_ = program_.parse(source.tokens, at, source.names, errors);
-  if (errors.size() == before && source.tokens[at].kind != lang::TokenKind::end)
+  if (errors.size() == before && source.tokens[at].kind != lang::TokenKind::end) {
     errors.push_back({source.tokens[at].offset, "found " + lang::in_quotes(source.tokens[at]) +
                                                     ", expected an operator or the end of the expression"});
+  }
 }
 
 void HeightExpression::take_noise_calls(Source& source) {

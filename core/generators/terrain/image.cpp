@@ -55,9 +55,10 @@ bool is_raw(TerrainEncoding encoding) {
 /// Reads raw samples of 16 bits: shares of the greatest value, or signed metres.
 Result<Field> of_raw(const TerrainImage& image, std::span<const std::uint8_t> bytes, const Scale& scale,
                      const Job& job) {
-  if (bytes.size() % 2 != 0 || bytes.size() < 8)
+  if (bytes.size() % 2 != 0 || bytes.size() < 8) {
     return fault("/image/data", "found " + std::to_string(bytes.size()) +
                                     " bytes; samples have 2 bytes each, and there are at least 4");
+  }
   const std::size_t count = bytes.size() / 2;
   const auto root = static_cast<std::size_t>(std::floor(std::sqrt(static_cast<double>(count)) + 0.5));
   const std::size_t width = image.width ? static_cast<std::size_t>(*image.width) : root;
@@ -101,9 +102,10 @@ std::string misfit(const texture::Picture& picture, TerrainEncoding encoding) {
     return found + "terrain_rgb is 3 channels of 8 bits";
   if (encoding == TerrainEncoding::terrarium && (picture.channels < 3 || picture.bits != 8))
     return found + "terrarium is 3 channels of 8 bits";
-  if (picture.width < 2 || picture.height < 2)
+  if (picture.width < 2 || picture.height < 2) {
     return "found " + std::to_string(picture.width) + " x " + std::to_string(picture.height) +
            " pixels; a field has at least 2 x 2";
+  }
   return "";
 }
 
@@ -159,12 +161,13 @@ Result<Field> of_picture(const TerrainImage& image, const texture::Decoded& deco
   const std::int64_t colored = image.encoding == TerrainEncoding::grey
                                    ? first_colored(picture, decoded.is_lossy ? lossy_slack : 0)
                                    : -1;
-  if (colored >= 0)
+  if (colored >= 0) {
     return fault(
         "/image/data",
         "the pixel in column " + std::to_string(colored % picture.width) + " of row " +
             std::to_string(colored / picture.width) +
             " is not grey (rgb24, rgba32, terrain_rgb and terrarium pack a height into several channels)");
+  }
   Field field(job, static_cast<std::int32_t>(picture.width), static_cast<std::int32_t>(picture.height), 0);
   const auto channels = static_cast<std::size_t>(picture.channels);
   const bool has_voids = image.encoding == TerrainEncoding::metres && decoded.no_data.has_value();
@@ -179,12 +182,14 @@ Result<Field> of_picture(const TerrainImage& image, const texture::Decoded& deco
 
 Result<Field> of_samples(const TerrainImage& image, const texture::Decoded& decoded, const Job& job) {
   const texture::Samples& samples = *decoded.samples;
-  if (image.encoding != TerrainEncoding::metres)
+  if (image.encoding != TerrainEncoding::metres) {
     return fault("/image/encoding",
                  "found a TIFF of signed, 32-bit or floating-point samples; expected metres");
-  if (samples.width < 2 || samples.height < 2)
+  }
+  if (samples.width < 2 || samples.height < 2) {
     return fault("/image/data", "found " + std::to_string(samples.width) + " x " +
                                     std::to_string(samples.height) + " samples; a field has at least 2 x 2");
+  }
   Field field(job, static_cast<std::int32_t>(samples.width), static_cast<std::int32_t>(samples.height), 0);
   const bool has_voids = decoded.no_data.has_value();
   const auto missing = static_cast<float>(decoded.no_data.value_or(0));

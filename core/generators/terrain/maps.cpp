@@ -184,20 +184,24 @@ void engine_faults(const TerrainParams& params, const WantedFormat& form, std::v
   };
   const std::string profile(form.profile);
   const std::optional<Engine> engine = engine_of(form.profile);
-  if (!engine)
+  if (!engine) {
     return fault(IssueKind::not_available, "/output/profile",
                  "found " + profile + "; height maps have the conventions of core, unity and unreal");
+  }
   const TerrainHeightmap& given = params.heightmap;
-  if (engine == Engine::unity && form.format != "r16")
+  if (engine == Engine::unity && form.format != "r16") {
     fault(IssueKind::conflict, "/output/format",
           "found " + std::string(form.format) + "; Unity reads raw heights: r16");
-  if (given.map != TerrainMap::height)
+  }
+  if (given.map != TerrainMap::height) {
     fault(IssueKind::conflict, "/heightmap/map",
           "found " + std::string(text_of(given.map)) + "; the profile " + profile +
               " is about heights, other maps have the profile core");
-  if (given.byte_order != TerrainByteOrder::little)
+  }
+  if (given.byte_order != TerrainByteOrder::little) {
     fault(IssueKind::conflict, "/heightmap/byte_order",
           "found big; the profile " + profile + " has the low byte first");
+  }
   if (engine == Engine::unity && given.flip)
     fault(IssueKind::conflict, "/heightmap/flip", "the profile unity has the southern row first as it is");
   if (params.algorithm == TerrainAlgorithm::image) return;  // whose size is known when it is read
@@ -310,24 +314,28 @@ std::vector<Issue> format_errors(const TerrainParams& params, const WantedFormat
     faults.push_back({kind, pointer, std::move(message)});
   };
   const TerrainHeightmap& given = params.heightmap;
-  if (params.shape != TerrainShape::plane)
+  if (params.shape != TerrainShape::plane) {
     fault(
         IssueKind::not_available, "/shape",
         "a " + std::string(text_of(params.shape)) + " has no height map; its formats are glb, gltf and zip");
-  if (is_picture(given.map) && form.format != "png8")
+  }
+  if (is_picture(given.map) && form.format != "png8") {
     fault(IssueKind::conflict, "/heightmap/map",
           std::string(text_of(given.map)) + " is a picture in colours, which the format png8 holds; found " +
               std::string(form.format));
-  if (is_picture(given.map) && given.flip)
+  }
+  if (is_picture(given.map) && given.flip) {
     fault(IssueKind::conflict, "/heightmap/flip",
           "found true with the map " + std::string(text_of(given.map)) +
               ", a picture for texture coordinates, which begin in the north-west");
+  }
   if (given.map == TerrainMap::water && !params.water_level)
     fault(IssueKind::conflict, "/heightmap/map", "there is no water; give a water_level");
-  if (params.tile && given.map == TerrainMap::height && (!given.low || !given.high))
+  if (params.tile && given.map == TerrainMap::height && (!given.low || !given.high)) {
     fault(IssueKind::missing, "/heightmap",
           "low and high are missing: tiles of one world need the same values, or their heights would differ "
           "at the borders");
+  }
   if (form.profile != "core") engine_faults(params, form, faults);
   return faults;
 }

@@ -235,9 +235,10 @@ void plain_rows(const NoisePlan& plan, const Window& window, double cell, Rng rn
         rows[octave].evaluate(z, noise.data());
       } else {
         const double step = cell * octaves[octave].frequency;
-        for (std::int32_t i = 0; i < window.width; ++i)
+        for (std::int32_t i = 0; i < window.width; ++i) {
           noise[static_cast<std::size_t>(i)] =
               octaves[octave].value(static_cast<double>(window.x + i) * step, static_cast<double>(z) * step);
+        }
       }
       Sum{plan.kind, amplitude}.add(noise.data(), width, out, weight.data());
       amplitude *= static_cast<float>(plan.gain);

@@ -108,10 +108,11 @@ void filter(const TerrainParams& params, Field& field, Rng rng, const Job& job) 
   }
   if (params.island) sink_rim(field, island_plan(params), rng.at("island"), job);
   if (params.terraces) terrace(field, terrace_plan(params), job);
-  if (params.thermal)
+  if (params.thermal) {
     slip(field,
          {params.thermal->iterations, math::tan(math::radians(params.thermal->talus)), params.thermal->rate},
          job);
+  }
 }
 
 /// Erosion by water, which acts from one end of the field to the other. The field has no margin.

@@ -149,11 +149,12 @@ Planet sphere_of(std::int32_t side, double radius, const Job& job) {
   planet.height = Array<float>(job, numbers.count(), 0.0F);
   // Points of a row have equal angles, by tangents that are exact at the edges, where faces meet.
   std::vector<double> along(static_cast<std::size_t>(side));
-  for (std::int32_t i = 0; i < side; ++i)
+  for (std::int32_t i = 0; i < side; ++i) {
     along[static_cast<std::size_t>(i)] = i == 0 ? -1
                                          : i == side - 1
                                              ? 1
                                              : math::tan(math::pi / 4 * (2.0 * i / (side - 1) - 1));
+  }
   const auto at = [&](std::int32_t i) { return along[static_cast<std::size_t>(i)]; };
   each_point(side, [&](std::int32_t x, std::int32_t y, std::int32_t z) {
     const glm::dvec3 position(at(x), at(y), at(z));

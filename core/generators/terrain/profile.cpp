@@ -56,9 +56,10 @@ Array<float> brownian_heights(int count, double hurst, double amplitude, Rng rng
 Array<float> profile_heights(const TerrainParams& params, const Job& job) {
   const Rng rng = job.rng().at("terrain");
   const int count = made_side(params);
-  if (params.algorithm == TerrainAlgorithm::brownian)
+  if (params.algorithm == TerrainAlgorithm::brownian) {
     return brownian_heights(count, params.hurst.value_or(usual_hurst), amplitude_of(params),
                             rng.at("profile"), job);
+  }
   const Window row{0, (count - 1) / 2, count, 1};
   Field field = algorithm_field(params, row, params.size / (count - 1), rng, job);
   return std::move(field.heights);

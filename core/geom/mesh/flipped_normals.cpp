@@ -61,10 +61,11 @@ void repair_inward_normals(Mesh& mesh, const Job& job) {
   for (const Turned& each : turned) {
     std::uint32_t& vertex = mesh.index.wide[each.corner];
     // The last user of a vertex keeps it.
-    if (--uses[vertex] == 0)
+    if (--uses[vertex] == 0) {
       mesh.normal[vertex] = each.normal;
-    else
+    } else {
       vertex = add_copy(mesh, vertex, each.normal);
+    }
   }
 }
 

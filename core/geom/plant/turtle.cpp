@@ -19,10 +19,11 @@ Turtle::Turtle(Skeleton* skeleton, double width, Job& job) : skeleton_(skeleton)
 void Turtle::advance(double length) {
   const glm::dvec3 p = state_.position + length * state_.frame.heading;
   if (std::abs(p.x) < largest_coordinate && std::abs(p.y) < largest_coordinate &&
-      std::abs(p.z) < largest_coordinate)
+      std::abs(p.z) < largest_coordinate) {
     state_.position = p;
-  else
+  } else {
     is_lost_ = true;
+  }
 }
 
 void Turtle::refuse_segments() const {

@@ -79,9 +79,10 @@ Envelope::Plane plane_along(const dvec2& direction, double slope, double distanc
 void cut_between(Envelope& envelope, std::size_t a, std::size_t b) {
   const dvec2 rise = envelope.planes[a].rise - envelope.planes[b].rise;
   const double length = glm::length(rise);
-  if (length > 0)
+  if (length > 0) {
     envelope.cuts.push_back(
         {rise / length, (envelope.planes[b].height - envelope.planes[a].height) / length});
+  }
 }
 
 void add_profile(Envelope& envelope, const Frame& frame, double height,

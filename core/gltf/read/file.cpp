@@ -33,9 +33,10 @@ bool has_entries(const nlohmann::json& json, const char* member) {
 
 nlohmann::json needed(const nlohmann::json& json) {
   if (!json.is_object()) throw Unreadable{"its JSON is not an object"};
-  if (has_entries(json, "extensionsRequired"))
+  if (has_entries(json, "extensionsRequired")) {
     throw Unreadable{"it requires the extension " + json["extensionsRequired"][0].dump() +
                      ", which is not supported"};
+  }
   nlohmann::json kept = nlohmann::json::object();
   for (const std::string_view member : kept_members) {
     const auto found = json.find(member);

@@ -59,9 +59,10 @@ TEST(CgaLanguage, DrawsFromPercentagesInsideAnElse) {
 
 TEST(CgaLanguage, DrawsOnceBetweenSeveralPercentagesOfAValue) {
   std::map<std::string, int> counts;
-  for (std::uint64_t seed = 0; seed < 3000; ++seed)
+  for (std::uint64_t seed = 0; seed < 3000; ++seed) {
     ++counts[leaves("const k = 30%: 1 50%: 2 else: 3  A --> case k == 1: B. case k == 2: C. else: D.",
                     {1, 1, 1}, seed)];
+  }
   EXPECT_NEAR(counts["B"], 900, 101);
   EXPECT_NEAR(counts["C"], 1500, 110);
   EXPECT_NEAR(counts["D"], 600, 88);

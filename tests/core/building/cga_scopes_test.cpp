@@ -39,9 +39,10 @@ constexpr const char* headers[] = {"version \"2024.0\"\n", "@StartRule\n"};
 TEST(CgaScopes, TurnWithRaisedFacesAfterStartRule) {
   // On a facade of 10 x 4 m, y of the extruded slab is its depth.
   const std::string rules = "Lot --> extrude(4) comp(f){ front: extrude(0.5) Slab. | all: NIL }";
-  for (const char* header : headers)
+  for (const char* header : headers) {
     EXPECT_THAT(vector_of(shapes_of(derived(on_lot(header + rules)), "Slab")[0], "size"), near(10, 0.5, 4))
         << header;
+  }
   EXPECT_THAT(vector_of(shapes_of(derived(on_lot(rules)), "Slab")[0], "size"), near(10, 4, 0.5));
   EXPECT_THAT(vector_of(shapes_of(derived(on_lot("@StartRule @KeepScopes\n" + rules)), "Slab")[0], "size"),
               near(10, 4, 0.5));

@@ -16,7 +16,7 @@ Cell floating(double size) { return {.size = size, .measure = Measure::floating}
 std::vector<double> sizes(std::vector<Cell> cells, double length, Rounding rounding = Rounding::nearest) {
   std::vector<Cut> cuts;
   double wanted = 0;
-  EXPECT_TRUE(cut(cells, 0, static_cast<std::uint32_t>(cells.size()), length, rounding, 1e6, cuts, wanted));
+  EXPECT_TRUE(cut(cells, static_cast<std::uint32_t>(cells.size()), length, {rounding, 1e6}, cuts, wanted));
   std::vector<double> out;
   for (const Cut& each : cuts) out.push_back(each.size);
   return out;
@@ -34,7 +34,7 @@ std::vector<double> repeat(const std::vector<Cell>& inner, double length,
   const std::vector<Cell> cells = repeated(inner);
   std::vector<Cut> cuts;
   double wanted = 0;
-  EXPECT_TRUE(cut(cells, 0, 1, length, rounding, 1e6, cuts, wanted));
+  EXPECT_TRUE(cut(cells, 1, length, {rounding, 1e6}, cuts, wanted));
   std::vector<double> out;
   for (const Cut& each : cuts) out.push_back(each.size);
   return out;
@@ -68,7 +68,7 @@ TEST(Cuts, RejectTooManyPiecesWithoutMakingThem) {
   const std::vector<Cell> cells = repeated({absolute(1e-9)});
   std::vector<Cut> cuts;
   double wanted = 0;
-  EXPECT_FALSE(cut(cells, 0, 1, 1e9, Rounding::nearest, 1e6, cuts, wanted));
+  EXPECT_FALSE(cut(cells, 1, 1e9, {Rounding::nearest, 1e6}, cuts, wanted));
   EXPECT_GT(wanted, 1e17);
   EXPECT_TRUE(cuts.empty());
 }
@@ -113,7 +113,7 @@ TEST(Cuts, NeverLeaveAGapOrOverlap) {
     }
     std::vector<Cut> cuts;
     double wanted = 0;
-    ASSERT_TRUE(cut(cells, 0, top, length, Rounding::nearest, 1e7, cuts, wanted));
+    ASSERT_TRUE(cut(cells, top, length, {Rounding::nearest, 1e7}, cuts, wanted));
     double at = 0;
     for (const Cut& each : cuts) {
       ASSERT_NEAR(each.start, at, 1e-9 * length) << "trial " << trial;

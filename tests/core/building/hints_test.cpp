@@ -16,9 +16,10 @@ using testing::IsEmpty;
 
 std::vector<std::string> texts_of(const std::vector<Warning>& warnings) {
   std::vector<std::string> out;
-  for (const Warning& each : warnings)
+  for (const Warning& each : warnings) {
     out.push_back(each.pointer + " " + std::to_string(each.line) + ":" + std::to_string(each.column) + " " +
                   each.message);
+  }
   return out;
 }
 

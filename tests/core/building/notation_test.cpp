@@ -12,9 +12,10 @@ using testing::HasSubstr;
 std::string warnings(const std::string& rules, std::array<double, 3> size = {10, 10, 10}) {
   std::string out;
   const Json answer = derived(with(rules, size));
-  for (const Json& each : answer["warnings"])
+  for (const Json& each : answer["warnings"]) {
     out += std::to_string(each.value("line", 0)) + ":" + std::to_string(each.value("column", 0)) + " " +
            each["message"].get<std::string>() + "\n";
+  }
   return out;
 }
 

@@ -180,9 +180,10 @@ TEST(HeightMap, IsAlsoWrittenOfMasksAndTextures) {
     ASSERT_TRUE(picture);
     EXPECT_EQ(picture->channels, map == TerrainMap::splat ? 4 : map < TerrainMap::normal ? 1 : 3);
     if (map != TerrainMap::splat) continue;
-    for (std::size_t i = 0; i < picture->bytes.size(); i += 4)
+    for (std::size_t i = 0; i < picture->bytes.size(); i += 4) {
       ASSERT_EQ(picture->bytes[i] + picture->bytes[i + 1] + picture->bytes[i + 2] + picture->bytes[i + 3],
                 255);
+    }
   }
 }
 

@@ -44,9 +44,10 @@ Field made(const TerrainParams& params, int threads = 1, std::uint64_t seed = 1)
 /// "pointer line:column message" of every error.
 std::vector<std::string> errors_of(const TerrainParams& params) {
   std::vector<std::string> texts;
-  for (const Issue& issue : check(params, Limits{}))
+  for (const Issue& issue : check(params, Limits{})) {
     texts.push_back(issue.pointer + " " + std::to_string(issue.line) + ":" + std::to_string(issue.column) +
                     " " + issue.message);
+  }
   return texts;
 }
 

@@ -20,10 +20,11 @@ std::vector<double> covariances(double hurst, double amplitude) {
     const Array<float> heights = brownian_heights(samples, hurst, amplitude,
                                                   Rng::of_seed(static_cast<std::uint64_t>(seed)), any_job());
     for (int i = 0; i < samples; ++i) {
-      for (int k = 0; k < samples; ++k)
+      for (int k = 0; k < samples; ++k) {
         sums[static_cast<std::size_t>(i * samples + k)] +=
             static_cast<double>(heights[static_cast<std::size_t>(i)]) *
             static_cast<double>(heights[static_cast<std::size_t>(k)]) / seeds;
+      }
     }
   }
   return sums;

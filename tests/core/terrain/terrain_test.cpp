@@ -74,10 +74,11 @@ TEST(Terrain, RefusesAGridOfTooManyTrianglesBeforeTheFieldIsMade) {
   Job job(0, Job::Options{});
   for (const bool is_made : {true, false}) {
     try {
-      if (is_made)
+      if (is_made) {
         (void)generate(params, context_of(job));
-      else
+      } else {
         (void)appraise(params, context_of(job));
+      }
       ADD_FAILURE() << "it was taken";
     } catch (const Stop& stop) {
       EXPECT_EQ(stop.issue().pointer, "/iterations");

@@ -172,9 +172,10 @@ void LimbContinuation::find_moved(std::uint32_t joint, float length) {
   }
   // After its forks the limb is as thick as what is left. Otherwise its bark would be dented behind the
   // crotches.
-  if (taper_length_ > 0)
+  if (taper_length_ > 0) {
     end_radius_ =
         std::min(radius, std::max(limbs_.base_radius[next_[joint]], limbs_.base_radius[branches_[0]]));
+  }
   std::reverse(moved_.begin(), moved_.end());
 }
 

@@ -82,9 +82,10 @@ TEST(PlanarGraph, KeepsEverySegmentWithinTwoCentimetresOfItsLine) {
     }
     for (const PlanarEdge& edge : present(graph)) {
       const auto& [a, b] = given[edge.tag];
-      for (const std::uint32_t node : {edge.from, edge.to})
+      for (const std::uint32_t node : {edge.from, edge.to}) {
         ASSERT_LE(distance_to_segment(in_cm(graph.nodes()[node]), in_cm(a), in_cm(b)), 2.0)
             << "seed " << seed;
+      }
     }
   }
 }

@@ -103,9 +103,10 @@ double area_of(const Plan& plan, std::span<const std::uint32_t> triangles) {
   PlanRing points;
   for (const PlanRing& ring : plan.rings) points.insert(points.end(), ring.begin(), ring.end());
   double sum = 0;
-  for (std::size_t t = 0; t < triangles.size(); t += 3)
+  for (std::size_t t = 0; t < triangles.size(); t += 3) {
     sum += 0.5 *
            std::abs(doubled_area(points[triangles[t]], points[triangles[t + 1]], points[triangles[t + 2]]));
+  }
   return sum;
 }
 
