@@ -50,6 +50,7 @@ class StreetSpace {
       for (std::size_t i = begin; i < end; ++i) lay_out_face(faces, faces.faces[i], layouts[i]);
     });
     cut_carriageways();
+    uncut_junctions();
     plan_.corner_reaches = corner_reaches(graph_, sides_);
     add_junctions();
     add_carriageways();
@@ -110,6 +111,9 @@ class StreetSpace {
     for (const Widths& widths : attempts) {
       if (try_widths(layout, widths)) return;
     }
+    // The outlines of the graph itself, all of them: an attempt ends at the first one that is not sound.
+    layout.has_walks = false;
+    for (const Outline& outline : layout.outlines) place_corners(outline, {0, 0, 0}, false);
     job_.check();
   }
 
@@ -169,9 +173,12 @@ class StreetSpace {
     }
   }
 
+  /// Shores and the border of the area have edges shorter than `least_progress`.
   bool advances(std::uint32_t half, const CmPoint& from, const CmPoint& to) const {
     const dvec2 d = unit_of(graph_, half), along = in_cm(to) - in_cm(from);
-    return d.x * along.x + d.y * along.y >= least_progress;
+    const double length =
+        distance(graph_.nodes[start_of(graph_.edges, half)], graph_.nodes[start_of(graph_.edges, half ^ 1U)]);
+    return d.x * along.x + d.y * along.y >= std::min(least_progress, length / 2);
   }
 
   static bool is_sound(const CmRing& ring, bool is_outer) {
@@ -223,6 +230,18 @@ class StreetSpace {
     }
   }
 
+  /// Carriageways end obliquely at a junction whose outline would cross itself.
+  void uncut_junctions() {
+    for (std::uint32_t node = 0; node < graph_.nodes.size(); ++node) {
+      if (!is_cut(node) || is_simple(junction_ring(graph_, sides_, node))) continue;
+      for (const std::uint32_t arm : graph_.arms.of(node)) {
+        KerbSide &left = sides_[arm], &right = sides_[arm ^ 1U];
+        if (left.is_laid_out) left.cut_from = left.from();
+        if (right.is_laid_out) right.cut_to = right.to;
+      }
+    }
+  }
+
   bool is_cut(std::uint32_t node) const { return graph_.is_border[node] == 0 && graph_.degree(node) >= 3; }
 
   void add_part(PartKind kind, CmRing ring, std::uint32_t street, std::uint32_t node) {
@@ -243,27 +262,9 @@ class StreetSpace {
 
   void add_junctions() {
     for (std::uint32_t node = 0; node < graph_.nodes.size(); ++node) {
-      const auto around = graph_.arms.of(node);
       const std::uint32_t degree = graph_.degree(node);
       if (degree == 0 || (graph_.is_border[node] != 0 && degree == 1)) continue;
-      CmRing ring;
-      std::size_t first = 0;
-      if (graph_.is_border[node] != 0) {  // begin behind the outside
-        while (first < around.size() && sides_[around[first] ^ 1U].is_laid_out) ++first;
-      }
-      for (std::size_t n = 0; n < around.size(); ++n) {
-        const std::uint32_t arm = around[(first + n) % around.size()];
-        const KerbSide &left = sides_[arm], &right = sides_[arm ^ 1U];
-        if (right.is_laid_out) {
-          append_new(ring, right.to);
-          append_new(ring, right.cut_to);
-        }
-        if (!left.is_laid_out) continue;
-        append_new(ring, left.cut_from);
-        for (std::size_t i = left.corner.size(); i-- > 0;) append_new(ring, left.corner[i]);
-      }
-      if (graph_.is_border[node] != 0) append_new(ring, graph_.nodes[node]);
-      close(ring);
+      CmRing ring = junction_ring(graph_, sides_, node);
       if (ring.size() < 3 || doubled_area(ring) == 0) continue;
       add_part(PartKind::junction, std::move(ring), no_index, node);
     }

@@ -115,6 +115,22 @@ TEST(City, PartitionsItsAreaIntoPolygonsThatShareTheirCorners) {
   }
 }
 
+/// A corner cut by 20 cm moves no street away from the border: lots are there as without it.
+TEST(City, LaysOutStreetsBesideShortEdgesOfTheBorder) {
+  CityParams params;
+  params.area.polygon = {{{0, 0}, {300, 0}, {300, 299.8}, {299.8, 300}, {0, 300}}};
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    const CityPlan plan = made(params, seed);
+    double sum = 0;
+    for (const Part& part : plan.parts) {
+      sum += area_of(part.rings);
+      EXPECT_NE(part.kind, PartKind::verge) << "seed " << seed;
+    }
+    EXPECT_NEAR(sum, 1e4 * (300.0 * 300 - 0.2 * 0.2 / 2), 1) << "seed " << seed;
+    EXPECT_GT(plan.lots.size(), 40U) << "seed " << seed;
+  }
+}
+
 TEST(City, GivesEveryLotItsFrontageWidthAndCorners) {
   std::size_t lots = 0;
   for (std::uint64_t seed = 0; seed < 30; ++seed) {
