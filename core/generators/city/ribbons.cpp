@@ -105,12 +105,9 @@ class StreetSpace {
         is_on_land(plan_.region, position_in(graph_.nodes, graph_.edges, layout.outlines[0].half_edges));
     if (!layout.is_used) return;
     if (cut_width_ > 0 && (try_widths(layout, {1, 1, 1, 1}) || try_widths(layout, {1, 1, 1, 0.5}))) return;
-    static constexpr Widths attempts[] = {{1, 1, 1},     {1, 1, 0},    {1, 0.6, 0}, {1, 0.3, 0},
-                                          {0.8, 0.3, 0}, {1, 0, 0},    {0.6, 0, 0}, {0.3, 0, 0},
-                                          {0.1, 0, 0},   {0.03, 0, 0}, {0, 0, 0}};
-    for (const Widths& widths : attempts) {
-      if (try_widths(layout, widths)) return;
-    }
+    static constexpr Widths attempts[] = {{1, 1, 1}, {1, 1, 0},   {1, 0.6, 0}, {1, 0.3, 0}, {0.8, 0.3, 0},
+                                          {1, 0, 0}, {0.6, 0, 0}, {0.3, 0, 0}, {0.1, 0, 0}, {0.03, 0, 0}};
+    if (std::ranges::any_of(attempts, [&](const Widths& w) { return try_widths(layout, w); })) return;
     // The outlines of the graph itself, all of them: an attempt ends at the first one that is not sound.
     layout.has_walks = false;
     for (const Outline& outline : layout.outlines) place_corners(outline, {0, 0, 0}, false);
@@ -281,11 +278,14 @@ class StreetSpace {
         return graph_.is_border[node] != 0 && graph_.degree(node) == 1;
       };
       CmRing ring;
-      append_new(ring, right.cut_to);
-      append_new(ring, right.cut_from);
+      // Of a street along the border, the half inside is part of the area.
+      const auto add_side = [&](const KerbSide& side, std::uint32_t begin, std::uint32_t end) {
+        append_new(ring, side.is_laid_out ? side.cut_to : graph_.nodes[begin]);
+        append_new(ring, side.is_laid_out ? side.cut_from : graph_.nodes[end]);
+      };
+      add_side(right, from, to);
       if (ends_at_border(to)) append_new(ring, graph_.nodes[to]);
-      append_new(ring, left.cut_to);
-      append_new(ring, left.cut_from);
+      add_side(left, to, from);
       if (ends_at_border(from)) append_new(ring, graph_.nodes[from]);
       close(ring);
       if (ring.size() < 3 || doubled_area(ring) == 0) continue;
