@@ -82,6 +82,9 @@ Answer read_resource(Context& context, const Json& parameters);
 Answer list_prompts(Context& context, const Json& parameters);  // mcp_prompts.cpp
 Answer get_prompt(Context& context, const Json& parameters);
 
+/// The refusal of a name that no generator has (mcp_describe.cpp).
+std::optional<Failure> unknown_generator_of(const std::string& generator);
+
 /// Part of the schema of a generator in at most about 8,000 characters, or the reason why there is none
 /// (mcp_describe.cpp). `topic` is a path of names with slashes; "" for the list of parameters.
 std::variant<std::string, Failure> describe_schema(const std::string& generator, const std::string& topic);

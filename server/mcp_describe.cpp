@@ -122,16 +122,19 @@ int score_of(const PresetInfo& preset, const std::vector<std::string>& words) {
 
 }  // namespace
 
-std::variant<std::string, Failure> describe_schema(const std::string& generator, const std::string& topic) {
-  const auto text = schema_json(topic == "output" || topic.starts_with("output/") ? "output" : generator);
+std::optional<Failure> unknown_generator_of(const std::string& generator) {
   const auto names = generator_names();
-  if (!text || std::ranges::find(names, generator) == names.end()) {
-    std::string known;
-    for (const std::string_view name : names) known += (known.empty() ? "" : ", ") + std::string(name);
-    return Failure{Code::wrong_parameters,
-                   "/generator: found \"" + generator.substr(0, 40) + "\", expected one of " + known};
-  }
-  Json schema = Json::parse(*text);
+  if (std::ranges::find(names, generator) != names.end()) return std::nullopt;
+  std::string known;
+  for (const std::string_view name : names) known += (known.empty() ? "" : ", ") + std::string(name);
+  return Failure{Code::wrong_parameters,
+                 "/generator: found \"" + generator.substr(0, 40) + "\", expected one of " + known};
+}
+
+std::variant<std::string, Failure> describe_schema(const std::string& generator, const std::string& topic) {
+  if (auto unknown = unknown_generator_of(generator)) return *std::move(unknown);
+  const auto text = schema_json(topic == "output" || topic.starts_with("output/") ? "output" : generator);
+  Json schema = Json::parse(text.value());
   std::string_view rest = topic;
   if (rest.starts_with("output")) rest.remove_prefix(std::min<std::size_t>(rest.size(), 7));
   while (!rest.empty()) {

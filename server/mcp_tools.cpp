@@ -226,8 +226,11 @@ Json compare(Context& context, const Json& arguments) {
 }
 
 Json list_presets(Context& context, const Json& arguments) {
-  PresetQuestion question{text_in(arguments, "query"), text_in(arguments, "generator"),
-                          text_in(arguments, "tag")};
+  const std::string generator = text_in(arguments, "generator");
+  if (!generator.empty()) {
+    if (const auto unknown = unknown_generator_of(generator)) return refused(unknown->message);
+  }
+  PresetQuestion question{text_in(arguments, "query"), generator, text_in(arguments, "tag")};
   if (arguments.contains("limit")) question.limit = arguments["limit"].get<std::size_t>();
   return result_of(find_presets(context.call.service.access, question));
 }
@@ -250,7 +253,8 @@ Json object_schema(Json properties, Json required) {
 Json request_schema() {
   return object_schema(
       {{"preset", text_schema("Name from list_presets; the rest is merged over its request.")},
-       {"generator", text_schema("Required without a preset, as lsystem, tree, building, terrain or scene.")},
+       {"generator",
+        text_schema("Required without a preset, as lsystem, tree, building, terrain, city or scene.")},
        {"seed",
         {{"type", "integer"},
          {"minimum", 0},

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "core/model/index_width.h"
@@ -42,10 +43,46 @@ void read_child(Child& child, const std::string& pointer, const Reading& reading
   child.parameters = canonical_text(generator->write(params));
 }
 
+/// The words of a message that can be names.
+std::vector<std::string_view> names_in(std::string_view message) {
+  const auto is_part = [](char c) {
+    return c == '_' || (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+  };
+  std::vector<std::string_view> names;
+  while (!message.empty()) {
+    const auto begin = std::ranges::find_if(message, is_part);
+    const auto end = std::find_if_not(begin, message.end(), is_part);
+    if (begin != end) names.emplace_back(&*begin, static_cast<std::size_t>(end - begin));
+    message.remove_prefix(static_cast<std::size_t>(end - message.begin()));
+  }
+  return names;
+}
+
+/// Whether an error is a conflict with the default of a member beside it: the schema has refused the value of that
+/// member, or its name is spelled wrongly.
+bool is_conflict_with_default(const Issue& issue, const IssueList& errors) {
+  constexpr std::size_t shortest = 5;  // shorter names are similar to too many words
+  if (issue.kind != IssueKind::conflict || errors.empty()) return false;
+  const std::string_view object = std::string_view(issue.pointer).substr(0, issue.pointer.rfind('/') + 1);
+  const std::vector<std::string_view> names = names_in(issue.message);
+  std::vector<std::string_view> long_names;
+  std::ranges::copy_if(names, std::back_inserter(long_names),
+                       [](auto name) { return name.size() >= shortest; });
+  return std::ranges::any_of(errors.issues(), [&](const Issue& refused) {
+    const std::string_view at = refused.pointer;
+    if (!at.starts_with(object) || at.find('/', object.size()) != at.npos) return false;
+    const std::string_view member = at.substr(object.size());
+    return std::ranges::find(names, member) != names.end() ||
+           (member.size() >= shortest && !schema::nearest_word(member, long_names).empty());
+  });
+}
+
 /// Adds the errors of check(), but not where the schema has refused a value already.
 void add_checked(std::vector<Issue> found, const std::string& pointer, IssueList& errors) {
   for (Issue& issue : found) issue.pointer.insert(0, pointer);
-  std::erase_if(found, [&errors](const Issue& issue) { return errors.covers(issue.pointer); });
+  std::erase_if(found, [&errors](const Issue& issue) {
+    return errors.covers(issue.pointer) || is_conflict_with_default(issue, errors);
+  });
   for (Issue& issue : found) errors.add(std::move(issue));
 }
 

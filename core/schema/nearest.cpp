@@ -74,10 +74,11 @@ std::string_view nearest_word(std::string_view word, std::span<const std::string
   if (word.size() > longest) return {};
   if (const std::string_view same = same_meaning(word, words); !same.empty()) return same;
   std::string_view nearest;
+  const std::string own = plain(word);
   std::size_t fewest = std::min<std::size_t>(3, std::max<std::size_t>(1, word.size() / 3)) + 1;
   for (const std::string_view candidate : words) {
     if (candidate.size() > longest) continue;
-    const std::size_t count = edits(word, candidate);
+    const std::size_t count = std::min(edits(word, candidate), edits(own, plain(candidate)));
     if (count < fewest) {
       fewest = count;
       nearest = candidate;

@@ -7,6 +7,7 @@
 
 #include "core/schema/forms.h"
 #include "core/schema/nearest.h"
+#include "core/schema/presets.h"
 
 namespace seedmesh::schema {
 namespace {
@@ -221,8 +222,10 @@ void read_integer(const Location& location, const IntegerRule& rule, std::int32_
 void read_text(const Location& location, const TextRule& rule, std::string& out) {
   if (location.kind() != JsonKind::text) return location.expected(rule.form ? rule.form->expected : "a text");
   const auto& text = location.value().get_ref<const std::string&>();
-  if (rule.form && !rule.form->accepts(text))
-    return location.expected(rule.form->expected, IssueKind::invalid_value);
+  if (rule.form && !rule.form->accepts(text)) {
+    const std::string preset = rule.form == &forms::preset_name ? hint(text, preset_names()) : "";
+    return location.expected(std::string(rule.form->expected) + preset, IssueKind::invalid_value);
+  }
   const std::size_t length = count_characters(text);
   if (length < rule.least || length > rule.most)
     return check_count(location, length, rule.least, rule.most, characters);

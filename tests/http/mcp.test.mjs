@@ -165,7 +165,7 @@ test('presets are found by words, and arguments are checked', async () => {
   assert.equal(found.presets[0].name, 'oak');
   assert.ok(found.presets.length <= 3);
   assert.equal((await call('list_presets', { query: 'no such words at all' })).structuredContent.matches, 0);
-  for (const [args, pointer] of [[{ limit: 0 }, '/limit'], [{ limit: 'x' }, '/limit'], [{ query: 3 }, '/query'], [{ colour: 'red' }, '/colour']]) {
+  for (const [args, pointer] of [[{ limit: 0 }, '/limit'], [{ limit: 'x' }, '/limit'], [{ query: 3 }, '/query'], [{ generator: 'Tree' }, '/generator'], [{ colour: 'red' }, '/colour']]) {
     const refused = await call('list_presets', args);
     assert.equal(refused.isError, true);
     assert.ok(refused.content[0].text.startsWith(`${pointer}:`), refused.content[0].text);

@@ -158,6 +158,8 @@ class CommandLine(InFolder):
         self.assertTrue(command("permalink", path, **url).stdout.startswith(server_url() + "/v1/models/"))
         self.assertTrue(command("generate", path, **url).stdout.startswith("made "))
         self.assertTrue(command("generate", path, **url).stdout.startswith("same "))
+        plain = str(self.write("plain_request.json", '{"generator": "lsystem", "parameters": {"axiom": "FFF"}}'))
+        self.assertEqual(command("generate", plain, **url).stdout.strip(), "made plain_request.glb")
         self.assertIn("oak\ttree\t", command("presets", **url).stdout)
 
 

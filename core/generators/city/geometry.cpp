@@ -75,22 +75,28 @@ std::vector<Rings> polygons_of(const CityPolygons& geometry, const std::string& 
     open_ring(ring);
     if (reader.ends(ring, 3)) rings.push_back(std::move(ring));
   };
+  // RFC 7946 allows geometries without coordinates.
+  const auto add_polygon = [&](Rings rings) {
+    if (!rings.empty()) polygons.push_back(std::move(rings));
+  };
   if (geometry.geometry_type == CityGeometryType::Polygon) {
-    polygons.emplace_back();
+    Rings polygon;
     for (const auto& positions : geometry.coordinates) {
       CmRing ring;
       for (const auto& position : positions) reader.add(ring, position);
-      add_ring(polygons.back(), std::move(ring));
+      add_ring(polygon, std::move(ring));
     }
+    add_polygon(std::move(polygon));
     return polygons;
   }
   for (const auto& rings : geometry.coordinates) {
-    polygons.emplace_back();
+    Rings polygon;
     for (const auto& positions : rings) {
       CmRing ring;
       for (const Value& position : positions) reader.add(ring, position);
-      add_ring(polygons.back(), std::move(ring));
+      add_ring(polygon, std::move(ring));
     }
+    add_polygon(std::move(polygon));
   }
   return polygons;
 }

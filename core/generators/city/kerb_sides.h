@@ -32,4 +32,8 @@ glm::dvec2 unit_of(const StreetGraph& graph, std::uint32_t half);
 /// Returns, by half-edge, how far the corners at its start reach along it, on both sides, in metres.
 std::vector<double> corner_reaches(const StreetGraph& graph, const std::vector<KerbSide>& sides);
 
+/// Returns the outline of a junction: the ends of its carriageways, and the kerbs around the corners between them.
+/// Empty at a node without sides that are laid out.
+CmRing junction_ring(const StreetGraph& graph, const std::vector<KerbSide>& sides, std::uint32_t node);
+
 }  // namespace seedmesh::city

@@ -50,6 +50,7 @@ class StreetSpace {
       for (std::size_t i = begin; i < end; ++i) lay_out_face(faces, faces.faces[i], layouts[i]);
     });
     cut_carriageways();
+    uncut_junctions();
     plan_.corner_reaches = corner_reaches(graph_, sides_);
     add_junctions();
     add_carriageways();
@@ -104,12 +105,12 @@ class StreetSpace {
         is_on_land(plan_.region, position_in(graph_.nodes, graph_.edges, layout.outlines[0].half_edges));
     if (!layout.is_used) return;
     if (cut_width_ > 0 && (try_widths(layout, {1, 1, 1, 1}) || try_widths(layout, {1, 1, 1, 0.5}))) return;
-    static constexpr Widths attempts[] = {{1, 1, 1},     {1, 1, 0},    {1, 0.6, 0}, {1, 0.3, 0},
-                                          {0.8, 0.3, 0}, {1, 0, 0},    {0.6, 0, 0}, {0.3, 0, 0},
-                                          {0.1, 0, 0},   {0.03, 0, 0}, {0, 0, 0}};
-    for (const Widths& widths : attempts) {
-      if (try_widths(layout, widths)) return;
-    }
+    static constexpr Widths attempts[] = {{1, 1, 1}, {1, 1, 0},   {1, 0.6, 0}, {1, 0.3, 0}, {0.8, 0.3, 0},
+                                          {1, 0, 0}, {0.6, 0, 0}, {0.3, 0, 0}, {0.1, 0, 0}, {0.03, 0, 0}};
+    if (std::ranges::any_of(attempts, [&](const Widths& w) { return try_widths(layout, w); })) return;
+    // The outlines of the graph itself, all of them: an attempt ends at the first one that is not sound.
+    layout.has_walks = false;
+    for (const Outline& outline : layout.outlines) place_corners(outline, {0, 0, 0}, false);
     job_.check();
   }
 
@@ -169,9 +170,12 @@ class StreetSpace {
     }
   }
 
+  /// Shores and the border of the area have edges shorter than `least_progress`.
   bool advances(std::uint32_t half, const CmPoint& from, const CmPoint& to) const {
     const dvec2 d = unit_of(graph_, half), along = in_cm(to) - in_cm(from);
-    return d.x * along.x + d.y * along.y >= least_progress;
+    const double length =
+        distance(graph_.nodes[start_of(graph_.edges, half)], graph_.nodes[start_of(graph_.edges, half ^ 1U)]);
+    return d.x * along.x + d.y * along.y >= std::min(least_progress, length / 2);
   }
 
   static bool is_sound(const CmRing& ring, bool is_outer) {
@@ -223,6 +227,18 @@ class StreetSpace {
     }
   }
 
+  /// Carriageways end obliquely at a junction whose outline would cross itself.
+  void uncut_junctions() {
+    for (std::uint32_t node = 0; node < graph_.nodes.size(); ++node) {
+      if (!is_cut(node) || is_simple(junction_ring(graph_, sides_, node))) continue;
+      for (const std::uint32_t arm : graph_.arms.of(node)) {
+        KerbSide &left = sides_[arm], &right = sides_[arm ^ 1U];
+        if (left.is_laid_out) left.cut_from = left.from();
+        if (right.is_laid_out) right.cut_to = right.to;
+      }
+    }
+  }
+
   bool is_cut(std::uint32_t node) const { return graph_.is_border[node] == 0 && graph_.degree(node) >= 3; }
 
   void add_part(PartKind kind, CmRing ring, std::uint32_t street, std::uint32_t node) {
@@ -243,27 +259,9 @@ class StreetSpace {
 
   void add_junctions() {
     for (std::uint32_t node = 0; node < graph_.nodes.size(); ++node) {
-      const auto around = graph_.arms.of(node);
       const std::uint32_t degree = graph_.degree(node);
       if (degree == 0 || (graph_.is_border[node] != 0 && degree == 1)) continue;
-      CmRing ring;
-      std::size_t first = 0;
-      if (graph_.is_border[node] != 0) {  // begin behind the outside
-        while (first < around.size() && sides_[around[first] ^ 1U].is_laid_out) ++first;
-      }
-      for (std::size_t n = 0; n < around.size(); ++n) {
-        const std::uint32_t arm = around[(first + n) % around.size()];
-        const KerbSide &left = sides_[arm], &right = sides_[arm ^ 1U];
-        if (right.is_laid_out) {
-          append_new(ring, right.to);
-          append_new(ring, right.cut_to);
-        }
-        if (!left.is_laid_out) continue;
-        append_new(ring, left.cut_from);
-        for (std::size_t i = left.corner.size(); i-- > 0;) append_new(ring, left.corner[i]);
-      }
-      if (graph_.is_border[node] != 0) append_new(ring, graph_.nodes[node]);
-      close(ring);
+      CmRing ring = junction_ring(graph_, sides_, node);
       if (ring.size() < 3 || doubled_area(ring) == 0) continue;
       add_part(PartKind::junction, std::move(ring), no_index, node);
     }
@@ -280,11 +278,14 @@ class StreetSpace {
         return graph_.is_border[node] != 0 && graph_.degree(node) == 1;
       };
       CmRing ring;
-      append_new(ring, right.cut_to);
-      append_new(ring, right.cut_from);
+      // Of a street along the border, the half inside is part of the area.
+      const auto add_side = [&](const KerbSide& side, std::uint32_t begin, std::uint32_t end) {
+        append_new(ring, side.is_laid_out ? side.cut_to : graph_.nodes[begin]);
+        append_new(ring, side.is_laid_out ? side.cut_from : graph_.nodes[end]);
+      };
+      add_side(right, from, to);
       if (ends_at_border(to)) append_new(ring, graph_.nodes[to]);
-      append_new(ring, left.cut_to);
-      append_new(ring, left.cut_from);
+      add_side(left, to, from);
       if (ends_at_border(from)) append_new(ring, graph_.nodes[from]);
       close(ring);
       if (ring.size() < 3 || doubled_area(ring) == 0) continue;

@@ -115,6 +115,43 @@ TEST(City, PartitionsItsAreaIntoPolygonsThatShareTheirCorners) {
   }
 }
 
+/// A corner cut by 20 cm moves no street away from the border: lots are there as without it.
+TEST(City, LaysOutStreetsBesideShortEdgesOfTheBorder) {
+  CityParams params;
+  params.area.polygon = {{{0, 0}, {300, 0}, {300, 299.8}, {299.8, 300}, {0, 300}}};
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    const CityPlan plan = made(params, seed);
+    double sum = 0;
+    for (const Part& part : plan.parts) {
+      sum += area_of(part.rings);
+      EXPECT_NE(part.kind, PartKind::verge) << "seed " << seed;
+    }
+    EXPECT_NEAR(sum, 1e4 * (300.0 * 300 - 0.2 * 0.2 / 2), 1) << "seed " << seed;
+    EXPECT_GT(plan.lots.size(), 40U) << "seed " << seed;
+  }
+}
+
+/// Half of a street along the border is outside: 200 m of a minor street of 7 m leave 3.5 m.
+TEST(City, TakesTheInnerHalfOfAStreetAlongTheBorder) {
+  IssueList errors;
+  const CityParams params =
+      read_city(Json::parse(R"({"area":{"size":[200,200]},"streets":{"method":"given"},"given":{"streets":{
+        "type":"FeatureCollection","features":[{"type":"Feature","geometry":{"type":"LineString",
+        "coordinates":[[-100,-100],[100,-100]]}}]}}})"),
+                "", errors);
+  ASSERT_TRUE(errors.empty());
+  const CityPlan plan = made(params, 1);
+  double sum = 0, road = 0;
+  for (const Part& part : plan.parts) {
+    const double area = area_of(part.rings);
+    EXPECT_GT(area, 0) << name_of(part.kind);
+    sum += area;
+    if (part.kind == PartKind::carriageway || part.kind == PartKind::junction) road += area;
+  }
+  EXPECT_DOUBLE_EQ(sum, 200.0 * 200 * 1e4);
+  EXPECT_NEAR(road, 200 * 3.5 * 1e4, 1e4);
+}
+
 TEST(City, GivesEveryLotItsFrontageWidthAndCorners) {
   std::size_t lots = 0;
   for (std::uint64_t seed = 0; seed < 30; ++seed) {

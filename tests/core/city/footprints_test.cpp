@@ -100,5 +100,24 @@ TEST(GivenFootprints, AreRefusedWithThePointerOfTheirError) {
   EXPECT_EQ(issues[2].pointer, "/given/footprints/features/1/properties/height");
 }
 
+/// RFC 7946, section 3.1: a coordinates array may be empty, and the object then counts as null.
+TEST(GivenFootprints, MayHaveNoCoordinates) {
+  IssueList errors;
+  Json features = Json::array();
+  for (const char* geometry :
+       {R"({"type":"Polygon","coordinates":[]})", R"({"type":"MultiPolygon","coordinates":[]})",
+        R"({"type":"MultiPolygon","coordinates":[[]]})"})
+    features.push_back({{"type", "Feature"}, {"geometry", Json::parse(geometry)}});
+  features.push_back(footprint({0, 0}, {8, 6}, 0, Json::object()));
+  const CityParams params = city_of(std::move(features), errors);
+  ASSERT_TRUE(errors.empty());
+  std::vector<Issue> issues;
+  const std::vector<GivenFootprint> given = given_footprints(params, issues);
+  EXPECT_TRUE(issues.empty());
+  ASSERT_EQ(given.size(), 1U);
+  EXPECT_EQ(given[0].pointer, "/given/footprints/features/3");
+  EXPECT_EQ(landmarks_of(given).size(), 1U);
+}
+
 }  // namespace
 }  // namespace seedmesh::city

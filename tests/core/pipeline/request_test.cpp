@@ -50,6 +50,19 @@ TEST(ReadRequest, TakesAWholeRequest) {
   EXPECT_EQ(params.productions.size(), 2U);
 }
 
+/// The default algorithm has no `resolution`, but the request does not ask for the default.
+TEST(ReadRequest, ReportsNoConflictWithTheDefaultOfARefusedMember) {
+  const auto terrain = [](const std::string& members) {
+    return R"({"generator":"terrain","parameters":{"resolution":65,)" + members + "}}";
+  };
+  EXPECT_THAT(pointers(terrain(R"("algorithm":"fmb")")), ElementsAre("/parameters/algorithm"));
+  EXPECT_THAT(pointers(terrain(R"("algorithm":null)")), ElementsAre("/parameters/algorithm"));
+  EXPECT_THAT(pointers(terrain(R"("algoritm":"fbm")")), ElementsAre("/parameters/algoritm"));
+  EXPECT_THAT(pointers(terrain(R"("algorithm":"diamond_square")")), ElementsAre("/parameters/resolution"));
+  EXPECT_THAT(pointers(terrain(R"("note":1,"size":"1 km")")),
+              UnorderedElementsAre("/parameters/note", "/parameters/size", "/parameters/resolution"));
+}
+
 TEST(ReadRequest, ReportsNumbersThatAreTooLargeWithAllOtherErrors) {
   EXPECT_THAT(pointers(R"({"a":1e999})"), UnorderedElementsAre("/a", "/a", ""));
   EXPECT_THAT(
@@ -205,6 +218,8 @@ TEST(Preset, IsRefusedWhereItIsUnknown) {
   EXPECT_THAT(pointers(R"({"preset":"none","seed":-1})"), UnorderedElementsAre("/preset", "/seed"));
   EXPECT_THAT(pointers(R"({"preset":5})"), ElementsAre("/preset"));
   EXPECT_THAT(pointers(R"({"preset":"Koch Island"})"), ElementsAre("/preset"));
+  EXPECT_THAT(error_of(R"({"preset":"Koch Island"})").issues.front().message,
+              HasSubstr("did you mean \"koch_island\"?"));
 }
 
 TEST(WithFormat, ChangesTheFormAlone) {

@@ -14,6 +14,8 @@ TEST(NearestWord, FindsWhatWasMeant) {
   EXPECT_EQ(nearest_word("iteration", words), "iterations");
   EXPECT_EQ(nearest_word("Axiom", words), "axiom");
   EXPECT_EQ(nearest_word("stle", words), "style");
+  EXPECT_EQ(nearest_word("ITERATONS", words), "iterations");
+  EXPECT_EQ(nearest_word("Angel", words), "angle");
 }
 
 TEST(NearestWord, DoesNotGuessWildly) {

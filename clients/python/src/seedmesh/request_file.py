@@ -42,7 +42,8 @@ def read_request_file(path: str, text: str) -> RequestFile:
     if not isinstance(value, dict):
         raise _refusal(path, text, "", "expected an object")
     request = {key: each for key, each in value.items() if key not in own_members}
-    name = value.get("name", os.path.basename(path)[:-len(suffix)])
+    base = os.path.basename(path)
+    name = value.get("name", base[:-len(suffix)] if base.endswith(suffix) else os.path.splitext(base)[0])
     if not isinstance(name, str) or not _is_file_name(name):
         raise _refusal(path, text, "/name", "expected the name of a file, without a directory")
     if not isinstance(request.get("output", {}), dict):
