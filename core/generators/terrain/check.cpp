@@ -195,15 +195,12 @@ class Check {
   }
 
   void rock() {
-    if (params_.shape != TerrainShape::sphere) {
-      fault(IssueKind::conflict, "/shape",
-            "found \"" + std::string(text_of(params_.shape)) +
-                "\"; fracture breaks a solid, expected \"sphere\"");
-    }
-    if (params_.fracture && params_.fracture->depth[0] > params_.fracture->depth[1]) {
-      fault(IssueKind::out_of_range, "/fracture/depth",
-            "the least distance of a plane is above the greatest");
-    }
+    fault_if(params_.shape != TerrainShape::sphere, IssueKind::conflict, "/shape",
+             "found \"" + std::string(text_of(params_.shape)) +
+                 "\"; fracture breaks a solid, expected \"sphere\"");
+    fault_if(params_.fracture && params_.fracture->depth[0] > params_.fracture->depth[1],
+             IssueKind::out_of_range, "/fracture/depth",
+             "the least distance of a plane is above the greatest");
   }
 
   void planes_only(const std::string& shape) {

@@ -168,8 +168,9 @@ void HeightRows::fill(Noise& noise, std::size_t count, std::span<Rng> rngs) {
     noise.position[i].run(rows_, count, rngs, x + i * width);
   if (noise.position.size() == 2)
     return noise_in_plane(noise.plan, {x, count}, {x + width, count}, noise_, noise.value.data());
+  SpaceNoise in_space(noise.plan, noise_);
   for (std::size_t i = 0; i < count; ++i)
-    noise.value[i] = noise_in_space(noise.plan, {x[i], x[width + i], x[2 * width + i]}, noise_);
+    noise.value[i] = in_space.at({x[i], x[width + i], x[2 * width + i]});
 }
 
 void HeightRows::run(std::span<const double* const> slots, std::size_t count, std::span<Rng> rngs,

@@ -58,19 +58,40 @@ struct Octave {
     const std::uint64_t bits = mix(row + 0x9E3779B97F4A7C15U * static_cast<std::uint64_t>(folded(x, period)));
     return gradients()[bits % directions];
   }
+};
 
-  float value(double x, double z) const {
+/// One octave for points that follow one another closely: the gradients of the last cell are kept.
+class OctavePath {
+ public:
+  explicit OctavePath(const Octave& octave) : octave_(octave) {}
+
+  float value(double x, double z) {
     const double left = std::floor(x), top = std::floor(z);
-    const std::int64_t i = math::to_int64(left), j = math::to_int64(top);
+    if (left != left_ || top != top_) take_cell(left, top);
     const auto fx = static_cast<float>(x - left), fz = static_cast<float>(z - top);
-    const std::uint64_t north = row_key(j), south = row_key(j + 1);
     const auto dot = [](Gradient g, float dx, float dz) { return g.x * dx + g.z * dz; };
-    const float nw = dot(at(north, i), fx, fz), ne = dot(at(north, i + 1), fx - 1, fz);
-    const float sw = dot(at(south, i), fx, fz - 1), se = dot(at(south, i + 1), fx - 1, fz - 1);
+    const float nw = dot(corners_[0], fx, fz), ne = dot(corners_[1], fx - 1, fz);
+    const float sw = dot(corners_[2], fx, fz - 1), se = dot(corners_[3], fx - 1, fz - 1);
     const float u = fade(fx), v = fade(fz);
     const float n = nw + u * (ne - nw), s = sw + u * (se - sw);
     return (n + v * (s - n)) * plane_scale;
   }
+
+  double frequency() const { return octave_.frequency; }
+
+ private:
+  void take_cell(double left, double top) {
+    const std::int64_t i = math::to_int64(left), j = math::to_int64(top);
+    const std::uint64_t north = octave_.row_key(j), south = octave_.row_key(j + 1);
+    corners_ = {octave_.at(north, i), octave_.at(north, i + 1), octave_.at(south, i),
+                octave_.at(south, i + 1)};
+    left_ = left;
+    top_ = top;
+  }
+
+  Octave octave_;
+  double left_ = 0.5, top_ = 0.5;  ///< of the cell; no cell begins at a half
+  std::array<Gradient, 4> corners_;
 };
 
 std::vector<Octave> octaves_of(const NoisePlan& plan, int count, Rng rng) {
@@ -83,6 +104,10 @@ std::vector<Octave> octaves_of(const NoisePlan& plan, int count, Rng rng) {
     period *= plan.lacunarity;
   }
   return octaves;
+}
+
+std::vector<OctavePath> paths_of(const std::vector<Octave>& octaves) {
+  return {octaves.begin(), octaves.end()};
 }
 
 /// Evaluates one octave along rows. Fade and gradients of the lattice rows above and below a row are blended
@@ -185,13 +210,13 @@ struct Sum {
 /// Computes heights one by one, because the domain warp moves each position differently.
 void warped_rows(const NoisePlan& plan, const Window& window, double cell, Rng rng, Field& field,
                  std::size_t begin, std::size_t end) {
-  const std::vector<Octave> octaves = octaves_of(plan, plan.octaves, rng);
-  const std::vector<Octave> east = octaves_of(plan, warp_octaves, rng.at("east"));
-  const std::vector<Octave> south = octaves_of(plan, warp_octaves, rng.at("south"));
-  const auto shift = [&](const std::vector<Octave>& field_octaves, double x, double z) {
+  std::vector<OctavePath> octaves = paths_of(octaves_of(plan, plan.octaves, rng));
+  std::vector<OctavePath> east = paths_of(octaves_of(plan, warp_octaves, rng.at("east")));
+  std::vector<OctavePath> south = paths_of(octaves_of(plan, warp_octaves, rng.at("south")));
+  const auto shift = [&](std::vector<OctavePath>& field_octaves, double x, double z) {
     double sum = 0, weight = plan.warp;
-    for (const Octave& octave : field_octaves) {
-      sum += static_cast<double>(octave.value(x * octave.frequency, z * octave.frequency)) * weight;
+    for (OctavePath& octave : field_octaves) {
+      sum += static_cast<double>(octave.value(x * octave.frequency(), z * octave.frequency())) * weight;
       weight *= 0.5;
     }
     return sum;
@@ -205,8 +230,8 @@ void warped_rows(const NoisePlan& plan, const Window& window, double cell, Rng r
       float weight = 1;
       auto amplitude = static_cast<float>(plan.amplitude);
       out[i] = 0;
-      for (const Octave& octave : octaves) {
-        const float noise = octave.value(wx * octave.frequency, wz * octave.frequency);
+      for (OctavePath& octave : octaves) {
+        const float noise = octave.value(wx * octave.frequency(), wz * octave.frequency());
         Sum{plan.kind, amplitude}.add(&noise, 1, out + i, &weight);
         amplitude *= static_cast<float>(plan.gain);
       }
@@ -235,9 +260,10 @@ void plain_rows(const NoisePlan& plan, const Window& window, double cell, Rng rn
         rows[octave].evaluate(z, noise.data());
       } else {
         const double step = cell * octaves[octave].frequency;
+        OctavePath path(octaves[octave]);
         for (std::int32_t i = 0; i < window.width; ++i) {
           noise[static_cast<std::size_t>(i)] =
-              octaves[octave].value(static_cast<double>(window.x + i) * step, static_cast<double>(z) * step);
+              path.value(static_cast<double>(window.x + i) * step, static_cast<double>(z) * step);
         }
       }
       Sum{plan.kind, amplitude}.add(noise.data(), width, out, weight.data());
@@ -252,34 +278,6 @@ glm::dvec3 direction(std::uint64_t bits) {
   const double flat = std::sqrt(std::max(0.0, 1 - z * z));
   const Gradient turn = gradients()[bits % directions];
   return {flat * static_cast<double>(turn.x), flat * static_cast<double>(turn.z), z};
-}
-
-double value_in_space(std::uint64_t key, const glm::dvec3& position) {
-  const glm::dvec3 whole(std::floor(position.x), std::floor(position.y), std::floor(position.z));
-  const glm::dvec3 in = position - whole;
-  const auto ease = [](double t) { return t * t * t * (t * (t * 6 - 15) + 10); };
-  const glm::dvec3 u(ease(in.x), ease(in.y), ease(in.z));
-  std::uint64_t number[3][2];
-  for (int axis = 0; axis < 3; ++axis) {
-    number[axis][0] = static_cast<std::uint64_t>(math::to_int64(whole[axis]));
-    number[axis][1] = static_cast<std::uint64_t>(math::to_int64(whole[axis] + 1));
-  }
-  double corners[8];
-  for (unsigned x = 0; x < 2; ++x) {
-    const std::uint64_t at_x = key_at(key, number[0][x]);
-    for (unsigned y = 0; y < 2; ++y) {
-      const std::uint64_t at_y = key_at(at_x, number[1][y]);
-      for (unsigned z = 0; z < 2; ++z) {
-        const glm::dvec3 g = direction(key_at(at_y, number[2][z])), d = in - glm::dvec3(x, y, z);
-        corners[x + 2 * y + 4 * z] = g.x * d.x + g.y * d.y + g.z * d.z;
-      }
-    }
-  }
-  for (unsigned axis = 0, left = 4; axis < 3; ++axis, left /= 2) {
-    for (unsigned i = 0; i < left; ++i)
-      corners[i] = corners[2 * i] + u[static_cast<int>(axis)] * (corners[2 * i + 1] - corners[2 * i]);
-  }
-  return corners[0] * space_scale;
 }
 
 }  // namespace
@@ -300,12 +298,12 @@ Field noisy(const NoisePlan& plan, const Window& window, double cell, Rng rng, c
 
 void noise_in_plane(const NoisePlan& plan, std::span<const double> x, std::span<const double> z, Rng rng,
                     double* out) {
-  const std::vector<Octave> octaves = octaves_of(plan, plan.octaves, rng);
+  std::vector<OctavePath> octaves = paths_of(octaves_of(plan, plan.octaves, rng));
   for (std::size_t i = 0; i < x.size(); ++i) {
     float height = 0, weight = 1;
     auto amplitude = static_cast<float>(plan.amplitude);
-    for (const Octave& octave : octaves) {
-      const float noise = octave.value(x[i] * octave.frequency, z[i] * octave.frequency);
+    for (OctavePath& octave : octaves) {
+      const float noise = octave.value(x[i] * octave.frequency(), z[i] * octave.frequency());
       Sum{plan.kind, amplitude}.add(&noise, 1, &height, &weight);
       amplitude *= static_cast<float>(plan.gain);
     }
@@ -313,30 +311,75 @@ void noise_in_plane(const NoisePlan& plan, std::span<const double> x, std::span<
   }
 }
 
-double noise_in_space(const NoisePlan& plan, const glm::dvec3& position, Rng rng) {
-  glm::dvec3 at = position;
-  if (plan.warp > 0) {
-    NoisePlan mild = plan;
-    mild.kind = NoiseKind::rolling;
-    mild.octaves = warp_octaves;
-    mild.amplitude = plan.warp;
-    mild.gain = 0.5;
-    mild.warp = 0;
-    at += glm::dvec3(noise_in_space(mild, position, rng.at("east")),
-                     noise_in_space(mild, position, rng.at("up")),
-                     noise_in_space(mild, position, rng.at("south")));
-  }
+SpaceNoise::SpaceNoise(const NoisePlan& plan, Rng rng) : kind_(plan.kind) {
   double frequency = 1 / plan.wavelength;
   auto amplitude = static_cast<float>(plan.amplitude);
-  float height = 0, weight = 1;
   for (int i = 0; i < plan.octaves; ++i) {
-    const auto noise =
-        static_cast<float>(value_in_space(rng.at(static_cast<std::uint64_t>(i)).key(), at * frequency));
-    Sum{plan.kind, amplitude}.add(&noise, 1, &height, &weight);
+    octaves_.push_back({rng.at(static_cast<std::uint64_t>(i)).key(), frequency, amplitude, {}});
     frequency *= plan.lacunarity;
     amplitude *= static_cast<float>(plan.gain);
   }
+  if (!(plan.warp > 0)) return;
+  NoisePlan mild = plan;
+  mild.kind = NoiseKind::rolling;
+  mild.octaves = warp_octaves;
+  mild.amplitude = plan.warp;
+  mild.gain = 0.5;
+  mild.warp = 0;
+  for (const char* const direction_name : {"east", "up", "south"})
+    warp_.emplace_back(mild, rng.at(direction_name));
+}
+
+const std::array<glm::dvec3, 8>& SpaceNoise::Octave::gradients_of(const std::array<std::int64_t, 3>& low) {
+  const auto part = [&](std::size_t axis) { return static_cast<std::uint64_t>(low[axis]); };
+  Cell& cell = cells[(part(0) + 3 * part(1) + 5 * part(2)) % cells.size()];
+  if (cell.is_known && cell.low == low) return cell.gradients;
+  cell.is_known = true;
+  cell.low = low;
+  for (unsigned x = 0; x < 2; ++x) {
+    const std::uint64_t at_x = key_at(key, part(0) + x);
+    for (unsigned y = 0; y < 2; ++y) {
+      const std::uint64_t at_y = key_at(at_x, part(1) + y);
+      for (unsigned z = 0; z < 2; ++z)
+        cell.gradients[x + 2 * y + 4 * z] = direction(key_at(at_y, part(2) + z));
+    }
+  }
+  return cell.gradients;
+}
+
+double SpaceNoise::Octave::value(const glm::dvec3& position) {
+  const glm::dvec3 whole(std::floor(position.x), std::floor(position.y), std::floor(position.z));
+  const glm::dvec3 in = position - whole;
+  const auto ease = [](double t) { return t * t * t * (t * (t * 6 - 15) + 10); };
+  const glm::dvec3 u(ease(in.x), ease(in.y), ease(in.z));
+  const std::array<glm::dvec3, 8>& gradients =
+      gradients_of({math::to_int64(whole.x), math::to_int64(whole.y), math::to_int64(whole.z)});
+  double corners[8];
+  for (unsigned i = 0; i < 8; ++i) {
+    const glm::dvec3 g = gradients[i], d = in - glm::dvec3(i & 1U, i >> 1U & 1U, i >> 2U);
+    corners[i] = g.x * d.x + g.y * d.y + g.z * d.z;
+  }
+  for (unsigned axis = 0, left = 4; axis < 3; ++axis, left /= 2) {
+    for (unsigned i = 0; i < left; ++i)
+      corners[i] = corners[2 * i] + u[static_cast<int>(axis)] * (corners[2 * i + 1] - corners[2 * i]);
+  }
+  return corners[0] * space_scale;
+}
+
+double SpaceNoise::at(const glm::dvec3& position) {
+  glm::dvec3 moved = position;
+  for (std::size_t axis = 0; axis < warp_.size(); ++axis)
+    moved[static_cast<int>(axis)] += warp_[axis].at(position);
+  float height = 0, weight = 1;
+  for (Octave& octave : octaves_) {
+    const auto noise = static_cast<float>(octave.value(moved * octave.frequency));
+    Sum{kind_, octave.amplitude}.add(&noise, 1, &height, &weight);
+  }
   return static_cast<double>(height);
+}
+
+double noise_in_space(const NoisePlan& plan, const glm::dvec3& position, Rng rng) {
+  return SpaceNoise(plan, rng).at(position);
 }
 
 }  // namespace seedmesh::terrain

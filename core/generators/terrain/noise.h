@@ -2,8 +2,11 @@
 /// Fields as sums of octaves of gradient noise (Perlin, "Improving noise", 2002): fractal Brownian motion,
 /// ridged multifractal (Musgrave, in Ebert et al., "Texturing and Modeling", 2003) and billow, with domain
 /// warping (Quilez). A height depends only on the position in the world, so all windows agree.
+#include <array>
+#include <cstdint>
 #include <glm/vec3.hpp>
 #include <span>
+#include <vector>
 
 #include "core/generators/terrain/field.h"
 
@@ -30,8 +33,36 @@ Field noisy(const NoisePlan& plan, const Window& window, double cell, Rng rng, c
 void noise_in_plane(const NoisePlan& plan, std::span<const double> x, std::span<const double> z, Rng rng,
                     double* out);
 
-/// Returns the height of the same noise at a point in space, in metres, for spheres. Cost: about 20 ns for
-/// each octave.
+/// The same noise in space, for spheres. The gradients of the last cells are kept, for points that follow one another.
+class SpaceNoise {
+ public:
+  SpaceNoise(const NoisePlan& plan, Rng rng);
+
+  /// Returns the height at a point, in metres. Cost: about 12 ns for each octave in a known cell, 25 ns in a new one.
+  double at(const glm::dvec3& position);
+
+ private:
+  struct Cell {
+    std::array<std::int64_t, 3> low{};
+    std::array<glm::dvec3, 8> gradients{};
+    bool is_known = false;
+  };
+  struct Octave {
+    std::uint64_t key;
+    double frequency;
+    float amplitude;
+    std::array<Cell, 8> cells;
+
+    const std::array<glm::dvec3, 8>& gradients_of(const std::array<std::int64_t, 3>& low);
+    double value(const glm::dvec3& position);
+  };
+
+  NoiseKind kind_;
+  std::vector<Octave> octaves_;
+  std::vector<SpaceNoise> warp_;  ///< of the three axes, or empty
+};
+
+/// The same height for a single point.
 double noise_in_space(const NoisePlan& plan, const glm::dvec3& position, Rng rng);
 
 }  // namespace seedmesh::terrain

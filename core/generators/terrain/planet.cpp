@@ -122,6 +122,7 @@ void add_colors(Mesh& mesh, const Planet& planet, const GroundColors& ground_col
   patches.wavelength = upward == Upward::along_y ? planet.radius / 2 : planet.radius / 3;
   mesh.color = Array<glm::u8vec4>(job, mesh.position.size());
   each_chunk(planet, job, [&](std::size_t begin, std::size_t end) {
+    SpaceNoise noise(patches, rng);
     for (std::size_t i = begin; i < end; ++i) {
       const bool is_rock = upward == Upward::along_y;
       const float cosine = is_rock ? mesh.normal[i].y : glm::dot(mesh.normal[i], planet.direction[i]);
@@ -129,8 +130,7 @@ void add_colors(Mesh& mesh, const Planet& planet, const GroundColors& ground_col
       Site site;
       site.height = is_rock ? mesh.position[i].y : planet.height[i];
       site.slope = std::sqrt(1 - up * up) / up;
-      site.patch =
-          static_cast<float>(noise_in_space(patches, glm::dvec3(planet.direction[i]) * planet.radius, rng));
+      site.patch = static_cast<float>(noise.at(glm::dvec3(planet.direction[i]) * planet.radius));
       if (is_rock) site.slope += ragged * site.patch;
       const glm::dvec3 color = glm::dvec3(ground_colors.color(site)) * 255.0 + 0.5;
       mesh.color[i] = {math::to_int32(color.x), math::to_int32(color.y), math::to_int32(color.z), 255};
@@ -190,10 +190,10 @@ void fault_sphere(Planet& planet, const FaultPlan& plan, Rng rng, const Job& job
 
 void noise_sphere(Planet& planet, const NoisePlan& plan, Rng rng, const Job& job) {
   each_chunk(planet, job, [&](std::size_t begin, std::size_t end) {
+    SpaceNoise noise(plan, rng);
     for (std::size_t i = begin; i < end; ++i) {
       if (i % 256 == 0) job.check();
-      planet.height[i] =
-          static_cast<float>(noise_in_space(plan, glm::dvec3(planet.direction[i]) * planet.radius, rng));
+      planet.height[i] = static_cast<float>(noise.at(glm::dvec3(planet.direction[i]) * planet.radius));
     }
   });
 }

@@ -4,10 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <utility>
 #include <vector>
 
 #include "core/base/array.h"
+#include "core/geom/lod/position_numbers.h"
 #include "core/geom/lod/quadric.h"
 
 namespace seedmesh {
@@ -19,28 +20,26 @@ constexpr double border_weight = 10;      ///< of planes perpendicular to a bord
 constexpr std::uint32_t most_faces = 96;  ///< at a vertex; vertices with more stay
 
 /// All meshes as one surface. Vertices at the same position are one point. A corner is an entry of the index
-/// array; the corners of a point are a linked list.
+/// array; the corners of a point are a linked list. Points and corners are arrays of structs: a step of a walk around a
+/// point then misses the cache once.
 class Net {
  public:
   Net(std::span<Mesh* const> meshes, const std::vector<bool>& fixed, Job& job) : job_(job) {
     read(meshes, fixed);
     find_points();
-    link();
     measure();
   }
 
   /// Collapses are examined only when the bound of their cost is the least of all, so that most of the changes around
   /// a point cost one quadric.
   std::uint64_t reduce(std::uint64_t target, double most_cost) {
-    seen_ = beside_ = std::vector<std::uint32_t>(head_.size(), 0);
-    is_waiting_.assign(head_.size(), false);
-    bound_.resize(head_.size());
-    for (std::uint32_t point = 0; point < head_.size(); ++point) {
+    beside_ = Array<std::uint32_t>(job_, points_.size(), 0U);
+    for (std::uint32_t point = 0; point < points_.size(); ++point) {
       look();
-      bound_[point] = least_cost(point);
-      if (!(bound_[point] < infinite)) continue;
-      is_waiting_[point] = true;
-      heap_.push_back({bound_[point], point, none, stamp_[point]});
+      points_[point].bound = least_cost(point);
+      if (!(points_[point].bound < infinite)) continue;
+      points_[point].is_waiting = true;
+      heap_.push_back({points_[point].bound, point, none, points_[point].stamp});
     }
     std::make_heap(heap_.begin(), heap_.end(), [&](const auto& a, const auto& b) {
       look();
@@ -51,9 +50,9 @@ class Net {
       std::pop_heap(heap_.begin(), heap_.end());
       CollapseCandidate best = heap_.back();
       heap_.pop_back();
-      if (head_[best.from] == none || best.stamp != stamp_[best.from]) continue;
+      if (points_[best.from].head == none || best.stamp != points_[best.from].stamp) continue;
       if (best.to == none) {
-        is_waiting_[best.from] = false;
+        points_[best.from].is_waiting = false;
         best = candidate(best.from);
         if (best.to == none) continue;
         if (heap_.size() > 0 && best < heap_[0]) {
@@ -76,8 +75,8 @@ class Net {
       Array<std::uint32_t>& index = mesh.index.wide;
       std::size_t kept = 0;
       for (const std::size_t end = triangle + index.size() / 3; triangle < end; ++triangle) {
-        if (corner_[3 * triangle] == none) continue;
-        for (std::size_t c = 0; c < 3; ++c) index[kept++] = corner_[3 * triangle + c] - first_[i];
+        if (corner_[3 * triangle].vertex == none) continue;
+        for (std::size_t c = 0; c < 3; ++c) index[kept++] = corner_[3 * triangle + c].vertex - first_[i];
       }
       if (kept < index.size()) mesh.cache_ordered = false;
       index.resize(kept);
@@ -87,12 +86,40 @@ class Net {
  private:
   using Ring = std::array<std::uint32_t, 2 * most_faces>;
 
+  struct Corner {
+    std::uint32_t vertex;  ///< none where the triangle is removed
+    std::uint32_t point;
+    std::uint32_t next;  ///< the next corner of the same point
+  };
+
+  /// What a collapse needs of a point, together in memory.
+  struct Point {
+    glm::dvec3 at{0};
+    Quadric quadric;
+    double bound = infinite;    ///< no collapse costs less
+    std::uint32_t head = none;  ///< its first corner
+    std::uint32_t stamp = 0;    ///< the number of changes around it
+    std::uint32_t seen = 0;     ///< the last mark of neighbours()
+    bool is_locked = false, is_border = false;
+    bool is_waiting = false;  ///< the heap has its bound
+  };
+
   /// Checks the deadline at each 4,096th call.
   void look() {
     if (++looks_ % 4'096 == 0) job_.check();
   }
 
   void read(std::span<Mesh* const> meshes, const std::vector<bool>& fixed) {
+    std::size_t vertices = 0, corners = 0;
+    for (const Mesh* mesh : meshes) {
+      if (mesh->topology != Topology::triangles) continue;
+      vertices += mesh->position.size();
+      corners += mesh->index.size();
+    }
+    position_.reserve(vertices);
+    normal_.reserve(vertices);
+    is_fixed_.reserve(vertices);
+    corner_.reserve(corners);
     for (std::size_t i = 0; i < meshes.size(); ++i) {
       job_.check();
       first_.push_back(static_cast<std::uint32_t>(position_.size()));
@@ -102,78 +129,56 @@ class Net {
         look();
         position_.push_back(mesh.position[v] + 0.0F);
         normal_.push_back(mesh.normal.empty() ? glm::vec3(0) : mesh.normal[v]);
-        locked_.push_back(fixed[i] ? 1 : 0);
+        is_fixed_.push_back(fixed[i] ? 1 : 0);
       }
       for (std::size_t c = 0; c < mesh.index.size(); ++c) {
         look();
-        corner_.push_back(first_.back() + mesh.index.at(c));
+        corner_.push_back({first_.back() + mesh.index.at(c), none, none});
       }
     }
     left_ = corner_.size() / 3;
   }
 
-  /// Numbers the points. Afterwards `locked_` is indexed by point instead of vertex.
+  /// Points are numbered in the order of their first vertices, which keeps neighbours close in memory.
   void find_points() {
-    Array<std::uint32_t> order(job_, position_.size());
-    std::iota(order.begin(), order.end(), 0U);
-    const auto key = [this](std::uint32_t v) {
-      return std::tie(position_[v].x, position_[v].y, position_[v].z);
-    };
-    std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+    const PositionNumbers points = position_numbers(position_, job_);
+    points_ = Array<Point>(job_, points.first.size(), Point{});
+    for (std::size_t i = 0; i < points_.size(); ++i) points_[i].at = glm::dvec3(position_[points.first[i]]);
+    for (std::size_t v = 0; v < position_.size(); ++v) {
       look();
-      return key(a) != key(b) ? key(a) < key(b) : a < b;
-    });
-    point_of_.resize(position_.size());
-    Array<std::uint8_t> locked(job_);
-    for (std::size_t i = 0; i < order.size(); ++i) {
-      look();
-      if (i == 0 || key(order[i]) != key(order[i - 1])) {
-        at_.emplace_back(position_[order[i]]);
-        locked.push_back(0);
-      }
-      point_of_[order[i]] = static_cast<std::uint32_t>(at_.size() - 1);
-      locked.back() = locked.back() | locked_[order[i]];
+      if (is_fixed_[v] != 0) points_[points.number[v]].is_locked = true;
     }
-    locked_ = std::move(locked);
-  }
-
-  void link() {
-    head_ = Array<std::uint32_t>(job_, at_.size(), none);
-    stamp_ = Array<std::uint32_t>(job_, at_.size(), 0U);
-    next_.resize(corner_.size());
-    point_.resize(corner_.size());
     for (std::size_t c = corner_.size(); c-- > 0;) {
       look();
-      point_[c] = point_of_[corner_[c]];
-      std::uint32_t& head = head_[point(c)];
-      next_[c] = head;
-      head = static_cast<std::uint32_t>(c);
+      Corner& corner = corner_[c];
+      corner.point = points.number[corner.vertex];
+      corner.next = std::exchange(points_[corner.point].head, static_cast<std::uint32_t>(c));
     }
   }
 
-  std::uint32_t point(std::size_t corner) const { return point_[corner]; }
+  std::uint32_t point(std::size_t corner) const { return corner_[corner].point; }
+  std::uint32_t next(std::uint32_t corner) const { return corner_[corner].next; }
+  const glm::dvec3& at(std::uint32_t point) const { return points_[point].at; }
 
   /// The number of triangles with both points.
   std::uint32_t faces_on(std::uint32_t a, std::uint32_t b) const {
     std::uint32_t count = 0;
-    for (std::uint32_t c = head_[a]; c != none; c = next_[c]) {
+    for (std::uint32_t c = points_[a].head; c != none; c = next(c)) {
       count += point(after(c)) == b || point(before(c)) == b ? 1U : 0U;
     }
     return count;
   }
 
   void measure() {
-    quadric_ = Array<Quadric>(job_, at_.size(), Quadric{});
-    border_.assign(at_.size(), false);
     for (std::size_t t = 0; t < corner_.size(); t += 3) {
       look();
-      const glm::dvec3 &a = at_[point(t)], &b = at_[point(t + 1)], &c = at_[point(t + 2)];
+      const glm::dvec3 &a = at(point(t)), &b = at(point(t + 1)), &c = at(point(t + 2));
       const glm::dvec3 across = glm::cross(b - a, c - a);
       const double length = std::sqrt(glm::dot(across, across));
       if (!(length > 0)) continue;
       const glm::dvec3 n = across / length;
       for (std::size_t i = 0; i < 3; ++i) {
-        quadric_[point(t + i)].add(n, -glm::dot(n, a), length);
+        points_[point(t + i)].quadric.add(n, -glm::dot(n, a), length);
         measure_edge(t + i, n);
       }
     }
@@ -183,41 +188,46 @@ class Net {
   void measure_edge(std::size_t corner, const glm::dvec3& n) {
     const std::uint32_t a = point(corner), b = point(after(corner));
     const std::uint32_t faces = faces_on(a, b);
-    if (faces > 2) locked_[a] = locked_[b] = 1;
+    if (faces > 2) points_[a].is_locked = points_[b].is_locked = true;
     if (faces != 1) return;
-    border_[a] = border_[b] = true;
-    const glm::dvec3 edge = at_[b] - at_[a], out = glm::cross(edge, n);
+    points_[a].is_border = points_[b].is_border = true;
+    const glm::dvec3 edge = at(b) - at(a), out = glm::cross(edge, n);
     const double length = std::sqrt(glm::dot(out, out));
     if (!(length > 0)) return;
     for (const std::uint32_t each : {a, b}) {
-      quadric_[each].add(out / length, -glm::dot(out / length, at_[a]), border_weight * length * length);
+      points_[each].quadric.add(out / length, -glm::dot(out / length, at(a)),
+                                border_weight * length * length);
     }
   }
 
-  /// Collects the neighbours of a point, each once. Returns 0 where there are too many.
-  std::uint32_t neighbours(std::uint32_t of, Ring& ring, std::vector<std::uint32_t>& marks) {
+  /// Collects the neighbours of a point, each once, and marks them with ++mark_. Returns 0 where there are too many.
+  template <class MarkOf>
+  std::uint32_t neighbours(std::uint32_t of, Ring& ring, const MarkOf& mark_of) {
     std::uint32_t count = 0, faces = 0;
     const std::uint32_t mark = ++mark_;
-    for (std::uint32_t c = head_[of]; c != none; c = next_[c]) {
+    for (std::uint32_t c = points_[of].head; c != none; c = next(c)) {
       if (++faces > most_faces) return 0;
       for (const std::uint32_t each : {point(after(c)), point(before(c))}) {
-        if (marks[each] == mark) continue;
-        marks[each] = mark;
-        ring[count++] = each;
+        if (std::exchange(mark_of(each), mark) != mark) ring[count++] = each;
       }
     }
     return count;
   }
 
+  std::uint32_t neighbours(std::uint32_t of, Ring& ring) {
+    return neighbours(
+        of, ring, [this](std::uint32_t each) -> auto& { return points_[each].seen; });
+  }
+
   double cost_of(std::uint32_t from, std::uint32_t to) const {
-    return collapse_cost(quadric_[from], quadric_[to], at_[from], at_[to]);
+    return collapse_cost(points_[from].quadric, points_[to].quadric, at(from), at(to));
   }
 
   /// Of all collapses of a point, allowed or not.
   double least_cost(std::uint32_t from) {
-    if (head_[from] == none || locked_[from] != 0) return infinite;
+    if (points_[from].head == none || points_[from].is_locked) return infinite;
     Ring ring;
-    const std::uint32_t count = neighbours(from, ring, seen_);
+    const std::uint32_t count = neighbours(from, ring);
     double least = infinite;
     for (std::uint32_t i = 0; i < count; ++i) least = std::min(least, cost_of(from, ring[i]));
     return least;
@@ -225,23 +235,23 @@ class Net {
 
   /// Pushes the bound of a point to the heap unless it is there.
   void wait(std::uint32_t from) {
-    if (is_waiting_[from] || !(bound_[from] < infinite)) return;
-    is_waiting_[from] = true;
-    push({bound_[from], from, none, ++stamp_[from]});
+    if (points_[from].is_waiting || !(points_[from].bound < infinite)) return;
+    points_[from].is_waiting = true;
+    push({points_[from].bound, from, none, ++points_[from].stamp});
   }
 
   /// The cheapest allowed collapse of a point, or one onto `none`.
   CollapseCandidate candidate(std::uint32_t from) {
     Ring ring;
-    const std::uint32_t count = neighbours(from, ring, seen_);
+    const std::uint32_t count = neighbours(from, ring);
     const std::uint32_t mark = mark_;
     std::array<std::pair<double, std::uint32_t>, 2 * most_faces> paths;
     for (std::uint32_t i = 0; i < count; ++i) paths[i] = {cost_of(from, ring[i]), ring[i]};
     std::sort(paths.begin(), paths.begin() + count);
-    bound_[from] = count > 0 ? paths[0].first : infinite;
+    points_[from].bound = count > 0 ? paths[0].first : infinite;
     for (std::uint32_t i = 0; i < count; ++i) {
       if (may_collapse(from, paths[i].second, mark))
-        return {paths[i].first, from, paths[i].second, stamp_[from]};
+        return {paths[i].first, from, paths[i].second, points_[from].stamp};
     }
     return {infinite, from, none, 0};
   }
@@ -251,15 +261,16 @@ class Net {
     std::push_heap(heap_.begin(), heap_.end());
   }
 
-  /// `mark` marks the neighbours of `from` in `seen_`.
+  /// `mark` marks the neighbours of `from` in Point::seen.
   bool may_collapse(std::uint32_t from, std::uint32_t to, std::uint32_t mark) {
     const std::uint32_t faces = faces_on(from, to);
-    if (faces == 0 || faces > 2 || (border_[from] && faces != 1)) return false;
-    if (!border_[from] && faces == 1) return false;
+    if (faces == 0 || faces > 2 || (points_[from].is_border && faces != 1)) return false;
+    if (!points_[from].is_border && faces == 1) return false;
     Ring other;
-    const std::uint32_t others = neighbours(to, other, beside_);
+    const std::uint32_t others = neighbours(
+        to, other, [this](std::uint32_t each) -> auto& { return beside_[each]; });
     std::uint32_t common = 0;
-    for (std::uint32_t i = 0; i < others; ++i) common += seen_[other[i]] == mark ? 1U : 0U;
+    for (std::uint32_t i = 0; i < others; ++i) common += points_[other[i]].seen == mark ? 1U : 0U;
     return common == faces && keeps_faces(from, to);
   }
 
@@ -267,12 +278,12 @@ class Net {
   /// unique.
   std::uint32_t heir(std::uint32_t vertex, std::uint32_t from, std::uint32_t to) const {
     std::uint32_t found = none;
-    for (std::uint32_t c = head_[from]; c != none; c = next_[c]) {
-      if (corner_[c] != vertex) continue;
+    for (std::uint32_t c = points_[from].head; c != none; c = next(c)) {
+      if (corner_[c].vertex != vertex) continue;
       for (const std::size_t each : {after(c), before(c)}) {
         if (point(each) != to) continue;
-        if (found != none && found != corner_[each]) return none;
-        found = corner_[each];
+        if (found != none && found != corner_[each].vertex) return none;
+        found = corner_[each].vertex;
       }
     }
     return found;
@@ -280,13 +291,14 @@ class Net {
 
   bool keeps_faces(std::uint32_t from, std::uint32_t to) const {
     bool any = false;
-    for (std::uint32_t c = head_[from]; c != none; c = next_[c]) {
+    for (std::uint32_t c = points_[from].head; c != none; c = next(c)) {
       const std::uint32_t b = point(after(c)), d = point(before(c));
-      const std::uint32_t vertex = heir(corner_[c], from, to);
+      const std::uint32_t vertex = heir(corner_[c].vertex, from, to);
       if (vertex == none) return false;
       if (b == to || d == to) continue;
       any = true;
-      const std::array<std::uint32_t, 3> corners = {vertex, corner_[after(c)], corner_[before(c)]};
+      const std::array<std::uint32_t, 3> corners = {vertex, corner_[after(c)].vertex,
+                                                    corner_[before(c)].vertex};
       if (!is_sound(from, to, {b, d}, corners) || is_there(to, b, d)) return false;
     }
     return any;
@@ -294,9 +306,9 @@ class Net {
 
   bool is_sound(std::uint32_t from, std::uint32_t to, std::pair<std::uint32_t, std::uint32_t> rest,
                 const std::array<std::uint32_t, 3>& corners) const {
-    const glm::dvec3 &b = at_[rest.first], &d = at_[rest.second];
-    if (!keeps_shape(at_[from], at_[to], b, d)) return false;
-    const glm::dvec3 now = glm::cross(b - at_[to], d - at_[to]);
+    const glm::dvec3 &b = at(rest.first), &d = at(rest.second);
+    if (!keeps_shape(at(from), at(to), b, d)) return false;
+    const glm::dvec3 now = glm::cross(b - at(to), d - at(to));
     for (const std::uint32_t corner : corners) {
       const glm::dvec3 n(normal_[corner]);
       if (n != glm::dvec3(0) && !(glm::dot(n, now) > 0)) return false;
@@ -306,7 +318,7 @@ class Net {
 
   /// True where a triangle of these three points exists.
   bool is_there(std::uint32_t a, std::uint32_t b, std::uint32_t d) const {
-    for (std::uint32_t c = head_[a]; c != none; c = next_[c]) {
+    for (std::uint32_t c = points_[a].head; c != none; c = next(c)) {
       const std::uint32_t x = point(after(c)), y = point(before(c));
       if ((x == b && y == d) || (x == d && y == b)) return true;
     }
@@ -316,70 +328,58 @@ class Net {
   void drop(std::size_t triangle) {
     for (std::size_t i = 0; i < 3; ++i) {
       const std::size_t c = 3 * triangle + i;
-      std::uint32_t* link = &head_[point(c)];
-      while (*link != c) link = &next_[*link];
-      *link = next_[c];
+      std::uint32_t* link = &points_[point(c)].head;
+      while (*link != c) link = &corner_[*link].next;
+      *link = corner_[c].next;
     }
-    for (std::size_t i = 0; i < 3; ++i) corner_[3 * triangle + i] = none;
+    for (std::size_t i = 0; i < 3; ++i) corner_[3 * triangle + i].vertex = none;
     --left_;
   }
 
   void collapse(std::uint32_t from, std::uint32_t to) {
     heirs_.clear();
     gone_.clear();
-    for (std::uint32_t c = head_[from]; c != none; c = next_[c]) {
+    for (std::uint32_t c = points_[from].head; c != none; c = next(c)) {
       if (point(after(c)) == to || point(before(c)) == to) {
         gone_.push_back(c / 3);
       } else {
-        heirs_.emplace_back(c, heir(corner_[c], from, to));
+        heirs_.emplace_back(c, heir(corner_[c].vertex, from, to));
       }
     }
     for (const std::uint32_t triangle : gone_) drop(triangle);
     for (const auto& [c, vertex] : heirs_) {
-      corner_[c] = vertex;
-      point_[c] = to;
-      next_[c] = head_[to];
-      head_[to] = c;
+      corner_[c] = {vertex, to, std::exchange(points_[to].head, c)};
     }
-    head_[from] = none;
-    quadric_[to].add(quadric_[from]);
+    points_[from].head = none;
+    points_[to].quadric.add(points_[from].quadric);
     Ring ring;
-    const std::uint32_t count = neighbours(to, ring, seen_);
-    bound_[to] = infinite;
+    const std::uint32_t count = neighbours(to, ring);
+    points_[to].bound = infinite;
     for (std::uint32_t i = 0; i < count; ++i) {
-      if (locked_[to] == 0) bound_[to] = std::min(bound_[to], cost_of(to, ring[i]));
+      if (!points_[to].is_locked) points_[to].bound = std::min(points_[to].bound, cost_of(to, ring[i]));
       refresh(ring[i], cost_of(ring[i], to));
     }
-    is_waiting_[to] = false;
+    points_[to].is_waiting = false;
     wait(to);
   }
 
   /// Something has changed around a point: another collapse may be allowed or cheaper, at this cost or a known one.
   void refresh(std::uint32_t of, double cost) {
-    if (locked_[of] != 0 || head_[of] == none) return;
-    if (cost < bound_[of]) {
-      bound_[of] = cost;
-      is_waiting_[of] = false;
+    if (points_[of].is_locked || points_[of].head == none) return;
+    if (cost < points_[of].bound) {
+      points_[of].bound = cost;
+      points_[of].is_waiting = false;
     }
     wait(of);
   }
 
   Job& job_;
   Array<glm::vec3> position_{job_}, normal_{job_};  ///< by vertex
-  Array<std::uint32_t> corner_{job_};    ///< vertex of each corner; none where the triangle is removed
-  Array<std::uint32_t> point_{job_};     ///< of each corner
-  Array<std::uint32_t> point_of_{job_};  ///< of each vertex
-  Array<std::uint32_t> next_{job_};      ///< the next corner of the same point
-  Array<std::uint32_t> head_{job_};      ///< of each point: its first corner
-  Array<std::uint32_t> stamp_{job_};     ///< of each point: the number of changes around it
-  Array<std::uint8_t> locked_{job_};
-  Array<Quadric> quadric_{job_};
+  Array<std::uint8_t> is_fixed_{job_};              ///< by vertex
+  Array<Corner> corner_{job_};
+  Array<Point> points_{job_};
   Array<CollapseCandidate> heap_{job_};
-  std::vector<glm::dvec3> at_;
-  std::vector<bool> border_;
-  std::vector<double> bound_;                 ///< by point: no collapse costs less
-  std::vector<bool> is_waiting_;              ///< by point: the heap has its bound
-  std::vector<std::uint32_t> seen_, beside_;  ///< by point: the last mark of neighbours()
+  Array<std::uint32_t> beside_{job_};  ///< by point: the last mark of the neighbours of a target
   std::uint32_t mark_ = 0;
   std::size_t looks_ = 0;
   std::vector<std::pair<std::uint32_t, std::uint32_t>> heirs_;  ///< new vertex of each corner that moves

@@ -38,11 +38,17 @@ double squared_distance(const glm::dvec3& p, const glm::vec3& low, const glm::ve
   return glm::dot(apart, apart);
 }
 
-/// No edge of a model that is drawn by rule runs this way.
-constexpr glm::dvec3 ray{0.2871537, 0.9133127, 0.2887301};
-constexpr glm::dvec3 by_ray{1 / 0.2871537, 1 / 0.9133127, 1 / 0.2887301};
+/// No edge of a model that is drawn by rule runs this way. The ray leaves the model along its shortest side, where it
+/// meets the fewest boxes.
+glm::dvec3 ray_across(const glm::vec3& extent) {
+  constexpr glm::dvec3 main_y{0.2871537, 0.9133127, 0.2887301};
+  if (extent.y <= extent.x && extent.y <= extent.z) return main_y;
+  return extent.x <= extent.z ? glm::dvec3(main_y.y, main_y.x, main_y.z)
+                              : glm::dvec3(main_y.x, main_y.z, main_y.y);
+}
 
-bool ray_meets_box(const glm::dvec3& from, const glm::vec3& low, const glm::vec3& high) {
+bool ray_meets_box(const glm::dvec3& from, const glm::dvec3& by_ray, const glm::vec3& low,
+                   const glm::vec3& high) {
   double enter = 0, leave = 1e300;
   for (int axis = 0; axis < 3; ++axis) {
     // The ray runs upwards along every axis, so that it meets `low` first.
@@ -54,8 +60,8 @@ bool ray_meets_box(const glm::dvec3& from, const glm::vec3& low, const glm::vec3
 }
 
 /// Moeller and Trumbore, "Fast, Minimum Storage Ray/Triangle Intersection", 1997.
-bool ray_meets_triangle(const glm::dvec3& from, const glm::dvec3& a, const glm::dvec3& b,
-                        const glm::dvec3& c) {
+bool ray_meets_triangle(const glm::dvec3& from, const glm::dvec3& ray, const glm::dvec3& a,
+                        const glm::dvec3& b, const glm::dvec3& c) {
   const glm::dvec3 ab = b - a, ac = c - a, across = glm::cross(ray, ac);
   const double determinant = glm::dot(ab, across);
   if (determinant == 0) return false;
@@ -143,17 +149,23 @@ std::uint32_t MeshField::build(std::uint32_t first, std::uint32_t count, std::ve
 MeshField::Nearest MeshField::nearest(const glm::dvec3& point) const {
   glm::dvec3 best = corner(0, 0);
   double least = glm::dot(best - point, best - point);
-  std::uint32_t waiting[64];
+  struct Waiting {
+    std::uint32_t knot;
+    double distance;  ///< squared, to its box
+  };
+  const auto waiting_for = [&](std::uint32_t number) {
+    return Waiting{number, squared_distance(point, knot_[number].low, knot_[number].high)};
+  };
+  Waiting waiting[64];
   int count = 0;
-  waiting[count++] = 0;
+  waiting[count++] = waiting_for(0);
   while (count > 0) {
-    const std::uint32_t number = waiting[--count];
+    const auto [number, apart] = waiting[--count];
+    if (apart >= least) continue;
     const Knot& knot = knot_[number];
-    if (squared_distance(point, knot.low, knot.high) >= least) continue;
     if (knot.count == 0) {
-      const std::uint32_t near = number + 1, far = knot.first;
-      const bool swapped = squared_distance(point, knot_[far].low, knot_[far].high) <
-                           squared_distance(point, knot_[near].low, knot_[near].high);
+      const Waiting near = waiting_for(number + 1), far = waiting_for(knot.first);
+      const bool swapped = far.distance < near.distance;
       waiting[count++] = swapped ? near : far;
       waiting[count++] = swapped ? far : near;
       continue;
@@ -171,6 +183,7 @@ MeshField::Nearest MeshField::nearest(const glm::dvec3& point) const {
 
 bool MeshField::holds(const glm::dvec3& point) const {
   if (squared_distance(point, knot_[0].low, knot_[0].high) > 0) return false;
+  const glm::dvec3 ray = ray_across(knot_[0].high - knot_[0].low), by_ray = 1.0 / ray;
   bool inside = false;
   std::uint32_t waiting[64];
   int count = 0;
@@ -178,14 +191,14 @@ bool MeshField::holds(const glm::dvec3& point) const {
   while (count > 0) {
     const std::uint32_t number = waiting[--count];
     const Knot& knot = knot_[number];
-    if (!ray_meets_box(point, knot.low, knot.high)) continue;
+    if (!ray_meets_box(point, by_ray, knot.low, knot.high)) continue;
     if (knot.count == 0) {
       waiting[count++] = knot.first;
       waiting[count++] = number + 1;
       continue;
     }
     for (std::uint32_t t = knot.first; t < knot.first + knot.count; ++t) {
-      if (ray_meets_triangle(point, corner(t, 0), corner(t, 1), corner(t, 2))) inside = !inside;
+      if (ray_meets_triangle(point, ray, corner(t, 0), corner(t, 1), corner(t, 2))) inside = !inside;
     }
   }
   return inside;

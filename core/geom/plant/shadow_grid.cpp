@@ -24,8 +24,11 @@ ShadowGrid::ShadowGrid(const ShadowOptions& options, const Job& job) : cell_(opt
 }
 
 ShadowGrid::Cell ShadowGrid::cell_of(const glm::dvec3& point) const {
+  // The floor of a number in this range, without a call; 0 if it is no number.
   const auto along = [&](double x) {
-    return math::to_int32(std::floor(std::clamp(x / cell_, -farthest, farthest)));
+    const double at = std::clamp(x / cell_, -farthest, farthest);
+    const std::int32_t whole = at == at ? static_cast<std::int32_t>(at) : 0;
+    return whole - (at < whole ? 1 : 0);
   };
   return {along(point.x), along(point.y), along(point.z)};
 }

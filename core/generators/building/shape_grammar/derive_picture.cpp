@@ -15,6 +15,7 @@ constexpr std::uint64_t most_steps = 100'000;
 constexpr std::size_t most_matches = 1'000'000;  ///< at a time
 constexpr double smallest = 1e-5;                ///< share of the picture; smaller shapes do not match
 constexpr double farthest = 1e6;                 ///< metres
+constexpr double implied_near = 1e-4;  ///< share of the picture; ten times the deviation that fits() allows
 
 /// A match of a rule, with the markers and solids that it replaces.
 struct PictureMatch {
@@ -152,7 +153,8 @@ class PictureRun {
     const std::vector<std::uint32_t> order =
         search_order(anchors, grammar_.is_flat, counts_, on_lines_->per_line);
     search_points(
-        anchors, order, {candidates_, *on_lines_}, [this] { look(); },
+        anchors, order, {candidates_, *on_lines_, out_.picture.lines, implied_near * reach_},
+        [this] { look(); },
         [&](const std::vector<glm::dvec3>& points) {
           for (const bool is_mirrored : {false, true}) {
             if (is_mirrored && !grammar_.mirrors) break;
