@@ -66,7 +66,7 @@ Json ground() {
   return {
       {"area", {{"size", {1200, 1000}}}},
       {"maps",
-       {{"height", "8 * sin(x / 2) + 40 * exp(0 - ((x - 480) / 25) ^ 2)"}, {"water", "abs(y + 330) < 15"}}}};
+       {{"height", "8 * sin(x / 2) + 40 * exp(0 - ((x - 480) / 25) ^ 2)"}, {"water", "abs(y + 250) < 15"}}}};
 }
 
 Json given_streets() {
