@@ -28,21 +28,6 @@ std::uint64_t point_key(const CmPoint& p) {
   return key_at(key_at(0xCE11, static_cast<std::uint32_t>(p.x)), static_cast<std::uint32_t>(p.y));
 }
 
-ConstraintLimits limits_of(const CityStreets& streets) {
-  ConstraintLimits limits;
-  limits.snap = streets.snap * 100;
-  limits.clearance = streets.clearance * 100;
-  limits.cos_minimal_angle = math::cos(math::radians(streets.minimal_angle + 0.2));
-  limits.cos_border_angle = math::cos(math::radians(45));
-  const auto space_of = [](const auto& section) { return (section.width + 2 * section.sidewalk) * 100; };
-  const CityClasses& classes = streets.classes;
-  double widest = std::max(space_of(classes.major), space_of(classes.minor));
-  if (streets.highway_spacing > 0) widest = std::max(widest, space_of(classes.highway));
-  limits.least_length = std::max(900.0, widest * 0.75);
-  limits.beside = std::max(700.0, widest * 0.6);
-  return limits;
-}
-
 class Cell final : public RoadRules {
  public:
   Cell(const GrowthInput& input, Rng rng)
@@ -186,6 +171,7 @@ class Cell final : public RoadRules {
     }
     road.end = node;
     road.end_direction = direction;
+    has_branches_ = true;
     return RoadState::succeed;
   }
 
@@ -206,6 +192,9 @@ class Cell final : public RoadRules {
       if (!join(n)) remove_from(n);
     }
   }
+
+  /// Whether a road was built at whose end others could branch off.
+  bool has_branches() const { return has_branches_; }
 
   std::vector<StreetPiece> pieces() const {
     std::vector<StreetPiece> all;
@@ -363,6 +352,7 @@ class Cell final : public RoadRules {
   const CityStreets& streets_;
   Rng rng_;
   std::uint64_t cell_key_ = 0;
+  bool has_branches_ = false;
   bool is_raster_ = false, is_radial_ = false, is_along_field_ = false;
   Network network_;
   std::map<CmPoint, std::uint32_t> by_point_;
@@ -375,8 +365,8 @@ class Cell final : public RoadRules {
 
 }  // namespace
 
-std::vector<StreetPiece> grow_cell(const GrowthInput& input, const StreetGraph& majors,
-                                   const std::vector<std::vector<std::uint32_t>>& loops, Job& job) {
+CellStreets grow_cell(const GrowthInput& input, const StreetGraph& majors,
+                      const std::vector<std::vector<std::uint32_t>>& loops, Job& job) {
   Cell cell(input, job.rng().at("cells"));
   // The key of a cell is its lowest point, which edits elsewhere leave alone.
   CmPoint lowest = majors.nodes[start_of(majors.edges, loops[0][0])];
@@ -394,7 +384,7 @@ std::vector<StreetPiece> grow_cell(const GrowthInput& input, const StreetGraph& 
   constexpr int most_restarts = 6;
   for (int round = 0; round < most_restarts && cell.is_sparse(); ++round) grow(cell.restarts(round));
   cell.settle_dead_ends();
-  return cell.pieces();
+  return {cell.pieces(), cell.has_branches()};
 }
 
 }  // namespace seedmesh::city

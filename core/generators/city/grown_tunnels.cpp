@@ -58,7 +58,8 @@ bool is_ridge(const Landform& ground, const CmPoint& a, const CmPoint& b, double
 }  // namespace
 
 std::optional<Route> GrowthInput::tunnelled(const Route& route) const {
-  if (!landform || streets.tunnel_length <= 0) return std::nullopt;
+  const bool follows_slope = streets.method == CityMethod::growth && streets.pattern == CityPattern::slope;
+  if (!landform || streets.tunnel_length <= 0 || follows_slope) return std::nullopt;
   const std::vector<StreetPiece> pieces = short_pieces(route.pieces);
   std::vector<std::uint8_t> is_steep;
   for (const StreetPiece& each : pieces) {

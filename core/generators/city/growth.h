@@ -59,7 +59,8 @@ struct GrowthInput {
   /// Whether no piece of a route meets an obstacle, a given street or ground that is too steep.
   bool is_free(const Route& route) const;
   /// Returns a route whose pieces on ground that is too steep are replaced by tunnels through a ridge, of at most
-  /// `streets.tunnel_length`. Nothing where another reason forbids the route, or where the ground is too low.
+  /// `streets.tunnel_length`. Nothing where another reason forbids the route, where the ground is too low, or where
+  /// major streets follow slopes.
   std::optional<Route> tunnelled(const Route& route) const;
 };
 
@@ -73,10 +74,19 @@ std::vector<glm::dvec2> lattice_of(const Region& region);
 /// density is too low everywhere, or if the productions build no road.
 std::vector<StreetPiece> through_street(const GrowthInput& input, const Job& job);
 
+/// Returns the local constraints of minor streets.
+ConstraintLimits limits_of(const CityStreets& streets);
+
+/// The minor streets of a cell. `has_branches`: a road was built at whose end others could branch off.
+struct CellStreets {
+  std::vector<StreetPiece> pieces;
+  bool has_branches = false;
+};
+
 /// Returns the minor streets within one cell, which is a face of the graph of major streets and the border. `loops`
 /// holds the half-edges of its outline and of the components inside.
-std::vector<StreetPiece> grow_cell(const GrowthInput& input, const StreetGraph& majors,
-                                   const std::vector<std::vector<std::uint32_t>>& loops, Job& job);
+CellStreets grow_cell(const GrowthInput& input, const StreetGraph& majors,
+                      const std::vector<std::vector<std::uint32_t>>& loops, Job& job);
 
 /// Whether all streets, with those of other levels, are one network. Cost: linear.
 bool is_one_network(const StreetGraph& graph);

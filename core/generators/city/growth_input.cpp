@@ -12,6 +12,22 @@ namespace seedmesh::city {
 
 using glm::dvec2;
 
+ConstraintLimits limits_of(const CityStreets& streets) {
+  ConstraintLimits limits;
+  limits.snap = streets.snap * 100;
+  limits.clearance = streets.clearance * 100;
+  limits.cos_minimal_angle = math::cos(math::radians(streets.minimal_angle + 0.2));
+  limits.cos_border_angle = math::cos(math::radians(45));
+  const auto space_of = [](const auto& section) { return (section.width + 2 * section.sidewalk) * 100; };
+  const CityClasses& classes = streets.classes;
+  double widest = std::max(space_of(classes.major), space_of(classes.minor));
+  if (streets.highway_spacing > 0 && streets.method != CityMethod::wards)
+    widest = std::max(widest, space_of(classes.highway));
+  limits.least_length = std::max(900.0, widest * 0.75);
+  limits.beside = std::max(700.0, widest * 0.6);
+  return limits;
+}
+
 double GrowthInput::limit_of(std::uint32_t kind) const {
   const CityClasses& classes = streets.classes;
   switch (static_cast<EdgeClass>(kind)) {

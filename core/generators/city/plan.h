@@ -65,6 +65,7 @@ struct StreetGraph {
   std::vector<std::uint8_t> is_border;            ///< by node: on the border of the area or on a shore
   std::vector<Bridge> bridges;
   std::vector<CmPoint> ring_nodes;         ///< of roundabouts, sorted
+  bool has_branches = false;               ///< a minor street grew at whose end others could branch off
   std::vector<std::uint32_t> bridge_ends;  ///< by node: ends of bridges there; empty without bridges
 
   bool is_street(std::uint32_t edge) const { return is_street_tag(edges[edge].tag); }

@@ -23,12 +23,15 @@ bool is_covered(const CityPlan& plan) {
   return plan.landform->covers(low, high);
 }
 
-/// The centre of the streets is where growth starts. Other methods use it for radial streets and for distances of
-/// rules alone.
+/// The centre of the streets is where growth starts. Tensor fields, slopes and given streets use it for radial minor
+/// streets and for distances of rules alone.
 bool uses_centre(const CityParams& params) {
   const CityStreets& streets = params.streets;
-  if (streets.method == CityMethod::growth || streets.method == CityMethod::wards) return true;
-  const bool is_radial = streets.method == CityMethod::tensor && streets.minor_pattern &&
+  const bool follows_slope =
+      streets.method == CityMethod::growth && streets.pattern == CityPattern::slope && !params.maps.pattern;
+  const bool grows = streets.method == CityMethod::growth || streets.method == CityMethod::wards;
+  if (grows && !follows_slope) return true;
+  const bool is_radial = streets.method != CityMethod::given && streets.minor_pattern &&
                          *streets.minor_pattern == CityMinorPattern::radial;
   const std::vector<CityBuildingRule>& rules = rules_of(params);
   return is_radial || std::any_of(rules.begin(), rules.end(), [](const CityBuildingRule& rule) {
@@ -47,6 +50,17 @@ void add_unused(const CityParams& params, const CityPlan& plan, std::vector<Warn
     warnings.push_back({"/streets/centre",
                         "`centre` has no effect: streets are given or follow a tensor field, and no rule of "
                         "buildings has a distance"});
+  }
+  if (params.streets.method == CityMethod::wards && !plan.graph.has_branches) {
+    const auto warn = [&](const char* name) {
+      warnings.push_back(
+          {std::string("/streets/") + name,
+           "`" + std::string(name) +
+               "` has no effect: no street within a ward is long enough for branches; expected a "
+               "smaller `length` and `clearance`, or larger wards"});
+    };
+    if (params.streets.branch_probability != CityStreets{}.branch_probability) warn("branch_probability");
+    if (params.streets.noise != CityStreets{}.noise) warn("noise");
   }
   const std::vector<CityBuildingRule>& rules = rules_of(params);
   if (rules.empty() && params.buildings.variants != CityBuildings{}.variants)

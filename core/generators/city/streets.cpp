@@ -67,9 +67,9 @@ std::vector<StreetPiece> pieces_of(const StreetGraph& graph) {
 }
 
 /// The minor streets of all cells, in the order of the cells.
-std::vector<StreetPiece> grow_cells(const GrowthInput& input, const StreetGraph& majors, Job& job) {
+CellStreets grow_cells(const GrowthInput& input, const StreetGraph& majors, Job& job) {
   const PlanarFaces faces = faces_of(majors.nodes, majors.edges, job);
-  std::vector<std::vector<StreetPiece>> grown(faces.faces.size());
+  std::vector<CellStreets> grown(faces.faces.size());
   parallel_for(job, faces.faces.size(), 1, [&](std::size_t begin, std::size_t, std::size_t) {
     const PlanarFaces::Face& face = faces.faces[begin];
     std::vector<std::vector<std::uint32_t>> loops;
@@ -88,11 +88,14 @@ std::vector<StreetPiece> grow_cells(const GrowthInput& input, const StreetGraph&
     }
     grown[begin] = grow_cell(input, majors, loops, job);
   });
-  std::vector<StreetPiece> all;
-  for (const std::vector<StreetPiece>& each : grown) all.insert(all.end(), each.begin(), each.end());
+  CellStreets all;
+  for (const CellStreets& each : grown) {
+    all.pieces.insert(all.pieces.end(), each.pieces.begin(), each.pieces.end());
+    all.has_branches |= each.has_branches;
+  }
   // Joining another street can move an end towards a given building.
   if (input.footprints)
-    std::erase_if(all, [&](const StreetPiece& piece) { return input.is_on_footprint(piece); });
+    std::erase_if(all.pieces, [&](const StreetPiece& piece) { return input.is_on_footprint(piece); });
   return all;
 }
 
@@ -143,7 +146,8 @@ StreetGraph connected(const GrowthInput& input, StreetGraph graph, std::vector<B
   return graph;
 }
 
-StreetGraph grow_all(const GrowthInput& input, std::vector<CmPoint>& ring_nodes, Job& job) {
+StreetGraph grow_all(const GrowthInput& input, std::vector<CmPoint>& ring_nodes, bool& has_branches,
+                     Job& job) {
   const CityStreets& streets = input.streets;
   Route route = given_pieces(input);
   if (streets.method == CityMethod::given) {
@@ -174,8 +178,9 @@ StreetGraph grow_all(const GrowthInput& input, std::vector<CmPoint>& ring_nodes,
       (!streets.minor_pattern || *streets.minor_pattern == CityMinorPattern::raster))
     return connected(input, std::move(majors.graph), std::move(majors.bridges), job);
   Route whole = {pieces_of(majors.graph), std::move(majors.bridges), true};
-  const std::vector<StreetPiece> minors = grow_cells(input, majors.graph, job);
-  whole.pieces.insert(whole.pieces.end(), minors.begin(), minors.end());
+  const CellStreets minors = grow_cells(input, majors.graph, job);
+  has_branches = minors.has_branches;
+  whole.pieces.insert(whole.pieces.end(), minors.pieces.begin(), minors.pieces.end());
   StreetGraph graph = finished_graph(input, whole, share_of_a_network, job);
   return connected(input, std::move(graph), std::move(whole.bridges), job);
 }
@@ -184,7 +189,9 @@ StreetGraph grow_all(const GrowthInput& input, std::vector<CmPoint>& ring_nodes,
 
 StreetGraph grow_streets(const GrowthInput& input, Job& job) {
   std::vector<CmPoint> ring_nodes;
-  StreetGraph graph = grow_all(input, ring_nodes, job);
+  bool has_branches = false;
+  StreetGraph graph = grow_all(input, ring_nodes, has_branches, job);
+  graph.has_branches = has_branches;
   choose_lanes(graph, input.streets.lane_share, job.rng().at("lanes"));
   graph.ring_nodes = std::move(ring_nodes);
   return graph;
@@ -209,8 +216,10 @@ bool drop_deep_streets(const GrowthInput& input, const StreetHeights& heights, S
   if (!is_any_deep) return false;
   for (const Bridge& bridge : graph.bridges) kept.bridges.push_back({bridge.line, bridge.tag, bridge.level});
   std::vector<CmPoint> ring_nodes = std::move(graph.ring_nodes);
+  const bool has_branches = graph.has_branches;
   graph = finished_graph(input, kept, largest_alone, job);
   graph.ring_nodes = std::move(ring_nodes);
+  graph.has_branches = has_branches;
   return true;
 }
 
