@@ -10,7 +10,7 @@
 namespace seedmesh::world {
 
 constexpr double widest_textured_spacing = 64;  ///< metres between samples of tiles with the texture
-constexpr double ground_texture_mean = 0.84;   ///< linear; vertex colours are divided by it
+constexpr double ground_texture_mean = 0.84;    ///< linear; vertex colours are divided by it
 
 struct GroundTexture {
   std::string coordinates_hash,
