@@ -48,14 +48,17 @@ double measured(const World& world, const TileKey& key, Job& job) {
   return most;
 }
 
-/// A whole number from the environment, for larger runs.
+constexpr int default_paths = 6;
+
+/// The number of paths in the worlds of a preset; the environment may ask for more.
 int number_of_paths() {
   const char* given = std::getenv("SEEDMESH_WORLD_PATHS");
-  return given ? std::max(1, std::atoi(given)) : 9;
+  return given ? std::max(1, std::atoi(given)) : default_paths;
 }
 
 /// Tiles of all levels but the leaves, which have no error, on paths from the root in three worlds of each preset.
-/// Tiles of a path share their tilesets, which take most of the time. With SEEDMESH_WORLD_PATHS=30, 2,340 tiles.
+/// Tiles of a path share their tilesets, which take most of the time. The widest tiles need
+/// the drainage of wide areas, so only the first path of a world has them. With SEEDMESH_WORLD_PATHS=32, 2,100 tiles.
 TEST(WorldErrors, AreNotBelowThoseOfTheGroundInAnyPreset) {
   const int paths = number_of_paths();
   for (const char* preset :
@@ -70,7 +73,8 @@ TEST(WorldErrors, AreNotBelowThoseOfTheGroundInAnyPreset) {
       const int last = world.levels - 1;
       const auto along = [&] { return static_cast<std::int64_t>(rng.unit() * std::ldexp(1, last)); };
       const TileKey leaf{last, along(), along()};
-      for (int level = 1; level < last; ++level) {
+      const int first = static_cast<std::size_t>(path) < worlds.size() ? 1 : 3;
+      for (int level = first; level < last; ++level) {
         const TileKey key{level, leaf.x >> (last - level), leaf.y >> (last - level)};
         const double found = measured(world, key, job);
         if (found < 0.02) continue;  // the sea
@@ -80,10 +84,10 @@ TEST(WorldErrors, AreNotBelowThoseOfTheGroundInAnyPreset) {
         ratios.push_back(declared / found);
       }
     }
-    ASSERT_GT(ratios.size(), 10U * static_cast<std::size_t>(paths));
+    ASSERT_GT(ratios.size(), 9U * static_cast<std::size_t>(paths));
     std::sort(ratios.begin(), ratios.end());
     EXPECT_LE(ratios[ratios.size() / 2], 2.0) << preset;
-    if (paths > 9)
+    if (paths > default_paths)
       std::printf("%s: %zu tiles, median of declared by measured errors %.2f\n", preset, ratios.size(),
                   ratios[ratios.size() / 2]);
   }
