@@ -55,12 +55,22 @@ double margin_of(const TileFrame& frame, const Roughness& rough) {
 /// What the model gives too much for terraces, whose edges rarely lie beside other deviations. Skirts keep it.
 double terrace_factor(const World& world) { return 1 - 0.13 * world.params.relief.terraces; }
 
+/// What cells with an edge of this length lack of the bed of a narrow river on level ground, which is the only water of
+/// some tiles. Boxes and skirts know the heights of water.
+double bed_error(double spacing, const Roughness& rough) {
+  constexpr double bank = 0.17;  ///< slope from samples on both sides to the bed
+  constexpr double depth = 2.3;  ///< metres of the land beside a narrow river above its bed
+  return rough.valley > 0 ? std::min(bank * spacing, depth) : 0;
+}
+
 /// Heights are rounded to steps, here and in tiles below. Tiles that leave plants out lack more of them the wider they
 /// are, up to the height of the plants.
 double error_of(const World& world, const TileFrame& frame, const Roughness& rough, double plant_height) {
   const double plants = std::min(plant_error * frame.side, plant_height);
   const double margin = margin_of(frame, rough) * terrace_factor(world);
-  return std::max(margin * deviation_of(world, frame.spacing, rough), plants) + frame.step;
+  const double ground =
+      std::max(margin * deviation_of(world, frame.spacing, rough), bed_error(frame.spacing, rough));
+  return std::max(ground, plants) + frame.step;
 }
 
 /// The lowest that the own skirt of a tile hangs. `between`: how far ground can be below samples.

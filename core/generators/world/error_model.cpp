@@ -65,8 +65,6 @@ void add_gullies(Sum& sum, const WorldRelief& relief, double spacing, double slo
     sum.add(2.1 * strength * gully_depth * wavelength * of_noise(spacing / wavelength));
 }
 
-constexpr double least_bed = 2.2;  ///< metres of the land beside a narrow river above its bed
-
 /// Valley sides meet the land and the flat beside the water with an angle.
 void add_valley(Sum& sum, double spacing, const Roughness& rough) {
   if (rough.valley <= 0) return;
@@ -75,7 +73,7 @@ void add_valley(Sum& sum, double spacing, const Roughness& rough) {
   const double bent = angle * spacing / 4 * (1 + spacing / (spacing + 300)), rounded = bent * bent / 6;
   sum.add(std::min(rough.valley, std::min(bent, rounded)));
   // the bed and its banks
-  sum.add(std::min({0.16 * spacing, std::max(least_bed, 0.35 * rough.valley), 4.5}));
+  sum.add(std::min({0.12 * spacing, 0.35 * rough.valley, 4.5}));
 }
 
 }  // namespace
