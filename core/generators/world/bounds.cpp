@@ -44,19 +44,33 @@ TileBounds in_plan(const World& world, const TileKey& key) {
 
 constexpr double plant_error = 1.0 / 192;  ///< of the side of a tile
 
-/// What deviations are multiplied by, so that hardly a tile of the presets has a greater one: errors_test.cpp counts them.
+/// What deviations are multiplied by, so that no tile of the presets has a greater one: errors_test.cpp measures them.
 double margin_of(const TileFrame& frame, const Roughness& rough) {
-  const bool is_estimate = rough.met.spacing == frame.spacing && !rough.met.has_detail;
-  if (!is_estimate || frame.spacing > coarse_spacing) return 1.05;
+  if (!rough.met.is_estimate || rough.met.has_detail) return 1.05;
+  if (frame.spacing > coarse_spacing) return 1.4;
   constexpr double high_mountains = 0.6;  ///< ruggedness; their crests are sharper
-  return rough.ruggedness > high_mountains ? 1.45 : 1.2;
+  return rough.ruggedness > high_mountains ? 1.45 : 1.33;
+}
+
+/// What the model gives too much for terraces, whose edges rarely lie beside other deviations. Skirts keep it.
+double terrace_factor(const World& world) { return 1 - 0.13 * world.params.relief.terraces; }
+
+/// What cells with an edge of this length lack of the bed of a narrow river on level ground, which is the only water of
+/// some tiles. Boxes and skirts know the heights of water.
+double bed_error(double spacing, const Roughness& rough) {
+  constexpr double bank = 0.17;  ///< slope from samples on both sides to the bed
+  constexpr double depth = 2.3;  ///< metres of the land beside a narrow river above its bed
+  return rough.valley > 0 ? std::min(bank * spacing, depth) : 0;
 }
 
 /// Heights are rounded to steps, here and in tiles below. Tiles that leave plants out lack more of them the wider they
 /// are, up to the height of the plants.
 double error_of(const World& world, const TileFrame& frame, const Roughness& rough, double plant_height) {
   const double plants = std::min(plant_error * frame.side, plant_height);
-  return std::max(margin_of(frame, rough) * deviation_of(world, frame.spacing, rough), plants) + frame.step;
+  const double margin = margin_of(frame, rough) * terrace_factor(world);
+  const double ground =
+      std::max(margin * deviation_of(world, frame.spacing, rough), bed_error(frame.spacing, rough));
+  return std::max(ground, plants) + frame.step;
 }
 
 /// The lowest that the own skirt of a tile hangs. `between`: how far ground can be below samples.
@@ -144,7 +158,8 @@ void set_met(Area& area, const Areas& found, int depth, std::size_t tile, const 
   const std::vector<double>& met = found.deviations[static_cast<std::size_t>(depth)];
   if (met.empty()) return;
   const double finer = std::min(found.spacing, frame.spacing / (frame.spacing == coarse_spacing ? 4 : 2));
-  area.rough.met = {met[tile], frame.spacing, finer, found.has_valleys, found.has_detail};
+  area.rough.met = {met[tile],         frame.spacing,    finer,
+                    found.has_valleys, found.has_detail, found.spacing >= frame.spacing};
 }
 
 Block make_block(const World& world, const TileKey& root, Job& job) {

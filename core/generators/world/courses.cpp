@@ -30,13 +30,27 @@ std::pair<double, double> left_of(const std::vector<RiverPoint>& points, std::si
 struct Bounds {
   double west = 1e12, south = 1e12, east = -1e12, north = -1e12;
 };
-Bounds bounds_of(const Course& course) {
-  Bounds b;
-  for (const RiverPoint& p : course.points) {
-    b = {std::min(b.west, p.east), std::min(b.south, p.north), std::max(b.east, p.east),
-         std::max(b.north, p.north)};
+Bounds joined(const Bounds& a, const Bounds& b) {
+  return {std::min(a.west, b.west), std::min(a.south, b.south), std::max(a.east, b.east),
+          std::max(a.north, b.north)};
+}
+
+constexpr std::size_t points_a_piece = 8;
+
+/// The bounds of a course, and of each piece of it.
+struct Extent {
+  Bounds whole;
+  std::vector<Bounds> pieces;
+};
+Extent extent_of(const Course& course) {
+  Extent extent;
+  for (std::size_t k = 0; k < course.points.size(); ++k) {
+    if (k % points_a_piece == 0) extent.pieces.emplace_back();
+    const RiverPoint& p = course.points[k];
+    extent.pieces.back() = joined(extent.pieces.back(), {p.east, p.north, p.east, p.north});
   }
-  return b;
+  for (const Bounds& piece : extent.pieces) extent.whole = joined(extent.whole, piece);
+  return extent;
 }
 
 /// A position of water, and the land there.
@@ -53,14 +67,14 @@ double below_valley(const Site& site, const Beside& beside) {
 class Lowering {
  public:
   Lowering(std::vector<Course>& courses, std::vector<Lake>& lakes) : courses_(courses), lakes_(lakes) {
-    for (const Course& course : courses_) bounds_.push_back(bounds_of(course));
+    for (const Course& course : courses_) extents_.push_back(extent_of(course));
   }
 
   void lower(int n) {
     Course& course = at(n);
     std::vector<RiverPoint>& points = course.points;
     const bool has_river = points.size() > 1;
-    if (has_river) find_near(bounds_[static_cast<std::size_t>(n)]);
+    if (has_river) find_near(extents_[static_cast<std::size_t>(n)].whole);
     double water = has_river ? end_of(course) : -std::numeric_limits<double>::infinity();
     for (std::size_t k = points.size(); has_river && k-- > 0;) {
       RiverPoint& p = points[k];
@@ -91,7 +105,7 @@ class Lowering {
   void find_near(const Bounds& own) {
     near_.clear();
     for (std::size_t n = 0; n < courses_.size(); ++n) {
-      if (courses_[n].points.size() > 1 && is_near(bounds_[n], own)) near_.push_back(n);
+      if (courses_[n].points.size() > 1 && is_near(extents_[n].whole, own)) near_.push_back(n);
     }
   }
 
@@ -109,19 +123,31 @@ class Lowering {
     return lake.level + lake_grade * std::max(0.0, away - shore_distance(lake, p.east, p.north, away));
   }
 
+  /// Lowers `most` to what the valleys of the points of a course, from `from` on, allow at a position.
+  void add_course(double& most, const Site& site, std::size_t n, std::size_t from) const {
+    const std::vector<RiverPoint>& points = courses_[n].points;
+    const Extent& extent = extents_[n];
+    const Bounds own{site.east, site.north, site.east, site.north};
+    if (!is_near(extent.whole, own)) return;
+    for (std::size_t piece = from / points_a_piece; piece < extent.pieces.size(); ++piece) {
+      if (!is_near(extent.pieces[piece], own)) continue;
+      const std::size_t end = std::min(points.size(), (piece + 1) * points_a_piece);
+      for (std::size_t k = std::max(from, piece * points_a_piece); k < end; ++k) {
+        const double x = site.east - points[k].east, y = site.north - points[k].north, square = x * x + y * y;
+        if (square >= valley_reach * valley_reach || points[k].water >= most) continue;
+        const Beside beside{std::sqrt(square), points[k].width / 2, points[k].water};
+        const double highest = most + shallow;
+        if (highest <= site.land && is_above(highest, site.land, site.ruggedness, beside)) continue;
+        most = std::min(most, below_valley(site, beside));
+      }
+    }
+  }
+
   /// The level that valleys around a position allow; of the river `own`, those of the points after `from`.
   double most_at(const Site& site, int own, std::size_t from) const {
     const double east = site.east, north = site.north;
     double most = std::numeric_limits<double>::infinity();
-    for (const std::size_t n : near_) {
-      const std::vector<RiverPoint>& points = courses_[n].points;
-      if (!is_near(bounds_[n], {east, north, east, north})) continue;
-      for (std::size_t k = static_cast<int>(n) == own ? from + 1 : 0; k < points.size(); ++k) {
-        const double x = east - points[k].east, y = north - points[k].north, square = x * x + y * y;
-        if (square >= valley_reach * valley_reach || points[k].water >= most) continue;
-        most = std::min(most, below_valley(site, {std::sqrt(square), points[k].width / 2, points[k].water}));
-      }
-    }
+    for (const std::size_t n : near_) add_course(most, site, n, static_cast<int>(n) == own ? from + 1 : 0);
     for (const Lake& near : lakes_) {
       const double x = east - near.east, y = north - near.north, away = std::sqrt(x * x + y * y);
       if (away >= valley_reach + lake_uneven * near.radius || near.level >= most) continue;
@@ -150,20 +176,14 @@ class Lowering {
     double most = std::numeric_limits<double>::infinity();
     const int own = courses_[static_cast<std::size_t>(n)].lake;
     for (std::size_t m = 0; m < courses_.size(); ++m) {
-      if (static_cast<int>(m) == n || courses_[m].into_lake == own) continue;
-      if (!is_near(bounds_[m], {site.east, site.north, site.east, site.north})) continue;
-      for (const RiverPoint& p : courses_[m].points) {
-        const double x = site.east - p.east, y = site.north - p.north, square = x * x + y * y;
-        if (square >= valley_reach * valley_reach || p.water >= most) continue;
-        most = std::min(most, below_valley(site, {std::sqrt(square), p.width / 2, p.water}));
-      }
+      if (static_cast<int>(m) != n && courses_[m].into_lake != own) add_course(most, site, m, 0);
     }
     return most;
   }
 
   std::vector<Course>& courses_;
   std::vector<Lake>& lakes_;
-  std::vector<Bounds> bounds_;
+  std::vector<Extent> extents_;
   std::vector<std::size_t> near_;  ///< rivers with a valley that can reach the one that is lowered
 };
 

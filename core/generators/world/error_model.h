@@ -16,6 +16,7 @@ struct MetDeviation {
   double spacing = 0;        ///< spacing of the vertices of the tile; 0 if nothing was measured
   double finer_spacing = 0;  ///< spacing of the samples
   bool has_valleys = false, has_detail = false;  ///< whether the samples have them; detail includes roads
+  bool is_estimate = false;  ///< by cells twice as wide, where no samples lie inside of the cells
 };
 
 constexpr double sea_floor_coast = 0.05;  ///< coast of Land below which the ground is the floor of the sea

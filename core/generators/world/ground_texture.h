@@ -1,5 +1,5 @@
 #pragma once
-/// The texture of the ground of small tiles: a grey square that repeats, and the coordinates of the vertices in it,
+/// The texture of the ground of tiles of up to 2 km: a grey square that repeats, and the coordinates of the vertices in it,
 /// which are the same in all tiles. Both are files that tiles share.
 #include <memory>
 #include <string>
@@ -9,8 +9,8 @@
 
 namespace seedmesh::world {
 
-constexpr double widest_textured_spacing = 8;  ///< metres between samples of tiles with the texture
-constexpr double ground_texture_mean = 0.84;   ///< linear; vertex colours are divided by it
+constexpr double widest_textured_spacing = 64;  ///< metres between samples of tiles with the texture
+constexpr double ground_texture_mean = 0.84;    ///< linear; vertex colours are divided by it
 
 struct GroundTexture {
   std::string coordinates_hash,

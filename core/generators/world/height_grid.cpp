@@ -135,8 +135,9 @@ void carve(HeightGrid& grid, const UncutLand& land, const Reach& reach, double w
     const double dx = x - share * reach.x, dy = y - share * reach.y;
     const Beside beside{std::sqrt(dx * dx + dy * dy), (a.width + share * (b.width - a.width)) / 2,
                         a.water + share * (b.water - a.water)};
-    const ValleySide side = valley_side(land.heights[n], static_cast<double>(land.ruggedness[n]), beside);
-    grid.heights[n] = std::min(grid.heights[n], side.height);
+    const double uncut = land.heights[n], ruggedness = static_cast<double>(land.ruggedness[n]);
+    if (is_above(grid.heights[n], uncut, ruggedness, beside)) return;
+    grid.heights[n] = std::min(grid.heights[n], valley_side(uncut, ruggedness, beside).height);
   });
 }
 

@@ -61,6 +61,15 @@ Slope ranges_of(const Octaves<8>& octaves, double rounding, std::array<float, ra
   return sum * (1 / total);
 }
 
+/// The height of the sea floor and of the land by their distance from the coast, with a continuous slope.
+Slope coast_height(const Slope& coast) {
+  const double c = coast.value;
+  if (c <= -coast_blend) return coast * sea_fall;
+  if (c >= coast_blend) return coast * land_rise;
+  const double from = c + coast_blend, bend = (land_rise - sea_fall) / (4 * coast_blend);
+  return applied(coast, sea_fall * c + bend * from * from, sea_fall + 2 * bend * from);
+}
+
 /// Steps of layered rock: flat and steep parts in turn.
 Slope terraced(const Slope& h, double share) {
   if (share <= 0) return h;
@@ -99,7 +108,7 @@ Land land_at(const World& world, double east, double north) {
   const Slope on_land = smooth_step(coast, -0.04, 0.3);
   const Slope rugged = smooth_step(sum_of(wide, 4, 2), -0.25, 0.55) * on_land;
   Land land{{}, rugged.value, coast.value, {}};
-  Slope height = coast * (coast.value < 0 ? sea_fall : land_rise);
+  Slope height = coast_height(coast);
   Slope hills;
   if (relief.mountains > 0 && rugged.value > 0) {
     // all octaves together fill the lanes

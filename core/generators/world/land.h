@@ -16,7 +16,10 @@ constexpr double range_fall = 0.48;         ///< amplitude of a ridge divided by
 constexpr double hill_wavelength = 5200;
 constexpr double detail_wavelength = 720;
 constexpr double land_rise = 170, sea_fall = 520;  ///< metres at a coast value of 1
-constexpr double terrace_step = 60;                ///< metres
+/// Coast values up to which the fall of the sea floor becomes the rise of the land. Without this transition the slope
+/// would jump at 0, and gullies, which follow the slope, would have steps there.
+constexpr double coast_blend = 0.02;
+constexpr double terrace_step = 60;  ///< metres
 
 /// The land at wavelengths of 1.2 km and more, in metres above zero, and what finer wavelengths depend on.
 struct Land {

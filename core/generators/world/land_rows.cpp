@@ -33,23 +33,54 @@ struct Inside {
   float u, v, du, dv;
 };
 
-void add_inside(const Cell& cell, const Inside& at, float amplitude, std::size_t count, float* out) {
-  const float ax = cell.a[0], ay = cell.a[1], bx = cell.b[0], by = cell.b[1];
-  const float cx = cell.c[0], cy = cell.c[1], dx = cell.d[0], dy = cell.d[1];
-  for (std::size_t k = 0; k < count; ++k) {
-    const auto n = static_cast<float>(static_cast<std::int32_t>(k));
-    const float u = at.u + n * at.du, v = at.v + n * at.dv;
+/// The directions at the corners of a cell, by value, so that a loop keeps them in registers.
+struct Directions {
+  explicit Directions(const Cell& cell)
+      : ax(cell.a[0]),
+        ay(cell.a[1]),
+        bx(cell.b[0]),
+        by(cell.b[1]),
+        cx(cell.c[0]),
+        cy(cell.c[1]),
+        dx(cell.d[0]),
+        dy(cell.d[1]) {}
+  float ax, ay, bx, by, cx, cy, dx, dy;
+
+  /// Noise at the fractions (u, v) of the cell.
+  float at(float u, float v) const {
     const float s = u * u * u * (u * (u * 6 - 15) + 10), t = v * v * v * (v * (v * 6 - 15) + 10);
     const float sw = ax * u + ay * v, se = bx * (u - 1) + by * v;
     const float nw = cx * u + cy * (v - 1), ne = dx * (u - 1) + dy * (v - 1);
     const float south = sw + s * (se - sw), north = nw + s * (ne - nw);
-    out[k] += amplitude * (south + t * (north - south));
+    return south + t * (north - south);
+  }
+};
+
+void add_inside(const Cell& cell, const Inside& at, float amplitude, std::size_t count, float* out) {
+  const Directions directions(cell);
+  for (std::size_t k = 0; k < count; ++k) {
+    const auto n = static_cast<float>(static_cast<std::int32_t>(k));
+    out[k] += amplitude * directions.at(at.u + n * at.du, at.v + n * at.dv);
+  }
+}
+
+/// Adds noise where hardly two positions lie in one cell.
+void add_singles(const RowOfPositions& row, std::uint64_t key, double by, float amplitude, Row& out) {
+  for (std::size_t k = 0; k < row.count; ++k) {
+    const double east = row.west + static_cast<double>(k) * row.spacing;
+    const double x = (turn_cosine * east - turn_sine * row.north) * by,
+                 y = (turn_sine * east + turn_cosine * row.north) * by;
+    const double column = std::floor(x), line = std::floor(y);
+    out[k] +=
+        amplitude *
+        Directions(Cell(key, column, line)).at(static_cast<float>(x - column), static_cast<float>(y - line));
   }
 }
 
 /// Adds an octave of noise with a wavelength of 1 / `by` metres.
 void add_octave(const RowOfPositions& row, std::uint64_t key, double by, double amplitude, Row& out) {
   const double step_x = turn_cosine * row.spacing * by, step_y = turn_sine * row.spacing * by;
+  if (step_x + step_y > 0.6) return add_singles(row, key, by, scale * static_cast<float>(amplitude), out);
   for (std::size_t k = 0; k < row.count;) {
     const double east = row.west + static_cast<double>(k) * row.spacing;
     const double x = (turn_cosine * east - turn_sine * row.north) * by,
@@ -83,6 +114,14 @@ void set_sum(const RowOfPositions& row, const std::array<std::uint64_t, octaves>
 float smooth_step(float x, float low, float high) {
   const float t = std::clamp((x - low) / (high - low), 0.0F, 1.0F);
   return t * t * (3 - 2 * t);
+}
+
+/// As in land.cpp, without branches.
+float coast_height(float coast) {
+  constexpr auto blend = static_cast<float>(coast_blend), fall = static_cast<float>(sea_fall),
+                 bend = static_cast<float>(land_rise - sea_fall);
+  const float from = std::clamp(coast + blend, 0.0F, 2 * blend), beyond = std::max(0.0F, coast - blend);
+  return fall * coast + bend * (from * from / (4 * blend) + beyond);
 }
 
 float terraced(float height, float share) {
@@ -132,7 +171,7 @@ void land_of_row(const World& world, const RowOfPositions& row, LandRow& land) {
     const float rugged = smooth_step(land.ruggedness[i], -0.25F, 0.55F) * on_land[i];
     land.ruggedness[i] = rugged;
     is_rugged |= rugged > 0;
-    land.height[i] = coast * static_cast<float>(coast < 0 ? sea_fall : land_rise);
+    land.height[i] = coast_height(coast);
   }
   for (Row& ridge : land.ridges) ridge.assign(row.count, 0);
   if (relief.mountains > 0 && is_rugged) add_ranges(world, row, land);

@@ -9,21 +9,38 @@ constexpr double first_return = 0.12;  ///< of the reach; from here the valley r
 constexpr double slope_blend =
     24;  ///< metres of height over which the slope of a valley becomes that of the land
 
+constexpr double most_blend = 24;  ///< metres
+
 /// Metres of height over which a valley meets the land. Small beside the water, so that the rounding never cuts the
 /// bank below the water.
 double blend_at(double from_bank) {
-  constexpr double least = 2, by = 0.04, most = 24;
-  return std::min(most, least + by * from_bank);
+  constexpr double least = 2, by = 0.04;
+  return std::min(most_blend, least + by * from_bank);
 }
 
+/// The height of the side before it meets the land.
+double plain_side(const Beside& beside, double slope) {
+  const double flat = 40 + 8 * beside.half_width;
+  return beside.water + 1 + 0.02 * beside.away + slope * std::max(0.0, beside.away - flat);
+}
+
+double slope_of_side(double ruggedness) { return 0.16 + 0.36 * ruggedness; }
+
 }  // namespace
+
+bool is_above(double height, double land, double ruggedness, const Beside& beside) {
+  if (beside.away >= valley_reach) return true;
+  const double side = plain_side(beside, slope_of_side(ruggedness));
+  // where the side is above the land by the blend, the valley is the land; elsewhere a quarter of the blend is cut
+  return side >= land + most_blend || std::min(land, side) - most_blend / 4 >= height;
+}
 
 ValleySide valley_side(double land, double ruggedness, const Beside& beside) {
   const double away = beside.away;
   if (away >= valley_reach) return {land, 1, 0};
-  const double flat = 40 + 8 * beside.half_width, slope = 0.16 + 0.36 * ruggedness;
-  const double beyond = std::max(0.0, away - flat);
-  const double side = beside.water + 1 + 0.02 * away + slope * beyond;
+  const double slope = slope_of_side(ruggedness);
+  const double beyond = std::max(0.0, away - (40 + 8 * beside.half_width));
+  const double side = plain_side(beside, slope);
   const double blend = blend_at(std::max(0.0, away - beside.half_width));
   const double overlap = std::max(0.0, blend - std::abs(land - side));
   const double low = std::min(land, side) - overlap * overlap / (4 * blend);

@@ -3,7 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 #include <fstream>
 
 #include "core/generators/world/terrain_grid.h"
@@ -27,54 +30,66 @@ World bare_world(const std::string& preset, std::uint64_t seed) {
 double measured(const World& world, const TileKey& key, Job& job) {
   constexpr int finer = 4;
   const TileFrame frame = frame_of(world, key);
-  const TerrainGrid coarse = sample_grid(world, frame, frame.cells, 0, job);
   const TerrainGrid fine = sample_grid(world, frame, finer * frame.cells, 0, job);
+  const auto corner = [&](int i, int j) { return fine.at(finer * i, finer * j).height; };
   double most = 0;
   for (int row = 0; row < fine.count; ++row) {
     for (int column = 0; column < fine.count; ++column) {
       const int i = std::min(column / finer, frame.cells - 1), j = std::min(row / finer, frame.cells - 1);
       const double u = 1.0 * column / finer - i, v = 1.0 * row / finer - j;
-      const double sw = coarse.at(i, j).height, ne = coarse.at(i + 1, j + 1).height;
-      const double corner = u >= v ? coarse.at(i + 1, j).height : coarse.at(i, j + 1).height;
-      const double east = u >= v ? corner - sw : ne - corner, north = u >= v ? ne - corner : corner - sw;
+      const double sw = corner(i, j), ne = corner(i + 1, j + 1);
+      const double third = u >= v ? corner(i + 1, j) : corner(i, j + 1);
+      const double east = u >= v ? third - sw : ne - third, north = u >= v ? ne - third : third - sw;
       const double off = std::abs(fine.at(column, row).height - (sw + u * east + v * north));
       most = std::max(most,
-                      off / std::sqrt(1 + (east * east + north * north) / (coarse.spacing * coarse.spacing)));
+                      off / std::sqrt(1 + (east * east + north * north) / (frame.spacing * frame.spacing)));
     }
   }
   return most;
 }
 
-/// Tiles of all levels but the leaves, which have no error, in three worlds of each preset.
-TEST(WorldErrors, AreNearThoseOfTheGroundInAllPresets) {
-  constexpr int tiles = 200;
+constexpr int default_paths = 6;
+
+/// The number of paths in the worlds of a preset; the environment may ask for more.
+int number_of_paths() {
+  const char* given = std::getenv("SEEDMESH_WORLD_PATHS");
+  return given ? std::max(1, std::atoi(given)) : default_paths;
+}
+
+/// Tiles of all levels but the leaves, which have no error, on paths from the root in three worlds of each preset.
+/// Tiles of a path share their tilesets, which take most of the time. The widest tiles need
+/// the drainage of wide areas, so only the first path of a world has them. With SEEDMESH_WORLD_PATHS=32, 2,100 tiles.
+TEST(WorldErrors, AreNotBelowThoseOfTheGroundInAnyPreset) {
+  const int paths = number_of_paths();
   for (const char* preset :
        {"temperate_land", "alpine", "archipelago", "desert_oases", "boreal_plain", "alien_plateaus"}) {
     Job job = test_job();
+    const std::array<World, 3> worlds{bare_world(preset, 7), bare_world(preset, 7919),
+                                      bare_world(preset, 15838)};
     std::vector<double> ratios;
-    std::size_t low = 0;
-    for (const std::uint64_t seed : {7U, 7919U, 15838U}) {
-      const World world = bare_world(preset, seed);
-      for (int n = 0; n < tiles / 3; ++n) {
-        Rng rng = Rng::of_seed(static_cast<std::uint64_t>(n)).at(preset);
-        const int level = n % (world.levels - 2) + 1;
-        const auto along = [&] { return static_cast<std::int64_t>(rng.unit() * std::ldexp(1, level)); };
-        const TileKey key{level, along(), along()};
+    for (int path = 0; path < paths; ++path) {
+      const World& world = worlds[static_cast<std::size_t>(path) % worlds.size()];
+      Rng rng = Rng::of_seed(static_cast<std::uint64_t>(path)).at(preset);
+      const int last = world.levels - 1;
+      const auto along = [&] { return static_cast<std::int64_t>(rng.unit() * std::ldexp(1, last)); };
+      const TileKey leaf{last, along(), along()};
+      const int first = static_cast<std::size_t>(path) < worlds.size() ? 1 : 3;
+      for (int level = first; level < last; ++level) {
+        const TileKey key{level, leaf.x >> (last - level), leaf.y >> (last - level)};
         const double found = measured(world, key, job);
-        const double declared = tile_bounds(world, key, job).geometric_error;
         if (found < 0.02) continue;  // the sea
+        const double declared = tile_bounds(world, key, job).geometric_error;
+        EXPECT_GE(declared, found) << preset << " " << world.seed << " " << level << "/" << key.x << "/"
+                                   << key.y;
         ratios.push_back(declared / found);
-        if (declared >= found) continue;
-        ++low;
-        EXPECT_GT(declared, 0.7 * found)
-            << preset << " " << seed << " " << key.level << "/" << key.x << "/" << key.y;
       }
     }
-    ASSERT_GT(ratios.size(), 100U);
+    ASSERT_GT(ratios.size(), 9U * static_cast<std::size_t>(paths));
     std::sort(ratios.begin(), ratios.end());
-    EXPECT_LE(ratios[ratios.size() / 2], 2.1) << preset;
-    EXPECT_LE(low, ratios.size() / 90)
-        << preset << ": declared below measured in more than one of ninety tiles";
+    EXPECT_LE(ratios[ratios.size() / 2], 2.0) << preset;
+    if (paths > default_paths)
+      std::printf("%s: %zu tiles, median of declared by measured errors %.2f\n", preset, ratios.size(),
+                  ratios[ratios.size() / 2]);
   }
 }
 

@@ -10,6 +10,7 @@
 #include "core/generators/world/plants.h"
 #include "core/generators/world/region.h"
 #include "core/generators/world/roads.h"
+#include "core/generators/world/valley.h"
 #include "tests/core/world/world_support.h"
 
 namespace seedmesh::world {
@@ -58,6 +59,28 @@ TEST(WorldLayers, LandHasItsDerivative) {
   }
 }
 
+/// Gullies follow the slope, so a step of the slope would be a step of the ground.
+TEST(WorldLayers, SlopesOfLandHaveNoStepAtCoasts) {
+  WorldParams params = mountains_with_woods();
+  params.relief.continents = 36000;
+  params.relief.land = 0.4;
+  const World world = world_of(params);
+  int coasts = 0;
+  for (int line = 0; line < 20; ++line) {
+    Land before = land_at(world, -40000, 2000.0 * line);
+    for (int k = 1; k < 20000; ++k) {
+      const Land here = land_at(world, -40000 + 4.0 * k, 2000.0 * line);
+      if ((here.coast < 0) != (before.coast < 0)) {
+        ++coasts;
+        EXPECT_NEAR(here.height.east, before.height.east, 0.012);
+        EXPECT_NEAR(here.height.north, before.height.north, 0.012);
+      }
+      before = here;
+    }
+  }
+  EXPECT_GT(coasts, 20);
+}
+
 TEST(WorldLayers, RowsOfLandAreThoseOfSinglePositions) {
   WorldParams params = mountains_with_woods();
   params.relief.terraces = 0.4;
@@ -78,6 +101,22 @@ TEST(WorldLayers, RowsOfLandAreThoseOfSinglePositions) {
         EXPECT_NEAR(static_cast<double>(land.ridges[m][k]), static_cast<double>(one.ridges[m]), 1e-3);
     }
   }
+}
+
+TEST(WorldLayers, ValleysAreNotBelowHeightsThatTheyAreSaidToBeAbove) {
+  Rng rng = Rng::of_seed(11);
+  int above = 0, below = 0;
+  for (int k = 0; k < 20000; ++k) {
+    const double land = rng.uniform(0, 900), ruggedness = rng.unit(), height = land - rng.uniform(0, 300);
+    const Beside beside{rng.uniform(0, 1.1 * valley_reach), rng.uniform(1, 60), rng.uniform(0, land)};
+    const bool is_lower = valley_side(land, ruggedness, beside).height < height;
+    const bool is_said = is_above(height, land, ruggedness, beside);
+    EXPECT_FALSE(is_lower && is_said) << land << " " << beside.away << " " << beside.water;
+    above += is_said ? 1 : 0;
+    below += is_lower ? 1 : 0;
+  }
+  EXPECT_GT(above, 2000);
+  EXPECT_GT(below, 2000);
 }
 
 /// Every river of 25 regions.
