@@ -6,7 +6,6 @@
 #include <cassert>
 #include <cmath>
 #include <string_view>
-#include <vector>
 
 #include "core/model/model.h"
 #include "core/texture/bay.h"
@@ -16,6 +15,7 @@
 #include "core/texture/joinery.h"
 #include "core/texture/noise.h"
 #include "core/texture/rooms.h"
+#include "core/texture/sheet_metal.h"
 
 namespace seedmesh::texture {
 namespace {
@@ -60,8 +60,7 @@ Relief laid(const Masonry& masonry, int size, Rng rng, const Job& job) {
 
 // A texture of 512 texels has 512 to 570 texels a metre. Tones that vary slowly are weak, because tiles of a metre repeat.
 constexpr glm::dvec2 brick_tile{1, 0.9}, plaster_tile{1, 1}, roof_tile_tile{1, 0.9}, slate_tile{1, 1},
-    planks_tile{1, 1}, ashlar_tile{1, 1}, concrete_tile{1, 1}, sheet_tile{1, 1}, panel_tile{1, 1},
-    plain_tile{1, 1};
+    planks_tile{1, 1}, ashlar_tile{1, 1}, concrete_tile{1, 1}, plain_tile{1, 1};
 
 Relief brick(int size, Rng rng, const Job& job) {
   return laid({{4, 12, 0.5F, brick_tile}, 0.005F, 0.006F, 0.75F, 0.06F}, size, rng, job);
@@ -235,50 +234,6 @@ Relief ashlar_bay(int size, Rng rng, const Job& job) {
   return with_window(laid({{4, 8, 0.5F, bay_tile}, 0.005F, 0.016F, 0.3F, 0.05F}, size, rng, job), job);
 }
 
-/// Vertical ribs.
-Relief sheet(int size, Rng rng, const Job& job) {
-  constexpr int ribs = 5;
-  const Noise patch_noise(size, {3, 2}, {4, 0.55F}, 0.6F, rng.at("patches"));
-  const Noise streak_noise(size, {64, 8}, {2, 0.6F}, 0.5F, rng.at("streaks"));
-  std::vector<float> rib;
-  for (int x = 0; x < size; ++x) {
-    const float u = (static_cast<float>(x) + 0.5F) * ribs / static_cast<float>(size);
-    rib.push_back(1 - step_between(0.18F, 0.28F, std::abs(u - std::floor(u) - 0.5F)));
-  }
-  return paint_rows(size, Accent::none, job, [&](int begin, int end, const auto& row_at) {
-    NoiseRows patch_rows(patch_noise), streak_rows(streak_noise);
-    for (int y = begin; y < end; ++y) {
-      const float *large = patch_rows.row(y), *fine = streak_rows.row(y);
-      const ReliefRow out = row_at(y);
-      for (int x = 0; x < size; ++x) {
-        out.height[x] = rib[static_cast<std::size_t>(x)];
-        out.tone[x] = clamp_share(0.46F + 0.1F * out.height[x] + 0.05F * large[x] + 0.12F * fine[x]);
-      }
-    }
-  });
-}
-
-/// Smooth panels of metal with open joints.
-Relief panels(int size, Rng rng, const Job& job) {
-  const Courses courses({1, 1, 0, panel_tile}, size);
-  const Noise patch_noise(size, {3, 2}, {4, 0.5F}, 0.6F, rng.at("patches"));
-  const Noise streak_noise(size, {48, 3}, {2, 0.6F}, 0.5F, rng.at("streaks"));
-  return paint_rows(size, Accent::none, job, [&](int begin, int end, const auto& row_at) {
-    NoiseRows patch_rows(patch_noise), streak_rows(streak_noise);
-    for (int y = begin; y < end; ++y) {
-      const Courses::Row course = courses.row(y);
-      const float *large = patch_rows.row(y), *streaks = streak_rows.row(y);
-      const ReliefRow out = row_at(y);
-      for (int x = 0; x < size; ++x) {
-        const float edge = course.to_side[x] < course.to_bed ? course.to_side[x] : course.to_bed;
-        const float panel = step_between(0.005F, 0.008F, edge);
-        out.height[x] = clamp_share(0.9F * panel + 0.04F * large[x]);
-        out.tone[x] = clamp_share(0.5F + 0.06F * large[x] + 0.06F * streaks[x] - 0.5F * (1 - panel));
-      }
-    }
-  });
-}
-
 /// One piece of stone, as of sills, lintels and steps: fine grain and small pits, without joints.
 Relief dressed_stone(int size, Rng rng, const Job& job) {
   const Noise grain_noise(size, {64, 64}, {1, 1}, 0.6F, rng.at("grain"));
@@ -315,8 +270,8 @@ constexpr WallKind kinds[] = {
     {"planks", planks_tile, true},
     {"ashlar", ashlar_tile, true},
     {"concrete", concrete_tile, true},
-    {"sheet", sheet_tile, true},
-    {"panels", panel_tile, true},
+    {"sheet", sheet_metal_tile, true},
+    {"panels", sheet_metal_tile, true},
     {"dressed_stone", plain_tile, true},
     {"paint", plain_tile, true},
     {"rooms", plain_tile, false},
