@@ -6,7 +6,6 @@
 #include <cassert>
 #include <cmath>
 #include <string_view>
-#include <vector>
 
 #include "core/model/model.h"
 #include "core/texture/bay.h"
@@ -16,6 +15,7 @@
 #include "core/texture/joinery.h"
 #include "core/texture/noise.h"
 #include "core/texture/rooms.h"
+#include "core/texture/sheet_metal.h"
 
 namespace seedmesh::texture {
 namespace {
@@ -60,8 +60,7 @@ Relief laid(const Masonry& masonry, int size, Rng rng, const Job& job) {
 
 // A texture of 512 texels has 512 to 570 texels a metre. Tones that vary slowly are weak, because tiles of a metre repeat.
 constexpr glm::dvec2 brick_tile{1, 0.9}, plaster_tile{1, 1}, roof_tile_tile{1, 0.9}, slate_tile{1, 1},
-    planks_tile{1, 1}, ashlar_tile{1, 1}, concrete_tile{1, 1}, sheet_tile{1, 1}, panel_tile{1, 1},
-    plain_tile{1, 1};
+    planks_tile{1, 1}, ashlar_tile{1, 1}, concrete_tile{1, 1}, plain_tile{1, 1};
 
 Relief brick(int size, Rng rng, const Job& job) {
   return laid({{4, 12, 0.5F, brick_tile}, 0.005F, 0.006F, 0.75F, 0.06F}, size, rng, job);
@@ -235,50 +234,6 @@ Relief ashlar_bay(int size, Rng rng, const Job& job) {
   return with_window(laid({{4, 8, 0.5F, bay_tile}, 0.005F, 0.016F, 0.3F, 0.05F}, size, rng, job), job);
 }
 
-/// Vertical ribs.
-Relief sheet(int size, Rng rng, const Job& job) {
-  constexpr int ribs = 5;
-  const Noise patch_noise(size, {3, 2}, {4, 0.55F}, 0.6F, rng.at("patches"));
-  const Noise streak_noise(size, {64, 8}, {2, 0.6F}, 0.5F, rng.at("streaks"));
-  std::vector<float> rib;
-  for (int x = 0; x < size; ++x) {
-    const float u = (static_cast<float>(x) + 0.5F) * ribs / static_cast<float>(size);
-    rib.push_back(1 - step_between(0.18F, 0.28F, std::abs(u - std::floor(u) - 0.5F)));
-  }
-  return paint_rows(size, Accent::none, job, [&](int begin, int end, const auto& row_at) {
-    NoiseRows patch_rows(patch_noise), streak_rows(streak_noise);
-    for (int y = begin; y < end; ++y) {
-      const float *large = patch_rows.row(y), *fine = streak_rows.row(y);
-      const ReliefRow out = row_at(y);
-      for (int x = 0; x < size; ++x) {
-        out.height[x] = rib[static_cast<std::size_t>(x)];
-        out.tone[x] = clamp_share(0.46F + 0.1F * out.height[x] + 0.05F * large[x] + 0.12F * fine[x]);
-      }
-    }
-  });
-}
-
-/// Smooth panels of metal with open joints.
-Relief panels(int size, Rng rng, const Job& job) {
-  const Courses courses({1, 1, 0, panel_tile}, size);
-  const Noise patch_noise(size, {3, 2}, {4, 0.5F}, 0.6F, rng.at("patches"));
-  const Noise streak_noise(size, {48, 3}, {2, 0.6F}, 0.5F, rng.at("streaks"));
-  return paint_rows(size, Accent::none, job, [&](int begin, int end, const auto& row_at) {
-    NoiseRows patch_rows(patch_noise), streak_rows(streak_noise);
-    for (int y = begin; y < end; ++y) {
-      const Courses::Row course = courses.row(y);
-      const float *large = patch_rows.row(y), *streaks = streak_rows.row(y);
-      const ReliefRow out = row_at(y);
-      for (int x = 0; x < size; ++x) {
-        const float edge = course.to_side[x] < course.to_bed ? course.to_side[x] : course.to_bed;
-        const float panel = step_between(0.005F, 0.008F, edge);
-        out.height[x] = clamp_share(0.9F * panel + 0.04F * large[x]);
-        out.tone[x] = clamp_share(0.5F + 0.06F * large[x] + 0.06F * streaks[x] - 0.5F * (1 - panel));
-      }
-    }
-  });
-}
-
 /// One piece of stone, as of sills, lintels and steps: fine grain and small pits, without joints.
 Relief dressed_stone(int size, Rng rng, const Job& job) {
   const Noise grain_noise(size, {64, 64}, {1, 1}, 0.6F, rng.at("grain"));
@@ -315,8 +270,8 @@ constexpr WallKind kinds[] = {
     {"planks", planks_tile, true},
     {"ashlar", ashlar_tile, true},
     {"concrete", concrete_tile, true},
-    {"sheet", sheet_tile, true},
-    {"panels", panel_tile, true},
+    {"sheet", sheet_metal_tile, true},
+    {"panels", sheet_metal_tile, true},
     {"dressed_stone", plain_tile, true},
     {"paint", plain_tile, true},
     {"rooms", plain_tile, false},
@@ -347,7 +302,7 @@ constexpr Painter painters[] = {
     {dressed_stone, {}, 0.74F, 1.12F, {}, 0.004F, 0.95F, 0.82F, 0.95F, 0.25F},
     {paint, {}, 0.86F, 1.08F, {}, 0.001F, 0.7F, 0.5F, 0.7F, 0.1F},
     {rooms, {54, 57, 59}, 0.55F, 2.1F, {186, 142, 84}, 0, 0.06F, 0.06F, 0.06F, 0},
-    {joinery, {}, 0.34F, 1.1F, {}, 0.012F, 0.75F, 0.5F, 0.7F, 0.55F},
+    {joinery, {}, 0.66F, 1.1F, {}, 0.012F, 0.75F, 0.5F, 0.7F, 0.55F},
     {grime, {74, 68, 58}, 0.9F, 1.1F, {}, 0, 0.95F, 0.95F, 0.95F, 0},
     {brick_bay, {}, 0.66F, 1.2F, {62, 68, 72}, 0.1F, 0.97F, 0.88F, 0.35F, 0.5F},
     {plaster_bay, {}, 0.86F, 1.1F, {62, 68, 72}, 0.1F, 0.96F, 0.92F, 0.35F, 0.5F},

@@ -280,9 +280,9 @@ class Check {
             "tiles only fit together under the rule two_neighbours; with others, the border depends on the "
             "inside");
     }
-    fault_if(params_.corners, IssueKind::conflict, "/corners",
+    fault_if(params_.corners.has_value(), IssueKind::conflict, "/corners",
              "tiles share their corners with their neighbours, so the seed determines them");
-    fault_if(params_.grid, IssueKind::conflict, "/grid",
+    fault_if(params_.grid.has_value(), IssueKind::conflict, "/grid",
              "tiles share their start heights with their neighbours, so the seed determines them");
     tile_filters(faults);
   }
@@ -304,7 +304,7 @@ class Check {
     fault_if(params_.island && !faults && !params_.tile->across, IssueKind::missing, "/tile",
              "\"across\" is missing; an island needs the number of its tiles along a side");
     if (params_.hydraulic) hydraulic_tile();
-    fault_if(params_.resample, IssueKind::conflict, "/resample",
+    fault_if(params_.resample.has_value(), IssueKind::conflict, "/resample",
              "the samples of a tile are those of the world; expected resolution or iterations instead");
   }
 
