@@ -70,7 +70,7 @@ bool is_conflict_with_default(const Issue& issue, const IssueList& errors) {
                        [](auto name) { return name.size() >= shortest; });
   return std::ranges::any_of(errors.issues(), [&](const Issue& refused) {
     const std::string_view at = refused.pointer;
-    if (!at.starts_with(object) || at.find('/', object.size()) != at.npos) return false;
+    if (!at.starts_with(object) || at.find('/', object.size()) != std::string_view::npos) return false;
     const std::string_view member = at.substr(object.size());
     return std::ranges::find(names, member) != names.end() ||
            (member.size() >= shortest && !schema::nearest_word(member, long_names).empty());

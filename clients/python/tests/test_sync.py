@@ -159,7 +159,7 @@ class CommandLine(InFolder):
         self.assertTrue(command("generate", path, **url).stdout.startswith("made "))
         self.assertTrue(command("generate", path, **url).stdout.startswith("same "))
         plain = str(self.write("plain_request.json", '{"generator": "lsystem", "parameters": {"axiom": "FFF"}}'))
-        self.assertEqual(command("generate", plain, **url).stdout.strip(), "made plain_request.glb")
+        self.assertTrue(command("generate", plain, **url).stdout.strip().endswith("plain_request.glb"))
         self.assertIn("oak\ttree\t", command("presets", **url).stdout)
 
 

@@ -350,9 +350,18 @@ class Drainage {
       mouths.push_back(mouth);
     }
     for (std::size_t k = 0; k < made_.rivers.size(); ++k) {
-      River& river = made_.rivers[k];
-      if (!river.into.empty()) continue;
-      river.into = made_.rivers[static_cast<std::size_t>(river_at[static_cast<std::size_t>(mouths[k])])].id;
+      if (made_.rivers[k].into.empty()) made_.rivers[k].into = outlet_at(mouths[k], river_at);
+    }
+  }
+
+  /// What a river at a node flows into: the river from there or, where its course is within a lake, the end of that.
+  std::string outlet_at(int n, const std::vector<int>& river_at) const {
+    for (;; n = at(n).down) {
+      const auto here = static_cast<std::size_t>(n);
+      if (river_at[here] >= 0) return made_.rivers[static_cast<std::size_t>(river_at[here])].id;
+      if (!courses_[here].into.empty()) return courses_[here].into;
+      if (const Lake* lake = lake_of(at(n))) return lake->id;
+      if (at(n).down < 0) return "sea";
     }
   }
 
@@ -372,13 +381,6 @@ class Drainage {
 };
 
 }  // namespace
-
-void River::add_to_bounds(const RiverPoint& p) {
-  west = std::min(west, p.east);
-  south = std::min(south, p.north);
-  east = std::max(east, p.east);
-  north = std::max(north, p.north);
-}
 
 double shore_distance(const Lake& lake, double east, double north, double away) {
   if (away < 1e-6) return lake.radius;

@@ -35,4 +35,11 @@ std::vector<CellKey> regions_near(const World& world, double west, double south,
   return found;
 }
 
+void River::add_to_bounds(const RiverPoint& p) {
+  west = std::min(west, p.east);
+  south = std::min(south, p.north);
+  east = std::max(east, p.east);
+  north = std::max(north, p.north);
+}
+
 }  // namespace seedmesh::world

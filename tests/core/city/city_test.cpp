@@ -12,6 +12,7 @@
 #include "core/base/math.h"
 #include "core/generators/city/shape.h"
 #include "core/generators/city/statistics.h"
+#include "core/schema/json.h"
 #include "generated/params/city.h"
 
 namespace seedmesh::city {

@@ -160,6 +160,31 @@ TEST(WorldLayers, RiversOnlyFallAndEndInWater) {
   }
 }
 
+/// Here a wide river ends where the course below it is within a lake.
+TEST(WorldLayers, RiversEndInLakesThatContainTheCourseBelow) {
+  WorldParams params;
+  params.origin = {-10, 23};
+  params.relief.mountains = 650.181;
+  params.relief.hills = 302.753;
+  params.relief.ridges = 1;
+  params.relief.gullies = 0;
+  params.relief.terraces = 0.025;
+  params.water.rivers = 0.493;
+  params.water.width = 97.053;
+  const World world = world_of(params, 396964437);
+  Job job = test_job();
+  for (std::int64_t y = 16; y <= 18; ++y) {
+    for (std::int64_t x = -5; x <= -3; ++x) {
+      const auto region = region_at(world, {x, y}, job);
+      std::set<std::string> waters = {"sea"};
+      for (const Lake& lake : region->lakes) waters.insert(lake.id);
+      for (const River& river : region->rivers) waters.insert(river.id);
+      for (const River& river : region->rivers)
+        EXPECT_TRUE(waters.contains(river.into)) << river.id << " into " << river.into;
+    }
+  }
+}
+
 /// Roads, houses and fields around villages: from a rectangle and from one that is wider by a cell of villages.
 TEST(WorldLayers, WorksReadWhatIsWithinTheirReachOnly) {
   WorldParams params = mountains_with_woods();
