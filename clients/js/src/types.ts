@@ -233,7 +233,7 @@ export interface BuildingParametersMaterialsValue {
   tile?: [number, number];
   images?: Images;
   /** Textures made by seed in the colour of the material: colour, normals, and roughness with occlusion, which replace roughness and metallic. auto: by the name of the material, if `textures` says so. Images take precedence. */
-  texture?: "auto" | "none" | "brick" | "plaster" | "roof_tile" | "slate" | "planks" | "ashlar" | "concrete" | "sheet" | "panels" | "dressed_stone" | "paint";
+  texture?: "auto" | "none" | "brick" | "plaster" | "roof_tile" | "slate" | "planks" | "ashlar" | "concrete" | "sheet" | "panels" | "dressed_stone" | "paint" | "brick_bay" | "plaster_bay" | "planks_bay" | "ashlar_bay";
   /** Another seed gives another texture of the same kind. */
   texture_seed?: number;
 }
@@ -443,7 +443,7 @@ export interface CityParametersStreetsClassesMinor {
   trees?: number;
 }
 
-/** The cross section of given streets of this class. */
+/** The cross section of lanes: given streets of this class, and the share lane_share of the minor streets. */
 export interface CityParametersStreetsClassesLane {
   /** The width of the carriageway. */
   width?: number;
@@ -465,7 +465,7 @@ export interface CityParametersStreetsClasses {
   major?: CityParametersStreetsClassesMajor;
   /** The cross section of this class of streets. */
   minor?: CityParametersStreetsClassesMinor;
-  /** The cross section of given streets of this class. */
+  /** The cross section of lanes: given streets of this class, and the share lane_share of the minor streets. */
   lane?: CityParametersStreetsClassesLane;
 }
 
@@ -553,6 +553,8 @@ export interface CityParametersStreets {
   dead_ends?: number;
   /** The share of the connections to major streets that minor streets on both sides prefer alike, so that they form crossings instead of T-junctions. */
   crossings?: number;
+  /** The share of the minor streets, from one junction to the next or to a dead end, that are lanes: alleys with the narrow cross section of their class. */
+  lane_share?: number;
   /** The share of the junctions of major streets, where there is space around them, that become roundabouts. Not for wards. */
   roundabouts?: number;
   /** The radius of the middle of their carriageway. */
@@ -561,6 +563,8 @@ export interface CityParametersStreets {
   classes?: CityParametersStreetsClasses;
   /** The greatest length of a bridge. 0: no bridges. */
   bridge_length?: number;
+  /** The greatest length of a tunnel. Where a ridge is too steep for a street of the net or along a tensor field, the street passes it in a straight tunnel. 0: such streets are left out. */
+  tunnel_length?: number;
   /** The tensor field of the method tensor. */
   tensor?: CityParametersStreetsTensor;
   /** The wards of a medieval town about the centre. */

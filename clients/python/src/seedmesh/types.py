@@ -163,7 +163,7 @@ class BuildingParametersMaterialsValue(TypedDict, total=False):
     specular: "Specular"
     tile: List[float]
     images: "Images"
-    texture: Literal['auto', 'none', 'brick', 'plaster', 'roof_tile', 'slate', 'planks', 'ashlar', 'concrete', 'sheet', 'panels', 'dressed_stone', 'paint']
+    texture: Literal['auto', 'none', 'brick', 'plaster', 'roof_tile', 'slate', 'planks', 'ashlar', 'concrete', 'sheet', 'panels', 'dressed_stone', 'paint', 'brick_bay', 'plaster_bay', 'planks_bay', 'ashlar_bay']
     texture_seed: int
 
 
@@ -356,10 +356,12 @@ class CityParametersStreets(TypedDict, total=False):
     minimal_angle: float
     dead_ends: float
     crossings: float
+    lane_share: float
     roundabouts: float
     roundabout_radius: float
     classes: "CityParametersStreetsClasses"
     bridge_length: float
+    tunnel_length: float
     tensor: "CityParametersStreetsTensor"
     wards: "CityParametersStreetsWards"
 
