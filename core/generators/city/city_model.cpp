@@ -16,7 +16,6 @@
 #include "core/generators/city/objects.h"
 #include "core/generators/city/surface.h"
 #include "core/generators/material_members.h"
-#include "core/geom/mesh/finish.h"
 #include "core/texture/png.h"
 #include "generated/params/city.h"
 
@@ -177,10 +176,7 @@ void add_ground(Model& model, CityPlan& plan, Surface& surface, const CityParams
     job.spend(Resource::triangles, mesh.triangles());
     const auto [material, is_new] = materials.try_emplace(name, static_cast<int>(model.materials.size()));
     if (is_new) model.materials.push_back(make_material());
-    Mesh made = mesh.take(job);
-    // The order needs about as much memory as the mesh, and later there are more meshes.
-    order_for_cache(made, job);
-    add_mesh(model, name, material->second, std::move(made), nodes.group(chunk, "ground"));
+    add_mesh(model, name, material->second, mesh.take(job), nodes.group(chunk, "ground"));
   };
   for (const GroundPiece& piece : ground_pieces(plan, chunks)) {
     GroundMeshes meshes(plan, surface, context.demand.textures > 0, job);
