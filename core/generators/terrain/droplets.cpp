@@ -1,8 +1,6 @@
 /// Hydraulic erosion by drops; see filters.h.
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <span>
 #include <vector>
 
 #include "core/base/array.h"
@@ -20,10 +18,6 @@ constexpr std::size_t samples_a_drop = 256;
 constexpr std::size_t least_batch = 64, most_batch = 8192;
 // Number of bands of rows to which changes are applied in parallel.
 constexpr std::int32_t bands = 4;
-// Samples of a row of the brush that are computed together.
-constexpr std::int32_t lanes = 8;
-// Drops that run at once: each step of one waits for the step before.
-constexpr std::size_t drops_at_once = 4;
 
 // Gravity in samples per squared step; the least slope for the capacity of flat water; and the greatest speed.
 // Without the last, a drop that falls down a cliff would erode all ground below it.
@@ -40,10 +34,14 @@ struct Change {
   float x, z, amount;
 };
 
-/// Weights about a sample, in rows from -reach to reach. A row has those of -reach .. reach and then zeros, so that its
-/// length is a multiple of `lanes`.
+/// Weights about a sample, in rows from -reach to reach. A row has those of -half .. half.
 struct Brush {
-  std::int32_t reach = 0, pitch = 0;
+  struct Row {
+    std::int32_t half;
+    std::size_t first;  ///< position in `weights`
+  };
+  std::int32_t reach = 0;
+  std::vector<Row> rows;
   std::vector<float> weights;
 };
 
@@ -52,14 +50,16 @@ Brush brush_of(double radius) {
   Brush brush;
   brush.reach = math::to_int32(std::ceil(radius));
   double sum = 0;
-  brush.pitch = (2 * brush.reach + lanes) / lanes * lanes;
   for (std::int32_t dz = -brush.reach; dz <= brush.reach; ++dz) {
-    for (std::int32_t dx = -brush.reach; dx < brush.pitch - brush.reach; ++dx) {
-      const double weight = dx > brush.reach ? 0 : radius - std::sqrt(static_cast<double>(dx * dx + dz * dz));
-      const bool is_inside = weight > 0 || (dx == 0 && dz == 0);
-      brush.weights.push_back(is_inside ? static_cast<float>(std::max(weight, 1e-3)) : 0);
-      sum += is_inside ? std::max(weight, 1e-3) : 0;
+    Brush::Row row{-1, brush.weights.size()};
+    for (std::int32_t dx = -brush.reach; dx <= brush.reach; ++dx) {
+      const double weight = radius - std::sqrt(static_cast<double>(dx * dx + dz * dz));
+      if (weight <= 0 && (dx != 0 || dz != 0)) continue;
+      row.half = std::max(row.half, dx);
+      brush.weights.push_back(static_cast<float>(std::max(weight, 1e-3)));
+      sum += std::max(weight, 1e-3);
     }
+    brush.rows.push_back(row);
   }
   for (float& weight : brush.weights) weight /= static_cast<float>(sum);
   return brush;
@@ -79,78 +79,43 @@ class Drops {
         scale_(static_cast<float>(1 / field.cell)),
         steps_(static_cast<int>(std::min(plan.lifetime, most_rounds * (field.width + field.depth)))) {}
 
-  /// A drop on its way.
-  struct State {
-    float x, z, dx = 0, dz = 0, speed = 1, water = 1, load = 0;
-    Ground here{};
-    bool runs = true;
-  };
-
-  State start(std::size_t drop) const {
+  void run(std::size_t drop, Array<Change>& changes) const {
     Rng rng = rng_.at(drop);
     const auto wide = static_cast<float>(field_.width - 1), deep = static_cast<float>(field_.depth - 1);
-    State state{};
-    state.x = std::min(static_cast<float>(rng.unit()) * wide, wide - 1e-3F);
-    state.z = std::min(static_cast<float>(rng.unit()) * deep, deep - 1e-3F);
-    state.here = ground(state.x, state.z);
-    return state;
-  }
-
-  /// One step. Appends its change.
-  void advance(State& s, std::vector<Change>& changes) const {
-    const auto wide = static_cast<float>(field_.width - 1), deep = static_cast<float>(field_.depth - 1);
+    float x = static_cast<float>(rng.unit()) * wide, z = static_cast<float>(rng.unit()) * deep;
+    x = std::min(x, wide - 1e-3F);
+    z = std::min(z, deep - 1e-3F);
+    float dx = 0, dz = 0, speed = 1, water = 1, load = 0;
     const auto inertia = static_cast<float>(plan_.inertia);
-    s.runs = false;
-    s.dx = s.dx * inertia - s.here.east * (1 - inertia);
-    s.dz = s.dz * inertia - s.here.south * (1 - inertia);
-    const float length = std::sqrt(s.dx * s.dx + s.dz * s.dz);
-    if (!(length > 1e-9F)) return;
-    s.dx /= length;
-    s.dz /= length;
-    const float to_x = s.x + s.dx, to_z = s.z + s.dz;
-    if (!(to_x >= 0 && to_x < wide && to_z >= 0 && to_z < deep)) return;
-    const Ground there = ground(to_x, to_z);
-    const float rise = there.height - s.here.height;
-    const float bearable =
-        std::max(-rise, least_slope) * s.speed * s.water * static_cast<float>(plan_.capacity);
-    if (rise > 0 || s.load > bearable) {
-      const float laid =
-          rise > 0 ? std::min(rise, s.load) : (s.load - bearable) * static_cast<float>(plan_.deposition);
-      s.load -= laid;
-      changes.push_back({s.x, s.z, laid});
-    } else {
-      const float taken = std::min((bearable - s.load) * static_cast<float>(plan_.erosion), -rise);
-      s.load += taken;
-      changes.push_back({s.x, s.z, -taken});
-    }
-    s.speed = std::min(std::sqrt(std::max(0.0F, s.speed * s.speed - rise * gravity)), greatest_speed);
-    s.water *= 1 - static_cast<float>(plan_.evaporation);
-    s.x = to_x;
-    s.z = to_z;
-    s.here = there;
-    s.runs = true;
-  }
-
-  /// Runs the drops [begin, end). Appends their changes, drop by drop.
-  void run(std::size_t begin, std::size_t end, Array<Change>& changes, const Job& job) const {
-    std::array<std::vector<Change>, drops_at_once> own;
-    for (std::size_t first = begin; first < end; first += drops_at_once) {
-      job.check();
-      const std::size_t count = std::min(drops_at_once, end - first);
-      std::array<State, drops_at_once> states{};
-      for (std::size_t i = 0; i < count; ++i) {
-        states[i] = start(first + i);
-        own[i].clear();
+    Ground here = ground(x, z);
+    for (int step = 0; step < steps_; ++step) {
+      dx = dx * inertia - here.east * (1 - inertia);
+      dz = dz * inertia - here.south * (1 - inertia);
+      const float length = std::sqrt(dx * dx + dz * dz);
+      if (!(length > 1e-9F)) return;
+      dx /= length;
+      dz /= length;
+      const float to_x = x + dx, to_z = z + dz;
+      if (!(to_x >= 0 && to_x < wide && to_z >= 0 && to_z < deep)) return;
+      const Ground there = ground(to_x, to_z);
+      const float rise = there.height - here.height;
+      const float bearable =
+          std::max(-rise, least_slope) * speed * water * static_cast<float>(plan_.capacity);
+      if (rise > 0 || load > bearable) {
+        const float laid =
+            rise > 0 ? std::min(rise, load) : (load - bearable) * static_cast<float>(plan_.deposition);
+        load -= laid;
+        changes.push_back({x, z, laid});
+      } else {
+        const float taken = std::min((bearable - load) * static_cast<float>(plan_.erosion), -rise);
+        load += taken;
+        changes.push_back({x, z, -taken});
       }
-      bool runs = true;
-      for (int step = 0; step < steps_ && runs; ++step) {
-        runs = false;
-        for (std::size_t i = 0; i < count; ++i) {
-          if (states[i].runs) advance(states[i], own[i]);
-          runs = runs || states[i].runs;
-        }
-      }
-      for (std::size_t i = 0; i < count; ++i) changes.append(std::span<const Change>(own[i]));
+      speed = std::min(std::sqrt(std::max(0.0F, speed * speed - rise * gravity)), greatest_speed);
+      water *= 1 - static_cast<float>(plan_.evaporation);
+      x = to_x;
+      z = to_z;
+      here = there;
     }
   }
 
@@ -183,34 +148,20 @@ class Spread {
 
   void add(const Change& change, std::int32_t begin, std::int32_t end) const {
     const auto i = static_cast<std::int32_t>(change.x + 0.5F), j = static_cast<std::int32_t>(change.z + 0.5F);
-    const std::int32_t top = j - brush_.reach, left = i - brush_.reach;
+    const std::int32_t top = j - brush_.reach;
     const std::int32_t first = std::max(begin, top), last = std::min(end, j + brush_.reach + 1);
     const float amount = change.amount * scale_;
-    const bool is_whole = left >= 0 && left + brush_.pitch <= field_.width;
-    const std::int32_t west = std::max(0, left), east = std::min(field_.width, left + brush_.pitch);
     for (std::int32_t z = first; z < last; ++z) {
-      float* const heights = field_.row(z);
-      const float* const weights = brush_.weights.data() + (z - top) * brush_.pitch;
-      if (is_whole) {
-        for (std::int32_t k = 0; k < brush_.pitch; k += lanes)
-          add_lanes(heights + left + k, weights + k, amount);
-      } else {
-        for (std::int32_t x = west; x < east; ++x)
-          heights[x] = clamped(heights[x] + amount * weights[x - left]);
-      }
+      const Brush::Row& row = brush_.rows[static_cast<std::size_t>(z - top)];
+      const std::int32_t west = std::max(0, i - row.half), east = std::min(field_.width - 1, i + row.half);
+      float* heights = field_.row(z);
+      const float* weights = brush_.weights.data() + row.first;
+      for (std::int32_t x = west; x <= east; ++x)
+        heights[x] = std::clamp(heights[x] + amount * weights[x - (i - row.half)], range_.low, range_.high);
     }
   }
 
  private:
-  float clamped(float height) const {
-    const float raised = height < range_.low ? range_.low : height;
-    return range_.high < raised ? range_.high : raised;
-  }
-
-  void add_lanes(float* __restrict heights, const float* __restrict weights, float amount) const {
-    for (std::int32_t k = 0; k < lanes; ++k) heights[k] = clamped(heights[k] + amount * weights[k]);
-  }
-
   Field& field_;
   Range range_;
   const Brush& brush_;
@@ -235,7 +186,10 @@ void erode(Field& field, const DropletPlan& plan, Rng rng, const Job& job) {
     for (Array<Change>& list : changes) list.clear();
     const Drops drops(field, plan, rng.at("drops"));
     parallel_for(job, count, drops_a_chunk, [&](std::size_t begin, std::size_t end, std::size_t index) {
-      drops.run(first + begin, first + end, changes[index], job);
+      for (std::size_t drop = begin; drop < end; ++drop) {
+        job.check();
+        drops.run(first + drop, changes[index]);
+      }
     });
     const Spread spread(field, range, brush);
     parallel_for(job, static_cast<std::size_t>(bands), 1, [&](std::size_t begin, std::size_t, std::size_t) {

@@ -112,10 +112,11 @@ void fracture_sphere(Planet& planet, const FracturePlan& plan, Rng rng, const Jo
   parallel_for(job, planet.direction.size(), points_a_chunk,
                [&](std::size_t begin, std::size_t end, std::size_t) {
                  job.check();
+                 SpaceNoise noise(rock.grain(), grain);
                  for (std::size_t i = begin; i < end; ++i) {
                    const glm::dvec3 direction(planet.direction[i]);
                    double radius = planet.radius * rock.radius_at(direction);
-                   if (plan.roughness > 0) radius += noise_in_space(rock.grain(), direction * radius, grain);
+                   if (plan.roughness > 0) radius += noise.at(direction * radius);
                    planet.height[i] = static_cast<float>(radius - planet.radius);
                  }
                });

@@ -378,8 +378,4 @@ double SpaceNoise::at(const glm::dvec3& position) {
   return static_cast<double>(height);
 }
 
-double noise_in_space(const NoisePlan& plan, const glm::dvec3& position, Rng rng) {
-  return SpaceNoise(plan, rng).at(position);
-}
-
 }  // namespace seedmesh::terrain

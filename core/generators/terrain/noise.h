@@ -62,7 +62,4 @@ class SpaceNoise {
   std::vector<SpaceNoise> warp_;  ///< of the three axes, or empty
 };
 
-/// The same height for a single point.
-double noise_in_space(const NoisePlan& plan, const glm::dvec3& position, Rng rng);
-
 }  // namespace seedmesh::terrain

@@ -25,8 +25,8 @@ class MeshField {
   std::size_t triangles() const { return corner_.size() / 3; }
   /// Returns the nearest point of the surface. There must be at least one triangle.
   Nearest nearest(const glm::dvec3& point) const;
-  /// True where the point is inside, by the parity of the intersections of a ray. The direction of the ray is
-  /// fixed and unlikely to be parallel to an edge.
+  /// True where the point is inside, by the parity of the intersections of a ray. The direction of the ray depends on
+  /// the extent of the mesh only and is unlikely to be parallel to an edge.
   bool holds(const glm::dvec3& point) const;
 
  private:
