@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "core/base/math.h"
-#include "core/base/wide.h"
 #include "core/texture/cells.h"
 #include "core/texture/noise.h"
 
@@ -59,17 +58,10 @@ int floor_of(float v) {
   return static_cast<int>(v + below) - static_cast<int>(below);
 }
 
-/// The texels [first, last] of a row that a patch can cover; it covers those whose coordinates along both axes are in
-/// -1 .. 1. They may lie beyond the image, which repeats.
-struct PatchRow {
-  int y, first, last;
-  float middle_x, off_y;    ///< of the patch; of the row from its middle
-  glm::vec2 along, across;  ///< axes, by their half lengths
-};
-
-/// Calls body(row) for the rows of a patch.
+/// Calls body(x, y, a, b) for the texels of a patch, with their coordinates -1 .. 1 along both axes. x and y may lie
+/// beyond the image, which repeats.
 template <class Body>
-void each_row(const Patch& patch, int size, Body&& body) {
+void each_texel(const Patch& patch, int size, Body&& body) {
   const auto scale = static_cast<float>(size);
   const float length = std::max(patch.half_length * scale, 0.5F),
               width = std::max(patch.half_width * scale, 0.5F);
@@ -85,22 +77,13 @@ void each_row(const Patch& patch, int size, Body&& body) {
     // The middles of texels are half a texel after their numbers; the rest is for rounding.
     const float low = std::max({-reach_x, lengthwise.low(off_y), crosswise.low(off_y)}) - 0.6F,
                 high = std::min({reach_x, lengthwise.high(off_y), crosswise.high(off_y)}) - 0.4F;
-    const int first_x = floor_of(middle.x + low), last_x = floor_of(middle.x + high);
-    body(PatchRow{y, first_x, last_x, middle.x, off_y, along, across});
-  }
-}
-
-/// Calls body(x, y, a, b) for the texels of a patch, with their coordinates along both axes.
-template <class Body>
-void each_texel(const Patch& patch, int size, Body&& body) {
-  each_row(patch, size, [&](const PatchRow& row) {
-    for (int x = row.first; x <= row.last; ++x) {
-      const float off_x = static_cast<float>(x) + 0.5F - row.middle_x;
-      const float a = off_x * row.along.x + row.off_y * row.along.y,
-                  b = off_x * row.across.x + row.off_y * row.across.y;
-      if (std::abs(a) <= 1 && std::abs(b) <= 1) body(x, row.y, a, b);
+    const int last_x = floor_of(middle.x + high);
+    for (int x = floor_of(middle.x + low); x <= last_x; ++x) {
+      const float off_x = static_cast<float>(x) + 0.5F - middle.x;
+      const float a = off_x * along.x + off_y * along.y, b = off_x * across.x + off_y * across.y;
+      if (std::abs(a) <= 1 && std::abs(b) <= 1) body(x, y, a, b);
     }
-  });
+  }
 }
 
 glm::vec2 direction(float turns) {
@@ -149,42 +132,10 @@ void add_blades(Relief& relief, const Litter& litter, const Field& clumps, Rng r
   }
 }
 
-/// A dome cut by a few planes, in units of its axes.
-struct Stone {
-  static constexpr int cuts = 5;
-  glm::vec3 planes[cuts];
-  float low, high;  ///< heights of the foot and of the top
-  float tone;
-};
-
-/// Puts the texels of a row of a stone, beginning `ahead` texels after the first, over what is lower. Without branches,
-/// so that the compiler vectorises it.
-SEEDMESH_WIDE void put_stone(const Stone& stone, const PatchRow& row, int ahead, int count,
-                             float* __restrict heights, float* __restrict tones) {
-  for (int i = 0; i < count; ++i) {
-    const float off_x = static_cast<float>(row.first + ahead + i) + 0.5F - row.middle_x;
-    const float a = off_x * row.along.x + row.off_y * row.along.y,
-                b = off_x * row.across.x + row.off_y * row.across.y;
-    const float rest = 1 - a * a - b * b;
-    float up = std::sqrt(rest > 0 ? rest : 0), facet = 0;
-#pragma GCC unroll 5
-    for (int cut = 0; cut < Stone::cuts; ++cut) {
-      const glm::vec3& plane = stone.planes[cut];
-      const float bound = (plane.z * 1.25F - a * plane.x - b * plane.y) * 1.6F;
-      facet = bound < up ? plane.x : facet;
-      up = bound < up ? bound : up;
-    }
-    const float height = stone.low + (stone.high - stone.low) * up, there = heights[i];
-    const float own_tone = stone.tone + 0.1F * facet - 0.25F * (1 - (2 * up < 1 ? 2 * up : 1));
-    const bool is_seen = (std::abs(a) <= 1) & (std::abs(b) <= 1) & (up > 0) & (height > there);
-    heights[i] = is_seen ? height : there;
-    tones[i] = is_seen ? own_tone : tones[i];
-  }
-}
-
-/// Stones, each with a tone of its own, darker towards their foot.
+/// Stones: domes cut by a few planes, each with a tone of its own, darker towards their foot.
 void add_stones(Relief& relief, const Litter& litter, Rng rng, const Job& job) {
-  const int size = relief.height.size(), last = size - 1;
+  const int size = relief.height.size();
+  constexpr int cuts = 5;
   for (int i = 0; i < litter.count; ++i) {
     if (i % pieces_a_look == 0) job.check();
     Rng own = rng.at(static_cast<std::uint64_t>(i));
@@ -198,22 +149,31 @@ void add_stones(Relief& relief, const Litter& litter, Rng rng, const Job& job) {
     patch.half_length =
         0.5F * (litter.shortest + (litter.longest - litter.shortest) * chance * chance * chance);
     patch.half_width = patch.half_length * draw(litter.width, 1);
-    Stone stone;
-    for (glm::vec3& plane : stone.planes) {
+    glm::vec3 planes[cuts];
+    for (glm::vec3& plane : planes) {
       const glm::vec2 side = direction(draw(0, 1));
       plane = {side.x, side.y, draw(0.35F, 0.75F)};
     }
     const float size_share = patch.half_length / (0.5F * litter.longest);
-    stone.low = litter.low;
-    stone.high = litter.low + (litter.high - litter.low) * (0.35F + 0.65F * size_share);
-    stone.tone = 0.5F + litter.differ * draw(-0.5F, 0.5F);
-    each_row(patch, size, [&](const PatchRow& row) {
-      float *const heights = relief.height.row(row.y & last), *const tones = relief.tone.row(row.y & last);
-      for (int x = row.first; x <= row.last;) {
-        const int from = x & last, count = std::min(row.last + 1 - x, size - from);
-        put_stone(stone, row, x - row.first, count, heights + from, tones + from);
-        x += count;
+    const float high = litter.low + (litter.high - litter.low) * (0.35F + 0.65F * size_share);
+    const float tone = 0.5F + litter.differ * draw(-0.5F, 0.5F);
+    each_texel(patch, size, [&](int x, int y, float a, float b) {
+      float& there = relief.height.at(x, y);
+      float up = std::sqrt(std::max(0.0F, 1 - a * a - b * b));
+      const auto height = [&] { return litter.low + (high - litter.low) * up; };
+      // Cuts only make a stone lower.
+      if (up <= 0 || height() <= there) return;
+      float facet = 0;
+      for (const glm::vec3& plane : planes) {
+        const float bound = (plane.z * 1.25F - a * plane.x - b * plane.y) * 1.6F;
+        if (bound < up) {
+          up = bound;
+          facet = plane.x;
+        }
       }
+      if (up <= 0 || height() <= there) return;
+      there = height();
+      relief.tone.at(x, y) = tone + 0.1F * facet - 0.25F * (1 - std::min(1.0F, 2 * up));
     });
   }
 }

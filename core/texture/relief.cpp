@@ -1,11 +1,8 @@
 #include "core/texture/relief.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
-#include <cstring>
 #include <optional>
-#include <span>
 #include <vector>
 
 #include "core/base/parallel.h"
@@ -112,21 +109,10 @@ SEEDMESH_WIDE void pack_surface(const float* __restrict height, const float* __r
   }
 }
 
-template <std::size_t channels>
-void write_pixels(std::span<const std::uint32_t> row, std::uint8_t* out) {
+void write_channels(const std::vector<std::uint32_t>& row, std::size_t channels, std::uint8_t* out) {
   for (const std::uint32_t pixel : row) {
     for (std::size_t c = 0; c < channels; ++c) *out++ = static_cast<std::uint8_t>(pixel >> (8 * c));
   }
-}
-
-/// Pixels of three channels are written as words: the next one replaces the fourth byte.
-void write_channels(std::span<const std::uint32_t> row, std::size_t channels, std::uint8_t* out) {
-  if (channels == 1) return write_pixels<1>(row, out);
-  if (channels == 4) return write_pixels<4>(row, out);
-  if constexpr (std::endian::native == std::endian::little) {
-    for (; row.size() > 1; row = row.subspan(1), out += 3) std::memcpy(out, row.data(), sizeof(row[0]));
-  }
-  write_pixels<3>(row, out);
 }
 
 /// A row of means of a field, or of its values where `step` is 1.

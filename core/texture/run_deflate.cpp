@@ -131,30 +131,15 @@ void put_head(BitWriter& bits, std::span<const std::uint8_t> lengths, std::uint3
   bits.flush();
 }
 
-/// The codes of two symbols, one after the other.
-struct JoinedCode {
-  std::uint64_t bits;
-  std::uint32_t length;
-};
-
-JoinedCode joined(const Code& first, const Code& second) {
-  return {first.bits | std::uint64_t{second.bits} << first.length, first.length + second.length};
-}
-
-/// Puts the codes of four bytes. They are joined in pairs first, so that each does not wait for the one before.
-void put_four(BitWriter& bits, std::span<const Code> codes, const std::uint8_t* at) {
-  const JoinedCode first = joined(codes[at[0]], codes[at[1]]), second = joined(codes[at[2]], codes[at[3]]);
-  bits.put(first.bits | second.bits << first.length, first.length + second.length);
-  bits.flush();
-}
-
 void put_data(BitWriter& bits, const Pixels& pixels, std::span<const Code> codes) {
   walk(
       pixels,
       [&](const std::uint8_t* at, std::size_t size) {
         if (size == word) {
-          put_four(bits, codes, at);
-          put_four(bits, codes, at + 4);
+          for (std::size_t i = 0; i < 4; ++i) bits.put(codes[at[i]]);
+          bits.flush();
+          for (std::size_t i = 4; i < word; ++i) bits.put(codes[at[i]]);
+          bits.flush();
           return;
         }
         for (std::size_t i = 0; i < size; ++i) {
