@@ -8,7 +8,6 @@
 
 #include "core/base/math.h"
 #include "core/generators/terrain/filters.h"
-#include "core/generators/terrain/routes.h"
 
 namespace seedmesh::terrain {
 namespace {
@@ -189,12 +188,17 @@ void cut_rivers(Field& field, const StreamPlan& plan, const Job& job) {
   const std::size_t count = field.heights.size();
   const double reference = static_cast<double>(count) / 100;
   for (int step = 0; step < plan.iterations; ++step) {
-    const Routes routes = routes_of(field, job);
+    const Drainage drainage = drainage_of(field, job);
+    Array<float> area(job, count, 1.0F);
     for (std::size_t i = count; i-- > 0;) {
+      const std::uint32_t sample = drainage.order[i], to = drainage.receiver[sample];
+      if (to != sample) area[to] += area[sample];
+    }
+    for (std::size_t i = 0; i < count; ++i) {
       if (i % look == 0) job.check();
-      const std::uint32_t sample = routes.order[i], to = routes.receiver[sample];
+      const std::uint32_t sample = drainage.order[i], to = drainage.receiver[sample];
       if (to == sample || field.heights[sample] <= field.heights[to]) continue;
-      const double share = static_cast<double>(routes.area[sample]) / reference;
+      const double share = static_cast<double>(area[sample]) / reference;
       const double power =
           plan.area_exponent == 0.5 ? std::sqrt(share) : math::pow(share, plan.area_exponent);
       const double factor = plan.strength * power;

@@ -7,7 +7,6 @@
 
 #include "core/generators/terrain/flow.h"
 #include "core/generators/terrain/noise.h"
-#include "core/generators/terrain/routes.h"
 #include "tests/core/terrain/support.h"
 
 namespace seedmesh::terrain {
@@ -238,42 +237,6 @@ TEST(Drainage, DrainsEverySampleToTheBorder) {
     if (i % 65 == 0 || i % 65 == 64 || i / 65 == 0 || i / 65 == 64) out += static_cast<double>(area[i]);
   }
   EXPECT_GE(out, 65 * 65 * 0.999);
-}
-
-TEST(Routes, LeadWhereAFloodFromTheBorderLeads) {
-  const auto check = [](const Field& field, const char* name) {
-    const Drainage drainage = drainage_of(field, any_job());
-    const Routes routes = routes_of(field, any_job());
-    ASSERT_EQ(routes.order.size(), field.heights.size()) << name;
-    std::vector<std::uint32_t> area(field.heights.size(), 1);
-    for (std::size_t i = drainage.order.size(); i-- > 0;) {
-      const std::uint32_t sample = drainage.order[i], to = drainage.receiver[sample];
-      if (to != sample) area[to] += area[sample];
-    }
-    std::vector<bool> seen(field.heights.size(), false);
-    for (const std::uint32_t sample : routes.order) {
-      const std::uint32_t to = routes.receiver[sample];
-      ASSERT_EQ(to, drainage.receiver[sample]) << name << ' ' << sample;
-      ASSERT_EQ(routes.area[sample], area[sample]) << name;
-      ASSERT_FALSE(seen[sample]) << name;
-      ASSERT_TRUE(to == sample || !seen[to]) << name << ": a receiver comes after what drains to it";
-      seen[sample] = true;
-    }
-  };
-  for (const int size : {3, 17, 64, 129}) {
-    check(hills(size), "hills");
-    Field steps = hills(size);  // many equal heights
-    for (float& height : steps.heights) height = 5 * std::round((height - steps.heights[2]) / 5);
-    check(steps, "steps");
-    Rng random(7);
-    check(field_from(size, size, [&](int, int) { return random.uniform(0, 1); }), "noise");
-    check(field_from(size, size, [&](int, int) { return random.uniform(0, 1) < 0.02 ? -1.0 : 0.0; }), "flat");
-    check(field_from(size, size, [&](int x, int z) { return std::abs(x - z) % 9 + random.uniform(0, 0.1); }),
-          "valleys");
-    Field cut = hills(size);
-    cut_rivers(cut, {.iterations = 4}, any_job());
-    check(cut, "cut");
-  }
 }
 
 TEST(StreamPower, CutsTheInteriorAndKeepsTheBorder) {
