@@ -50,7 +50,6 @@ class StreetSpace {
       for (std::size_t i = begin; i < end; ++i) lay_out_face(faces, faces.faces[i], layouts[i]);
     });
     cut_carriageways();
-    uncut_junctions();
     plan_.corner_reaches = corner_reaches(graph_, sides_);
     add_junctions();
     add_carriageways();
@@ -224,18 +223,6 @@ class StreetSpace {
       if (cuts_start && begin - right_start > same) right.cut_to = on_kerb(right.from(), right.to, begin);
       if (cuts_end && left_end - end > same) left.cut_to = on_kerb(left.from(), left.to, end);
       if (cuts_end && right_end - end > same) right.cut_from = on_kerb(right.from(), right.to, end);
-    }
-  }
-
-  /// Carriageways end obliquely at a junction whose outline would cross itself.
-  void uncut_junctions() {
-    for (std::uint32_t node = 0; node < graph_.nodes.size(); ++node) {
-      if (!is_cut(node) || is_simple(junction_ring(graph_, sides_, node))) continue;
-      for (const std::uint32_t arm : graph_.arms.of(node)) {
-        KerbSide &left = sides_[arm], &right = sides_[arm ^ 1U];
-        if (left.is_laid_out) left.cut_from = left.from();
-        if (right.is_laid_out) right.cut_to = right.to;
-      }
     }
   }
 
