@@ -36,10 +36,9 @@ std::vector<double> corner_reaches(const StreetGraph& graph, const std::vector<K
 CmRing junction_ring(const StreetGraph& graph, const std::vector<KerbSide>& sides, std::uint32_t node) {
   const auto around = graph.arms.of(node);
   CmRing ring;
-  std::size_t first = 0;
-  if (graph.is_border[node] != 0) {  // begin behind the outside
-    while (first < around.size() && sides[around[first] ^ 1U].is_laid_out) ++first;
-  }
+  std::size_t first = 0;  // behind the outside
+  while (first < around.size() && sides[around[first] ^ 1U].is_laid_out) ++first;
+  const bool is_open = graph.is_border[node] != 0 || first < around.size();
   for (std::size_t n = 0; n < around.size(); ++n) {
     const std::uint32_t arm = around[(first + n) % around.size()];
     const KerbSide &left = sides[arm], &right = sides[arm ^ 1U];
@@ -51,7 +50,7 @@ CmRing junction_ring(const StreetGraph& graph, const std::vector<KerbSide>& side
     append_new(ring, left.cut_from);
     for (std::size_t i = left.corner.size(); i-- > 0;) append_new(ring, left.corner[i]);
   }
-  if (graph.is_border[node] != 0) append_new(ring, graph.nodes[node]);
+  if (is_open) append_new(ring, graph.nodes[node]);
   close(ring);
   return ring;
 }
