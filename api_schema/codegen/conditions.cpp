@@ -14,6 +14,11 @@ struct Target {
   std::string name;   ///< in messages: "`leaf.build`"
 };
 
+/// Whether a value is the text without characters. `empty()` of a JSON text is false.
+bool is_empty_text(const Schema& value) {
+  return value.is_string() && value.get_ref<const std::string&>().empty();
+}
+
 /// Translates the conditions of the members of one structure.
 class Translator {
  public:
@@ -112,7 +117,7 @@ class Translator {
       clause.words += (i == 0 ? "" : i + 1 < list.size() ? ", " : " or ") + words_of(list[i]);
     }
     clause.holds = (is_none ? "!(" : "(") + clause.holds + ")";
-    const bool is_absence = list[0].is_null() || list[0].empty() || list[0].empty();
+    const bool is_absence = list[0].is_null() || list[0].empty() || is_empty_text(list[0]);
     const std::string positive = target.name + " is " + clause.words;
     if (is_absence) {
       clause.words = target.name + (is_none ? " is given" : " is left out");
@@ -145,9 +150,9 @@ class Translator {
       case Kind::integer:
         return value.is_number_integer() ? name + " == " + value.dump() : "";
       case Kind::text:
-        return value.empty()       ? name + ".empty()"
-               : value.is_string() ? name + " == " + quoted(value.get<std::string>())
-                                   : "";
+        return is_empty_text(value) ? name + ".empty()"
+               : value.is_string()  ? name + " == " + quoted(value.get<std::string>())
+                                    : "";
       case Kind::list:
         return value.is_array() && value.empty() ? name + ".empty()" : "";
       case Kind::choice:

@@ -34,7 +34,7 @@ constexpr MaterialPreset presets[] = {
     {"column", {206, 200, 188}, 0.85, 0, 1},   {"floor", {168, 160, 148}, 0.9, 0, 1},
     {"chimney", {132, 72, 58}, 0.95, 0, 1},    {"grass", {98, 128, 70}, 1, 0, 1},
     {"pavement", {150, 148, 144}, 0.95, 0, 1}, {"ground", {132, 120, 102}, 1, 0, 1},
-    {"building", {222, 214, 200}, 0.95, 0, 1},
+    {"building", {222, 214, 200}, 0.95, 0, 1}, {"glass_room", {44, 50, 54}, 0.06, 0, 1},
 };
 
 // What shows behind the glass of windows, and dirt on walls. Their colours do not follow those of the request.
