@@ -313,7 +313,7 @@ constexpr Painter painters[] = {
     {rock_ground, {}, 0.34F, 1.3F, {}, 0.03F, 0.96F, 0.75F, 0.9F, 0.55F},
     {scree_ground, {}, 0.32F, 1.3F, {}, 0.08F, 0.98F, 0.78F, 0.9F, 0.6F},
     {sand_ground, {232, 232, 232}, 0.8F, 1.1F, {}, 0.02F, 0.95F, 0.78F, 0.9F, 0.25F},
-    {snow_ground, {240, 240, 240}, 0.9F, 1.06F, {}, 0.035F, 0.8F, 0.5F, 0.7F, 0.15F},
+    {snow_ground, {240, 240, 240}, 0.91F, 1.08F, {}, 0.035F, 0.8F, 0.5F, 0.7F, 0.15F},
 };
 static_assert(std::size(kinds) == std::size(painters));
 
