@@ -1,8 +1,6 @@
 /// Cities on one thread: plans of 1 and 16 square kilometres, one of about 100,000 streets with 500,000 lots, the stages of
 /// a plan, a GLB of 16 square kilometres with shared houses, and one of about 26,000 different houses, both with
 /// their memory in addition to that of a small city.
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -17,6 +15,7 @@
 #include "core/schema/json.h"
 #include "generated/params/city.h"
 #include "tests/bench/kept_textures.h"
+#include "tests/bench/memory.h"
 #include "tests/bench/report.h"
 
 namespace {
@@ -110,27 +109,16 @@ Product produced(const Json& parameters, TextureStore& textures) {
   return *std::move(product);
 }
 
-/// Measures in a forked process that has already generated a small city.
+/// Measures the memory of a city after a small one.
 void report_memory(const std::string& name, const Json& parameters) {
-  std::fflush(stdout);
-  const pid_t child = fork();
-  if (child == 0) {
-    bench::KeptTextures textures;
+  bench::KeptTextures textures;
+  const auto prepare = [&] {
     Json small = parameters;
     small["area"]["size"] = {200, 200};
     produced(small, textures);
-    std::ofstream("/proc/self/clear_refs") << "5";  // resets the peak
-    const double idle = bench::status_bytes("VmRSS");
-    const Product product = produced(parameters, textures);
-    std::printf("{\"name\":\"memory: %s\",\"unit\":\"bytes\",\"amount\":%llu,\"peak_less_idle\":%.0f}\n",
-                name.c_str(), static_cast<unsigned long long>(product.payload.size()),
-                bench::status_bytes("VmHWM") - idle);
-    std::fflush(stdout);
-    _exit(0);
-  }
-  int status = 1;
-  waitpid(child, &status, 0);
-  if (status != 0) std::abort();
+  };
+  if (!bench::report_memory(name, prepare, [&] { return produced(parameters, textures).payload.size(); }))
+    std::abort();
 }
 
 /// Makes the model of a city and reports its bytes and the triangles that it draws.

@@ -1,7 +1,5 @@
 /// Fractals: the Menger sponge from the request text to the bytes of a GLB, with its memory in addition to
 /// the response, and the chaos game.
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <cstdio>
 #include <cstdlib>
@@ -11,6 +9,7 @@
 #include "core/generators/fractal/chaos.h"
 #include "core/pipeline.h"
 #include "generated/params/fractal.h"
+#include "tests/bench/memory.h"
 #include "tests/bench/report.h"
 
 namespace {
@@ -46,22 +45,11 @@ void bench_merged(int rounds) {
                 static_cast<double>(product.statistics.triangles), seconds);
 }
 
-/// Forks a process for the measurement. Must run while this process is small.
 void bench_memory(int rounds) {
-  std::fflush(stdout);
-  const pid_t child = fork();
-  if (child == 0) {
-    const double idle = bench::status_bytes("VmRSS");
-    const Product product = made(sponge(rounds), 1);
-    std::printf(
-        "{\"name\":\"memory: Menger %d\",\"unit\":\"bytes\",\"amount\":%llu,\"peak_less_idle\":%.0f}\n",
-        rounds, static_cast<unsigned long long>(product.payload.size()), bench::status_bytes("VmHWM") - idle);
-    std::fflush(stdout);
-    _exit(0);
-  }
-  int status = 1;
-  waitpid(child, &status, 0);
-  if (status != 0) std::abort();
+  const auto work = [&] { return made(sponge(rounds), 1).payload.size(); };
+  if (!bench::report_memory(
+          "Menger " + std::to_string(rounds), [] {}, work))
+    std::abort();
 }
 
 void bench_chaos() {

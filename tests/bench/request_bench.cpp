@@ -1,7 +1,5 @@
 /// From the request text to the bytes of a GLB: the time per triangle of the three largest presets of each
 /// generator, and the memory of one large response in addition to its own size.
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -12,6 +10,7 @@
 #include <vector>
 
 #include "core/pipeline.h"
+#include "tests/bench/memory.h"
 #include "tests/bench/report.h"
 
 namespace {
@@ -60,29 +59,19 @@ void bench_preset(const Sized& preset, int threads) {
                 seconds);
 }
 
-/// Generates the preset with this number of iterations in a forked process and prints the result. Returns
-/// false if the response is smaller than required or refused.
+/// Measures the memory of the preset with this number of iterations. Returns false if the response is smaller than
+/// required or refused.
 bool bench_memory(const std::string& name, int iterations, std::uint64_t least_bytes) {
-  std::fflush(stdout);
-  const pid_t child = fork();
-  if (child == 0) {
+  const auto work = [&]() -> std::size_t {
     const auto request = read_preset(name, {{"iterations", std::to_string(iterations)}}, Limits{});
-    if (!request || !*request) _exit(1);
-    const double idle = bench::status_bytes("VmRSS");
+    if (!request || !*request) return 0;
     const Result<Product> product =
         produce(**request, {.threads = static_cast<int>(std::thread::hardware_concurrency())});
-    if (!product || product->payload.size() < least_bytes) _exit(1);
-    const double peak = bench::status_bytes("VmHWM");
-    std::printf(
-        "{\"name\":\"memory: %s, %d "
-        "iterations\",\"unit\":\"bytes\",\"amount\":%llu,\"peak_less_idle\":%.0f}\n",
-        name.c_str(), iterations, static_cast<unsigned long long>(product->payload.size()), peak - idle);
-    std::fflush(stdout);
-    _exit(0);
-  }
-  int status = 1;
-  waitpid(child, &status, 0);
-  return status == 0;
+    return product && product->payload.size() >= least_bytes ? product->payload.size() : 0;
+  };
+  const std::string title = name + ", " + std::to_string(iterations) + " iterations";
+  return bench::report_memory(
+      title, [] {}, work);
 }
 
 int iterations_of(const std::string& name) {

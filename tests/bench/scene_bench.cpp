@@ -1,7 +1,5 @@
 /// The speed of placing, listing and writing scenes on two threads, in wall time, and their memory in
 /// addition to the response size.
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -16,6 +14,7 @@
 #include "core/pipeline.h"
 #include "core/schema/json.h"
 #include "tests/bench/kept_textures.h"
+#include "tests/bench/memory.h"
 #include "tests/bench/report.h"
 
 namespace {
@@ -154,25 +153,12 @@ Product produced(const Json& json, TextureStore& textures) {
   return *std::move(product);
 }
 
-/// Measures in a forked process that has already generated a small scene of the same models.
+/// Measures the memory of a large scene after a small one of the same models.
 void bench_memory(const std::string& name, const Json& small, const Json& large) {
-  std::fflush(stdout);
-  const pid_t child = fork();
-  if (child == 0) {
-    bench::KeptTextures textures;
-    produced(small, textures);
-    std::ofstream("/proc/self/clear_refs") << "5";  // resets the peak
-    const double idle = bench::status_bytes("VmRSS");
-    const Product product = produced(large, textures);
-    std::printf("{\"name\":\"memory: %s\",\"unit\":\"bytes\",\"amount\":%llu,\"peak_less_idle\":%.0f}\n",
-                name.c_str(), static_cast<unsigned long long>(product.payload.size()),
-                bench::status_bytes("VmHWM") - idle);
-    std::fflush(stdout);
-    _exit(0);
-  }
-  int status = 1;
-  waitpid(child, &status, 0);
-  if (status != 0) std::abort();
+  bench::KeptTextures textures;
+  const auto prepare = [&] { produced(small, textures); };
+  if (!bench::report_memory(name, prepare, [&] { return produced(large, textures).payload.size(); }))
+    std::abort();
 }
 
 /// The same plants with a skeleton and the animation.

@@ -2,8 +2,6 @@
 /// together, and the memory of large trees in addition to the response size. Textures are cached between
 /// requests, as in the server. Usage: tree_bench [preset [rounds [threads]]] runs one preset for a profiler;
 /// the preset `small` is a tree of 20,000 triangles.
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <cstdlib>
 #include <string>
@@ -12,6 +10,7 @@
 #include "core/pipeline.h"
 #include "server/give_back.h"
 #include "tests/bench/kept_textures.h"
+#include "tests/bench/memory.h"
 #include "tests/bench/report.h"
 
 namespace {
@@ -56,28 +55,19 @@ void bench_answer(const std::string& name, const std::string& text, int threads,
                 static_cast<double>(triangles), seconds);
 }
 
-/// Measures in a forked process that has already generated a small tree with the same textures.
+/// Measures the memory of a tree after a small one with the same textures.
 void bench_memory(const std::string& name, const std::string& small, const std::string& text) {
-  std::fflush(stdout);
-  const pid_t child = fork();
-  if (child == 0) {
+  const auto prepare = [&] {
     triangles_of(small);
+    reserve()->clear();  // as in an idle service
+  };
+  const auto work = [&]() -> std::size_t {
     const Result<Request> request = read_request(text, Limits{});
-    if (!request) _exit(1);
-    std::ofstream("/proc/self/clear_refs") << "5";  // resets the peak
-    reserve()->clear();                             // as in an idle service
-    const double idle = bench::status_bytes("VmRSS");
+    if (!request) return 0;
     const Result<Product> product = produce(*request, {.reserve = reserve()}, &textures());
-    if (!product) _exit(1);
-    std::printf("{\"name\":\"memory: %s\",\"unit\":\"bytes\",\"amount\":%llu,\"peak_less_idle\":%.0f}\n",
-                name.c_str(), static_cast<unsigned long long>(product->payload.size()),
-                bench::status_bytes("VmHWM") - idle);
-    std::fflush(stdout);
-    _exit(0);
-  }
-  int status = 1;
-  waitpid(child, &status, 0);
-  if (status != 0) std::abort();
+    return product ? product->payload.size() : 0;
+  };
+  if (!bench::report_memory(name, prepare, work)) std::abort();
 }
 
 }  // namespace
