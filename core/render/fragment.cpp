@@ -14,6 +14,32 @@ static glm::u16vec4 texel_of(const texture::Texels::Level& level, const glm::vec
   return level.texels[std::size_t{place(at.y, level.height)} * level.width + place(at.x, level.width)];
 }
 
+/// The mean of the four texels around a position, by distance. For textures that are larger in the picture than
+/// they are: single texels would show as squares.
+static glm::vec4 blended(const texture::Texels::Level& level, const glm::vec2& at, bool repeat) {
+  struct Pair {
+    std::uint32_t low, high;
+    float share;  ///< of the high one
+  };
+  const auto pair_of = [repeat](float share, std::uint32_t size) {
+    const float inside = repeat ? share - std::floor(share) : std::clamp(share, 0.0F, 1.0F);
+    const float place = inside * static_cast<float>(size) - 0.5F, whole = std::floor(place);
+    const auto low = static_cast<std::int32_t>(whole), last = static_cast<std::int32_t>(size) - 1;
+    const auto kept = [&](std::int32_t i) {
+      if (i < 0) return static_cast<std::uint32_t>(repeat ? last : 0);
+      if (i > last) return static_cast<std::uint32_t>(repeat ? 0 : last);
+      return static_cast<std::uint32_t>(i);
+    };
+    return Pair{kept(low), kept(low + 1), place - whole};
+  };
+  const Pair x = pair_of(at.x, level.width), y = pair_of(at.y, level.height);
+  const auto row = [&](std::uint32_t number) {
+    const glm::u16vec4* const texels = &level.texels[std::size_t{number} * level.width];
+    return glm::vec4(texels[x.low]) * (1 - x.share) + glm::vec4(texels[x.high]) * x.share;
+  };
+  return row(y.low) * (1 - y.share) + row(y.high) * y.share;
+}
+
 void FragmentReader::take_drawing(std::uint32_t drawing) {
   drawing_ = drawing;
   number_ = ~0U;
@@ -78,9 +104,13 @@ Fragment FragmentReader::at(std::uint32_t drawing, std::uint32_t number, float x
   if (uv_) {
     const glm::vec2 place = (at_[0] * a + at_[1] * b) + at_[2] * c;
     const std::size_t level = surface_->texels->level_of(texels_ * static_cast<double>(samples));
-    const glm::u16vec4 texel = texel_of(surface_->texels->level(level), place, surface_->repeat);
-    out.color *= glm::vec3(glm::u16vec3(texel)) * (1 / 65'535.0F);
-    out.alpha *= static_cast<float>(texel.w) * (1 / 65'535.0F);
+    const texture::Texels::Level& texels = surface_->texels->level(level);
+    // Empty texels of cut-out textures have no colour.
+    const bool is_magnified = level == 0 && !surface_->texels->has_holes();
+    const glm::vec4 texel = is_magnified ? blended(texels, place, surface_->repeat)
+                                         : glm::vec4(texel_of(texels, place, surface_->repeat));
+    out.color *= glm::vec3(texel) * (1 / 65'535.0F);
+    out.alpha *= texel.w * (1 / 65'535.0F);
   }
   if (!of_->mesh->normal.empty())
     out.normal = math::quick_unit((normal_[0] * a + normal_[1] * b) + normal_[2] * c, glm::vec3(0, 1, 0));

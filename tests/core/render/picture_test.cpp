@@ -236,8 +236,8 @@ TEST(Picture, ShowsTheGroundWhereItIsAsked) {
   EXPECT_NE(brightness(with, 10, 120), brightness(without, 10, 120));  // beside it
 }
 
-TEST(Picture, CutsHolesWhereATextureIsEmpty) {
-  const Job job = job_of();
+/// An upright unit square with a texture of 8 x 8 texels with four channels.
+Model square_with(const Array<std::uint8_t>& pixels, const Job& job) {
   Mesh mesh = empty_mesh(job);
   mesh.uv[0] = Array<glm::vec2>(job);
   for (const glm::vec2 at : {glm::vec2(0, 0), {1, 0}, {1, 1}, {0, 1}}) {
@@ -246,22 +246,53 @@ TEST(Picture, CutsHolesWhereATextureIsEmpty) {
   }
   for (const std::uint32_t corner : {0U, 1U, 2U, 0U, 2U, 3U}) mesh.index.wide.push_back(corner);
   Model model = model_of(std::move(mesh));
-  // The left half of the texture is empty.
-  Array<std::uint8_t> pixels(job);
-  for (int i = 0; i < 64; ++i) {
-    for (const int channel : {200, 100, 50, i % 8 < 4 ? 0 : 255})
-      pixels.push_back(static_cast<std::uint8_t>(channel));
-  }
   const auto file =
       texture::encode_png({8, 8, 4, 8, std::as_bytes(pixels.span())}, texture::PngEffort::small, job);
   auto image = std::make_shared<Image>();
   image->bytes.assign(file.begin(), file.end());
   model.textures.push_back(image);
   model.materials[0].base_color_texture = {0, 0, false};
+  return model;
+}
+
+TEST(Picture, CutsHolesWhereATextureIsEmpty) {
+  const Job job = job_of();
+  // The left half of the texture is empty.
+  Array<std::uint8_t> pixels(job);
+  for (int i = 0; i < 64; ++i) {
+    for (const int channel : {200, 100, 50, i % 8 < 4 ? 0 : 255})
+      pixels.push_back(static_cast<std::uint8_t>(channel));
+  }
+  Model model = square_with(pixels, job);
   model.materials[0].alpha_mode = AlphaMode::mask;
   const Drawn drawn(model, frame_of(0, 0), 200, job);
   EXPECT_EQ(drawn.near(60, 100), 0);
   EXPECT_GT(drawn.near(140, 100), 0);
+}
+
+/// Between the middles of two texels, the linear colour changes evenly (bilinear filter).
+TEST(Picture, BlendsTexelsThatAreLargerThanItsPixels) {
+  const Job job = job_of();
+  // Columns 0 to 3 are black, the others white.
+  Array<std::uint8_t> pixels(job);
+  for (int i = 0; i < 64; ++i) {
+    const int shade = i % 8 < 4 ? 0 : 255;
+    for (const int channel : {shade, shade, shade, 255}) pixels.push_back(static_cast<std::uint8_t>(channel));
+  }
+  const Model model = square_with(pixels, job);
+  const Drawn drawn(model, frame_of(0, 0), 800, job);
+  const auto color = [&](std::uint32_t x) { return drawn.fragment(x, 400).color.x; };
+  std::uint32_t left = 0, right = 799;  // the columns of the square
+  while (drawn.near(left, 400) == 0) ++left;
+  while (drawn.near(right, 400) == 0) --right;
+  const auto width = static_cast<double>(right - left + 1);
+  const float full = color(right);
+  EXPECT_EQ(color(left), 0);
+  for (std::uint32_t x = left; x <= right; ++x) {
+    const double place = (static_cast<double>(x - left) + 0.5) / width * 8;  // in texels
+    const double share = std::clamp(place - 3.5, 0.0, 1.0);
+    ASSERT_NEAR(static_cast<double>(color(x) / full), share, 0.02) << x;
+  }
 }
 
 TEST(Picture, IsTheSameWithAnyNumberOfThreads) {
