@@ -10,13 +10,13 @@ namespace {
 /// For the web client: all files come from this service, without inline scripts and styles. The viewer reads the
 /// textures of a model through blob URLs.
 constexpr const char* client_security =
-    "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data: blob:; connect-src 'self' "
-    "blob:; base-uri 'none'; form-action 'none'; frame-ancestors 'self'";
+    "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data: blob:; "
+    "connect-src 'self' blob:; base-uri 'none'; form-action 'none'; frame-ancestors 'self'";
 
 /// For the reference: one file with an inline style and without scripts.
 constexpr const char* docs_security =
-    "default-src 'none'; style-src 'unsafe-inline'; base-uri 'none'; form-action 'none'; frame-ancestors "
-    "'self'";
+    "default-src 'none'; style-src 'unsafe-inline'; base-uri 'none'; form-action 'none'; "
+    "frame-ancestors 'self'";
 
 /// The codings that embed_assets.cpp writes.
 constexpr Coding asset_codings[] = {Coding::br, Coding::gzip};

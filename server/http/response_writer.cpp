@@ -9,12 +9,12 @@ namespace {
 
 /// Status codes with their phrases (RFC 9110 section 15).
 constexpr std::string_view phrases =
-    "200 OK|204 No Content|206 Partial Content|304 Not Modified|307 Temporary Redirect|400 Bad Request|401 "
-    "Unauthorized|403 Forbidden|404 Not Found|405 Method Not Allowed|406 Not Acceptable|411 Length "
-    "Required|413 Content Too Large|414 URI Too Long|415 Unsupported Media Type|416 Range Not "
-    "Satisfiable|417 Expectation Failed|422 Unprocessable Content|429 Too Many Requests|431 Request Header "
-    "Fields Too Large|499 Client Closed Request|500 Internal Server Error|503 Service Unavailable|504 "
-    "Gateway Timeout|505 HTTP Version Not Supported|";
+    "200 OK|204 No Content|206 Partial Content|304 Not Modified|307 Temporary Redirect|400 Bad Request|"
+    "401 Unauthorized|403 Forbidden|404 Not Found|405 Method Not Allowed|406 Not Acceptable|"
+    "411 Length Required|413 Content Too Large|414 URI Too Long|415 Unsupported Media Type|"
+    "416 Range Not Satisfiable|417 Expectation Failed|422 Unprocessable Content|429 Too Many Requests|"
+    "431 Request Header Fields Too Large|499 Client Closed Request|500 Internal Server Error|"
+    "503 Service Unavailable|504 Gateway Timeout|505 HTTP Version Not Supported|";
 
 /// "404 Not Found"; the code and a space where there is no phrase for it.
 std::string status_text(int status) {
