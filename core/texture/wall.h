@@ -1,7 +1,8 @@
 #pragma once
 /// Textures of surfaces by seed: brick, plaster, roof tiles, slate, planks, ashlar, concrete, sheet metal, metal
-/// panels, dressed stone and paint of buildings, the rooms of rooms.h, the doors of joinery.h, the dirt of grime.h, and the grounds of ground.h. They tile seamlessly in both
-/// directions and have a size in metres. Up the wall or the slope is up in the image.
+/// panels, dressed stone and paint of buildings; windows in walls (bay.h), rooms (rooms.h), doors (joinery.h), dirt
+/// (grime.h) and grounds (ground.h). They tile seamlessly in both directions and have a size in metres. Up the wall or
+/// the slope is up in the image.
 #include <glm/vec2.hpp>
 #include <span>
 #include <string_view>

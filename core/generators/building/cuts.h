@@ -41,9 +41,9 @@ struct CutOptions {
   double most = 0;  ///< greatest number of pieces
 };
 
-/// Cuts `length` into the first `count` cells; the others belong to groups. Pieces come in order from the low end. Pieces without
-/// a size are left out, and the piece that reaches beyond the end is cut off there. False: there would be
-/// more than options.most pieces; `wanted` says how many. Cost: linear in the pieces.
+/// Cuts `length` into the first `count` cells; the others belong to groups. Pieces come in order from the low end.
+/// Pieces without a size are left out, and the piece that reaches beyond the end is cut off there. False: there would
+/// be more than options.most pieces; `wanted` says how many. Cost: linear in the pieces.
 bool cut(std::span<const Cell> cells, std::uint32_t count, double length, const CutOptions& options,
          std::vector<Cut>& out, double& wanted);
 

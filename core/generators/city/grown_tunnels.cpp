@@ -13,12 +13,12 @@ namespace {
 
 using glm::dvec2;
 
-constexpr double piece_length = 3000;     // in which the ground is sampled, cm
-constexpr double shortest_tunnel = 3000;  // cm
-constexpr double shortest_stub = 1500;    // of the street at its mouths, cm
-constexpr double least_depth = 6.5;       // of the floor in the middle third: the tube and earth above it, m
-constexpr double least_cover = -0.5;      // of the floor elsewhere, m
-constexpr double least_cosine = 0.9;      // between a tunnel and the street at its mouths
+constexpr double piece_length = 3000;       // in which the ground is sampled, cm
+constexpr double shortest_tunnel = 3000;    // cm
+constexpr double shortest_approach = 1500;  // of the street before and behind a tunnel, cm
+constexpr double least_depth = 6.5;   // of the floor in the middle third: the tube and earth above it, m
+constexpr double least_cover = -0.5;  // of the floor elsewhere, m
+constexpr double least_cosine = 0.9;  // between a tunnel and the street at its mouths
 
 double length_of(const StreetPiece& piece) { return distance(piece.a, piece.b); }
 
@@ -83,8 +83,8 @@ std::optional<Route> GrowthInput::tunnelled(const Route& route) const {
     const StreetPiece &before = pieces[i - 1], &last = pieces[end - 1], &after = pieces[end];
     const double length = distance(first.a, last.b);
     if (before.b != first.a || after.a != last.b || length < shortest_tunnel ||
-        length > streets.tunnel_length * 100 || length_of(before) < shortest_stub ||
-        length_of(after) < shortest_stub)
+        length > streets.tunnel_length * 100 || length_of(before) < shortest_approach ||
+        length_of(after) < shortest_approach)
       return std::nullopt;
     const dvec2 along = direction_of(first.a, last.b);
     if (glm::dot(along, direction_of(before.a, before.b)) < least_cosine ||

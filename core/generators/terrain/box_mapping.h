@@ -20,7 +20,8 @@ struct VertexLooks {
 /// Collects triangles of a mesh. A vertex that faces of several sides share is duplicated.
 class BoxMapped {
  public:
-  /// `lighter`: factor of all colours. `from` and `looks` are borrowed. The coordinates go to set 1 where `from` has some in set 0, which are kept; otherwise to set 0.
+  /// `lighter`: factor of all colours. `from` and `looks` are borrowed. The coordinates go to set 1 where `from` has
+  /// some in set 0, which are kept; otherwise to set 0.
   BoxMapped(const Mesh& from, const VertexLooks& looks, float lighter, const Job& job);
 
   void add(const std::array<std::uint32_t, 3>& corners);

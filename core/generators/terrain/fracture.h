@@ -1,8 +1,8 @@
 #pragma once
 /// Rocks: an ellipsoid that breaks along random planes, with layers of harder and softer stone.
 ///
-/// Planes cut off caps as in the "scraping" of sculptors: what remains is convex and has flat facets. Layers lie across
-/// one tilted axis; soft ones recede.
+/// Each plane cuts off a cap: what remains is convex and has flat facets. Layers lie across one tilted axis; soft ones
+/// recede.
 #include <glm/vec3.hpp>
 
 #include "core/base/rng.h"
@@ -22,7 +22,7 @@ struct FracturePlan {
   double roughness = 0;    ///< amplitude of the noise on the facets, metres
 };
 
-/// Writes the heights of a rock. Cost: about 3 ns for each point and plane, and 0.2 us a point for noise and layers.
+/// Writes the heights of a rock. Cost: points times planes, and six octaves of noise a point.
 void fracture_sphere(Planet& planet, const FracturePlan& plan, Rng rng, const Job& job);
 
 }  // namespace seedmesh::terrain

@@ -1,6 +1,6 @@
 #pragma once
-/// The texture of the ground of tiles of up to 2 km: a grey square that repeats, and the coordinates of the vertices in it,
-/// which are the same in all tiles. Both are files that tiles share.
+/// The texture of the ground of tiles of up to 2 km: a grey square that repeats, and the coordinates of the vertices in
+/// it, which are the same in all tiles. Both are files that tiles share.
 #include <memory>
 #include <string>
 
