@@ -103,7 +103,7 @@ CoarseLimbs coarse_limbs(const Limbs& limbs, const CoarseOptions& wanted, const 
     CoarseLimbs next = coarsen(limbs, coarse, job);
     // Stacks add triangles to the tubes that coarsen() counts.
     options.corners = next.corners;
-    const std::uint64_t made = skin_triangles(next.limbs, options, job, most.repeats);
+    const std::uint64_t made = skin_count(next.limbs, options, job, most.repeats).triangles;
     const bool is_good =
         made >= wanted.triangles - wanted.triangles / 10 && made <= wanted.triangles + wanted.triangles / 100;
     if (is_good || (made > kept_made && made <= most.triangles)) {
@@ -164,7 +164,7 @@ std::vector<Bark> coarser_bark(const Limbs& limbs, const CoarseOptions& wanted, 
 
 /// Reports whether internodes coincide. `made` is the number of triangles with all limbs counted.
 Redrawn repeats_of(const Limbs& limbs, const SkinOptions& options, std::uint64_t made, const Job& job) {
-  return skin_triangles(limbs, options, job) == made ? Redrawn::counted : Redrawn::found;
+  return skin_count(limbs, options, job).triangles == made ? Redrawn::counted : Redrawn::found;
 }
 
 /// Adds a level to the last node.
@@ -373,11 +373,17 @@ std::uint64_t most_segments(const LsystemParams& params, const Limits& limits) {
 }
 
 Estimate estimate_of(const Skeleton& skeleton, const LsystemParams& params, Job& job) {
-  const std::uint64_t triangles = welded_triangles(skeleton.limbs, params, job);
-  const auto vertices =
-      static_cast<std::uint64_t>(math::to_int64(welded_vertices * static_cast<double>(triangles)));
-  const std::uint64_t index = vertices > 65'535 ? bytes_a_triangle : bytes_a_triangle / 2;
-  return {triangles, document + triangles * index + vertices * bytes_a_vertex, false};
+  const std::vector<Contour> contours = contours_of(params);
+  TubeCount count;
+  if (params.weld) {
+    count.triangles = welded_triangles(skeleton.limbs, params, job);
+    count.vertices =
+        static_cast<std::uint64_t>(math::to_int64(welded_vertices * static_cast<double>(count.triangles)));
+  } else {
+    count = skin_count(skeleton.limbs, skin_options(params, contours, Detail(0)), job, Redrawn::found);
+  }
+  const std::uint64_t index = count.vertices > 65'535 ? bytes_a_triangle : bytes_a_triangle / 2;
+  return {count.triangles, document + count.triangles * index + count.vertices * bytes_a_vertex, false};
 }
 
 Estimate estimate_of(std::uint64_t segments, std::uint64_t limbs, const LsystemParams& params) {

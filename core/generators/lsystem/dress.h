@@ -23,7 +23,7 @@ Model dress(Skeleton skeleton, const LsystemParams& params, const GenerateContex
 /// segments counts.
 std::uint64_t most_segments(const LsystemParams& params, const Limits& limits);
 
-/// Estimates the size of a model with welded bark. The skeleton already has its widths.
+/// Estimates the size of a model of tubes or of welded bark. The skeleton already has its widths.
 Estimate estimate_of(const Skeleton& skeleton, const LsystemParams& params, Job& job);
 
 /// Estimates the size of a model of `segments` drawn segments in `limbs` limbs, each of which becomes a tube.

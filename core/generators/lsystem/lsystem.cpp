@@ -312,8 +312,8 @@ Result<Json> derive(const LsystemParams& params, const GenerateContext& context)
               {"warnings", warning_list(grammar->warnings)}};
 }
 
-/// Estimates welded bark. Its vertices depend on widths, so the limbs are drawn.
-static Estimate estimate_of_welded(const Grammar& grammar, const LsystemParams& params, const Job& job) {
+/// Estimates tubes or welded bark from the drawn limbs, because their size depends on widths, bends and repeats.
+static Estimate estimate_of_drawn(const Grammar& grammar, const LsystemParams& params, const Job& job) {
   Job own = job.for_estimate();
   Skeleton skeleton(own);
   const GenerateContext sketch{own};
@@ -337,10 +337,11 @@ Result<Appraisal> appraise(const LsystemParams& params, const GenerateContext& c
   if (!counts.empty() && grammar->interpretation.productions.empty()) {
     if (share_of(params) == 1) warn_of_word(*grammar, counts, appraisal.warnings);
     const std::uint64_t segments = drawn(*grammar, counts);
-    if (!params.weld || params.style == LsystemParams::Style::lines) {
+    const bool is_tubes = params.style != LsystemParams::Style::lines;
+    if (is_tubes && segments <= most_appraised) {
+      appraisal.estimate = estimate_of_drawn(*grammar, params, job);
+    } else if (!is_tubes || !params.weld) {
       appraisal.estimate = estimate_of(segments, std::min(segments, 1 + branches(*grammar, counts)), params);
-    } else if (segments <= most_appraised) {
-      appraisal.estimate = estimate_of_welded(*grammar, params, job);
     }
   }
   warn_of_welded(params, appraisal.warnings);

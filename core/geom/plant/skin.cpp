@@ -283,9 +283,9 @@ std::vector<Bark> skin(const Limbs& limbs, const SkinOptions& options, Job& job)
   return barks;
 }
 
-std::uint64_t skin_triangles(const Limbs& limbs, const SkinOptions& options, const Job& request,
-                             Redrawn repeats) {
-  if (limbs.size() == 0) return 0;
+TubeCount skin_count(const Limbs& limbs, const SkinOptions& options, const Job& request, Redrawn repeats) {
+  TubeCount sum;
+  if (limbs.size() == 0) return sum;
   Job job = request.for_estimate();
   const Scale scale = scale_of(limbs, finest_sides(options));
   Plan plan(limbs, repeats == Redrawn::found ? find_chains(limbs, scale, job) : link_chains(limbs, job),
@@ -295,9 +295,11 @@ std::uint64_t skin_triangles(const Limbs& limbs, const SkinOptions& options, con
   }
   mark_straight(limbs, options, scale, plan.chains);
   count_tubes(plan, limbs, options, job);
-  std::uint64_t triangles = 0;
-  for (const TubeCount& total : sum_counts(plan)) triangles += total.triangles;
-  return triangles;
+  for (const TubeCount& total : sum_counts(plan)) {
+    sum.vertices += total.vertices;
+    sum.triangles += total.triangles;
+  }
+  return sum;
 }
 
 }  // namespace seedmesh

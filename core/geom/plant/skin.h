@@ -98,9 +98,13 @@ std::vector<Bark> wires(Limbs&& limbs, Job& job);
 /// Whether a count finds repeated internodes, which takes ten times as long, or counts them twice.
 enum class Redrawn { counted, found };
 
-/// Returns the number of triangles that skin() would write; exact, except for repeated internodes. Spends nothing of
-/// the job, but stops with it.
-std::uint64_t skin_triangles(const Limbs& limbs, const SkinOptions& options, const Job& job,
-                             Redrawn repeats = Redrawn::counted);
+struct TubeCount {
+  std::uint64_t vertices = 0, triangles = 0;
+};
+
+/// Returns the size of all that skin() would write; exact, except for repeated internodes. Spends nothing of the
+/// job, but stops with it.
+TubeCount skin_count(const Limbs& limbs, const SkinOptions& options, const Job& job,
+                     Redrawn repeats = Redrawn::counted);
 
 }  // namespace seedmesh

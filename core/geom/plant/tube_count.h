@@ -24,10 +24,6 @@ class Palette {
   std::vector<std::int16_t> colors_;
 };
 
-struct TubeCount {
-  std::uint64_t vertices = 0, triangles = 0;
-};
-
 /// The numbers of all cross-sections of a limb.
 struct CrossSection {
   CrossSection(const SkinOptions& options, int side_count)

@@ -76,13 +76,14 @@ TEST(Coarsen, MakesAboutAsManyTrianglesAsAreWanted) {
   for (std::uint64_t seed = 1; seed < 40; ++seed) {
     const Limbs limbs = random_limbs(job, seed);
     const SkinOptions finest{.adapt = true};
-    CoarseOptions options = wanting(skin_triangles(limbs, finest, job) / 2);
+    CoarseOptions options = wanting(skin_count(limbs, finest, job).triangles / 2);
     options.skin = &finest;
     const CoarseLimbs kept = coarsen(limbs, options, job);
     SkinOptions coarse = finest;
     coarse.corners = kept.corners;
     for (const Bark& bark : skin(kept.limbs, coarse, job)) EXPECT_THAT(faults(bark.mesh), IsEmpty());
-    EXPECT_LE(skin_triangles(kept.limbs, coarse, job), skin_triangles(limbs, finest, job)) << seed;
+    EXPECT_LE(skin_count(kept.limbs, coarse, job).triangles, skin_count(limbs, finest, job).triangles)
+        << seed;
   }
 }
 
@@ -92,7 +93,7 @@ TEST(Coarsen, GivesSkinLimbsOfFewerCornersThatAreClosed) {
   for (std::uint64_t seed = 1; seed < 600; ++seed) {
     const Limbs limbs = random_limbs(job, seed);
     SkinOptions finest{.sides = 3 + static_cast<int>(seed % 8), .stacks = 1 + static_cast<int>(seed % 3)};
-    CoarseOptions options = wanting(skin_triangles(limbs, finest, job) * (1 + seed % 4) / 5);
+    CoarseOptions options = wanting(skin_count(limbs, finest, job).triangles * (1 + seed % 4) / 5);
     options.skin = &finest;
     const CoarseLimbs kept = coarsen(limbs, options, job);
     SkinOptions coarse = finest;
@@ -106,7 +107,7 @@ TEST(Coarsen, GivesSkinLimbsOfFewerCornersThatAreClosed) {
       EXPECT_THAT(faults(bark.mesh), IsEmpty()) << seed;
     }
     EXPECT_EQ(measure(meshes).open_edges, 0U) << seed;
-    EXPECT_EQ(made, skin_triangles(kept.limbs, coarse, job, Redrawn::found)) << seed;
+    EXPECT_EQ(made, skin_count(kept.limbs, coarse, job, Redrawn::found).triangles) << seed;
     for (const LimbCorners& corners : kept.corners) of_fewer += corners.now < corners.finest ? 1 : 0;
   }
   EXPECT_GT(of_fewer, 1000U);
@@ -121,7 +122,7 @@ TEST(Coarsen, HasNoRingWhereASideBranchLeavesAStraightLimb) {
     if (i < 8) maker.branch(trunk, {1, static_cast<float>(i) + 0.5F, 0}, {0.05F, 0.05F});
   }
   const SkinOptions finest{.sides = 6};
-  const std::uint64_t whole = skin_triangles(maker.limbs, finest, job);
+  const std::uint64_t whole = skin_count(maker.limbs, finest, job).triangles;
   CoarseOptions options = wanting(whole);
   options.skin = &finest;
   const CoarseLimbs kept = coarsen(maker.limbs, options, job);
@@ -129,7 +130,7 @@ TEST(Coarsen, HasNoRingWhereASideBranchLeavesAStraightLimb) {
   coarse.corners = kept.corners;
   // Seven rings of the trunk less, 12 triangles each, and two for the face that each of eight limbs begins
   // with.
-  EXPECT_EQ(skin_triangles(kept.limbs, coarse, job), whole - 7 * 12 - 8 * 2);
+  EXPECT_EQ(skin_count(kept.limbs, coarse, job).triangles, whole - 7 * 12 - 8 * 2);
   for (const Bark& bark : skin(kept.limbs, coarse, job)) {
     EXPECT_THAT(faults(bark.mesh), IsEmpty());
     EXPECT_EQ(measure({&bark.mesh}).open_edges, 0U);

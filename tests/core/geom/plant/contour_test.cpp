@@ -157,8 +157,9 @@ TEST(Skin, CutsATwistedInternodeIntoItsStacks) {
   const std::vector<glm::dvec2> square{{0.7, 0.7}, {-0.7, 0.7}, {-0.7, -0.7}, {0.7, -0.7}};
   const std::vector<Contour> contours{make_contour(square)};
   const auto triangles = [&](double degrees, int stacks) {
-    return skin_triangles(rolling_limb(job, degrees, 3), {.sides = 4, .stacks = stacks, .contours = contours},
-                          job);
+    return skin_count(rolling_limb(job, degrees, 3), {.sides = 4, .stacks = stacks, .contours = contours},
+                      job)
+        .triangles;
   };
   EXPECT_EQ(triangles(0, 8), triangles(0, 1));
   EXPECT_EQ(triangles(10, 8), triangles(0, 1) + 4U * 7 * 8) << "four internodes twist";

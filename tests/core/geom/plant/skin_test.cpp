@@ -247,7 +247,7 @@ TEST(Skin, CountsItsTrianglesBeforehand) {
   }();
   const SkinOptions options{.sides = 9, .stacks = 3};
   const std::uint64_t triangles = measure_all(skin(spiral, options, job)).triangles;
-  EXPECT_EQ(skin_triangles(spiral, options, job), triangles);
+  EXPECT_EQ(skin_count(spiral, options, job).triangles, triangles);
   EXPECT_EQ(job.spent(Resource::triangles), triangles);
 }
 
