@@ -49,7 +49,6 @@ struct Complaint {
 void on_warning(png_structp /*png*/, png_const_charp /*message*/) {}
 
 // --- Writing row by row
-// --------------------------------------------------------------------------------------------------
 
 struct Writer {
   png_structp png = nullptr;
@@ -117,7 +116,6 @@ bool write_end(Writer& writer) {
 }
 
 // --- Writing at once
-// ------------------------------------------------------------------------------------------
 
 constexpr std::array<std::uint8_t, 8> signature = {137, 'P', 'N', 'G', '\r', '\n', 26, '\n'};
 constexpr std::size_t chunk_head = 8, chunk_foot = 4;  // length and type; checksum
@@ -250,7 +248,6 @@ Array<std::uint8_t> encode_in_rows(const PictureView& picture, const Job& job) {
 }
 
 // --- Reading
-// --------------------------------------------------------------------------------------------------
 
 struct Reader {
   png_structp png = nullptr;
