@@ -17,7 +17,7 @@ bool can_change(Derivation& d, const Step& step, const ShapeState& state, int se
   if (dimension(state.size) == 3) {
     warn(d, step.offset,
          "the faces of this solid have texture coordinates of their own, which this operation cannot change; "
-         "use it behind comp(f), or behind setupProjection");
+         "use it after comp(f) or setupProjection");
   }
   return false;
 }
