@@ -196,7 +196,7 @@ void engine_faults(const TerrainParams& params, const WantedFormat& form, std::v
   if (given.map != TerrainMap::height) {
     fault(IssueKind::conflict, "/heightmap/map",
           "found " + std::string(text_of(given.map)) + "; the profile " + profile +
-              " is about heights, other maps have the profile core");
+              " is for heights; other maps need the profile core");
   }
   if (given.byte_order != TerrainByteOrder::little) {
     fault(IssueKind::conflict, "/heightmap/byte_order",
