@@ -353,7 +353,7 @@ class HoudiniReader {
 }  // namespace
 
 Result<Imported> import_houdini(std::string_view text, const ImportOptions& options) {
-  if (std::optional<Error> error = entry_error(options, "a node contains one system"))
+  if (std::optional<Error> error = entry_error(options, "a node contains one L-system"))
     return *std::move(error);
   ForeignText source(text);
   Imported imported = HoudiniReader(source).read();
