@@ -117,7 +117,7 @@ void copy_uv(Derivation& d, const Step& step, ShapeState& state, const Site&) {
 
 void delete_uv(Derivation& d, const Step& step, ShapeState& state, const Site&) {
   const int set = uv_set_at(d, step, 0);
-  for (const bool in_force : {true, false}) set_projection_id(d, state, set, in_force, 0);
+  for (const bool is_applied : {true, false}) set_projection_id(d, state, set, is_applied, 0);
 }
 
 }  // namespace seedmesh::building::operators
