@@ -20,20 +20,22 @@ struct ApiKey {
 /// Splits a list at commas, white space and line ends. "#" begins a comment to the end of the line.
 std::vector<std::string> list_elements(std::string_view text);
 
-/// Resolves a setting that may refer to a file: the text of the file for "@/run/secrets/keys", else the setting
-/// itself. False where the file cannot be read.
+/// Resolves a setting that may refer to a file. Sets `text` to the text of the file for "@/run/secrets/keys",
+/// else to the setting itself. Returns false where the file cannot be read.
 bool read_indirect(std::string_view given, std::string& text);
 
-/// "alice:<64 hex digits>", "alice:<64 hex digits>:10:2": name, SHA-256 of the key, rate, concurrency.
+/// Reads API keys such as "alice:<64 hex digits>" or "alice:<64 hex digits>:10:2". The parts are the name,
+/// the SHA-256 of the key, the rate and the concurrency.
 std::string read_api_keys(std::string_view text, std::vector<ApiKey>& keys);
 
-/// "2026a:<hex digits of at least 16 bytes>": id, secret. The first signs, all verify.
+/// Reads signing keys such as "2026a:<hex digits of at least 16 bytes>". The parts are the id and the secret.
+/// The first key signs; all keys verify.
 std::string read_signing_keys(std::string_view text, std::vector<SigningKey>& keys);
 
-/// "*", or origins such as https://example.org.
+/// Reads "*", or origins such as https://example.org.
 std::string read_origins(std::string_view text, std::vector<std::string>& origins);
 
-/// Names of generators.
+/// Reads names of generators.
 std::string read_generators(std::string_view text, std::vector<std::string>& generators);
 
 }  // namespace seedmesh

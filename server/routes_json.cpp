@@ -76,7 +76,7 @@ http::Response post_derive(Call& call) {
 
 http::Response post_import(Call& call) {
   if (call.service.access.only_presets()) {
-    return deny(call, {problem(403, "This service makes only presets, so that an import has no use."),
+    return deny(call, {problem(403, "This service makes only presets, so imports are not available."),
                        "only_presets"});
   }
   auto query = parse_query(call);

@@ -1,6 +1,7 @@
 #pragma once
-/// The lock file of `seedmesh sync`: `seedmesh.lock` has, for each request file, its hash, and for each file made
-/// from it engine, size, validator and hash. The Python client reads and writes the same file, byte for byte.
+/// The lock file of `seedmesh sync`. `seedmesh.lock` has the hash of each request file. For each file made
+/// from it, it has the engine, size, ETag and hash. The Python client reads and writes the same file, byte
+/// for byte.
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -25,10 +26,11 @@ struct LockEntry {
 /// Entries by the path of the request file, relative to the directory, with slashes.
 using Lock = std::map<std::string, LockEntry>;
 
-/// Nothing where the text is not that of a lock file.
+/// Returns nothing where the text is not that of a lock file.
 std::optional<Lock> read_lock(const std::string& text);
 
-/// Returns one line for each request file, so that branches merge.
+/// Returns the text of a lock file, with one line for each request file, so that a version control system can
+/// merge it.
 std::string lock_text(const Lock& lock);
 
 }  // namespace seedmesh

@@ -21,13 +21,13 @@ struct ScannedFile {
   std::string path;    ///< path for messages and for reading
   std::string digest;  ///< hexadecimal SHA-256
   std::vector<ScannedOutput> outputs;
-  ErrorLines errors;  ///< why it has no outputs
+  ErrorLines errors;  ///< reasons why it has no outputs
 };
 
 struct Scan {
   std::vector<ScannedFile> files;  ///< sorted by key
-  std::vector<std::string> parts;  ///< what an interrupted run left
-  std::string failure;             ///< why the directory cannot be read
+  std::vector<std::string> parts;  ///< unfinished files that an interrupted run left
+  std::string failure;             ///< reason why the directory cannot be read; "" if it can
 };
 
 /// Folders and files whose names begin with a dot are left out. An unchanged request file is not parsed, because the

@@ -7,10 +7,11 @@
 
 namespace seedmesh {
 
-/// Compresses a text.
+/// Compresses a text at level 9.
 std::string deflate_raw(std::string_view text);
 
-/// The inverse. Returns nothing where `data` is not exactly one whole stream, or yields more than `limit` bytes.
+/// Decompresses `data`. Returns nothing where it is not exactly one whole stream, or yields more than `limit`
+/// bytes.
 std::optional<std::string> inflate_raw(std::string_view data, std::size_t limit);
 
 }  // namespace seedmesh

@@ -7,8 +7,8 @@ namespace seedmesh::pages {
 #if defined(__linux__)
 constexpr bool can_map = true;
 constexpr std::size_t huge_page = std::size_t{2} << 20U;
-constexpr std::size_t largest_page = std::size_t{64}
-                                     << 10U;  ///< the largest base page of any supported machine
+/// The largest base page of any supported machine.
+constexpr std::size_t largest_page = std::size_t{64} << 10U;
 #else
 constexpr bool can_map = false;
 constexpr std::size_t huge_page = 1, largest_page = 1;

@@ -91,7 +91,8 @@ inline double quick_acos(double x) {
   return quick_atan2(std::sqrt(rest > 0 ? rest : 0), x);
 }
 
-/// The same as math::unit, inline and with the same bits. Calls `otherwise()` only where `v` is zero or not finite.
+/// Returns the same bits as math::unit, and is inline. Calls `otherwise()` only where `v` is zero or not
+/// finite.
 template <class Vec, class Otherwise>
 Vec unit_or(const Vec& v, const Otherwise& otherwise) {
   const auto largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});

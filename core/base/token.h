@@ -7,7 +7,7 @@
 
 namespace seedmesh {
 
-constexpr std::size_t longest_token = 8'000;  ///< characters; for a longer token no permalink is written
+constexpr std::size_t longest_token = 8'000;  ///< in characters; a longer token gets no permalink
 
 /// Returns the token of a canonical request, which is the text of a JSON object. `engine` must contain no character
 /// that JSON escapes.

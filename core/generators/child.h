@@ -10,8 +10,8 @@
 
 namespace seedmesh {
 
-/// Greatest depth of requests inside requests. Presets count too, so that presets cannot refer to each other
-/// in a circle.
+/// Greatest depth of requests inside requests. Presets count too, so presets cannot refer to each other
+/// in a cycle.
 constexpr int deepest_child = 4;
 
 /// Reads the parameters at `pointer` and those of every request inside them, which become canonical. Adds the

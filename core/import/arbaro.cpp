@@ -199,7 +199,7 @@ class ArbaroReader {
       return;
     }
     if (number > 1 && name.ends_with("BranchDist") && name[0] != '0') {
-      source_.warn(value.from, "limbs are spread over one segment at most here");
+      source_.warn(value.from, "limbs are distributed over at most one segment here");
       number = 1;
     }
     species_.set(name, number, value.from);
@@ -232,7 +232,7 @@ int marks_of_arbaro(std::string_view text) {
 }
 
 Result<Imported> import_arbaro(std::string_view text, const ImportOptions& options) {
-  if (std::optional<Error> error = entry_error(options, "a file of Arbaro holds one species"))
+  if (std::optional<Error> error = entry_error(options, "a file of Arbaro contains one species"))
     return *std::move(error);
   ForeignText source(text);
   Imported imported = ArbaroReader(source).read();

@@ -230,7 +230,7 @@ void CpfgReader::depth(Line line, double value) {
     source_.report(line.from, "expected a depth that is a whole number above 0");
   } else {
     if (value > most) {
-      source_.warn(line.from, "the depth is " + number_text(most) + " here, the greatest depth");
+      source_.warn(line.from, "the depth becomes " + number_text(most) + ", the greatest depth here");
     }
     parameters_[homomorphism ? "interpretation_depth" : "decomposition_depth"] =
         static_cast<int>(std::min(value, most));
@@ -272,7 +272,7 @@ void CpfgReader::production(Line line) {
 }
 
 Result<Imported> import_cpfg(std::string_view text, const ImportOptions& options) {
-  if (std::optional<Error> error = entry_error(options, "a file of cpfg contains one system"))
+  if (std::optional<Error> error = entry_error(options, "a file of cpfg contains one L-system"))
     return *std::move(error);
   const JoinedText joined = with_cpfg_includes(text, options.files);
   ImportOptions rest = options;

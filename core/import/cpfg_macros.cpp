@@ -89,7 +89,7 @@ void CpfgMacros::define(std::string_view text, Line line) {
       known->second.parameter_list == macro.parameter_list)
     return;
   if (known != macros_.end()) {
-    source_.warn(at, "found a second macro " + lang::in_quotes(name) + "; it counts in the whole file here");
+    source_.warn(at, "found a second macro " + lang::in_quotes(name) + "; it applies to the whole file here");
     known->second = std::move(macro);
   } else if (macros_.size() == most_macros) {
     source_.report(at, "found more than 1,000 macros");

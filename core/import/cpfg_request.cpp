@@ -102,7 +102,7 @@ Imported CpfgReader::made() {
     } else {
       if (*value > most_steps) {
         source_.warn(length_.from,
-                     "the derivation length " + number_text(*value) + " is 1000 here, the most");
+                     "the derivation length " + number_text(*value) + " becomes 1000, the greatest one here");
       }
       put("iterations", static_cast<int>(std::min(*value, most_steps)), {{0, length_.from, false}});
     }

@@ -1,6 +1,6 @@
 #pragma once
-/// Converts modules of cpfg. Symbols of cpfg have one character, so that `@Gs`, `~l` and `?P` are two or three modules
-/// that its turtle reads together. Here each of them is one module.
+/// Converts modules of cpfg. A symbol of cpfg has one character. `@Gs`, `~l` and `?P` are two or three
+/// modules there, which its turtle reads together. Here each of them is one module.
 #include <map>
 #include <set>
 #include <string>
@@ -41,8 +41,8 @@ class CpfgWords {
   /// Returns the symbols of more than one character that occur, such as `@v` and `~l`.
   const std::set<std::string>& longer() const { return longer_; }
 
-  /// Returns the symbols for a list of characters to ignore or consider. cpfg compares single characters, so that a
-  /// longer symbol belongs to the list if its first character does.
+  /// Returns the symbols to ignore or consider for a list of characters. cpfg compares single characters, so
+  /// a longer symbol belongs to the list if its first character does.
   std::string listed(std::string_view characters) const;
 
   /// Returns the further characters of symbols with more than one character, each with its symbol.

@@ -367,7 +367,7 @@ int marks_of_geojson(std::string_view text) {
 }
 
 Result<Imported> import_geojson(std::string_view text, const ImportOptions& options) {
-  if (std::optional<Error> error = entry_error(options, "a file of GeoJSON is one map"))
+  if (std::optional<Error> error = entry_error(options, "a file of GeoJSON contains one map"))
     return *std::move(error);
   if (text.size() > largest_whole_file && !has_features_as_lines(text)) {
     const std::optional<ListedObjects> features = listed_objects(text, "features");

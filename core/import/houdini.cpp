@@ -84,9 +84,9 @@ class HoudiniReader {
       rules.push_back(line);
     } else if (colon < line.to && is_label(line.from, colon)) {
       source_.warn(line.from, lang::in_quotes(text_.substr(line.from, colon - line.from)) +
-                                  " is no parameter that has a counterpart here");
+                                  " is a parameter without a counterpart here");
     } else if (colon == line.to && begins_setting(line)) {
-      source_.report(line.from, "found no colon; expected such as `Premise: A` or `Angle: 28`");
+      source_.report(line.from, "found no colon; expected a line such as `Premise: A` or `Angle: 28`");
     } else if (!premise_ && colon == line.to) {
       premise_ = line;
       is_bare_ = true;
@@ -353,7 +353,7 @@ class HoudiniReader {
 }  // namespace
 
 Result<Imported> import_houdini(std::string_view text, const ImportOptions& options) {
-  if (std::optional<Error> error = entry_error(options, "a node contains one system"))
+  if (std::optional<Error> error = entry_error(options, "a node contains one L-system"))
     return *std::move(error);
   ForeignText source(text);
   Imported imported = HoudiniReader(source).read();

@@ -374,7 +374,7 @@ int marks_of_osm(std::string_view text) {
 }
 
 Result<Imported> import_osm(std::string_view text, const ImportOptions& options) {
-  if (std::optional<Error> error = entry_error(options, "a file of OpenStreetMap is one map"))
+  if (std::optional<Error> error = entry_error(options, "a file of OpenStreetMap contains one map"))
     return *std::move(error);
   if (!begins_json(text)) return OsmXmlReader(text, options).read();
   if (text.size() > largest_whole_file) {

@@ -225,7 +225,7 @@ class ShapemlReader : private ShapemlText {
       }
       if (found->is_left_out) {
         if (warned_.insert(std::string(name)).second)
-          source_.warn(at(i).offset, in_quotes(at(i)) + " has no counterpart, and is left out");
+          source_.warn(at(i).offset, in_quotes(at(i)) + " has no counterpart and is left out");
         return;
       }
       return write_as(i, found->rules, given);
@@ -387,7 +387,7 @@ int marks_of_shapeml(std::string_view text) {
 }
 
 Result<Imported> import_shapeml(std::string_view text, const ImportOptions& options) {
-  if (std::optional<Error> error = entry_error(options, "a file of ShapeML holds one grammar"))
+  if (std::optional<Error> error = entry_error(options, "a file of ShapeML contains one grammar"))
     return *std::move(error);
   ForeignText source(text);
   ShapemlReader reader(source);

@@ -339,7 +339,7 @@ int marks_of_tree_gen(std::string_view text) {
 }
 
 Result<Imported> import_tree_gen(std::string_view text, const ImportOptions& options) {
-  if (std::optional<Error> error = entry_error(options, "a file of tree-gen or Sapling holds one species"))
+  if (std::optional<Error> error = entry_error(options, "a file of tree-gen or Sapling contains one species"))
     return *std::move(error);
   ForeignText source(text);
   Imported imported = TreeGenReader(source).read();

@@ -101,7 +101,7 @@ class Lexer {
   std::vector<Token> read() {
     while (skip_space()) {
       if (tokens_.size() >= max_tokens || errors_.size() - errors_before_ >= max_errors - 2) {
-        report(at_, "too many tokens or errors: the text was not read from here on");
+        report(at_, "too many tokens or errors: the rest of the text was not read");
         break;
       }
       read_one();

@@ -40,7 +40,8 @@ struct TextureRecipe {
   std::uint64_t seed = 0;
   std::optional<std::array<std::uint8_t, 3>> color;  ///< sRGB main colour; without it, that of the kind
   glm::vec3 factor{1};  ///< linear; multiplies the texture, so that several materials can share one image
-  /// Of thin leaves with normals of their own, and of panes: without a normal map, and not double-sided.
+  /// True for thin leaves with normals of their own, and for panes. paint() then adds no normal map and does
+  /// not make the material double-sided.
   bool has_own_sides = false;
 };
 
@@ -124,7 +125,8 @@ struct Node {
   Transform transform;
   int mesh = -1;          ///< index into Model::meshes
   std::vector<int> lods;  ///< coarser meshes than `mesh`, finest first; -1: the node is hidden there
-  /// Shares of the screen's height below which each of `lods` is shown, falling; empty: the default shares (levels.h).
+  /// Shares of the screen's height below which each of `lods` is shown, in descending order. Empty: the
+  /// default shares (levels.h).
   std::vector<float> screen;
   bool has_impostor = false;  ///< at the last of `lods`, an impostor replaces the model
   int skin = -1;
@@ -154,7 +156,7 @@ struct Channel {
 
 struct Animation {
   std::string name;
-  std::vector<std::vector<float>> times;  ///< in seconds, rising
+  std::vector<std::vector<float>> times;  ///< key times in seconds, ascending
   std::vector<Channel> channels;
 };
 

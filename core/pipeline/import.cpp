@@ -87,9 +87,9 @@ Error in_format(Error error, const ImportInput& question, const ImportFormat& fo
 /// Whether the time has passed or the caller has gone.
 bool is_stopped(const Error& error) { return error.code == Code::deadline || error.code == Code::cancelled; }
 
-/// What the generator says of the request before it makes anything. A request that is more than the limits
-/// allow is a request still: it can be made smaller.
-/// Returns the error where the time has passed or the caller has gone.
+/// Adds the errors and warnings of validate() to the warnings of the import. A request that exceeds a limit is
+/// returned too, because the user can make it smaller. Returns an error only if the time limit has passed or the
+/// request was cancelled.
 std::optional<Error> append_appraisal(const Request& request, Imported& imported, const Job::Options& options,
                                       std::string_view text) {
   const auto append = [&](Warning warning) {
@@ -100,8 +100,8 @@ std::optional<Error> append_appraisal(const Request& request, Imported& imported
   if (!appraisal) {
     if (is_stopped(appraisal.error())) return appraisal.error();
     for (const Issue& issue : appraisal.error().issues) {
-      append(
-          {issue.pointer, "the model is refused as it stands: " + issue.message, issue.line, issue.column});
+      append({issue.pointer, "the imported request would be refused: " + issue.message, issue.line,
+              issue.column});
     }
     return std::nullopt;
   }

@@ -54,7 +54,7 @@ void check_level_list(const OutputParams& output, IssueList& errors) {
     // Shares and numbers cannot be compared before the model is made.
     if (i > 0 && is_share(entry) == is_share((*list)[i - 1]) && entry >= (*list)[i - 1]) {
       refuse(i, "found " + text_of_number(entry) + " after " + text_of_number((*list)[i - 1]) +
-                    "; expected levels that fall");
+                    "; expected levels in descending order");
     }
   }
 }

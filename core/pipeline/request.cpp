@@ -103,14 +103,13 @@ void check_profile(const OutputParams& output, IssueList& errors) {
     errors.add({IssueKind::not_available, "/output/lods",
                 "found " + std::to_string(level_count(output)) + " levels of detail in the format " +
                     std::string(text_of(output.format)) + " with " + named +
-                    ", which hold one; expected the format zip, or one of the profiles " +
+                    ", which have one; expected the format zip, or one of the profiles " +
                     profiles_where(&Profile::lods_inside)});
   }
   if (output.impostor && output.format != OutputFormat::zip && !profile.lods_inside) {
     errors.add({IssueKind::not_available, "/output/impostor",
-                "found an impostor, which is one more level of detail, in the format " +
-                    std::string(text_of(output.format)) + " with " + named +
-                    ", which hold one; expected the format zip, or one of the profiles " +
+                "found an impostor in the format " + std::string(text_of(output.format)) + " with " + named +
+                    ", which have one level of detail; expected the format zip, or one of the profiles " +
                     profiles_where(&Profile::lods_inside)});
   }
   if (output.image_format == OutputImageFormat::webp && !profile.reads_webp) {
@@ -161,7 +160,7 @@ void check_links(const OutputParams& output, IssueList& errors) {
   if (output.image_format == OutputImageFormat::webp || output.image_format == OutputImageFormat::both) {
     errors.add(
         {IssueKind::conflict, "/output/image_format",
-         "found " + std::string(text_of(output.image_format)) + " with linked textures, which are PNG"});
+         "found " + std::string(text_of(output.image_format)) + "; linked textures are PNG, expected png"});
   }
   if (output.impostor) {
     errors.add({IssueKind::conflict, "/output/textures",

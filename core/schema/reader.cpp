@@ -175,7 +175,8 @@ std::optional<Location> Location::member(std::string_view key) const {
 void Location::expected(std::string_view what, IssueKind kind) const {
   if (issues_->full()) return issues_->count();
   std::string message = "found " + found(*value_) + ", expected " + std::string(what);
-  if (!geojson_type(*value_).empty()) message += "; \"coordinates\" of a geometry are one, in metres here";
+  if (!geojson_type(*value_).empty())
+    message += "; the \"coordinates\" of its geometry are such a value, in metres here";
   report(kind, std::move(message));
 }
 

@@ -1,14 +1,16 @@
 #pragma once
-/// Files of pictures as pixels: PNG, JPEG, WebP and TIFF, recognised by their first bytes. Files may be hostile:
-/// sizes are checked before pixels are allocated, and all memory is charged to the request. decode.cpp lists the
-/// formats; each has one file, the only one that includes its library (libpng, libjpeg-turbo, libwebp, libtiff).
+/// Reads pixels of PNG, JPEG, WebP and TIFF files, which are recognised by their first bytes. Files may be
+/// hostile: sizes are checked before pixels are allocated, and all memory is charged to the request.
+/// decode.cpp lists the formats. Each has one file, the only one that reads with its library (libpng,
+/// libjpeg-turbo, libwebp, libtiff).
 #include <optional>
 
 #include "core/texture/png.h"
 
 namespace seedmesh::texture {
 
-/// Numbers of a TIFF that are no shades: signed integers, integers of 32 bits, or floating-point numbers.
+/// Values of a TIFF that do not fit a picture: signed integers, integers of 32 bits, or floating-point
+/// numbers.
 struct Samples {
   std::uint32_t width = 0, height = 0;
   Array<float> values;  ///< values of the first channel, in rows from the north or the top
@@ -18,7 +20,7 @@ struct Samples {
 struct Decoded {
   std::optional<Picture> picture;
   std::optional<Samples> samples;
-  bool is_lossy = false;          ///< samples are near those that were saved (JPEG, most WebP)
+  bool is_lossy = false;          ///< whether the format changes values (JPEG, most WebP)
   std::optional<double> no_data;  ///< the value that stands for a missing one (GDAL_NODATA of a TIFF)
 };
 
@@ -26,11 +28,11 @@ struct Decoded {
 /// with an empty pointer. Gamma, colour profiles and the orientation of cameras (EXIF) are ignored.
 Result<Decoded> decode_picture(std::span<const std::byte> file, const PngLimits& limits, const Job& job);
 
-/// JPEG of one channel or three (T.81, baseline and progressive), decoded with the accurate integer transform, so that
-/// equal files give equal pixels.
+/// Reads a JPEG with one channel or three (T.81, baseline and progressive). The accurate integer transform is
+/// used, so that equal files give equal pixels.
 Result<Picture> decode_jpeg(std::span<const std::byte> file, const PngLimits& limits, const Job& job);
 
-/// WebP without animation: RGB, or RGBA if it has alpha.
+/// Reads a WebP without animation: RGB, or RGBA if it has alpha.
 Result<Decoded> decode_webp(std::span<const std::byte> file, const PngLimits& limits, const Job& job);
 
 /// Returns the first image of a TIFF (TIFF 6.0, BigTIFF) in strips or tiles, uncompressed or with LZW, Deflate,

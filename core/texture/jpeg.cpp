@@ -27,7 +27,7 @@ struct Reader {
   jpeg_error_mgr errors{};
   jpeg_progress_mgr progress{};
   std::jmp_buf back{};
-  std::array<char, JMSG_LENGTH_MAX> complaint{};
+  std::array<char, JMSG_LENGTH_MAX> library_message{};
   bool is_made = false;
 
   Reader() = default;
@@ -40,7 +40,7 @@ struct Reader {
 
 [[noreturn]] void on_error(j_common_ptr jpeg) {
   auto* reader = static_cast<Reader*>(jpeg->client_data);
-  jpeg->err->format_message(jpeg, reader->complaint.data());
+  jpeg->err->format_message(jpeg, reader->library_message.data());
   std::longjmp(reader->back, 1);
 }
 
@@ -53,7 +53,8 @@ void on_progress(j_common_ptr jpeg) {
   const auto* decompress = reinterpret_cast<j_decompress_ptr>(jpeg);
   if (decompress->input_scan_number <= most_scans) return;
   auto* reader = static_cast<Reader*>(jpeg->client_data);
-  std::snprintf(reader->complaint.data(), reader->complaint.size(), "it has more than %d scans", most_scans);
+  std::snprintf(reader->library_message.data(), reader->library_message.size(), "it has more than %d scans",
+                most_scans);
   std::longjmp(reader->back, 1);
 }
 
@@ -94,7 +95,7 @@ bool read_rows(Reader& reader, std::uint8_t* first, std::size_t row_bytes, std::
 }
 
 Error damaged(const Reader& reader) {
-  return detail::refused_picture(std::string("the JPEG is damaged: ") + reader.complaint.data());
+  return detail::refused_picture(std::string("the JPEG is damaged: ") + reader.library_message.data());
 }
 
 }  // namespace

@@ -2,8 +2,8 @@
 /// Names of generated textures, so that a model can refer to them by URL instead of holding their bytes.
 ///
 /// A name holds all that the bytes depend on, except the engine: kind, seed, size, colour and channel, as in
-/// `oak_bark.17.512.color` or `brick.3.512.a0b1c2.normal`. Any service with the same engine makes the same bytes
-/// of it, so no service has to remember a name.
+/// `oak_bark.17.512.color` or `brick.3.512.a0b1c2.normal`. Every service with the same engine makes the same
+/// bytes from a name, so no service has to store it.
 #include <memory>
 #include <optional>
 #include <string>
@@ -34,8 +34,8 @@ std::string name_of(const Link& link);
 /// power of two from 16 to 4096, a number with leading zeros.
 std::optional<Link> read_link(std::string_view name);
 
-/// Returns the image of a link, from `store` or made now. `store` may be null. Cost: that of the three images of the
-/// recipe, about 60 ns a texel, because they are made of one relief and kept together.
+/// Returns the image of a link, from `store` or made now. `store` may be null. Cost: about 60 ns a texel,
+/// because the three images of a recipe are made together, from one relief.
 std::shared_ptr<const Image> image_of(const Link& link, TextureStore* store, const Job& job);
 
 }  // namespace seedmesh::texture

@@ -46,10 +46,11 @@ struct ImageStyle {
 void form_images(Model& model, ImageForm form, const Job& job);
 
 /// Makes the textures of all recipes, `size` texels wide and high (a power of two from 16 to 4096), once for
-/// equal recipes, and sets them in the materials: base colour, normals, occlusion and roughness. Leaves and
-/// petals are cut out by alpha, at the cutoff of their kind unless they are cut out already, and double-sided.
-/// `store` may be null. Size 0 removes all textures of the model instead, and keeps the colours. Linked images
-/// are not drawn: they get a uri and no bytes.
+/// equal recipes. Sets them in the materials: base colour, normals, occlusion and roughness. Materials of
+/// leaves and petals get the alpha mode `mask`, with the cutoff of their kind unless they have that mode
+/// already. They become double-sided and get the normal map unless TextureRecipe::has_own_sides is set.
+/// `store` may be null. Size 0 removes all textures of the model instead, and keeps the colours. Linked
+/// images are not drawn: they get a uri and no bytes.
 void paint(Model& model, int size, const ImageStyle& style, TextureStore* store, const Job& job);
 
 }  // namespace seedmesh::texture

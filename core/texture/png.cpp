@@ -33,7 +33,7 @@ constexpr std::uint64_t densest_deflate = 1032;
 constexpr png_alloc_size_t largest_chunk = 1 << 20U;
 
 /// The last message of libpng.
-struct Complaint {
+struct LibraryMessage {
   std::array<char, 128> text{};
   void take(const char* message) {
     const std::size_t length = std::min(std::strlen(message), text.size() - 1);
@@ -43,18 +43,17 @@ struct Complaint {
 };
 
 [[noreturn]] void on_error(png_structp png, png_const_charp message) {
-  static_cast<Complaint*>(png_get_error_ptr(png))->take(message);
+  static_cast<LibraryMessage*>(png_get_error_ptr(png))->take(message);
   png_longjmp(png, 1);
 }
 void on_warning(png_structp /*png*/, png_const_charp /*message*/) {}
 
 // --- Writing row by row
-// --------------------------------------------------------------------------------------------------
 
 struct Writer {
   png_structp png = nullptr;
   png_infop info = nullptr;
-  Complaint complaint;
+  LibraryMessage library_message;
   Array<std::uint8_t> out;
   std::exception_ptr failure;
 
@@ -117,7 +116,6 @@ bool write_end(Writer& writer) {
 }
 
 // --- Writing at once
-// ------------------------------------------------------------------------------------------
 
 constexpr std::array<std::uint8_t, 8> signature = {137, 'P', 'N', 'G', '\r', '\n', 26, '\n'};
 constexpr std::size_t chunk_head = 8, chunk_foot = 4;  // length and type; checksum
@@ -233,7 +231,7 @@ Array<std::uint8_t> encode_at_once(const PictureView& picture, PngEffort effort,
 Array<std::uint8_t> encode_in_rows(const PictureView& picture, const Job& job) {
   const std::size_t row_bytes = row_size(picture);
   Writer writer(job);
-  writer.png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &writer.complaint, on_error, on_warning);
+  writer.png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &writer.library_message, on_error, on_warning);
   if (writer.png) writer.info = png_create_info_struct(writer.png);
   if (!writer.info) throw std::bad_alloc();
   bool good = write_head(writer, picture);
@@ -250,12 +248,11 @@ Array<std::uint8_t> encode_in_rows(const PictureView& picture, const Job& job) {
 }
 
 // --- Reading
-// --------------------------------------------------------------------------------------------------
 
 struct Reader {
   png_structp png = nullptr;
   png_infop info = nullptr;
-  Complaint complaint;
+  LibraryMessage library_message;
   std::span<const std::byte> rest;
   bool ended = false;  ///< libpng wanted more than there is
 
@@ -322,7 +319,7 @@ Error damaged(const Reader& reader, std::size_t size) {
     return refused("the PNG is truncated: it ends after " + std::to_string(size) +
                    " bytes, before the end of its data");
   }
-  return refused(std::string("the PNG is damaged: ") + reader.complaint.text.data());
+  return refused(std::string("the PNG is damaged: ") + reader.library_message.text.data());
 }
 
 std::string size_text(const Header& header) {
@@ -354,7 +351,7 @@ Result<Picture> decode_png(std::span<const std::byte> file, const PngLimits& lim
     return refused("found " + std::to_string(file.size()) + " bytes without the signature of a PNG");
   }
   Reader reader(file);
-  reader.png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &reader.complaint, on_error, on_warning);
+  reader.png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &reader.library_message, on_error, on_warning);
   if (reader.png) reader.info = png_create_info_struct(reader.png);
   if (!reader.info) throw std::bad_alloc();
 

@@ -1,10 +1,13 @@
 #pragma once
-/// PNG files (ISO/IEC 15948), written with libdeflate or libpng and read with libpng. No other file includes them.
+/// PNG files (ISO/IEC 15948), written with libdeflate or libpng and read with libpng. No other file reads or
+/// writes with libpng.
 ///
-/// Writing: equal pixels give equal bytes with the same libraries, which the engine version names. The filter
-/// and the level are fixed, and the only chunks are IHDR, IDAT and IEND. Reading: files may be
-/// hostile. Sizes are checked against PngLimits and against the most that deflate can hold in a file of that
-/// length, and charged to the memory budget before pixels are allocated.
+/// Writing: equal pixels give equal bytes with the same libraries, whose versions are part of the engine
+/// version. The filter and the level are fixed. The chunks are IHDR, PLTE if there is a palette, IDAT and
+/// IEND.
+///
+/// Reading: files may be hostile. Before pixels are allocated, sizes are checked against PngLimits and
+/// against the greatest compression ratio of deflate, and are charged to the memory budget.
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -22,11 +25,12 @@ struct PictureView {
   int channels = 1;                  ///< 1 grey, 2 grey and alpha, 3 RGB, 4 RGBA
   int bits = 8;                      ///< bits of a channel: 8, or 16 in the byte order of the machine
   std::span<const std::byte> bytes;  ///< width * height * channels * bits / 8
-  /// With up to 256 colours, the one channel of 8 bits holds numbers of colours.
+  /// Up to 256 colours. If there are any, the picture has one channel of 8 bits, which holds indices into
+  /// them.
   std::span<const glm::u8vec3> palette = {};
 };
 
-/// The same with its own pixels, whose memory is charged to a request.
+/// A picture that owns its pixels, whose memory is charged to a request.
 struct Picture {
   std::uint32_t width = 0, height = 0;
   int channels = 1;
@@ -39,13 +43,14 @@ struct Picture {
 };
 
 /// How a file is written. `streamed` needs no second copy of the pixels and is meant for large height maps
-/// (libpng, level 1 of zlib). `small` compresses all pixels at once (libdeflate, level 4), and `quick` writes
-/// Huffman codes of single bytes and of runs (run_deflate.h). All use the filter Up. Measured on textures of
-/// 512 x 512 RGB: `quick` takes 1 to 1.5 ms, `small` 5 to 9 ms.
+/// (libpng, level 1 of zlib); it has no palettes. `small` compresses all pixels at once (libdeflate, level
+/// 4), and `quick` writes Huffman codes of single bytes and of runs (run_deflate.h). All use the filter Up.
+/// For a texture of 512 x 512 RGB, `quick` takes 1 to 1.5 ms, `small` 5 to 9 ms.
 enum class PngEffort { streamed, quick, small };
 
-/// Writes a PNG file. Both sides are at least 1, and the number of bytes fits the size (asserted). Cost:
-/// about 50 ns a 16-bit grey pixel with `streamed`, 5 ns an RGB pixel with `quick`.
+/// Writes a PNG file. Both sides have to be at least 1, and the number of bytes has to agree with the size
+/// (both are asserted). Cost: about 50 ns a 16-bit grey pixel with `streamed`, 5 ns an RGB pixel with
+/// `quick`.
 Array<std::uint8_t> encode_png(const PictureView& picture, PngEffort effort, const Job& job);
 
 struct PngLimits {

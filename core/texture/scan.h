@@ -1,6 +1,7 @@
 #pragma once
-/// The samples that a triangle covers. Coordinates are fixed-point numbers and each edge belongs to one of its two
-/// triangles, so that the same triangles give the same samples on every machine, without gaps or doubles.
+/// Rasterizes triangles. Coordinates are fixed-point numbers, so that every machine finds the same samples. A
+/// sample on an edge belongs to one of the two triangles that share it, so that none is missing or visited
+/// twice.
 ///
 /// Edge functions after Pineda, "A parallel algorithm for polygon rasterization", 1988.
 #include <algorithm>
@@ -35,8 +36,9 @@ inline std::int64_t scan_area(const std::array<ScanPoint, 3>& c) {
   return (c[1].x - c[0].x) * (c[2].y - c[0].y) - (c[1].y - c[0].y) * (c[2].x - c[0].x);
 }
 
-/// Calls visit(x, y, a, b, c) for each sample of the window whose centre is inside, row by row, with the weights of
-/// the corners, whose sum is 1. `area` is scan_area() and above 0. Cost: about 2 ns a sample of the bounding box.
+/// Calls visit(x, y, a, b, c) row by row for each sample of the window whose centre is inside the triangle.
+/// a, b and c are the barycentric weights of the corners; their sum is 1. `area` is scan_area() and above 0.
+/// Cost: about 2 ns for each sample of the bounding box.
 template <class Visit>
 void scan(const std::array<ScanPoint, 3>& corners, std::int64_t area, const ScanWindow& window,
           const Visit& visit) {

@@ -25,13 +25,13 @@ constexpr std::uint64_t densest = 4096;
 struct Source {
   std::span<const std::byte> bytes;
   std::uint64_t at = 0;
-  std::array<char, 160> complaint{};
+  std::array<char, 160> library_message{};
 };
 
 int on_error(TIFF* /*tiff*/, void* data, const char* /*module*/, const char* format, va_list arguments) {
   auto* source = static_cast<Source*>(data);
-  if (source->complaint[0] == 0)
-    std::vsnprintf(source->complaint.data(), source->complaint.size(), format, arguments);
+  if (source->library_message[0] == 0)
+    std::vsnprintf(source->library_message.data(), source->library_message.size(), format, arguments);
   return 1;
 }
 int on_warning(TIFF* /*tiff*/, void* /*data*/, const char* /*module*/, const char* /*format*/,
@@ -280,7 +280,8 @@ Result<Decoded> decode_tiff(std::span<const std::byte> file, const PngLimits& li
   Source source{file};
   const Handle tiff = open(source);
   const auto damaged = [&] {
-    const std::string why = source.complaint[0] != 0 ? source.complaint.data() : "its pixels cannot be read";
+    const std::string why =
+        source.library_message[0] != 0 ? source.library_message.data() : "its pixels cannot be read";
     return detail::refused_picture("the TIFF is damaged: " + why);
   };
   if (!tiff) return damaged();

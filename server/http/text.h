@@ -25,7 +25,8 @@ std::optional<std::string> percent_decode(std::string_view text, Plus plus = Plu
 /// Returns two lower-case hexadecimal digits for each byte.
 std::string hex(std::string_view bytes);
 
-/// Returns 16 hexadecimal digits that are unique in this process and hard to guess from outside; never all zero.
+/// Returns 16 hexadecimal digits that are unique in this process and never all zero. The first one is
+/// random, and each following one can be computed from the one before. An id is therefore not a secret.
 std::string random_id();
 
 /// Parses a number. Returns nothing if the text is not exactly one number, or if the number is out of range.

@@ -6,7 +6,7 @@ export interface Output {
   format?: "glb" | "gltf" | "zip" | "png16" | "png8" | "rgb24" | "rgba32" | "r16" | "ply" | "placements" | "geojson";
   /** The program that reads the model. core: any reader of glTF 2.0, without required extensions. web: three.js, Babylon and other viewers, with quantized and compressed data and instances on the GPU. tiles: clients of 3D Tiles, with quantized data and instances on the GPU, without a compression that needs a decoder. unity, unreal, godot, blender: what the importer of that program supports, with names that it accepts. For height maps as r16 or png16, unity and unreal select the conventions of these engines for sizes, rows and scales. */
   profile?: "core" | "web" | "tiles" | "unity" | "unreal" | "godot" | "blender";
-  /** The name of the model: of its root node, its scene and its files, and the first part of the names of its meshes, materials and images. Without it, the name is that of the preset, with the seed if it is not the preset's, or with a hash if anything else differs. A request without a preset has the generator's name and a hash. */
+  /** The name of the model: of its root node, its scene and its files, and the first part of the names of its meshes, materials and images. Without it, the name is that of the preset. If only the seed differs from the preset, the seed is appended; if anything else differs, a hash of the request. A request without a preset has the generator's name and a hash. */
   name?: string;
   /** What the model says of its origin. full writes the engine, generator, seed, preset, canonical request and permalink into the extras of the asset, the scene and the root node. none leaves all of it out. */
   provenance?: "full" | "none";
@@ -16,7 +16,7 @@ export interface Output {
   textures?: number | "none" | "links";
   /** The file format of generated images. png: every reader. webp: about a tenth of the size, for readers of EXT_texture_webp, which the file then requires. both: WebP, and PNG for readers without it. auto: webp in the profile web, else png. Images of the request keep their format. */
   image_format?: "auto" | "png" | "webp" | "both";
-  /** The number of levels of detail, each coarser than the one before, or a list of their triangles: shares of the whole model up to 1, or numbers of triangles above 1, falling. The first entry is the finest level, as in [1, 0.5, 0.15, 0.03] or [20000, 5000, 800]. More than one level requires the format zip, which has a file for each, or the profile web or unity, which have them in one file (MSFT_lod). */
+  /** The number of levels of detail, each coarser than the one before, or a list of their triangles: shares of the whole model up to 1, or numbers of triangles above 1, falling. The first entry is the finest level, as in [1, 0.5, 0.15, 0.03] or [20000, 5000, 800]. More than one level requires the format zip, which has a file for each, or a profile that has them in one file (MSFT_lod): web or unity. */
   lods?: number | number[];
   /** Adds an impostor of each plant as its coarsest level of detail: 12 triangles and a texture of the size `textures`, or half of it in a scene. It requires the format zip, or the profile web or unity. */
   impostor?: boolean;
@@ -24,7 +24,7 @@ export interface Output {
   wind?: "none" | "weights";
   /** Adds convex bodies around the trunk and the thick limbs of a tree or an L-system, or around the masses of a building. The value selects the names that an engine recognises as collision: plain (collision_01), unreal (UCX_bark_01, after the visible mesh), godot (collision_01-convcolonly). */
   collision?: "none" | "plain" | "unreal" | "godot";
-  /** How repeated parts are written. merge makes one mesh of all organs of a kind, and of all copies with one material. nodes gives each copy a node, and all share one mesh. gpu writes the transforms of copies as arrays (EXT_mesh_gpu_instancing), for the profiles web, tiles, unity and blender. auto merges the organs of a plant, merges parts of a building except large parts that occur often, and gives other copies nodes, or arrays in the profiles web and tiles. */
+  /** How repeated parts are written. merge makes one mesh of all organs of a kind, and of all copies with one material. nodes gives each copy a node, and all share one mesh. gpu writes the transforms of copies as arrays (EXT_mesh_gpu_instancing), for the profiles web, tiles, unity and blender. auto merges the organs of a plant, and parts of a building except large ones that occur often. Other copies are nodes, or arrays in the profiles web and tiles. */
   instancing?: "auto" | "nodes" | "gpu" | "merge";
   /** The number of models side by side in one file, generated from this seed and the seeds that follow it. They share materials and textures. */
   variants?: number;
@@ -307,13 +307,13 @@ export interface Polygons {
 export interface CityParametersMapsZonesItem {
   /** The name. */
   zone: string;
-  /** Where the zone is: an expression over x (east) and y (north), a PNG image as data URI, whose brightness covers the box around the area, or polygons. The zone is where the value is 0.5 or more. */
+  /** Where the zone is: an expression over x (east) and y (north), a PNG image as data URI, or polygons. The brightness of an image covers the box around the area. The zone is where the value is 0.5 or more. */
   area: string | Polygons;
 }
 
 /** Quantities that vary over the area. */
 export interface CityParametersMaps {
-  /** The density of people, from 0 to 1: an expression over x (east) and y (north) in metres, a PNG image as data URI, whose brightness covers the box around the area, or polygons with density 1. Streets avoid positions below 0.1; blocks there become parks. */
+  /** The density of people, from 0 to 1: an expression over x (east) and y (north) in metres, a PNG image as data URI, or polygons with density 1. The brightness of an image covers the box around the area. Streets avoid positions below 0.1; blocks there become parks. */
   density?: string | Polygons;
   /** Where there is water, as an expression, an image or polygons: from 0.5 upwards. Water is part of the partition. Streets end before it or cross it on bridges. */
   water?: string | Polygons;
@@ -323,7 +323,7 @@ export interface CityParametersMaps {
   pattern?: string | Polygons;
   /** Named zones, which rules of buildings can use. Where zones overlap, the first one counts. Wards have zones of their own. */
   zones?: CityParametersMapsZonesItem[];
-  /** The height of the natural ground, instead of a terrain: an expression over x (east) and y (north) with the height in metres, a PNG image as data URI, whose brightness covers the box around the area, or polygons. height_range has the heights of images and polygons. */
+  /** The height of the natural ground, instead of a terrain: an expression over x (east) and y (north) with the height in metres, a PNG image as data URI, or polygons. The brightness of an image covers the box around the area. height_range has the heights of images and polygons. */
   height?: string | Polygons;
   /** The height of black and of white pixels if the height is an image; outside of and inside its polygons otherwise. An expression has metres of its own. */
   height_range?: [number, number];
@@ -782,7 +782,7 @@ export interface CityParametersCamera {
   field_of_view?: number;
 }
 
-/** A city as an exact partition of its area. Streets grow by an extended L-system after Parish and Müller (2001), the faces of their graph become blocks, blocks are cut into lots with street access, and each lot holds a building, which is a whole request of its own. */
+/** A city as an exact partition of its area. Streets grow by an extended L-system after Parish and Müller (2001). The faces of their graph become blocks, and blocks are divided into lots with street access. Each lot has a building, which is a whole request of its own. */
 export interface CityParameters {
   /** The area that is partitioned. */
   area?: CityParametersArea;
@@ -1013,7 +1013,7 @@ export interface LsystemParametersWeather {
 export interface LsystemParametersSurfacesValue {
   /** A leaf or petal of this outline, a fruit, patches, a model of its own, or a sphere or disc about the position of the turtle. A disc lies in the plane of heading and left. */
   shape?: "simple" | "willow" | "birch" | "cordate" | "lobed" | "maple" | "ginkgo" | "compound" | "palmate" | "needles" | "palm" | "kite" | "petal" | "fruit" | "patches" | "model" | "sphere" | "disc";
-  /** The geometry of a leaf: its outline as a mesh, or squares with a texture of the leaf (card, two that cross, one that is bent) or of a twig of leaves (one that is bent, a bunch of three). */
+  /** The geometry of a leaf: mesh is its outline. Squares with a texture of the leaf are card (one), cross (two) and curved (a bent one). Squares with a texture of a twig are twig (a bent one) and bunch (three bent ones). */
   build?: "mesh" | "card" | "cross" | "curved" | "twig" | "bunch";
   /** Length from base to tip; the diameter of spheres and discs; for patches and models, the scale of their coordinates. */
   size?: number;
@@ -1128,7 +1128,7 @@ export interface LsystemParameters {
   tip_width?: number;
   /** The power of the diameter that is summed where limbs meet, for the width rule pipe_model: 2 sums cross-sections, as Leonardo observed; real trees have 1.8 to 3. */
   pipe_exponent?: number;
-  /** Forces that turn growing segments. After each segment the heading turns toward the direction by elasticity times the sine of the angle between the two, in radians (The Algorithmic Beauty of Plants, section 2.1.4). Several can act; @Ts, @T and @Td change the elasticity of a branch. */
+  /** Forces that turn growing segments. After each segment, the heading turns toward the direction by elasticity times the sine of the angle between the two, in radians. This is the formula of The Algorithmic Beauty of Plants, section 2.1.4. Several can act; @Ts, @T and @Td change the elasticity of a branch. */
   tropism?: LsystemParametersTropismItem[];
   /** The surroundings of the plant: solids that bound it or stand in its way, light, and other L-systems that grow beside it step by step. Modules ?E query it. Limbs in forbidden space are cut away. */
   environment?: LsystemParametersEnvironment;
@@ -1455,9 +1455,9 @@ export interface SceneParameters {
   competition?: number;
   /** The point of view. Each copy gets the level of detail that fits its size on the screen, and small plants become impostors. */
   camera?: SceneParametersCamera;
-  /** The copies of a model are divided into this number of groups by area, from west to east and from north to south, so that engines can skip groups out of view. */
+  /** The copies of a model are divided into this number of groups by area, from west to east and from north to south. Engines can then skip groups out of view. */
   chunks?: number;
-  /** Whether the response of derive has the word of each model that is an L-system, with the numbers of its modules and branches and its depth. The shapes of the scene stay the same. */
+  /** Whether the response of derive has the word of each model that is an L-system, with its depth and its numbers of modules and branches. The shapes of the scene stay the same. */
   words?: boolean;
 }
 
@@ -1501,7 +1501,7 @@ export interface TerrainParametersFracture {
   strata?: number;
   /** Median thickness of a layer, as a share of half the size. */
   layer?: number;
-  /** How far layers lean from level, to a random side. */
+  /** The angle between the layers and the horizontal. Its direction is random. */
   tilt?: number;
 }
 
@@ -1628,11 +1628,11 @@ export interface TerrainParametersHeightmap {
 export interface TerrainParameters {
   /** The algorithm. fault_formation and poisson_faulting lift one side of random lines. triangular_edge, diamond_square and square_square refine a few heights repeatedly. fbm sums octaves of noise. brownian is fractional Brownian motion along a line, for the shape profile. image takes heights from an image. expression computes each height. fracture breaks a solid along random planes, for rocks of the shape sphere. */
   algorithm?: "fault_formation" | "poisson_faulting" | "triangular_edge" | "diamond_square" | "square_square" | "fbm" | "brownian" | "image" | "expression" | "fracture";
-  /** The height of a sample, for the algorithm expression: x and y are metres to the east and north of the centre, on a sphere x, y and z its position, and latitude and longitude in degrees. size is the size. noise(x, y) is gradient noise; fbm, ridged and billow(x, y, octaves) are sums of it; all take a z as well. ran draws anew at each sample. */
+  /** The height of a sample, for the algorithm expression: x and y are metres to the east and north of the centre. On a sphere, x, y and z are the position, and latitude and longitude are in degrees. size is the size. noise(x, y) is gradient noise; fbm, ridged and billow(x, y, octaves) are sums of it; all take a z as well. ran draws anew at each sample. */
   expression?: string;
   /** Further heights that are combined with those of the algorithm, one after the other, before the filters. */
   layers?: TerrainParametersLayersItem[];
-  /** Rounds of a subdivision (n rounds give 2^n + 1 samples a side, square_square 2^n + 2), the number of faults, the octaves of noise, or the planes of fracture. Default: 8 rounds, 64 faults, 8 octaves, 16 planes. Not for image and expression. */
+  /** Rounds of a subdivision (n rounds give 2^n + 1 samples a side; square_square gives 2^n + 2), the number of faults, the octaves of noise, or the planes of fracture. Default: 8 rounds, 64 faults, 8 octaves, 16 planes. Not for image and expression. */
   iterations?: number;
   /** Additional iterations after the planned ones. A subdivision or noise becomes finer by that many rounds and keeps its old heights. Faults are added without the falling bound. */
   extra_iterations?: number;
@@ -1642,7 +1642,7 @@ export interface TerrainParameters {
   size?: number;
   /** plane: a height field. sphere: a planetoid or a rock (fault_formation, poisson_faulting, fbm, expression and fracture). profile: the heights along one line from west to east, as a graph of lines (brownian and fbm). */
   shape?: "plane" | "sphere" | "profile";
-  /** Greatest random deviation of the first round of a subdivision, the weight of the first octave of noise, for brownian the standard deviation of the height difference between both ends, or for fracture the noise on the facets. Default: a tenth of the size, on a sphere a twentieth of the diameter, for fracture a sixtieth. */
+  /** Subdivision: the greatest random deviation of the first round. Noise: the weight of the first octave. brownian: the standard deviation of the height difference between both ends. fracture: the height of the noise on the facets. Default: a tenth of the size, on a sphere a twentieth of the diameter, for fracture a sixtieth. */
   amplitude?: number;
   /** How fast the deviation falls with finer detail: every round or octave has 2^-hurst times the deviation of the one before. 1 is smooth, 0 is very rough. Default: 0.8. The mode random of triangular_edge does not use it. For brownian, it lies between 0 and 1, and heights at a distance d differ by about d^hurst; the default is 0.5. */
   hurst?: number;
@@ -1756,7 +1756,7 @@ export interface TreeParametersLeaf {
   density?: number;
   /** Factor for the length and width that the model gives. */
   size?: number;
-  /** two_sided: one face that is visible from both sides; renderers turn its normal around at the back, and crowns seen from below are dark. outward: thin leaves with faces on both sides, whose normals turn out of the crown as far as they stay on the side of their faces. Such leaves have twice the triangles and no generated normal map. auto: two_sided in the profiles unreal and unity, whose foliage materials turn normals themselves, and outward otherwise. Leaves that share a mesh (output.instancing) are always two_sided. */
+  /** two_sided: one face that is visible from both sides; renderers invert its normal on the back side, and crowns seen from below are dark. outward: thin leaves with faces on both sides, whose normals turn out of the crown as far as they stay on the side of their faces. Such leaves have twice the triangles and no generated normal map. auto: two_sided in the profiles unreal and unity, whose foliage materials turn normals themselves, and outward otherwise. Leaves that share a mesh (output.instancing) are always two_sided. */
   faces?: "auto" | "two_sided" | "outward";
   /** Largest random angle by which a leaf turns about its length. Crowns whose leaves lie at all angles are denser from the side, and lighter from below. */
   roll?: number;
@@ -2068,7 +2068,7 @@ export interface TreeParameters {
   weld?: boolean;
   /** Limbs that begin with a smaller radius have no bark. Their leaves stay. */
   twig_radius?: number;
-  /** The distance from which the tree is seen. A distant tree has fewer corners, limbs and leaves, by the formulas of section 4.9 of Weber and Penn for an image 1,000 pixels high with a field of view of 60 degrees. The remaining leaves are larger, so that the crown stays dense. 0 keeps everything. */
+  /** The distance from which the tree is seen. A distant tree has fewer corners, limbs and leaves, by the formulas of section 4.9 of Weber and Penn. The image is 1,000 pixels high and has a field of view of 60 degrees. The remaining leaves are larger, so that the crown stays dense. 0 keeps everything. */
   range?: number;
   /** How much wider the trunk is at the ground than the model says, as a share of its radius. The flare ends at an eighth of the height. */
   trunk_flare?: number;
@@ -2789,7 +2789,7 @@ export interface Imported {
   /** The detected format. */
   format: "arbaro" | "cpfg" | "ez_tree" | "fractint" | "geojson" | "houdini" | "osm" | "proctree" | "shapeml" | "tree_gen";
   request: Request;
-  /** Content of the file without a counterpart in a request, at line and column of a text or at a pointer into a JSON file, and warnings about the request. */
+  /** Content of the file without a counterpart in a request, and warnings about the request. The position is a line and column of a text or a pointer into a JSON file. */
   warnings: ImportedWarningsItem[];
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-/// A tree of axis-aligned boxes, for searches of what is near.
+/// A bounding volume hierarchy of axis-aligned boxes, which finds the boxes that intersect another.
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <span>
@@ -11,19 +11,21 @@ struct WorldBox {
   glm::dvec3 low{0}, high{0};
 };
 
-/// Each node halves its boxes along the longest axis, by their middles. Cost: n log² n to build.
+/// Each node divides its boxes into halves, ordered by their centres along the longest axis. Cost: n log n
+/// to build, on average.
 class BoxTree {
  public:
   explicit BoxTree(std::span<const WorldBox> boxes);
 
-  /// Returns the numbers of the boxes that meet or touch this one, rising. Cost: log n and the boxes found.
+  /// Returns the indices of the boxes that intersect or touch `box`, in ascending order. Cost: about log n
+  /// for each box found.
   std::vector<std::uint32_t> meeting(const WorldBox& box) const;
 
  private:
   struct Node {
     WorldBox box;
-    std::uint32_t first = 0, count = 0;  ///< into order_; of a leaf
-    std::uint32_t child = 0;             ///< the first of two neighbours; 0: a leaf
+    std::uint32_t first = 0, count = 0;  ///< range of order_, if the node is a leaf
+    std::uint32_t child = 0;             ///< index of the first of two adjacent children; 0: a leaf
   };
   void divide(std::uint32_t node);
 

@@ -354,13 +354,14 @@ Result<Appraisal> appraise(const BuildingParams& params, const GenerateContext& 
   Job own = job.for_estimate();
   const GenerateContext sketch{own, {}, context.generators};
   if (auto refused = add_assets(work, params, sketch)) return std::move(*refused);
-  const Shapes shapes = shapes_of(work, params, sketch, {.lod = {}, .most_shapes = most_appraised});
+  const Shapes shapes = shapes_of(work, params, sketch, {.lod = {}, .most_shapes = most_estimated_shapes});
   append(appraisal.warnings, shapes.warnings);
-  if (shapes.shapes.size() <= most_appraised) append(appraisal.warnings, missing_edits(params, shapes));
+  if (shapes.shapes.size() <= most_estimated_shapes)
+    append(appraisal.warnings, missing_edits(params, shapes));
   if (auto warning = nothing_drawn(shapes); warning && !params.shape_grammar)
     appraisal.warnings.push_back(*std::move(warning));
   point_at_blueprint(params, appraisal.warnings);
-  if (shapes.shapes.size() > most_appraised) return appraisal;
+  if (shapes.shapes.size() > most_estimated_shapes) return appraisal;
   const Demand& demand = context.demand;
   const std::vector<double> lods = lods_of(work.rules->grammar, params, demand.lods);
   // The file contains the merged meshes of all levels.
@@ -369,9 +370,9 @@ Result<Appraisal> appraise(const BuildingParams& params, const GenerateContext& 
   if (appraisal.estimate)
     appraisal.estimate->bytes += texture_bytes(params, work.rules->grammar, shapes, context);
   for (const double lod : lods) {
-    const Shapes level = shapes_of(work, params, sketch, {.lod = lod, .most_shapes = most_appraised});
+    const Shapes level = shapes_of(work, params, sketch, {.lod = lod, .most_shapes = most_estimated_shapes});
     const std::optional<Estimate> more = estimate_of(level, CopyForm::merge, false, own);
-    if (!more || !appraisal.estimate || level.shapes.size() > most_appraised) {
+    if (!more || !appraisal.estimate || level.shapes.size() > most_estimated_shapes) {
       appraisal.estimate.reset();
       return appraisal;
     }

@@ -319,7 +319,7 @@ std::optional<Warning> nothing_drawn(const Shapes& shapes) {
   }
   if (count == 0 && shapes.takes_away) return std::nullopt;
   return Warning{"/rules",
-                 count == 0 ? "nothing is drawn: no shape is left, because no selector or cell took any"
+                 count == 0 ? "nothing is drawn: no shape is left, because no selector or cell matched any"
                             : "nothing is drawn: " + std::to_string(count) +
                                   (count == 1 ? " shape is" : " shapes are") +
                                   " left, but edges and points have no area",

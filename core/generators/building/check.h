@@ -36,8 +36,8 @@ struct RuleSet {
   std::vector<std::string> materials;
 };
 
-/// Returns the rules of the request or of its blueprint; empty if it has a shape grammar. Adds an issue if the main
-/// file is not clear.
+/// Returns the rules of the request or of its blueprint; empty if it has a shape grammar. Adds an issue
+/// unless exactly one file is the main file (rule_text.h).
 RuleText rule_text_of(const BuildingParams& params, std::vector<Issue>& issues);
 
 /// Returns the names of the files that fileSearch and fileRandom find.
@@ -61,8 +61,9 @@ struct Bounds {
   const Job* job = nullptr;  ///< checked for stop and deadline; may be null
 };
 
-/// Returns all errors. Fills the rules, or the pictures if the request has a shape grammar. Rules that are set already
-/// are not read again; they have to be those of the parameters (has_rules_of). Rules with errors become null.
+/// Returns all errors. Sets `rules`, or `pictures` if the request has a shape grammar. If `rules` is not
+/// null, its rules are not read again; they have to be those of the parameters (has_rules_of). Rules with
+/// errors become null.
 std::vector<Issue> check_all(const BuildingParams& params, const Bounds& bounds,
                              std::shared_ptr<const RuleSet>& rules, PictureGrammar& pictures);
 

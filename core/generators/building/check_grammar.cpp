@@ -113,11 +113,10 @@ void leave_endless_whole(Parser& p, const Symbol& symbol) {
       if (step.op != Op::symbol || step.is_leaf || step.argument_count > 0 || step.symbol != rule.symbol)
         continue;
       step.stays_whole = true;
-      add_warning(
-          p, step.offset,
-          "`" + symbol.name + "` always cuts out another `" + symbol.name +
-              "`, without an end: the inner one becomes a leaf; give the rule a condition, or write `" +
-              symbol.name + ".`");
+      add_warning(p, step.offset,
+                  "`" + symbol.name + "` always contains another `" + symbol.name +
+                      "`, without end: the inner one becomes a leaf; give the rule a condition, or write `" +
+                      symbol.name + ".`");
     }
   };
   for (std::uint32_t i = 0; i < choice.step_count; ++i) {

@@ -12,7 +12,8 @@ constexpr std::uint64_t step_of_conditions = 0xFFFF'FFFF'0001U, step_of_choice =
 /// `before`, where `before` is the sum of the earlier weights.
 double weight_of(Derivation& d, const Choice& choice, double before);
 
-/// Returns the choice that replaces shape `index`, drawn with the key of the shape. Returns null if no rule holds.
+/// Returns the choice that replaces shape `index`. The random number has the key of the shape. Returns null
+/// if no rule holds.
 const Choice* choose(Derivation& d, std::uint32_t index);
 
 }  // namespace seedmesh::building

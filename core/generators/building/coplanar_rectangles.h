@@ -1,7 +1,7 @@
 #pragma once
 /// Removes T-junctions between rectangles in one plane. If the corner of a rectangle lies on an edge of
-/// another, that edge gets a corner too; without it, gaps of single pixels would show. A side with many such
-/// corners, such as a long sill below windows, gets a narrow strip behind it instead.
+/// another, that edge gets a corner, too. Without it, gaps of single pixels would be visible. A side with
+/// many such corners, such as a long sill below windows, gets a narrow strip behind it instead.
 #include <span>
 #include <vector>
 
@@ -24,8 +24,8 @@ class CoplanarRectangles {
   /// The corners around a rectangle, counter-clockwise, in the world; empty if the shape is no rectangle.
   void outline(std::size_t i, std::vector<glm::dvec3>& points) const;
 
-  /// Fills the surface of a rectangle with all its corners, in the frame of axes(i). False: the shape is no
-  /// rectangle, or is narrower than the tolerance.
+  /// Sets `surface` to the rectangle with all its corners, in the frame of axes(i). Returns false if the
+  /// shape is no rectangle, or is narrower than the tolerance.
   bool fill(std::size_t i, BodySurface& surface) const;
   const glm::dmat3& axes(std::size_t i) const { return frames_[rects_[places_[i]].frame]; }
 

@@ -271,7 +271,7 @@ void compile_attribute(Parser& p, std::size_t index) {
   if (declaration.state == Progress::done) return;
   if (p.depth > 200) {
     add_error(p, p.tokens.at(declaration.from),
-              "found a chain of more than 200 attributes that need each other");
+              "found a chain of more than 200 attributes, each of which depends on the next");
     return;
   }
   if (declaration.state == Progress::in_progress) {

@@ -65,9 +65,9 @@ struct Derivation {
   std::map<UvSets, std::uint32_t> uv_set_ids;
   std::map<std::vector<std::uint32_t>, std::uint32_t> tag_set_ids;
   std::map<std::string, std::uint32_t, std::less<>> named_solids;
-  /// Squares, indexed by the axis of the normal.
+  /// Unit squares, indexed by the axis of the normal.
   std::array<Solid, 3> squares;
-  /// Axes of the sides of boxes, by axes and side.
+  /// Indices of the axes of sides of boxes, by the index of the axes of the box and the side.
   std::unordered_map<std::uint64_t, std::uint32_t> side_axes;
   /// Raised solids, by what was raised, and how.
   std::map<std::pair<std::uint32_t, int>, std::uint32_t> raised_solids;

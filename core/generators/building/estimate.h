@@ -6,7 +6,7 @@
 namespace seedmesh::building {
 
 /// A building with more shapes than this gets no estimate.
-constexpr std::uint64_t most_appraised = 100'000;
+constexpr std::uint64_t most_estimated_shapes = 100'000;
 
 /// Triangles and bytes of the shapes. Triangles of boxes and rectangles are exact, those of solids follow
 /// from their corners, and built-in parts are made once for each size. Returns nullopt for more than 500 sizes of

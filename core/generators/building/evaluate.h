@@ -4,15 +4,16 @@
 
 namespace seedmesh::building {
 
-/// Chooses the shape whose attributes and parameters the next expressions read. `state` has to outlive them:
-/// it is where the steps of the successor have brought the shape so far.
+/// Selects the shape whose attributes and parameters the next expressions read. `state` is the state of the
+/// shape after the steps of the successor so far. It has to exist until these expressions are evaluated.
 void look_at(Derivation& d, const ShapeState& state, std::uint32_t shape);
 
-/// Puts what expressions read of that shape into the slots; evaluate() does so before it needs them.
+/// Stores the values of that shape that expressions read in the slots. evaluate() calls this before it needs
+/// them.
 void fill_slots(Derivation& d);
 
-/// Returns the value of an expression. Draws random numbers from d.random. Answers of queries to other shapes are
-/// computed here.
+/// Returns the value of an expression. Draws random numbers from d.random and computes queries to other
+/// shapes.
 lang::TaggedValue evaluate(Derivation& d, const Value& value);
 /// Returns the value of a node of an expression (syntax.h).
 lang::TaggedValue evaluate_tree(Derivation& d, std::uint32_t node);
@@ -23,7 +24,7 @@ bool holds(Derivation& d, const Value& condition);
 /// Returns a finite number of at most 10,000 km; everything else is rejected at the expression. A text that an
 /// attribute of the request brought is rejected at that attribute.
 double number_of(Derivation& d, const Value& value);
-/// Returns a number of metres; of a relative argument, which is a share of `whole`, as well.
+/// Returns a length in metres. A relative argument is multiplied by `whole`.
 double length_of(Derivation& d, const Argument& argument, double whole);
 /// Returns a text, or its number in the table of texts; a number is rejected.
 std::uint32_t text_id_of(Derivation& d, const Argument& argument);

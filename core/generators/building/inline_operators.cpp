@@ -56,7 +56,7 @@ void take_joined(Derivation& d, const Step& step, ShapeState& state, std::span<c
     for (const Shape& leaf : leaves) {
       const Style& own = d.out.styles[leaf.style];
       if (own.color != first.color || own.material != first.material) {
-        warn(d, step.offset, "the shapes that become one have different materials; it has the first of them");
+        warn(d, step.offset, "the joined shapes have different materials; the result has the first one");
         break;
       }
     }
@@ -161,7 +161,7 @@ void combine(Derivation& d, const Step& step, ShapeState& state, const Site& sit
   } else {
     if (!operands[0].is_closed || !operands[1].is_closed) {
       warn(d, step.offset,
-           "an operand of a Boolean operation is no closed solid, so that the result may be wrong");
+           "an operand of a Boolean operation is not a closed solid, so the result may be wrong");
     }
     made = boolean(operands[0], operands[1], kind, d.job);
     if (!made.faces.empty() && !made.is_closed)
@@ -174,7 +174,7 @@ void combine(Derivation& d, const Step& step, ShapeState& state, const Site& sit
 /// of a face; without any, a hole stays.
 void modify(Derivation& d, const Step& step, ShapeState& state, const Site& site) {
   if (state.has_asset() || dimension(state.size) < 2)
-    return warn(d, step.offset, "modify needs faces, and leaves this shape as it is");
+    return warn(d, step.offset, "modify needs a shape with faces; this one does not change");
   const ShapeState given = state;
   const glm::dmat3 axes = d.out.axes[given.axes], back = glm::transpose(axes);
   Solid solid = welded(solid_in_metres(d, given), 0);

@@ -10,12 +10,12 @@ bool has_rule(const Derivation& d, const Shape& shape);
 /// Replaces a shape by what its rule makes. False: no rule holds, and the shape becomes a leaf.
 bool expand(Derivation& d, std::uint32_t shape);
 
-/// Replaces the shapes from `first` on until none has a rule, the newest first; those of left sides of several
-/// shapes last.
+/// Replaces the shapes from index `first` on until none has a rule, the newest first. Shapes that wait for
+/// left sides of several shapes (joined_shapes.h) come last.
 void finish_from(Derivation& d, std::uint32_t first);
 
-/// Runs a body that is nested in a successor, for a shape that an operation made: its first branch whose
-/// condition holds, and one choice of that by weight.
+/// Runs a body that is nested in a successor, for a shape that an operation made. The first branch whose
+/// condition holds is used, and one of its choices is selected by weight.
 void run_body(Derivation& d, std::uint32_t body, const ShapeState& state, const Frame& frame);
 
 /// Adds a shape that no rule replaces. Spends Resource::shapes.

@@ -9,17 +9,17 @@
 
 namespace seedmesh::building {
 
-/// Whether the shape has to be left out until no other can be replaced.
+/// Whether the shape waits until no other shape can be replaced.
 bool waits(const Derivation& d, const Shape& shape);
 
 /// Searches the shapes from `first` on. The result is to be replaced next: joined shapes if a left side matches,
 /// else the waiting shapes that have a rule of their own, in the order of the tree.
 ///
 /// Shapes match where their symbols and numbers of parameters agree, each is a neighbour of another one
-/// (contact.h), and a rule for them holds. Those that are not kept become inactive. The joined shape, a child of
-/// the first of them, has their union as its geometry and the parameters of all. It is a box if they fill one, in
-/// the axes of the first. Spends Resource::shapes. Cost of a search: n log² n for n waiting shapes and their
-/// neighbours, for left sides of two shapes.
+/// (contact.h), and a rule for them holds. Those that the rule does not keep become inactive. The joined
+/// shape is a child of the first of them. Its geometry is their union, and it has the parameters of all. If
+/// they fill a box in the axes of the first, it is that box. Spends Resource::shapes. Cost of a search for
+/// left sides of two shapes: n log² n for n waiting shapes and their neighbours.
 std::vector<std::uint32_t> take_waiting(Derivation& d, std::uint32_t first);
 
 }  // namespace seedmesh::building

@@ -85,7 +85,7 @@ class Loader {
         continue;
       }
       if (depth >= deepest_import || ++instances_ > most_instances) {
-        error(token, "rule files import each other more than 16 deep or 200 times, perhaps in a circle");
+        error(token, "rule files import each other more than 16 deep or 200 times, perhaps in a cycle");
         return;
       }
       warn(token, "`import` has no name, so that the names of " + lang::in_quotes(path) + " get no prefix");
@@ -214,7 +214,7 @@ class Loader {
       return;
     }
     if (depth >= deepest_import || ++instances_ > most_instances) {
-      error(path, "rule files import each other more than 16 deep or 200 times, perhaps in a circle");
+      error(path, "rule files import each other more than 16 deep or 200 times, perhaps in a cycle");
       return;
     }
     Overrides overrides;

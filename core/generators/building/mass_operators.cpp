@@ -296,7 +296,7 @@ void footprint(Derivation& d, const Step& step, ShapeState& state, const Site&) 
       state.size.y = 0;
       return;
     }
-    return warn(d, step.offset, "footprint needs faces, and leaves this shape as it is");
+    return warn(d, step.offset, "footprint needs a shape with faces; this one does not change");
   }
   if (state.geometry == box_geometry && state.size.x > 0 && state.size.z > 0) {
     state.size.y = 0;

@@ -76,7 +76,7 @@ void mirror(Derivation& d, const Step& step, ShapeState& state, const Site&) {
   }
   if (axes == 0) return;
   if (state.has_asset())
-    return warn(d, step.offset, "an inserted part or asset cannot be mirrored, and stays as it is");
+    return warn(d, step.offset, "an inserted part or asset cannot be mirrored and does not change");
   if (!state.has_solid()) return;  // a box is its own mirror image
   for (unsigned axis = 0; axis < 3; ++axis) {
     if (state.size[static_cast<int>(axis)] == 0) axes &= ~(1U << axis);

@@ -17,7 +17,8 @@ struct Texturing {
 /// Returns a mesh without vertices, whose memory is charged to the request.
 Mesh empty_mesh(bool has_uv, const Job& job);
 
-/// Appends a body that lies in the frame of its scope; `axes` and `origin` place it.
+/// Appends a body. Its positions are in the frame of its scope, whose axes and origin are `axes` and
+/// `origin`.
 void append(const BodySurface& surface, Mesh& mesh, const glm::dmat3& axes, const glm::dvec3& origin,
             const Texturing& texturing);
 

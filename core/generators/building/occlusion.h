@@ -3,12 +3,12 @@
 /// come from the shapes of the first pass of the derivation (derive.h), so that they do not depend on any
 /// order.
 ///
-/// Only closed shapes with a volume can occlude: active ones, and for "all", "noparent" and names also those that
-/// rules have replaced. Ancestors and descendants of the querying shape never count. Boxes are tested as
+/// Only closed shapes with a volume can occlude: active ones, and for "all", "noparent" and names also those
+/// that rules have replaced. Ancestors and descendants of the querying shape never count. Boxes are tested as
 /// boxes; other closed solids (roofs, cut solids, cylinders) are cut to the box of the querying shape.
 /// touches() tests boxes only. visible("street") is true if the shortest line from the middle of the querying
-/// shape to the nearest shape of that name is free; flat shapes count as targets. Without such a shape it is
-/// false.
+/// shape to the nearest shape of that name is not blocked; flat shapes count as targets. Without such a shape
+/// it is false.
 #include <map>
 #include <unordered_map>
 

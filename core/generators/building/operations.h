@@ -16,7 +16,7 @@ enum class Braces : std::uint8_t {
   selectors,
   perimeter,  ///< { length : depth : successor | ... } { remainder : successor }
   operands,   ///< { successor | successor }
-  next,       ///< no braces: the step behind it
+  next,       ///< no braces: the step after it
 };
 
 /// What the service does with a name of the CGA reference.

@@ -34,7 +34,7 @@ int uv_set_at(Derivation& d, const Step& step, std::uint32_t i) {
 
 void take_box_of_asset(Derivation& d, const Step& step, ShapeState& state) {
   if (!state.has_asset()) return;
-  warn(d, step.offset, "rules do not know the faces of an inserted part or asset, and take its box");
+  warn(d, step.offset, "rules cannot use the faces of an inserted part or asset; its box is used");
   state.geometry = box_geometry;
 }
 

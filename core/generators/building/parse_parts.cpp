@@ -53,7 +53,7 @@ void read_axis(Parser& p, const OperationRow& row, Step& step, const std::vector
     step.axis = static_cast<std::uint8_t>(letter - 'x');
     if (list.size() > 2 && row.op == Op::split) {
       add_error(p, p.tokens.at(p.at - 1),
-                "found a set of texture coordinates, expected one only with the axes u and v");
+                "found a set of texture coordinates, expected none with the axes x, y and z");
     }
     step.keeps_to_snaps = keeps_to_snaps;
     p.grammar.has_snap_splits |= keeps_to_snaps;

@@ -8,8 +8,8 @@ namespace seedmesh::building {
 /// Reads cells: `size : successor | { ... }* | ...`, or, if the successors follow in a second pair of braces
 /// (notation of 2006), `3.5, 1r, { 2, 1r }*`.
 void parse_cells(Parser& p, std::vector<Part>& out, bool have_bodies);
-/// Assigns the successors of a second pair of braces to the cells in order; `next` is the index of the next
-/// one.
+/// Assigns the successors of a second pair of braces to the cells in order. `next` is the index of the next
+/// successor and is advanced.
 void assign_bodies(Parser& p, std::vector<Part>& cells, const std::vector<std::uint32_t>& bodies,
                    std::size_t& next);
 

@@ -14,8 +14,8 @@ Choice parse_successor(Parser& p);
 /// Reads one symbol or operation. False, with an error: none begins here.
 bool parse_step(Parser& p, std::vector<Step>& out);
 
-/// Returns the operation that begins at the next token; null: none does. Those without arguments need no brackets,
-/// unless a rule has their name or a point makes them a leaf.
+/// Returns the operation that begins at the next token; null if none does. An operation without arguments
+/// needs no brackets, unless a rule has its name or a dot follows, which makes the name a leaf.
 const OperationRow* operation_here(const Parser& p);
 
 /// Reads an operation with its arguments and what it has in braces.

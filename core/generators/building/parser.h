@@ -13,9 +13,9 @@
 
 namespace seedmesh::building {
 
-/// The most different queries to other shapes that rules may have.
+/// The greatest number of distinct queries to other shapes in the rules.
 constexpr std::uint32_t most_queries = 32;
-/// The most parameters of a rule or a function.
+/// The greatest number of parameters of a rule or a function.
 constexpr std::size_t most_parameters = 32;
 
 /// A value of with(...), which is found once for each call.
@@ -32,7 +32,7 @@ struct RuleFunction {
   std::vector<std::string_view> parameters;
   std::vector<LocalValue> locals;
   std::size_t from = 0, to = 0;          ///< tokens of the body
-  Progress order = Progress::untouched;  ///< of sorting the attributes that its body needs
+  Progress order = Progress::untouched;  ///< progress of sorting the attributes that its body needs
   std::size_t owner = 0;                 ///< the attribute that needs it, while in progress
 };
 
@@ -57,7 +57,7 @@ struct Parser {
   std::map<std::string, RuleFunction, std::less<>> functions;
   std::vector<Declaration> declarations;
   std::map<std::string, std::size_t, std::less<>> declared;
-  std::vector<std::string> attribute_order;  ///< those that others need come first
+  std::vector<std::string> attribute_order;  ///< attributes; those that others need come first
   std::set<std::string> made_texts;          ///< texts of tokens that are not in the rules
   lang::Names names;
   std::set<std::string, std::less<>> symbols_with_rules;
@@ -75,7 +75,8 @@ inline std::uint32_t offset_here(const Parser& p) { return static_cast<std::uint
 
 /// Skips the next token if it is this symbol, and returns whether it is.
 bool take(Parser& p, std::string_view symbol);
-/// The same; everything else is an error.
+/// Skips the next token if it is this symbol. Otherwise adds an error that says after what the symbol was
+/// expected.
 void expect(Parser& p, std::string_view symbol, std::string_view after);
 
 /// Adds an error at a token: one for each token, and at most lang::max_errors.
@@ -98,11 +99,11 @@ bool begins_local(const Parser& p, std::size_t i);
 bool begins_rule(const Parser& p, std::size_t i);
 bool begins_statement(const Parser& p, std::size_t i);
 
-/// Returns the number of a symbol or word in the grammar, which gets it if it is new.
+/// Returns the index of a symbol or word in the grammar. A new one is added.
 std::uint32_t symbol_index(Parser& p, std::string_view name, std::uint32_t offset);
 std::uint32_t word_index(Parser& p, std::string_view word);
 
-/// Appends rows to a table of the grammar, and says where they are.
+/// Appends rows to a table of the grammar, and sets `first` and `count` to their range.
 template <class Row>
 void append_rows(std::vector<Row>& table, const std::vector<Row>& rows, std::uint32_t& first,
                  std::uint32_t& count) {

@@ -94,7 +94,7 @@ std::uint32_t sides_at(Derivation& d, const Step& step, std::uint32_t i, double 
 double length_at(Derivation& d, const Step& step, std::uint32_t i) {
   double length = number_or(d, step, i, 0);
   if (length < 0 && d.grammar.is_cityengine) {
-    warn(d, step.offset, "found a negative length, whose amount is taken");
+    warn(d, step.offset, "found a negative length; its absolute value is used");
     length = -length;
   }
   if (!(length > 0))
@@ -192,7 +192,7 @@ void insert_along_uv(Derivation& d, const Step& step, ShapeState& state, const S
   const int set = uv_set_at(d, step, 0);
   const double height = number_or(d, step, 2, 0);
   if (dimension(state.size) != 2 || state.has_asset()) {
-    warn(d, step.offset, "insertAlongUV needs a face, and leaves this shape out");
+    warn(d, step.offset, "insertAlongUV needs a face; this shape is left out");
     return;
   }
   const Projection projection = projection_of(d, state, set);

@@ -5,22 +5,22 @@
 
 namespace seedmesh::building {
 
-std::uint32_t projection_id(const Derivation& d, const ShapeState& state, int set, bool in_force) {
+std::uint32_t projection_id(const Derivation& d, const ShapeState& state, int set, bool is_applied) {
   const Style& style = d.out.styles[state.style];
-  if (set == 0) return in_force ? style.projection : style.projection_set_up;
+  if (set == 0) return is_applied ? style.projection : style.projection_set_up;
   const UvSets& sets = d.out.uv_sets[style.uv_sets];
   const auto at = static_cast<std::size_t>(set - 1);
-  return in_force ? sets.in_force[at] : sets.set_up[at];
+  return is_applied ? sets.applied[at] : sets.set_up[at];
 }
 
-void set_projection_id(Derivation& d, ShapeState& state, int set, bool in_force, std::uint32_t id) {
+void set_projection_id(Derivation& d, ShapeState& state, int set, bool is_applied, std::uint32_t id) {
   Style style = d.out.styles[state.style];
   if (set == 0) {
-    (in_force ? style.projection : style.projection_set_up) = id;
+    (is_applied ? style.projection : style.projection_set_up) = id;
   } else {
     UvSets sets = d.out.uv_sets[style.uv_sets];
     const auto at = static_cast<std::size_t>(set - 1);
-    (in_force ? sets.in_force : sets.set_up)[at] = id;
+    (is_applied ? sets.applied : sets.set_up)[at] = id;
     const auto [found, is_new] =
         d.uv_set_ids.try_emplace(sets, static_cast<std::uint32_t>(d.out.uv_sets.size()));
     if (is_new) {

@@ -15,8 +15,8 @@ bool has_projection(const Derivation& d, const ShapeState& state, int set);
 void use_projection(Derivation& d, ShapeState& state, int set, const Projection& projection);
 
 /// Returns the number of the projection that a set has set up or applied; 0: none.
-std::uint32_t projection_id(const Derivation& d, const ShapeState& state, int set, bool in_force);
-void set_projection_id(Derivation& d, ShapeState& state, int set, bool in_force, std::uint32_t id);
+std::uint32_t projection_id(const Derivation& d, const ShapeState& state, int set, bool is_applied);
+void set_projection_id(Derivation& d, ShapeState& state, int set, bool is_applied, std::uint32_t id);
 /// Stores a projection and returns its number.
 std::uint32_t add_projection(Derivation& d, const Projection& projection);
 

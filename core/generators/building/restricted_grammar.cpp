@@ -12,7 +12,7 @@ class RestrictionCheck {
 
   std::vector<lang::TextError> run() {
     for (const Rule& rule : grammar_.rules) each_choice(rule.body, 0);
-    return std::move(faults_);
+    return std::move(errors_);
   }
 
  private:
@@ -32,12 +32,12 @@ class RestrictionCheck {
     for (std::uint32_t i = 0; i < choice.step_count; ++i) {
       const Step& step = grammar_.steps[choice.first_step + i];
       if (step.op == Op::nil)
-        fault(step, "the rule removes the shape, which a non-erasing grammar does not allow");
+        report(step, "the rule removes the shape, which a non-erasing grammar does not allow");
       const bool is_marker =
           step.op == Op::symbol && !step.is_leaf && !grammar_.symbols[step.symbol].rules.empty();
       if (is_marker && ++markers > 1 && is_unimarker_) {
-        fault(step, "`" + grammar_.symbols[step.symbol].name +
-                        "` is a second symbol with a rule in this successor; a unimarker grammar has one");
+        report(step, "`" + grammar_.symbols[step.symbol].name +
+                         "` is a second symbol with a rule in this successor; a unimarker grammar has one");
       }
       markers = parts_of(step.first_part, step.part_count, markers);
     }
@@ -56,13 +56,13 @@ class RestrictionCheck {
     return markers;
   }
 
-  void fault(const Step& step, std::string message) {
-    if (faults_.size() < lang::max_errors) faults_.push_back({step.offset, std::move(message)});
+  void report(const Step& step, std::string message) {
+    if (errors_.size() < lang::max_errors) errors_.push_back({step.offset, std::move(message)});
   }
 
   const Grammar& grammar_;
   bool is_unimarker_;
-  std::vector<lang::TextError> faults_;
+  std::vector<lang::TextError> errors_;
 };
 
 }  // namespace

@@ -64,7 +64,7 @@ struct ValueArray {
 /// Projections of the texture coordinate sets 1 to 9, as indices like those in Style: those that setupProjection
 /// defines, and those that projectUV has applied.
 struct UvSets {
-  std::array<std::uint32_t, 9> set_up{}, in_force{};
+  std::array<std::uint32_t, 9> set_up{}, applied{};
   friend auto operator<=>(const UvSets&, const UvSets&) = default;
 };
 
@@ -81,7 +81,7 @@ struct Style {
   friend auto operator<=>(const Style&, const Style&) = default;
 };
 
-/// A closed body that a component split took apart into faces.
+/// A closed body that a component split has divided into faces.
 struct DecomposedBody {
   glm::dvec3 origin{0}, size{0};
   std::uint32_t axes = 0, geometry = box_geometry;

@@ -155,7 +155,7 @@ void insert_geometry(Derivation& d, const Step& step, ShapeState& state, const s
   const bool has_words = step.op != Op::insert_along_uv && insert_words(d, step);
   if (step.argument_count > 1 && !is_part && !has_words && step.op != Op::insert_along_uv) {
     warn(d, step.offset,
-         "the numbers behind " + lang::in_quotes(name) + " have no effect: only built-in parts have options");
+         "the numbers after " + lang::in_quotes(name) + " have no effect: only built-in parts have options");
   }
   const int given = dimension(state.size);
   glm::dvec3 size = state.size;

@@ -15,7 +15,7 @@ namespace {
 /// The geometry of a leaf in metres of the scope of `state`; empty for edges, points and assets.
 Solid in_scope(Derivation& d, std::uint32_t offset, const ShapeState& state, const Shape& leaf) {
   if (leaf.has_asset()) {
-    warn(d, offset, "inserted parts and assets cannot become a part of one shape, and are left out");
+    warn(d, offset, "inserted parts and assets cannot be joined with other shapes and are left out");
     return {};
   }
   if (dimension(leaf.size) < 2) return {};

@@ -17,7 +17,7 @@ bool can_change(Derivation& d, const Step& step, const ShapeState& state, int se
   if (dimension(state.size) == 3) {
     warn(d, step.offset,
          "the faces of this solid have texture coordinates of their own, which this operation cannot change; "
-         "use it behind comp(f), or behind setupProjection");
+         "use it after comp(f) or setupProjection");
   }
   return false;
 }
@@ -117,7 +117,7 @@ void copy_uv(Derivation& d, const Step& step, ShapeState& state, const Site&) {
 
 void delete_uv(Derivation& d, const Step& step, ShapeState& state, const Site&) {
   const int set = uv_set_at(d, step, 0);
-  for (const bool in_force : {true, false}) set_projection_id(d, state, set, in_force, 0);
+  for (const bool is_applied : {true, false}) set_projection_id(d, state, set, is_applied, 0);
 }
 
 }  // namespace seedmesh::building::operators

@@ -83,8 +83,8 @@ std::optional<FieldMap> FieldMap::read_text(const std::string& text, const std::
                       "found " + lang::in_quotes(tokens[at]) + ", expected an operator or the end",
                       IssueKind::syntax});
   if (errors.empty() && map.program_.draws(map.expression_))
-    errors.push_back(
-        {0, "a map has one value for each position; it draws no random numbers", IssueKind::invalid_value});
+    errors.push_back({0, "found a function of random numbers; a map has one value for each position",
+                      IssueKind::invalid_value});
   if (errors.empty()) return map;
   lang::add_issues(pointer, text, errors, issues);
   return std::nullopt;

@@ -183,7 +183,9 @@ class StreetGrammar::Reader {
       depth += each.symbol == '[' ? 1 : each.symbol == ']' ? -1 : 0;
       if (depth < 0 || depth > 1) break;
     }
-    if (depth != 0) add(offset, "brackets have to be closed and do not nest", IssueKind::syntax);
+    if (depth != 0)
+      add(offset, "found brackets that are nested or not balanced; expected pairs side by side",
+          IssueKind::syntax);
   }
 
   const std::string& text_;

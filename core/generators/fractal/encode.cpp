@@ -88,9 +88,11 @@ std::vector<Issue> check_format(const FractalParams& params, const WantedFormat&
     return issues;
   }
   if (params.method != FractalMethod::frcm)
-    issues.push_back({IssueKind::conflict, "/method", found + ", but a ply holds the points of \"frcm\""});
+    issues.push_back(
+        {IssueKind::conflict, "/method", found + ", but a PLY file contains the points of \"frcm\""});
   if (!params.stages.empty())
-    issues.push_back({IssueKind::conflict, "/stages", "a ply holds one cloud, expected no stages"});
+    issues.push_back({IssueKind::conflict, "/stages",
+                      "found stages in the format ply, which has one point cloud; expected none"});
   return issues;
 }
 

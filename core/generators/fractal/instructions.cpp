@@ -292,7 +292,7 @@ void check_map(const FractalMap& given, const std::string& pointer, bool by_chan
   if (given.matrix &&
       !(given.scale == plain.scale && given.rotate == plain.rotate && given.translate == plain.translate)) {
     issues.emplace_back(IssueKind::conflict, pointer,
-                        "found \"matrix\" beside scale, rotate or translate, expected either");
+                        "found \"matrix\" beside scale, rotate or translate, expected one of the two forms");
     return;
   }
   const Affine map = map_of(given);
@@ -313,7 +313,7 @@ void check_map(const FractalMap& given, const std::string& pointer, bool by_chan
   } else if (!by_chance && stretch > 1 + grow_tolerance) {
     issues.emplace_back(
         IssueKind::invalid_value, member,
-        "found a map that lets its copy grow: its norm is " + number_text(stretch) + ", expected at most 1");
+        "found a map that enlarges its copy: its norm is " + number_text(stretch) + ", expected at most 1");
   }
 }
 

@@ -66,7 +66,7 @@ Result<Field> of_raw(const TerrainImage& image, std::span<const std::uint8_t> by
     const bool is_hgt = image.encoding == TerrainEncoding::hgt;
     return fault("/image/data", "found " + std::to_string(count) + " samples, which are not " +
                                     (image.width ? "rows of " + std::to_string(*image.width)
-                                     : is_hgt    ? std::string("a square, as an .hgt file has it")
+                                     : is_hgt    ? std::string("a square; an .hgt file is square")
                                                  : std::string("a square; give the width")));
   }
   if (width > longest_side || count / width > longest_side)
@@ -223,7 +223,7 @@ Result<Array<std::uint8_t>> bytes_of_base64(std::string_view text, const Job& jo
   if (text.starts_with("data:")) {
     const std::size_t comma = text.find(',');
     if (comma == std::string_view::npos || !text.substr(0, comma).ends_with(";base64"))
-      return fault("", "a data: URL is taken where it has base64: data:image/png;base64,…");
+      return fault("", "found a data: URL without base64; expected data:image/png;base64,…");
     start = comma + 1;
   }
   std::string_view digits = text.substr(start);
@@ -237,7 +237,8 @@ Result<Array<std::uint8_t>> bytes_of_base64(std::string_view text, const Job& jo
     word = word << 6U | static_cast<std::uint32_t>(value);
     if (i % 4 != 0) bytes.push_back(static_cast<std::uint8_t>(word >> (6 - i % 4 * 2)));
   }
-  if (digits.size() % 4 == 1) return fault("", "base64 does not end after one character of four");
+  if (digits.size() % 4 == 1)
+    return fault("", "found base64 whose last group has one character of four; expected two or more");
   return bytes;
 }
 

@@ -178,36 +178,37 @@ const char* size_pointer(const TerrainParams& params) {
 }
 
 /// What the engine of the profile does not take.
-void engine_faults(const TerrainParams& params, const WantedFormat& form, std::vector<Issue>& faults) {
-  const auto fault = [&](IssueKind kind, const char* pointer, std::string message) {
-    faults.push_back({kind, pointer, std::move(message)});
+void add_engine_issues(const TerrainParams& params, const WantedFormat& form, std::vector<Issue>& issues) {
+  const auto add_issue = [&](IssueKind kind, const char* pointer, std::string message) {
+    issues.push_back({kind, pointer, std::move(message)});
   };
   const std::string profile(form.profile);
   const std::optional<Engine> engine = engine_of(form.profile);
   if (!engine) {
-    return fault(IssueKind::not_available, "/output/profile",
-                 "found " + profile + "; height maps have the conventions of core, unity and unreal");
+    return add_issue(IssueKind::not_available, "/output/profile",
+                     "found " + profile + "; height maps have the conventions of core, unity and unreal");
   }
   const TerrainHeightmap& given = params.heightmap;
   if (engine == Engine::unity && form.format != "r16") {
-    fault(IssueKind::conflict, "/output/format",
-          "found " + std::string(form.format) + "; Unity reads raw heights: r16");
+    add_issue(IssueKind::conflict, "/output/format",
+              "found " + std::string(form.format) + "; Unity reads raw heights: r16");
   }
   if (given.map != TerrainMap::height) {
-    fault(IssueKind::conflict, "/heightmap/map",
-          "found " + std::string(text_of(given.map)) + "; the profile " + profile +
-              " is about heights, other maps have the profile core");
+    add_issue(IssueKind::conflict, "/heightmap/map",
+              "found " + std::string(text_of(given.map)) + "; the profile " + profile +
+                  " is for heights; other maps need the profile core");
   }
   if (given.byte_order != TerrainByteOrder::little) {
-    fault(IssueKind::conflict, "/heightmap/byte_order",
-          "found big; the profile " + profile + " has the low byte first");
+    add_issue(IssueKind::conflict, "/heightmap/byte_order",
+              "found big; the profile " + profile + " has the low byte first");
   }
   if (engine == Engine::unity && given.flip)
-    fault(IssueKind::conflict, "/heightmap/flip", "the profile unity has the southern row first as it is");
+    add_issue(IssueKind::conflict, "/heightmap/flip",
+              "the profile unity has the southern row first as it is");
   if (params.algorithm == TerrainAlgorithm::image) return;  // whose size is known when it is read
   const int side = finished_side(params);
   if (std::string wrong = misfit(*engine, side, side); !wrong.empty())
-    fault(IssueKind::invalid_value, size_pointer(params), std::move(wrong));
+    add_issue(IssueKind::invalid_value, size_pointer(params), std::move(wrong));
 }
 
 }  // namespace
@@ -309,40 +310,41 @@ texture::Picture ground_texture(GroundKind kind, std::int32_t side, Rng rng, con
 }
 
 std::vector<Issue> format_errors(const TerrainParams& params, const WantedFormat& form) {
-  std::vector<Issue> faults;
-  const auto fault = [&](IssueKind kind, const char* pointer, std::string message) {
-    faults.push_back({kind, pointer, std::move(message)});
+  std::vector<Issue> issues;
+  const auto add_issue = [&](IssueKind kind, const char* pointer, std::string message) {
+    issues.push_back({kind, pointer, std::move(message)});
   };
   const TerrainHeightmap& given = params.heightmap;
   if (params.shape != TerrainShape::plane) {
-    fault(
+    add_issue(
         IssueKind::not_available, "/shape",
         "a " + std::string(text_of(params.shape)) + " has no height map; its formats are glb, gltf and zip");
   }
   if (is_picture(given.map) && form.format != "png8") {
-    fault(IssueKind::conflict, "/heightmap/map",
-          std::string(text_of(given.map)) + " is a picture in colours, which the format png8 holds; found " +
-              std::string(form.format));
+    add_issue(IssueKind::conflict, "/heightmap/map",
+              std::string(text_of(given.map)) +
+                  " is a picture in colours, which the format png8 holds; found " + std::string(form.format));
   }
   if (is_picture(given.map) && given.flip) {
-    fault(IssueKind::conflict, "/heightmap/flip",
-          "found true with the map " + std::string(text_of(given.map)) +
-              ", a picture for texture coordinates, which begin in the north-west");
+    add_issue(IssueKind::conflict, "/heightmap/flip",
+              "found true with the map " + std::string(text_of(given.map)) +
+                  ", a picture for texture coordinates, which begin in the north-west");
   }
   if (given.map == TerrainMap::water && !params.water_level)
-    fault(IssueKind::conflict, "/heightmap/map", "there is no water; give a water_level");
+    add_issue(IssueKind::conflict, "/heightmap/map", "there is no water; give a water_level");
   if (params.tile && given.map == TerrainMap::height && (!given.low || !given.high)) {
-    fault(IssueKind::missing, "/heightmap",
-          "low and high are missing: tiles of one world need the same values, or their heights would differ "
-          "at the borders");
+    add_issue(
+        IssueKind::missing, "/heightmap",
+        "low and high are missing: tiles of one world need the same values, or their heights would differ "
+        "at the borders");
   }
-  if (form.profile != "core") engine_faults(params, form, faults);
-  return faults;
+  if (form.profile != "core") add_engine_issues(params, form, issues);
+  return issues;
 }
 
 Result<Array<std::uint8_t>> map_file(const TerrainParams& params, const WantedFormat& form, Job& job) {
-  if (std::vector<Issue> faults = format_errors(params, form); !faults.empty())
-    return Error{Code::invalid, std::move(faults)};
+  if (std::vector<Issue> issues = format_errors(params, form); !issues.empty())
+    return Error{Code::invalid, std::move(issues)};
   const TerrainHeightmap& given = params.heightmap;
   const Rng rng = job.rng().at("terrain");
   if (is_ground(given.map)) {

@@ -1,5 +1,5 @@
 #pragma once
-/// Heights of the ground at the corners of square cells, and their distances from coarser triangles; used by areas.cpp.
+/// Heights of the ground at the corners of square cells, and their deviations from coarser triangles.
 #include <array>
 #include <vector>
 
@@ -9,7 +9,7 @@ namespace seedmesh::world {
 
 /// Heights at the corners of square cells. Rows run from the south, columns from the west.
 struct HeightGrid {
-  int wide = 0;                ///< samples along a side
+  int wide = 0;                ///< number of samples along a side
   double spacing = 0;          ///< metres
   double west = 0, south = 0;  ///< absolute position of sample (0, 0)
   std::vector<double> heights;
@@ -18,33 +18,36 @@ struct HeightGrid {
   double at(int i, int j) const { return heights[index_of(i, j)]; }
 };
 
-/// Returns, for each of `tiles` x `tiles` squares, the greatest distance of its samples from the triangles of a
-/// tile there. If the cells of the tiles are those of the grid, returns an estimate of the deviation between
-/// samples. Empty if the cells are smaller or their sides are not multiples of the spacing.
+/// Divides the grid into `tiles` x `tiles` squares, each covered by one tile. Returns the greatest distance
+/// between the samples of each square and the triangles of its tile. If a cell of a tile is as wide as the
+/// spacing, no samples lie inside it. The result is then estimated from cells twice as wide. Returns an empty
+/// list if cells of tiles are narrower than the spacing, or if their width is not a multiple of it.
 std::vector<double> deviations_of_tiles(const HeightGrid& grid, int tiles, const Job& job);
 
-/// Returns how far five samples are from triangles through every other sample. (i, j) is the south-west corner of
-/// 2 x 2 cells.
+/// Returns the greatest distance of five samples in 2 x 2 cells from two triangles over these cells: those in
+/// the middles of the four sides and of the diagonal. (i, j) is the south-west corner of the cells.
 double deviation_from_next(const HeightGrid& grid, int i, int j);
 
 /// Returns the greatest slope in a square of `side` x `side` cells.
 double greatest_slope(const HeightGrid& grid, int column, int row, int side);
 
-/// Returns the south-west corners of the cells of a square of `side` x `side` cells in which the heights bend most.
+/// Returns the south-west corners of the four cells in which the slope changes most, among `side` x `side`
+/// cells.
 std::array<std::array<int, 2>, 4> most_bent_cells(const HeightGrid& grid, int column, int row, int side);
 
-/// Returns how far the ground is from the triangles between its heights at the corners of a cell.
+/// Returns the distance of the ground from the triangles through its heights at the corners of a cell,
+/// measured at the middles of the sides and of the diagonal.
 double deviation_of_ground(const HeightGrid& grid, const Ground& ground, int i, int j);
 
-/// Land and ruggedness at the samples of a grid. It does not own them.
+/// Heights before valleys are cut, and ruggedness, at the samples of a grid. It does not own them.
 struct UncutLand {
   const std::vector<double>& heights;
   const std::vector<float>& ruggedness;
 };
 
-/// Lowers samples of the land to the valley of a river, which extends `wide` metres.
+/// Lowers samples to the valley of a stretch of a river, up to `wide` metres from its bounding box.
 void carve(HeightGrid& grid, const UncutLand& land, const Reach& reach, double wide);
-/// Lowers samples of the land to the valley and the bed of a lake.
+/// Lowers samples to the valley and the bed of a lake.
 void carve(HeightGrid& grid, const UncutLand& land, const Lake& lake);
 
 }  // namespace seedmesh::world

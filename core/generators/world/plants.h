@@ -1,8 +1,9 @@
 #pragma once
-/// Selects the positions of plants among random candidates in the cells of a grid. Each candidate has a random mark.
-/// Five rounds alternate. Odd rounds keep each undecided candidate with the lowest mark within the spacing. Even rounds
-/// remove undecided candidates near kept ones. A plant therefore depends only on candidates within five spacings, so
-/// every rectangle that contains a position gives the same result there.
+/// Selects the positions of plants among random candidates in the cells of a grid. Each candidate has a
+/// random mark. Five rounds decide. Rounds 1, 3 and 5 keep an undecided candidate if no undecided one within
+/// the spacing has a lower mark. Rounds 2 and 4 remove undecided candidates within the spacing of a kept one.
+/// A plant therefore depends only on candidates within five spacings, so every rectangle that contains it
+/// gives the same result.
 ///
 /// A finite form of the dependent thinning of Matérn 1960 ("Spatial variation").
 #include <vector>
@@ -20,15 +21,16 @@ struct Plant {
   std::uint64_t key = 0;       ///< key of further random choices
 };
 
-/// Returns the plants of a class in [west, east) x [south, north), which is inside the rectangle of `ground`, whose
-/// marks are below `share`. A plant depends on candidates with lower marks alone, so those of a lower share are a part
-/// of those of a higher one, and take less time. `reach`: how many spacings of candidates around the rectangle
-/// compete; tests try other values than the default.
+/// Returns the plants of a class in [west, east) x [south, north). The rectangle is inside that of `ground`.
+/// Only candidates with a mark below `share` compete. A plant depends on candidates with lower marks alone,
+/// so a lower share returns a part of the plants of a higher share, in less time. `reach` is the distance
+/// around the rectangle, in spacings, within which candidates compete; tests try other values than the
+/// default.
 std::vector<Plant> plants_in(const World& world, int plant_class, const Rectangle& box, const Ground& ground,
                              Job& job, double share = 1, double reach = thinning_rounds);
 
-/// Returns the share of the ground at a position that the class covers, 0 to 1. Variations over less than
-/// `spacing`, the metres between samples, are left out.
+/// Returns the share of the ground at a position that the class covers, 0 to 1. Variations shorter than
+/// `spacing`, the distance between samples in metres, are left out.
 double wood_cover(const World& world, int plant_class, const GroundSample& sample, const Climate& climate,
                   double east, double north, double spacing);
 

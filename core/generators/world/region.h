@@ -1,13 +1,14 @@
 #pragma once
-/// Drainage of a region of about 32 km: lakes, and rivers that end in the sea, in a lake or in another river. A region
-/// depends on the land alone, and no water leaves it, so regions do not depend on each other.
+/// Drainage of a region with sides of about 32 km: lakes, and rivers that end in the sea, in a lake or in
+/// another river. A region depends on the land alone, and no water crosses its border, so regions do not
+/// depend on each other.
 ///
 ///   jittered nodes, 2 km apart -> flood from the sea or the lowest node -> flow -> rivers with falling water
 ///
 /// The flood is the priority flood of Barnes, Lehman and Mulla 2014 ("Priority-flood"), on a planar graph of
-/// nodes in place of a grid. Rivers and lakes stay away from positions whose coordinates are multiples of 16,384
-/// m: the samples of the widest tiles have such coordinates, so they need no drainage. Borders of regions are
-/// displaced by noise, so that they are not straight lines.
+/// nodes instead of a grid. Rivers and lakes stay away from positions whose coordinates are multiples of
+/// 16,384 m. The samples of the widest tiles have such coordinates, so these tiles need no drainage. Noise
+/// displaces the borders of regions, so that they are not straight lines.
 #include <compare>
 #include <memory>
 #include <string>
@@ -19,8 +20,8 @@ namespace seedmesh::world {
 
 constexpr double drain_cell = 2048;  ///< metres; one node a cell
 constexpr int region_cells = 16;     ///< along a side of a region
-constexpr double dry_spacing =
-    8 * drain_cell;  ///< metres; samples this far apart are beyond the reach of water
+/// In metres. No water reaches positions whose coordinates are multiples of this.
+constexpr double dry_spacing = 8 * drain_cell;
 
 /// Column (eastward) and row (northward) of a cell in a grid from the absolute origin: of nodes, sites or regions.
 struct CellKey {

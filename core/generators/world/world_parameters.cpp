@@ -36,7 +36,7 @@ std::vector<Issue> issues_of(const WorldParams& params) {
     const WorldClass& plant = params.plants[k];
     if (!names.insert(plant.class_name).second) {
       issues.emplace_back(IssueKind::duplicate_key, at + "/class",
-                          "the class " + plant.class_name + " is there twice");
+                          "the class " + plant.class_name + " is listed twice");
     }
     for (const auto& [name, range] : {std::pair{"/moisture", plant.moisture},
                                       {"/temperature", plant.temperature},

@@ -9,8 +9,9 @@ namespace seedmesh {
 enum class SolidShape { box, sphere, cylinder, cone, mesh };
 
 /// A shape that fills a box of `size`. `position` is the centre of the box's lower face. Cylinders are
-/// upright; cones have their apex up. Sphere, cylinder and cone are scaled if the sides of the box differ.
-/// The absolute values of their distances are then only upper bounds, which are far too large in long, thin shapes.
+/// upright; cones have their apex up. Spheres, cylinders and cones are scaled if the sides of the box differ.
+/// Their distances are then upper bounds of the true distances, far too large for long, thin shapes. The sign
+/// is exact.
 struct Solid {
   SolidShape shape = SolidShape::box;
   glm::dvec3 position{0};

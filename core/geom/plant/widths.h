@@ -1,13 +1,13 @@
 #pragma once
-/// Laws that compute the radii of a finished skeleton. Each replaces Limbs::radius and base_radius; positions
-/// stay. An internode with a Limbs::share counts by it, so that radii change continuously as internodes
-/// appear and disappear. Linear time, one thread.
+/// Laws that compute the radii of a finished skeleton. Each changes Limbs::radius and base_radius alone. If
+/// Limbs::share is given, the last two count an internode by its share, so that radii change continuously as
+/// internodes appear and disappear. Linear time, one thread.
 #include "core/geom/plant/limbs.h"
 
 namespace seedmesh {
 
-/// Multiplies every radius by `factor` for each branch that its internode is in (Limbs::order): Hutsko's
-/// thickness factor of 0.5 for each bracket (2022, table 1.6).
+/// Multiplies every radius by `factor` to the power of the branching order (Limbs::order). Hutsko uses the
+/// factor 0.5 for each bracket (2022, table 1.6).
 void narrow_by_order(Limbs& limbs, double factor, Job& job);
 
 struct ChainWidths {
@@ -26,8 +26,8 @@ struct PipeWidths {
 };
 
 /// Pipe model (Shinozaki, Yoda, Hozumi and Kira, "A quantitative analysis of plant form", 1964): every tip
-/// needs a pipe down to the ground, so that r^exponent of an internode is the sum of those that grow from its
-/// end.
+/// has a pipe down to the ground. r^exponent of an internode is therefore the sum of r^exponent of the
+/// internodes that grow from its end.
 void widen_by_pipes(Limbs& limbs, const PipeWidths& widths, Job& job);
 
 }  // namespace seedmesh

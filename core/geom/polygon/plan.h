@@ -54,13 +54,13 @@ bool contains(const Plan& plan, const glm::dvec2& point);
 /// Returns the diagonal of the box around the outer ring.
 double diagonal_of(const Plan& plan);
 
-/// What happens to triangles without area, which occur where a point lies in the middle of a straight edge.
-/// `keep`: every point is used, so that neighbours along the edge meet exactly. `drop`: plans with one ring have
-/// no such triangles, because their shading would be wrong.
+/// Whether triangles without area are kept. They occur where a point lies in the middle of a straight edge.
+/// `keep`: every point is used, so that neighbours along the edge meet exactly. `drop`: plans with one ring
+/// have no such triangles, because their shading would be wrong.
 enum class ThinTriangles { keep, drop };
 
-/// Counter-clockwise triangles that fill a plan, as numbers of points through all rings; see Triangulator.
-/// Checks stop and deadline where there is a job.
+/// Returns counter-clockwise triangles that fill a plan, as indices of points counted through all rings; see
+/// Triangulator. Checks stop and deadline where there is a job.
 std::vector<std::uint32_t> triangulate(const Plan& plan, ThinTriangles thin = ThinTriangles::keep,
                                        const Job* job = nullptr);
 

@@ -1,6 +1,6 @@
 #pragma once
-/// EXT_meshopt_compression (Kapoulkine, Khronos registry 2021) for an arranged buffer: views of vertices and
-/// indices become streams of meshoptimizer's codecs, the other views stay.
+/// EXT_meshopt_compression (Kapoulkine, Khronos registry 2021) for an arranged buffer. Views of vertices and
+/// indices become streams of meshoptimizer's codecs; the other views stay.
 #include <cstdint>
 #include <string>
 
@@ -17,9 +17,9 @@ struct Compressed {
   std::uint64_t fallback = 0;  ///< bytes of the second buffer, which is not stored; 0: nothing is compressed
 };
 
-/// `plain` has been arranged tight, so that indices of several meshes form one stream. Its arrays are
-/// released one by one as they are encoded. Charges the streams to `job`. About 45 ms for a million
-/// triangles.
+/// Compresses a buffer that has been arranged without padding, so that indices of several meshes form one
+/// stream. Releases the arrays of `plain` one by one as they are encoded. Charges the streams to `job`. Cost:
+/// about 45 ms for a million triangles.
 Compressed compress(Bin& plain, Job& job);
 
 }  // namespace seedmesh::gltf

@@ -1,5 +1,6 @@
 #pragma once
-/// Parses a GLB with tinygltf, which may neither open files nor decode images nor copy buffers many times.
+/// Parses a GLB with tinygltf. Members that a mesh does not need are removed first, so that the library
+/// cannot open files, decode images or multiply buffers.
 #include <tiny_gltf.h>
 
 #include <span>
@@ -16,8 +17,8 @@ struct ReadFile {
   std::vector<std::string> unused_parts;  ///< names of the members that were left out
 };
 
-/// Returns an upper bound of the memory for parsing: charge it first. `json` is the JSON chunk of `glb`
-/// (checked_json).
+/// Returns an upper bound of the memory for parsing, in bytes. The caller charges it before parsed(). `json`
+/// is the JSON chunk of `glb` (checked_json).
 std::uint64_t parsing_cost(std::span<const std::byte> glb, std::string_view json);
 
 /// Returns the parsed file. Throws Unreadable.

@@ -113,7 +113,7 @@ TEST(CgaFiles, RefusesFilesThatIncludeEachOther) {
                                                       {"b.cga", "import \"a.cga\"\nB --> C."}}),
                                           Limits{});
   ASSERT_FALSE(issues.empty());
-  EXPECT_THAT(issues[0].message, HasSubstr("in a circle"));
+  EXPECT_THAT(issues[0].message, HasSubstr("in a cycle"));
   EXPECT_EQ(issues[0].line, 1);
 }
 

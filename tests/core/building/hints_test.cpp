@@ -132,7 +132,7 @@ TEST(Hints, AskWhetherAMaterialIsMisspelt) {
 
 TEST(Hints, WarnOfOptionsThatASolidIgnores) {
   EXPECT_THAT(warnings("A --> i(\"cube\", 5, 7, 9)"),
-              ElementsAre(HasSubstr("/rules 1:7 the numbers behind `cube` have no effect")));
+              ElementsAre(HasSubstr("/rules 1:7 the numbers after `cube` have no effect")));
   EXPECT_THAT(warnings("A --> i(\"stairs\", 5)"), IsEmpty());
 }
 

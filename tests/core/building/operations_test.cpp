@@ -133,7 +133,7 @@ TEST(TextureSplits, FollowTheProjection) {
   EXPECT_THAT(refusal(with("A --> s('1, '1, 0) setupProjection(0, scope.zx, 1, 1) split(u){ 1: B. }")),
               HasSubstr("cannot be split along it"));
   EXPECT_THAT(fault("A --> split(u, metres){ 1: B. }"), HasSubstr("expected uvSpace or unitSpace"));
-  EXPECT_THAT(fault("A --> split(x, adjust, 0){ 1: B. }"), HasSubstr("only with the axes u and v"));
+  EXPECT_THAT(fault("A --> split(x, adjust, 0){ 1: B. }"), HasSubstr("none with the axes x, y and z"));
 }
 
 TEST(Projections, RunOverTheCellsOfAFacade) {

@@ -48,7 +48,8 @@ TEST(Import, MindsTheEncodingOfCommentsNot) {
 TEST(Import, ReportsWarningsOfTheRequestBeforeItIsMade) {
   const auto result = imported("cpfg", "Lsystem: 1\nderivation length: 500\nAxiom: F\nF --> FFF\n");
   ASSERT_TRUE(result);
-  EXPECT_THAT(reports(result), testing::Contains(testing::HasSubstr("the model is refused as it stands: ")));
+  EXPECT_THAT(reports(result),
+              testing::Contains(testing::HasSubstr("the imported request would be refused: ")));
 }
 
 }  // namespace

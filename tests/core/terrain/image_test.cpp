@@ -105,7 +105,7 @@ TEST(TerrainImage, ReadsSignedSamplesAndHgt) {
   for (std::size_t i = 0; i < little.size(); i += 2) std::swap(little[i], little[i + 1]);
   EXPECT_THAT(heights(image_of(little, TerrainEncoding::s16)), ElementsAre(-12, 300, 8848, -430));
   EXPECT_THAT(refusal(image_of(big_endian({1, 2, 3, 4, 5, 6}), TerrainEncoding::hgt)),
-              HasSubstr("6 samples, which are not a square, as an .hgt file has it"));
+              HasSubstr("6 samples, which are not a square; an .hgt file is square"));
 }
 
 TEST(TerrainImage, ReadsGeoTiffsInMetres) {

@@ -28,8 +28,8 @@ std::vector<PictureAnchor> ends_of(const std::vector<PictureLine>& lines);
 /// `is_determined` becomes true if there are two different points, or in space three that are not on a line.
 std::vector<PictureAnchor> anchors_of_left(const ShapePicture& left, bool is_flat, bool& is_determined);
 
-/// Three anchors that determine a similarity, of the kinds that are rarest in the picture. In the plane there
-/// are two, and the third repeats the second.
+/// Returns three anchors that determine a similarity, of the kinds that are rarest in the picture. In the
+/// plane two are sufficient, and the third repeats the second.
 std::array<PictureAnchor, 3> chosen_anchors(const std::vector<PictureAnchor>& anchors, bool is_flat,
                                             const std::map<std::uint32_t, std::size_t>& counts);
 

@@ -1,14 +1,15 @@
 #pragma once
-/// Limbs to one mesh, as a tree grows: one surface that continues from limb to limb.
+/// Converts limbs to one mesh whose surface continues from limb to limb, as bark does.
 ///
 /// skin() makes every limb a closed tube; graft() opens the parent where a limb leaves it. A limb begins in
 /// one of three ways:
 /// - A collar, for limbs thinner than their parent. The child's first ring lies on the parent's surface, at
 ///   the intersection of the two tubes, and the parent's triangles end at it.
-/// - A fork, for limbs of similar thickness: three half rings that share two points, across the incoming
-///   limb, the outgoing limb and the crotch between them (after P. Brunt's proctree, 2012).
-/// - Closed, as in skin(), where there is no room for a collar or fork, or where a face would face away from
-///   a normal.
+/// - A fork, for limbs of similar thickness: three half rings that share two points. They lie across the
+///   incoming limb, across the outgoing limb and in the crotch between them (after P. Brunt's proctree,
+///   2012).
+/// - A closed tube, as in skin(), where neither a collar nor a fork fits, or where a face would face away
+///   from a normal.
 ///
 /// The number of corners follows the radius, also between the rings of a limb. Joints on a straight piece
 /// have no ring. A twig takes a tenth of the triangles of its trunk.
@@ -29,11 +30,13 @@ struct GraftOptions {
   double corner_exponent = 0.3;  ///< the number of corners is proportional to this power of the radius
   bool weld = true;              ///< false: all limbs are closed tubes
   float thinnest = 0;            ///< limbs with a smaller first radius are left out
-  float thinnest_joint = 0;  ///< limbs with a smaller first radius are closed, turned as if they were welded
-  bool pointed = false;      ///< a thin end has no last ring: it is the point of a cone
-  bool every_bend = false;   ///< a ring at every bend, however slight
-  int lobes = 0;             ///< ribs around every limb of order 0
-  float lobe_depth = 0;      ///< depth of the ribs, as a share of the radius, below 1
+  /// Limbs with a smaller first radius are closed tubes. Their corners have the angles that welded limbs
+  /// would have.
+  float thinnest_joint = 0;
+  bool pointed = false;     ///< a thin end has no last ring: it is the point of a cone
+  bool every_bend = false;  ///< a ring at every bend, however slight
+  int lobes = 0;            ///< ribs around every limb of order 0
+  float lobe_depth = 0;     ///< depth of the ribs, as a share of the radius, below 1
   /// Internodes may coincide with others: they are found and their limbs left to skin().
   bool overlaps = false;
   bool points = false;  ///< radii may be 0 before the tip: such limbs are left to skin()
@@ -46,11 +49,11 @@ struct GraftOptions {
   /// If not null: gets for each vertex the joint at the far end of the internode that it moves with. The rim
   /// that two limbs share moves with the parent.
   Array<std::uint32_t>* joints = nullptr;
-  /// If not null: limbs have rings where they change their colour, as far as there is room, and it gets the
-  /// colour of each triangle. The mesh may be split between triangles of different colours.
+  /// If not null: gets the colour of each triangle, and limbs have rings where they change their colour, if a
+  /// ring fits. The mesh may be split between triangles of different colours.
   Array<std::int16_t>* colors = nullptr;
-  /// If not null: it is set where limbs overlap or bend so that no surface is left. The result is then of no
-  /// use, and nothing is thrown.
+  /// If not null: set to true if limbs overlap or bend so that no surface is left. The result is then
+  /// invalid, and nothing is thrown.
   bool* has_no_surface = nullptr;
   /// If not null: gets for each joint 1 where a limb begins that is welded to its parent.
   Array<std::uint8_t>* grown = nullptr;
@@ -65,8 +68,8 @@ struct GraftCounts {
   std::uint32_t creases = 0;      ///< faces with a normal of their own
 };
 
-/// Returns the bark of all limbs, of all colours. Where limbs part so sharply that no normal is in front of all faces
-/// of a vertex, the face behind gets a vertex of its own: a crease.
+/// Returns the bark of all limbs, of all colours. If limbs part at so acute an angle that no normal points to
+/// the front of all faces of a vertex, a face that it points behind gets a vertex of its own: a crease.
 ///
 /// Guarantees, as skin(): a closed surface, where every edge belongs to two triangles after welding by
 /// position; unit normals that no face faces away from; no unused vertex; u and v in metres (unless `wrap`),

@@ -1,5 +1,5 @@
 #pragma once
-/// What all parts of graft() read.
+/// The input that all parts of graft() read.
 #include <vector>
 
 #include "core/geom/plant/chains.h"
@@ -7,7 +7,7 @@
 
 namespace seedmesh {
 
-/// How a limb is made, from the best way to the last resort.
+/// How a limb is joined to its parent, in the order of preference.
 enum class JoinMode : std::uint8_t {
   full,      ///< welded to its parent, with side limbs welded to it
   detached,  ///< a closed end at its parent, with side limbs welded to it
@@ -15,7 +15,7 @@ enum class JoinMode : std::uint8_t {
   none       ///< left to skin()
 };
 
-/// Borrowed, except for the tables. Limbs are numbered as in Chains::head.
+/// Refers to objects of the caller and owns only the tables. Limbs have the indices of Chains::head.
 struct GraftInput {
   GraftInput(const Limbs& the_limbs, const Chains& the_chains, const Scale& the_scale,
              const GraftOptions& the_options, const std::vector<JoinMode>& modes);

@@ -8,9 +8,11 @@
 
 namespace seedmesh {
 
-/// A limb thinner than its parent gets a collar: the intersection of the two tubes. A limb of about the same
-/// thickness gets a fork: three half rings that share two points, across the incoming limb, the outgoing limb
-/// and the crotch between them. A limb with at least this share of its parent's radius prefers a fork.
+// There are two kinds of junctions. A collar is the intersection of the tubes of a thin limb and its parent.
+// A fork joins limbs of about the same thickness. It consists of three half rings that share two points: one
+// across the incoming limb, one across the outgoing limb, and one in the crotch between them.
+
+/// For a limb with at least this share of its parent's radius, a fork is tried before a collar.
 constexpr float fork_share = 0.55F;
 /// A limb with a radius below this number times Scale::thinnest stays a closed tube.
 constexpr float least_opened_radius = 3;
@@ -27,7 +29,8 @@ struct LoopPoint {
 
 struct Junction {
   std::uint32_t limb = 0;  ///< the child
-  /// Position along the parent of the ring that it lies on, and its extent.
+  /// `at` is the height along the parent of the ring on which the ends of the loop lie. `low` and `high` are
+  /// the lowest and highest heights of the loop.
   float at = 0, low = 0, high = 0;
   float middle = 0, half_width = 0;  ///< angles about the parent
   float radius = 0;                  ///< of the child at the loop
@@ -82,7 +85,7 @@ std::optional<Junction> collar_at(const LimbAxis& parent, std::size_t at_point, 
                                   std::vector<LoopPoint>& points);
 
 /// Returns a fork at an inner point of the parent, after P. Brunt, proctree, 2012. Appends its points to `points`.
-/// Returns nullopt where the radii differ too much or the tubes part too far away.
+/// Returns nullopt where the radii differ too much, or where the tubes separate too far from the joint.
 std::optional<Junction> fork_at(const LimbAxis& parent, std::size_t at_point, const ChildLimb& child,
                                 std::vector<LoopPoint>& points);
 
