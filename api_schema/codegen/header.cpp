@@ -70,6 +70,7 @@ void add_includes(const Type& type, std::set<std::string>& standard, std::set<st
   if (type.kind == Kind::integer || type.kind == Kind::seed) standard.insert("cstdint");
   if (type.kind == Kind::color) own.insert("core/schema/color.h");
   if (type.kind == Kind::child) own.insert("core/schema/child.h");
+  if (type.kind == Kind::geojson) own.insert("core/schema/geojson.h");
   if (type.kind == Kind::params) own.insert("generated/params/" + type.json_name + ".h");
   for (const Type& part : type.parts) add_includes(part, standard, own);
   for (const Member& member : type.members) {

@@ -36,6 +36,8 @@ std::string type_text(const Type& type) {
       return "number or object";
     case Kind::child:
       return "request";
+    case Kind::geojson:
+      return "GeoJSON";
     case Kind::free:
       return "object";
     case Kind::choice: {

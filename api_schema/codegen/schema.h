@@ -44,6 +44,7 @@ enum class Kind {
   shorthand,  ///< a structure that may also be written as one number (x-short)
   variant,    ///< std::variant of the alternatives
   child,      ///< Child: a request inside the request; an object with x-widget "request"
+  geojson,    ///< GeoJson: an object with x-widget "geojson"
   free,       ///< an object that other code reads: no member
 };
 

@@ -88,6 +88,8 @@ std::string read_statement(const Type& type, const std::string& location, const 
       return "read_free_object(" + location + ");";
     case Kind::child:
       return "read_child" + both;
+    case Kind::geojson:
+      return "read_geojson" + both;
     case Kind::params:
       return target + " = read_" + type.json_name + "(" + location + ".value(), " + location +
              ".pointer(), " + location + ".issue_list());";
@@ -138,6 +140,7 @@ JsonType json_type(const Type& type) {
     case Kind::structure:
     case Kind::params:
     case Kind::child:
+    case Kind::geojson:
     case Kind::free:
       return {"object", "an object"};
     default:
@@ -242,6 +245,8 @@ std::string write_expression(const Type& type, const std::string& value) {
       return "write_seed(" + value + ")";
     case Kind::child:
       return "write_child(" + value + ")";
+    case Kind::geojson:
+      return "write_geojson(" + value + ")";
     case Kind::structure:
     case Kind::shorthand:
       return "write(" + value + ")";

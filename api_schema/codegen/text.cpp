@@ -119,6 +119,7 @@ std::string initializer(const Type& type, const Schema& value) {
     case Kind::params:
     case Kind::shorthand:
     case Kind::child:
+    case Kind::geojson:
     case Kind::free:
       break;
   }

@@ -77,6 +77,7 @@ class Typing {
 
   void object(Type& type, const std::string& name) {
     if (type.schema.value("x-widget", "") == "request") return set(type, Kind::child, "Child");
+    if (type.schema.value("x-widget", "") == "geojson") return set(type, Kind::geojson, "GeoJson");
     const Schema& others = type.schema["additionalProperties"];
     if (others == true) return set(type, Kind::free, "");
     if (others.is_object()) {

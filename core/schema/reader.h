@@ -18,6 +18,7 @@
 
 #include "core/schema/child.h"
 #include "core/schema/color.h"
+#include "core/schema/geojson.h"
 #include "core/schema/issue_list.h"
 #include "core/schema/json.h"
 
@@ -98,7 +99,8 @@ void read_color(const Location& location, Color& out);
 void read_seed(const Location& location,
                std::uint64_t& out);                     ///< 0 to 2^64 - 1, as an integer or as decimal digits
 void read_child(const Location& location, Child& out);  ///< parameters stay JSON until read_parameters()
-void read_free_object(const Location& location);        ///< checks only that it is an object
+void read_geojson(const Location& location, GeoJson& out);  ///< checks only that it is an object
+void read_free_object(const Location& location);            ///< checks only that it is an object
 
 /// Returns the index of the value in a list of words, or nullopt after an error. `beside` names the other types that
 /// the value may have, for the message.

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "core/schema/child.h"
+#include "core/schema/geojson.h"
 #include "core/schema/json.h"
 
 namespace seedmesh::schema {
@@ -16,6 +17,8 @@ Json write_seed(std::uint64_t seed);
 
 /// Writes a nested request.
 Json write_child(const Child& child);
+
+Json write_geojson(const GeoJson& value);
 
 template <class List, class Write>
 Json write_list(const List& list, const Write& write) {

@@ -295,110 +295,40 @@ export interface CityParametersArea {
   polygon?: (([number, number])[])[];
 }
 
-/** A GeoJSON geometry of polygons in metres, east and north. */
-export interface Polygons {
-  /** Polygon or MultiPolygon. */
-  type: "Polygon" | "MultiPolygon";
-  /** Rings of positions [east, north] of a Polygon, or a list of such lists. */
-  coordinates: (((number | number[])[])[])[];
-}
-
 /** A name and its area. */
 export interface CityParametersMapsZonesItem {
   /** The name. */
   zone: string;
   /** Where the zone is: an expression over x (east) and y (north), a PNG image as data URI, or polygons. The brightness of an image covers the box around the area. The zone is where the value is 0.5 or more. */
-  area: string | Polygons;
+  area: string | { [key: string]: unknown };
 }
 
 /** Quantities that vary over the area. */
 export interface CityParametersMaps {
   /** The density of people, from 0 to 1: an expression over x (east) and y (north) in metres, a PNG image as data URI, or polygons with density 1. The brightness of an image covers the box around the area. Streets avoid positions below 0.1; blocks there become parks. */
-  density?: string | Polygons;
+  density?: string | { [key: string]: unknown };
   /** Where there is water, as an expression, an image or polygons: from 0.5 upwards. Water is part of the partition. Streets end before it or cross it on bridges. */
-  water?: string | Polygons;
+  water?: string | { [key: string]: unknown };
   /** Where no street may grow, as an expression, an image or polygons: from 0.5 upwards. Nothing is built on lots there. */
-  obstacles?: string | Polygons;
+  obstacles?: string | { [key: string]: unknown };
   /** The share of streets.second_pattern in the pattern of the streets, from 0 to 1, as an expression, an image or polygons with the value 1. Between the two, directions are the weighted mean of those of both patterns, as a tensor. Only for the method growth. */
-  pattern?: string | Polygons;
+  pattern?: string | { [key: string]: unknown };
   /** Named zones, which rules of buildings can use. Where zones overlap, the first one counts. Wards have zones of their own. */
   zones?: CityParametersMapsZonesItem[];
   /** The height of the natural ground, instead of a terrain: an expression over x (east) and y (north) with the height in metres, a PNG image as data URI, or polygons. The brightness of an image covers the box around the area. height_range has the heights of images and polygons. */
-  height?: string | Polygons;
+  height?: string | { [key: string]: unknown };
   /** The height of black and of white pixels if the height is an image; outside of and inside its polygons otherwise. An expression has metres of its own. */
   height_range?: [number, number];
 }
 
-/** A LineString or MultiLineString in metres, east and north. */
-export interface CityParametersGivenStreetsFeaturesItemGeometry {
-  /** LineString or MultiLineString. */
-  type: "LineString" | "MultiLineString";
-  /** Positions [east, north], or a list of lists of positions. */
-  coordinates: ((number | number[])[])[];
-}
-
-/** A feature of GeoJSON. */
-export interface CityParametersGivenStreetsFeaturesItem {
-  /** Feature. */
-  type: "Feature";
-  /** `class` (highway, major, minor or lane), `width`, `lanes`, `sidewalk` (one number, or left and right) and `level` count. Others have no effect. */
-  properties?: { [key: string]: number | string | boolean | number[] };
-  /** A LineString or MultiLineString in metres, east and north. */
-  geometry: CityParametersGivenStreetsFeaturesItemGeometry;
-}
-
-/** Existing streets. Where two of them meet or cross on one level, an end or corner of one has to lie within 3 m of the other. */
-export interface CityParametersGivenStreets {
-  /** FeatureCollection. */
-  type: "FeatureCollection";
-  /** The features. */
-  features: CityParametersGivenStreetsFeaturesItem[];
-}
-
-/** A feature of GeoJSON. */
-export interface CityParametersGivenWaterFeaturesItem {
-  /** Feature. */
-  type: "Feature";
-  /** They have no effect. */
-  properties?: { [key: string]: number | string | boolean | number[] };
-  /** The polygons of the feature. */
-  geometry: Polygons;
-}
-
-/** Existing water. */
-export interface CityParametersGivenWater {
-  /** FeatureCollection. */
-  type: "FeatureCollection";
-  /** The features. */
-  features: CityParametersGivenWaterFeaturesItem[];
-}
-
-/** A feature of GeoJSON. */
-export interface CityParametersGivenFootprintsFeaturesItem {
-  /** Feature. */
-  type: "Feature";
-  /** `height` is that of the walls in metres; without it, `floors` of 3 m, or 9 m. Others have no effect. */
-  properties?: { [key: string]: number | string | boolean | number[] };
-  /** The polygons of the feature. */
-  geometry: Polygons;
-}
-
-/** Existing buildings. Streets that grow keep clear of them, and no house is built on them. */
-export interface CityParametersGivenFootprints {
-  /** FeatureCollection. */
-  type: "FeatureCollection";
-  /** The features. */
-  features: CityParametersGivenFootprintsFeaturesItem[];
-}
-
 /** Existing parts of the city as GeoJSON in local metres. They stay as they are, and the rest grows from them. */
 export interface CityParametersGiven {
-  /** Existing streets. Where two of them meet or cross on one level, an end or corner of one has to lie within 3 m of the other. */
-  streets?: CityParametersGivenStreets;
-  /** Existing water. */
-  water?: CityParametersGivenWater;
-  /** Existing buildings. Streets that grow keep clear of them, and no house is built on them. */
-  footprints?: CityParametersGivenFootprints;
+  /** Existing streets: LineString, MultiLineString, or a GeometryCollection of them. A FeatureCollection, a Feature or a geometry of GeoJSON in metres, east and north. Foreign members have no effect. The properties `class` (highway, major, minor or lane), `width`, `lanes`, `sidewalk` (one number, or left and right), `level`, `bridge` and `tunnel` count. Where two streets meet or cross on one level, an end or corner of one has to lie within 3 m of the other. */
+  streets?: { [key: string]: unknown };
+  /** Existing water: Polygon, MultiPolygon, or a GeometryCollection of them. A FeatureCollection, a Feature or a geometry of GeoJSON in metres, east and north. Foreign members have no effect. */
+  water?: { [key: string]: unknown };
+  /** Existing buildings: Polygon, MultiPolygon, or a GeometryCollection of them. A FeatureCollection, a Feature or a geometry of GeoJSON in metres, east and north. Foreign members have no effect. The property `height` is that of the walls in metres; without it, `floors` of 3 m, or 9 m. Streets that grow keep clear of the buildings, and no house is built on them. */
+  footprints?: { [key: string]: unknown };
 }
 
 /** The cross section of highways, which given streets can be, and lines of the net with highway_spacing. */

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/generators/city/geojson.h"
 #include "core/generators/terrain/image.h"
 #include "core/lang/text_positions.h"
 #include "core/texture/png.h"
@@ -42,9 +43,9 @@ std::optional<FieldMap> FieldMap::read(const MapValue& value, const std::string&
                                        const glm::dvec2& low, const glm::dvec2& high, const Job& job,
                                        std::vector<Issue>& issues) {
   FieldMap map;
-  if (std::holds_alternative<CityPolygons>(value)) {
+  if (const auto* polygons = std::get_if<GeoJson>(&value)) {
     map.has_polygons_ = true;
-    map.polygons_ = polygons_of(std::get<CityPolygons>(value), pointer, issues);
+    map.polygons_ = polygons_of(*polygons, pointer, {issues});
     return map;
   }
   const std::string& text = std::get<std::string>(value);

@@ -11,11 +11,12 @@
 #include "core/base/result.h"
 #include "core/generators/city/geometry.h"
 #include "core/lang/expression.h"
+#include "core/schema/geojson.h"
 
 namespace seedmesh::city {
 
 /// The value of a map in a request.
-using MapValue = std::variant<std::string, CityPolygons>;
+using MapValue = std::variant<std::string, GeoJson>;
 
 /// Immutable; threads may share it.
 class FieldMap {

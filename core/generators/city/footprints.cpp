@@ -4,11 +4,9 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <nlohmann/json.hpp>
-#include <variant>
 
 #include "core/base/math.h"
-#include "core/schema/json.h"
+#include "core/generators/city/geojson.h"
 #include "generated/params/city.h"
 
 namespace seedmesh::city {
@@ -19,22 +17,13 @@ using glm::dvec2;
 constexpr double usual_height = 9, height_of_floor = 3, least_height = 1, most_height = 1000;  // m
 constexpr double cell_size = 64;                                                               // m
 
-/// A property that is a number; nothing without it.
-std::optional<double> number_of(const CityGivenBuilding& building, const char* name,
-                                const std::string& pointer, std::vector<Issue>& issues) {
-  const auto at = building.properties.find(name);
-  if (at == building.properties.end()) return std::nullopt;
-  if (const double* value = std::get_if<double>(&at->second)) return *value;
-  issues.emplace_back(IssueKind::wrong_type, pointer + "/properties/" + name, "expected a number");
-  return std::nullopt;
-}
-
-double height_of(const CityGivenBuilding& building, const std::string& pointer, std::vector<Issue>& issues) {
-  const auto height = number_of(building, "height", pointer, issues);
-  const auto floors = number_of(building, "floors", pointer, issues);
+double height_of(const GeoFeature& building, std::vector<Issue>& issues) {
+  const auto height = number_property(building, "height", issues);
+  const auto floors = number_property(building, "floors", issues);
   const double value = height ? *height : floors ? *floors * height_of_floor : usual_height;
   if (value >= least_height && value <= most_height) return value;
-  issues.emplace_back(IssueKind::out_of_range, pointer + "/properties/" + (height ? "height" : "floors"),
+  issues.emplace_back(IssueKind::out_of_range,
+                      building.pointer + "/properties/" + (height ? "height" : "floors"),
                       "found a height of " + number_text(value) + " m, expected " +
                           number_text(least_height) + " to " + number_text(most_height) + " m");
   return usual_height;
@@ -68,15 +57,14 @@ bool is_in(const Rings& rings, const dvec2& cm) {
 std::vector<GivenFootprint> given_footprints(const CityParams& params, std::vector<Issue>& issues) {
   std::vector<GivenFootprint> all;
   if (!params.given.given_footprints) return all;
-  const std::vector<CityGivenBuilding>& features = params.given.given_footprints->features;
-  for (std::size_t i = 0; i < features.size(); ++i) {
-    const std::string pointer = "/given/footprints/features/" + std::to_string(i);
-    const double height = height_of(features[i], pointer, issues);
-    for (Rings& rings : polygons_of(features[i].polygons, pointer + "/geometry", issues)) {
+  for (GeoFeature& each :
+       features_of(*params.given.given_footprints, GeoKind::polygons, "/given/footprints", {issues})) {
+    const double height = height_of(each, issues);
+    for (Rings& rings : each.polygons) {
       if (std::all_of(rings.begin(), rings.end(), [](const CmRing& ring) { return is_simple(ring); })) {
-        all.push_back({pointer, std::move(rings), height});
+        all.push_back({each.pointer, std::move(rings), height});
       } else {
-        issues.emplace_back(IssueKind::invalid_value, pointer + "/geometry",
+        issues.emplace_back(IssueKind::invalid_value, each.geometry,
                             "found a ring that meets itself, expected simple rings");
       }
     }

@@ -3,11 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <variant>
 
 #include "core/base/math.h"
+#include "core/generators/city/geojson.h"
 #include "core/geom/polygon/segment_pairs.h"
-#include "core/schema/json.h"
 #include "generated/params/city.h"
 
 namespace seedmesh::city {
@@ -23,20 +22,15 @@ CrossSection section_of(const char* name, const T& given) {
   return {name, given.width, {given.sidewalk, given.sidewalk}, given.lanes, given.grade, given.trees};
 }
 
-/// Reads the properties of a feature that count.
+/// Reads the properties of a feature that count. Null is as no value.
 class Properties {
  public:
-  Properties(const CityGivenStreet& street, const std::string& pointer, std::vector<Issue>& issues)
-      : street_(street), pointer_(pointer + "/properties/"), issues_(issues) {}
+  Properties(const GeoFeature& street, std::vector<Issue>& issues)
+      : street_(street), pointer_(street.pointer + "/properties/"), issues_(issues) {}
 
   double number(const char* name, double otherwise, double least, double most) const {
-    const auto at = street_.properties.find(name);
-    if (at == street_.properties.end()) return otherwise;
-    if (!std::holds_alternative<double>(at->second)) {
-      issues_.emplace_back(IssueKind::wrong_type, pointer_ + name, "expected a number");
-      return otherwise;
-    }
-    return in_range(name, std::get<double>(at->second), least, most);
+    const std::optional<double> value = number_property(street_, name, issues_);
+    return value ? in_range(name, *value, least, most) : otherwise;
   }
 
   int whole(const char* name, int otherwise, int least, int most) const {
@@ -48,22 +42,23 @@ class Properties {
     return math::to_int32(value);
   }
 
+  /// True, or what OpenStreetMap writes for it.
   bool is_true(const char* name) const {
-    const auto at = street_.properties.find(name);
-    return at != street_.properties.end() && std::holds_alternative<bool>(at->second) &&
-           std::get<bool>(at->second);
+    const Json* value = find(name);
+    return value && (*value == true || *value == "yes" || *value == "true");
   }
 
   std::array<double, 2> sidewalk(const std::array<double, 2>& otherwise) const {
-    const auto at = street_.properties.find("sidewalk");
-    if (at == street_.properties.end()) return otherwise;
-    if (std::holds_alternative<double>(at->second)) {
-      const double both = in_range("sidewalk", std::get<double>(at->second), 0.5, 20);
+    const Json* value = find("sidewalk");
+    if (!value) return otherwise;
+    if (value->is_number()) {
+      const double both = in_range("sidewalk", value->get<double>(), 0.5, 20);
       return {both, both};
     }
-    const auto* list = std::get_if<std::vector<double>>(&at->second);
-    if (list && list->size() == 2)
-      return {in_range("sidewalk", (*list)[0], 0.5, 20), in_range("sidewalk", (*list)[1], 0.5, 20)};
+    if (value->is_array() && value->size() == 2 && (*value)[0].is_number() && (*value)[1].is_number()) {
+      return {in_range("sidewalk", (*value)[0].get<double>(), 0.5, 20),
+              in_range("sidewalk", (*value)[1].get<double>(), 0.5, 20)};
+    }
     issues_.emplace_back(IssueKind::wrong_type, pointer_ + "sidewalk",
                          "expected a number, or a list of two numbers");
     return otherwise;
@@ -71,12 +66,11 @@ class Properties {
 
   /// The index of the class; `minor` without one.
   std::size_t street_class(const std::vector<CrossSection>& sections) const {
-    const auto at = street_.properties.find("class");
+    const Json* name = find("class");
     const auto minor = static_cast<std::size_t>(EdgeClass::minor);
-    if (at == street_.properties.end()) return minor;
-    const auto* name = std::get_if<std::string>(&at->second);
-    for (auto k = static_cast<std::size_t>(EdgeClass::highway); name && k < first_given; ++k) {
-      if (sections[k].name == *name) return k;
+    if (!name) return minor;
+    for (auto k = static_cast<std::size_t>(EdgeClass::highway); k < first_given; ++k) {
+      if (*name == sections[k].name) return k;
     }
     issues_.emplace_back(IssueKind::invalid_value, pointer_ + "class",
                          "expected highway, major, minor or lane");
@@ -84,6 +78,11 @@ class Properties {
   }
 
  private:
+  const Json* find(const char* name) const {
+    const auto at = street_.properties.find(name);
+    return at == street_.properties.end() || at->is_null() ? nullptr : &*at;
+  }
+
   double in_range(const char* name, double value, double least, double most) const {
     if (value >= least && value <= most) return value;
     issues_.emplace_back(
@@ -92,7 +91,7 @@ class Properties {
     return least;
   }
 
-  const CityGivenStreet& street_;
+  const GeoFeature& street_;
   std::string pointer_;
   std::vector<Issue>& issues_;
 };
@@ -200,7 +199,7 @@ void check_crossings(const std::vector<GivenLine>& lines, std::vector<Issue>& is
     const dvec2 from = in_cm(a), along = in_cm(b) - from, across = in_cm(d) - in_cm(c), off = in_cm(c) - from;
     const double share = (off.x * across.y - off.y * across.x) / (along.x * across.y - along.y * across.x);
     const CmPoint at = rounded_cm(from + along * share);
-    issues.emplace_back(IssueKind::conflict, lines[m].pointer + "/geometry",
+    issues.emplace_back(IssueKind::conflict, lines[m].geometry,
                         "crosses the street at " + lines[n].pointer + " at " + number_text(at.x / 100.0) +
                             ", " + number_text(at.y / 100.0) +
                             "; expected an end or corner of one of them within 3 m, or another level");
@@ -224,10 +223,9 @@ std::vector<GivenLine> given_lines(const CityParams& params, std::vector<CrossSe
                                    std::vector<Issue>& issues) {
   std::vector<GivenLine> lines;
   if (!params.given.given_streets) return lines;
-  const std::vector<CityGivenStreet>& features = params.given.given_streets->features;
-  for (std::size_t i = 0; i < features.size(); ++i) {
-    const std::string pointer = "/given/streets/features/" + std::to_string(i);
-    const Properties properties(features[i], pointer, issues);
+  for (const GeoFeature& feature :
+       features_of(*params.given.given_streets, GeoKind::lines, "/given/streets", {issues})) {
+    const Properties properties(feature, issues);
     CrossSection section = sections[properties.street_class(sections)];
     section.width = properties.number("width", section.width, 1, 100);
     section.lanes = properties.whole("lanes", section.lanes, 0, 20);
@@ -237,15 +235,15 @@ std::vector<GivenLine> given_lines(const CityParams& params, std::vector<CrossSe
     auto known = std::find(sections.begin() + first_given, sections.end(), section);
     if (known == sections.end()) known = sections.insert(known, section);
     const auto number = static_cast<std::uint32_t>(known - sections.begin());
-    for (const CmRing& line : lines_of(features[i].lines, pointer + "/geometry", issues)) {
+    for (const CmRing& line : feature.lines) {
       const CmRing points = spaced(line);
       if (points.size() == 2 && distance(points[0], points[1]) < shortest) {
-        issues.emplace_back(IssueKind::invalid_value, pointer + "/geometry",
+        issues.emplace_back(IssueKind::invalid_value, feature.geometry,
                             "found a line of " + number_text(distance(points[0], points[1]) / 100) +
                                 " m, expected more than 3 m");
         continue;
       }
-      lines.push_back({pointer, points, number, level});
+      lines.push_back({feature.pointer, feature.geometry, points, number, level});
     }
   }
   if (!issues.empty()) return lines;
@@ -257,14 +255,8 @@ std::vector<GivenLine> given_lines(const CityParams& params, std::vector<CrossSe
 }
 
 std::vector<Rings> given_water(const CityParams& params, std::vector<Issue>& issues) {
-  std::vector<Rings> all;
-  if (!params.given.given_water) return all;
-  const std::vector<CityGivenBodyOfWater>& features = params.given.given_water->features;
-  for (std::size_t i = 0; i < features.size(); ++i) {
-    const std::string pointer = "/given/water/features/" + std::to_string(i) + "/geometry";
-    for (Rings& rings : polygons_of(features[i].polygons, pointer, issues)) all.push_back(std::move(rings));
-  }
-  return all;
+  if (!params.given.given_water) return {};
+  return polygons_of(*params.given.given_water, "/given/water", {issues});
 }
 
 }  // namespace seedmesh::city

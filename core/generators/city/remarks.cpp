@@ -4,6 +4,7 @@
 #include <glm/common.hpp>
 #include <string>
 
+#include "core/generators/city/geojson.h"
 #include "core/generators/city/landmarks.h"
 #include "core/generators/city/zoning.h"
 #include "core/generators/unused.h"
@@ -71,11 +72,60 @@ void add_unused(const CityParams& params, const CityPlan& plan, std::vector<Warn
     warnings.push_back({"/buildings/detail", "`detail` has no effect: no rule of buildings has a blueprint"});
 }
 
+/// Whether all lines and rings are beside the box around the area.
+bool is_beside_area(const std::vector<GeoFeature>& features, const std::vector<CmRing>& area) {
+  glm::dvec2 low = in_cm(area[0][0]), high = low;
+  for (const CmPoint& p : area[0]) {
+    low = glm::min(low, in_cm(p));
+    high = glm::max(high, in_cm(p));
+  }
+  const auto is_beside = [&](const CmRing& line) {
+    glm::dvec2 least = in_cm(line[0]), most = least;
+    for (const CmPoint& p : line) {
+      least = glm::min(least, in_cm(p));
+      most = glm::max(most, in_cm(p));
+    }
+    return least.x > high.x || least.y > high.y || most.x < low.x || most.y < low.y;
+  };
+  return std::all_of(features.begin(), features.end(), [&](const GeoFeature& each) {
+    return std::all_of(each.lines.begin(), each.lines.end(), is_beside) &&
+           std::all_of(each.polygons.begin(), each.polygons.end(),
+                       [&](const Rings& rings) { return is_beside(rings[0]); });
+  });
+}
+
+/// Warns of geometries without an effect.
+void add_unused_geometries(const CityParams& params, const CityPlan& plan, std::vector<Warning>& warnings) {
+  const auto add = [&](const GeoJson& value, GeoKind kind, const std::string& pointer) {
+    std::vector<Issue> unused;  // the plan was made, so that there are none
+    const std::vector<GeoFeature> features = features_of(value, kind, pointer, {unused, &warnings});
+    if (!features.empty() && is_beside_area(features, plan.area)) {
+      warnings.push_back(
+          {pointer, "all of it is outside of the area; expected metres about the same origin"});
+    }
+  };
+  const auto add_map = [&](const MapValue& value, const std::string& pointer) {
+    if (const auto* polygons = std::get_if<GeoJson>(&value)) add(*polygons, GeoKind::polygons, pointer);
+  };
+  if (params.given.given_streets) add(*params.given.given_streets, GeoKind::lines, "/given/streets");
+  if (params.given.given_water) add(*params.given.given_water, GeoKind::polygons, "/given/water");
+  if (params.given.given_footprints)
+    add(*params.given.given_footprints, GeoKind::polygons, "/given/footprints");
+  add_map(params.maps.density, "/maps/density");
+  if (params.maps.water) add_map(*params.maps.water, "/maps/water");
+  if (params.maps.obstacles) add_map(*params.maps.obstacles, "/maps/obstacles");
+  if (params.maps.pattern) add_map(*params.maps.pattern, "/maps/pattern");
+  if (params.maps.height) add_map(*params.maps.height, "/maps/height");
+  for (std::size_t i = 0; i < params.maps.zones.size(); ++i)
+    add_map(params.maps.zones[i].area, "/maps/zones/" + std::to_string(i) + "/area");
+}
+
 }  // namespace
 
 std::vector<Warning> remarks_on(const CityParams& params, const CityPlan& plan) {
   std::vector<Warning> warnings = warnings_of(unused_parameters(params));
   add_unused(params, plan, warnings);
+  add_unused_geometries(params, plan, warnings);
   if (!is_covered(plan)) {
     warnings.push_back(
         {"/terrain",

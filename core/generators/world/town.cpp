@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "core/base/math.h"
 #include "core/generators/city/city.h"
+#include "core/schema/json.h"
 #include "generated/params/city.h"
 
 namespace seedmesh::world {
@@ -76,8 +78,8 @@ class TownPlanner {
     params.maps.density = "1-sqrt(x*x+y*y)/" + std::to_string(math::to_int32(std::ceil(1.2 * site_.radius)));
     place_church(roads);
     place_square(roads);
-    if (CityPolygons polygons = obstacles(); !polygons.coordinates.empty())
-      params.maps.obstacles = std::move(polygons);
+    if (Json polygons = obstacles(); !polygons.empty())
+      params.maps.obstacles = geojson("MultiPolygon", std::move(polygons));
     if (has_roads_) params.given.given_streets = features_of(roads);
     // the plan is kept for other requests, so it spends nothing of this one
     Job own = job_.for_estimate().for_child(rng_.at("plan").key(), "/settlements/towns");
@@ -174,16 +176,18 @@ class TownPlanner {
     return lines;
   }
 
-  CityGivenStreets features_of(const std::vector<Line>& lines) const {
-    CityGivenStreets streets;
+  static GeoJson geojson(const char* type, Json coordinates) {
+    return {canonical_text({{"type", type}, {"coordinates", std::move(coordinates)}})};
+  }
+
+  GeoJson features_of(const std::vector<Line>& lines) const {
+    Json features = Json::array();
     for (const Line& line : lines) {
-      CityGivenStreet street;
-      street.properties["width"] = world_.params.roads.width;
-      street.properties["sidewalk"] = pavement;
-      for (const Point& p : line) street.lines.coordinates.push_back({{p[0]}, {p[1]}});
-      streets.features.push_back(std::move(street));
+      features.push_back({{"type", "Feature"},
+                          {"properties", {{"width", world_.params.roads.width}, {"sidewalk", pavement}}},
+                          {"geometry", {{"type", "LineString"}, {"coordinates", line}}}});
     }
-    return streets;
+    return {canonical_text({{"type", "FeatureCollection"}, {"features", std::move(features)}})};
   }
 
   /// Finds a position at a distance from the middle that is `free` metres from roads, on buildable ground.
@@ -222,17 +226,15 @@ class TownPlanner {
   }
 
   /// The green of the church, and where earthworks must not be.
-  CityPolygons obstacles() const {
-    CityPolygons polygons;
-    polygons.geometry_type = CityGeometryType::MultiPolygon;
+  Json obstacles() const {
+    Json polygons = Json::array();
     const auto add = [&](double east, double north, double radius) {
-      std::vector<std::variant<double, std::vector<double>>> ring;
+      Json ring = Json::array();
       for (int k = 0; k < 8; ++k) {
         const math::SinCos way = math::sincos_degrees(45.0 * k);
-        ring.emplace_back(std::vector<double>{east - site_.east + radius * way.cos,
-                                              north - site_.north + radius * way.sin});
+        ring.push_back({east - site_.east + radius * way.cos, north - site_.north + radius * way.sin});
       }
-      polygons.coordinates.push_back({ring});
+      polygons.push_back(Json::array({std::move(ring)}));
     };
     const auto first = [](double v) { return works_spacing * std::ceil(v / works_spacing); };
     for (double north = first(site_.north - site_.radius); north <= site_.north + site_.radius;

@@ -61,14 +61,10 @@ CityParams random_town_at_water(std::uint64_t seed) {
     return std::vector<std::vector<double>>{
         {east, north}, {east + size, north + 20}, {east + 15, north + size}};
   };
-  CityPolygons water;
-  water.geometry_type = CityGeometryType::MultiPolygon;
-  for (const double shift : {0.0, rng.uniform(0, 60)}) {
-    std::vector<std::variant<double, std::vector<double>>> positions;
-    for (const auto& p : ring(x + shift, y - shift)) positions.emplace_back(p);
-    water.coordinates.push_back({positions});
-  }
-  params.maps.water = water;
+  Json water = Json::array();
+  for (const double shift : {0.0, rng.uniform(0, 60)})
+    water.push_back(Json::array({ring(x + shift, y - shift)}));
+  params.maps.water = GeoJson{Json({{"type", "MultiPolygon"}, {"coordinates", water}}).dump()};
   return params;
 }
 
@@ -347,14 +343,14 @@ TEST(City, CrossesARiverOnBridges) {
 }
 
 /// A feature collection of lines without properties.
-CityGivenStreets lines(const std::vector<std::vector<std::array<double, 2>>>& list) {
-  CityGivenStreets streets;
+GeoJson lines(const std::vector<std::vector<std::array<double, 2>>>& list, const Json& properties = nullptr) {
+  Json features = Json::array();
   for (const auto& line : list) {
-    CityGivenStreet street;
-    for (const auto& p : line) street.lines.coordinates.push_back({p[0], p[1]});
-    streets.features.push_back(std::move(street));
+    features.push_back({{"type", "Feature"},
+                        {"properties", properties},
+                        {"geometry", {{"type", "LineString"}, {"coordinates", line}}}});
   }
-  return streets;
+  return {Json({{"type", "FeatureCollection"}, {"features", features}}).dump()};
 }
 
 TEST(City, KeepsGivenStreetsAndGrowsFromThem) {
@@ -489,7 +485,7 @@ TEST(City, RefusesWhatContradictsItself) {
   EXPECT_EQ(pointers(params), std::vector<std::string>{"/given/streets/features/1/geometry"});
   params.given.given_streets = lines({{{-200, 0}, {0, 2}, {200, 0}}, {{0, -200}, {1, 200}}});
   EXPECT_TRUE(pointers(params).empty());
-  params.given.given_streets->features[0].properties["class"] = std::string("alley");
+  params.given.given_streets = lines({{{-200, 0}, {200, 0}}}, {{"class", "alley"}});
   EXPECT_EQ(pointers(params), std::vector<std::string>{"/given/streets/features/0/properties/class"});
   params = {};
   params.streets.productions = {"R(del,rule) e"};

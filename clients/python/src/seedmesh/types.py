@@ -199,77 +199,25 @@ class CityParametersArea(TypedDict, total=False):
     polygon: List[List[List[float]]]
 
 
-class Polygons(TypedDict):
-    type: Literal['Polygon', 'MultiPolygon']
-    coordinates: List[List[List[Union[float, List[float]]]]]
-
-
 class CityParametersMapsZonesItem(TypedDict):
     zone: str
-    area: Union[str, "Polygons"]
+    area: Union[str, Dict[str, Any]]
 
 
 class CityParametersMaps(TypedDict, total=False):
-    density: Union[str, "Polygons"]
-    water: Union[str, "Polygons"]
-    obstacles: Union[str, "Polygons"]
-    pattern: Union[str, "Polygons"]
+    density: Union[str, Dict[str, Any]]
+    water: Union[str, Dict[str, Any]]
+    obstacles: Union[str, Dict[str, Any]]
+    pattern: Union[str, Dict[str, Any]]
     zones: List["CityParametersMapsZonesItem"]
-    height: Union[str, "Polygons"]
+    height: Union[str, Dict[str, Any]]
     height_range: List[float]
 
 
-class CityParametersGivenStreetsFeaturesItemGeometry(TypedDict):
-    type: Literal['LineString', 'MultiLineString']
-    coordinates: List[List[Union[float, List[float]]]]
-
-
-class _CityParametersGivenStreetsFeaturesItemRequired(TypedDict):
-    type: Literal['Feature']
-    geometry: "CityParametersGivenStreetsFeaturesItemGeometry"
-
-
-class CityParametersGivenStreetsFeaturesItem(_CityParametersGivenStreetsFeaturesItemRequired, total=False):
-    properties: Dict[str, Union[float, str, bool, List[float]]]
-
-
-class CityParametersGivenStreets(TypedDict):
-    type: Literal['FeatureCollection']
-    features: List["CityParametersGivenStreetsFeaturesItem"]
-
-
-class _CityParametersGivenWaterFeaturesItemRequired(TypedDict):
-    type: Literal['Feature']
-    geometry: "Polygons"
-
-
-class CityParametersGivenWaterFeaturesItem(_CityParametersGivenWaterFeaturesItemRequired, total=False):
-    properties: Dict[str, Union[float, str, bool, List[float]]]
-
-
-class CityParametersGivenWater(TypedDict):
-    type: Literal['FeatureCollection']
-    features: List["CityParametersGivenWaterFeaturesItem"]
-
-
-class _CityParametersGivenFootprintsFeaturesItemRequired(TypedDict):
-    type: Literal['Feature']
-    geometry: "Polygons"
-
-
-class CityParametersGivenFootprintsFeaturesItem(_CityParametersGivenFootprintsFeaturesItemRequired, total=False):
-    properties: Dict[str, Union[float, str, bool, List[float]]]
-
-
-class CityParametersGivenFootprints(TypedDict):
-    type: Literal['FeatureCollection']
-    features: List["CityParametersGivenFootprintsFeaturesItem"]
-
-
 class CityParametersGiven(TypedDict, total=False):
-    streets: "CityParametersGivenStreets"
-    water: "CityParametersGivenWater"
-    footprints: "CityParametersGivenFootprints"
+    streets: Dict[str, Any]
+    water: Dict[str, Any]
+    footprints: Dict[str, Any]
 
 
 class CityParametersStreetsClassesHighway(TypedDict, total=False):

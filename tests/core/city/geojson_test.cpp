@@ -1,0 +1,167 @@
+// The lists of cases follow RFC 7946 and the files that common programs write.
+#include "core/generators/city/geojson.h"
+
+#include <gtest/gtest.h>
+
+#include "core/generators/city/city.h"
+#include "core/generators/city/given.h"
+#include "core/generators/city/remarks.h"
+#include "generated/params/city.h"
+
+namespace seedmesh::city {
+namespace {
+
+/// The value as a request with it reads it, and what is found in it.
+struct Read {
+  std::vector<GeoFeature> features;
+  std::vector<Issue> issues;
+  std::vector<Warning> warnings;
+};
+Read read(const std::string& text, GeoKind kind = GeoKind::lines) {
+  IssueList errors;
+  const char* name = kind == GeoKind::lines ? "streets" : "water";
+  const CityParams params = read_city({{"given", {{name, Json::parse(text)}}}}, "", errors);
+  EXPECT_TRUE(errors.empty()) << text;
+  Read result;
+  const auto& value = kind == GeoKind::lines ? params.given.given_streets : params.given.given_water;
+  result.features =
+      features_of(*value, kind, std::string("/given/") + name, {result.issues, &result.warnings});
+  return result;
+}
+
+std::string collection(const std::string& features, const std::string& more = "") {
+  return R"({"type":"FeatureCollection",)" + more + R"("features":[)" + features + "]}";
+}
+std::string feature(const std::string& geometry, const std::string& more = R"("properties":{})") {
+  return R"({"type":"Feature",)" + more + R"(,"geometry":)" + geometry + "}";
+}
+const std::string line = R"({"type":"LineString","coordinates":[[-200,10],[180.5,42.25]]})";
+
+TEST(GeoJsonOfCities, AcceptsForeignMembers) {
+  const std::string plain = collection(feature(line));
+  const std::vector<std::string> texts = {
+      // ogr2ogr and QGIS
+      collection(feature(line, R"("properties":{"fid":1,"name":null,"width":null})"),
+                 R"("name":"roads","xy_coordinate_resolution":0.001,"crs":{"type":"name","properties":)"
+                 R"({"name":"urn:ogc:def:crs:EPSG::25832"}},)"),
+      // overpass turbo and osmtogeojson
+      collection(feature(line, R"("id":"way/1","properties":{"@id":"way/1","highway":"residential",)"
+                               R"("@relations":[{"role":"","rel":7}],"tainted":true})"),
+                 R"("generator":"overpass-ide","copyright":"x","timestamp":"2026-01-01T00:00:00Z",)"),
+      // geojson.io
+      collection(feature(line, R"("id":0,"bbox":[-200,10,180.5,42.25],"properties":null)")),
+      collection(R"({"type":"Feature","geometry":)" + line + "}"),
+      feature(line),
+      line,
+      R"({"type":"GeometryCollection","geometries":[)" + line + "]}",
+      R"({"type":"LineString","coordinates":[[-200,10,3],[180.5,42.25,4.5]]})",
+      R"({"type":"MultiLineString","bbox":[0,0,1,1],"coordinates":[[[-200,10,3,77],[180.5,42.25,0,78]]]})",
+      collection(feature("null") + "," + feature(R"({"type":"LineString","coordinates":[]})") + "," +
+                 feature(line)),
+  };
+  for (const std::string& text : texts) {
+    const Read found = read(text);
+    ASSERT_TRUE(found.issues.empty()) << text << found.issues[0].message;
+    EXPECT_TRUE(found.warnings.empty()) << text;
+    ASSERT_EQ(found.features.size(), 1U) << text;
+    EXPECT_EQ(found.features[0].lines, read(plain).features[0].lines) << text;
+    EXPECT_TRUE(found.features[0].properties.is_object());
+  }
+}
+
+TEST(GeoJsonOfCities, LeavesForeignMembersOutOfTheCanonicalRequest) {
+  const auto canonical = [](const std::string& text) {
+    IssueList errors;
+    return canonical_text(write_city(read_city({{"given", {{"streets", Json::parse(text)}}}}, "", errors)));
+  };
+  EXPECT_EQ(
+      canonical(collection(feature(line, R"("properties":{},"id":9,"bbox":[1,2,3,4])"), R"("name":"a",)")),
+      canonical(collection(feature(line))));
+}
+
+TEST(GeoJsonOfCities, RefusesWhatTheFormatForbids) {
+  const std::string at = "/given/streets";
+  const std::vector<std::pair<std::string, std::string>> cases = {
+      {R"({"features":[]})", at},
+      {R"({"type":"Topology","objects":{}})", at},
+      {R"({"type":"FeatureCollection"})", at},
+      {R"({"type":"FeatureCollection","features":{}})", at + "/features"},
+      {collection("7"), at + "/features/0"},
+      {collection(line), at + "/features/0"},
+      {collection(R"({"type":"Feature","properties":{}})"), at + "/features/0"},
+      {collection(feature(line, R"("properties":[1])")), at + "/features/0/properties"},
+      {collection(feature(R"({"type":"LineString"})")), at + "/features/0/geometry"},
+      {collection(feature(R"({"type":"Curve","coordinates":[]})")), at + "/features/0/geometry"},
+      {R"({"type":"LineString","coordinates":[[0,0],[5]]})", at + "/coordinates/1"},
+      {R"({"type":"LineString","coordinates":[[0,0],[5,"7"]]})", at + "/coordinates/1"},
+      {R"({"type":"LineString","coordinates":[[0,0],[5,null]]})", at + "/coordinates/1"},
+      {R"({"type":"LineString","coordinates":[[[0,0],[50,0]]]})", at + "/coordinates/0"},
+      {R"({"type":"MultiLineString","coordinates":[[0,0],[50,0]]})", at + "/coordinates/0/0"},
+      {R"({"type":"LineString","coordinates":[[500000,5700000],[500100,5700000]]})", at + "/coordinates/0"},
+      {R"({"type":"LineString","coordinates":[[10,10],[10,10]]})", at},
+  };
+  for (const auto& [text, pointer] : cases) {
+    const Read found = read(text);
+    ASSERT_FALSE(found.issues.empty()) << text;
+    EXPECT_EQ(found.issues[0].pointer, pointer) << text;
+    EXPECT_NE(found.issues[0].message.find("expected"), std::string::npos) << text;
+  }
+}
+
+TEST(GeoJsonOfCities, NamesGeometriesWithoutAMeaning) {
+  const std::string point = R"({"type":"Point","coordinates":[3,4]})";
+  const Read some = read(collection(feature(line) + "," + feature(point) + "," + feature(point)));
+  EXPECT_TRUE(some.issues.empty());
+  ASSERT_EQ(some.warnings.size(), 1U);
+  EXPECT_EQ(some.warnings[0].pointer, "/given/streets/features/1/geometry");
+  EXPECT_NE(some.warnings[0].message.find("2 geometries are left out, the first a Point"), std::string::npos);
+  const Read none = read(collection(feature(point)));
+  ASSERT_EQ(none.issues.size(), 1U);
+  EXPECT_EQ(none.issues[0].pointer, "/given/streets/features/0/geometry");
+  EXPECT_NE(none.issues[0].message.find("found Point, expected LineString"), std::string::npos);
+  const Read water = read(line, GeoKind::polygons);
+  ASSERT_EQ(water.issues.size(), 1U);
+  EXPECT_NE(water.issues[0].message.find("expected Polygon"), std::string::npos);
+}
+
+TEST(GeoJsonOfCities, RefusesDegrees) {
+  for (const char* crs :
+       {"", R"("crs":{"type":"name","properties":{"name":"urn:ogc:def:crs:OGC:1.3:CRS84"}},)"}) {
+    const Read found = read(collection(
+        feature(R"({"type":"LineString","coordinates":[[14.50512,46.05108],[14.50731,46.05219]]})"), crs));
+    ASSERT_EQ(found.issues.size(), 1U);
+    EXPECT_EQ(found.issues[0].pointer, "/given/streets");
+    EXPECT_NE(found.issues[0].message.find("expected metres"), std::string::npos);
+  }
+}
+
+TEST(GeoJsonOfCities, ReadsTheTextsOfOpenStreetMap) {
+  IssueList errors;
+  const Json streets = Json::parse(
+      collection(feature(line, R"("properties":{"lanes":"2","width":"7.5","bridge":"yes","class":null})")));
+  const CityParams params = read_city({{"given", {{"streets", streets}}}}, "", errors);
+  std::vector<CrossSection> sections = classes_of(params);
+  std::vector<Issue> issues;
+  const std::vector<GivenLine> lines = given_lines(params, sections, issues);
+  ASSERT_TRUE(issues.empty()) << issues[0].message;
+  ASSERT_EQ(lines.size(), 1U);
+  EXPECT_EQ(lines[0].level, 1);
+  EXPECT_EQ(sections[lines[0].section].lanes, 2);
+  EXPECT_EQ(sections[lines[0].section].width, 7.5);
+}
+
+TEST(GeoJsonOfCities, WarnsOfStreetsOutsideOfTheArea) {
+  IssueList errors;
+  const Json far = Json::parse(R"({"type":"LineString","coordinates":[[5000,10],[5200,10]]})");
+  const CityParams params =
+      read_city({{"area", {{"size", {200, 200}}}}, {"given", {{"streets", far}}}}, "", errors);
+  Job job(1, Job::Options{});
+  const Result<CityPlan> plan = plan_of(params, job);
+  ASSERT_TRUE(plan);
+  const std::vector<Warning> warnings = remarks_on(params, *plan);
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_EQ(warnings[0].pointer, "/given/streets");
+}
+
+}  // namespace
+}  // namespace seedmesh::city
