@@ -120,6 +120,7 @@ Shapes shapes_of(Work& work, const BuildingParams& params, const GenerateContext
   plan.grammar = &grammar;
   plan.texts = &texts;
   plan.text = &work.rules->text;
+  plan.roofs = work.rules->roofs.get();
   plan.tables = &params.tables;
   plan.files = file_names(params);
   plan.is_blueprint = !params.rules;

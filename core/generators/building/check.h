@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/base/job.h"
+#include "core/generators/building/roof_store.h"
 #include "core/generators/building/shape_grammar/shape_grammar.h"
 #include "core/generators/building/shapes.h"
 #include "core/generators/building/syntax.h"
@@ -23,8 +24,8 @@ namespace seedmesh::building {
 /// A value that a request gives to an attribute.
 using AttributeValue = std::variant<double, std::string, bool>;
 
-/// Rules that were read without an error, and the parameters that they depend on. Immutable; requests with other sizes,
-/// attributes and seeds share it.
+/// Rules that were read without an error, and the parameters that they depend on. Immutable except for the roofs;
+/// requests with other sizes, attributes and seeds share it.
 struct RuleSet {
   RuleText text;
   Grammar grammar;  ///< its texts are shared
@@ -34,6 +35,7 @@ struct RuleSet {
   std::optional<std::string> start;
   std::pair<int, int> restrictions;
   std::vector<std::string> materials;
+  std::unique_ptr<RoofStore> roofs = std::make_unique<RoofStore>();  ///< of all requests with these rules
 };
 
 /// Returns the rules of the request or of its blueprint; empty if it has a shape grammar. Adds an issue

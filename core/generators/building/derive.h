@@ -19,6 +19,7 @@
 #include "core/base/job.h"
 #include "core/generators/building/cuts.h"
 #include "core/generators/building/edits.h"
+#include "core/generators/building/roof_store.h"
 #include "core/generators/building/shapes.h"
 
 namespace seedmesh::building {
@@ -50,6 +51,7 @@ struct Task {
   bool stays_inside = false;       ///< a shape that leaves the scope of its predecessor is an error
   bool keeps_choices = false;      ///< for lists of shapes
   std::uint64_t most_shapes = ~std::uint64_t{0};  ///< the derivation stops when there are more
+  RoofStore* roofs = nullptr;
 };
 
 constexpr std::uint16_t deepest_shape = 1'000;

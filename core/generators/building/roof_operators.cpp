@@ -176,9 +176,9 @@ void roof(Derivation& d, const Step& step, ShapeState& state, const Site&) {
   for (const Plan& plan : plans_of(flat_solid(d, state), state.size, plane)) {
     RoofOptions own = options;
     if (own.low_edge >= edge_count(plan)) own.low_edge = 0;
-    const Roof made = seedmesh::roof(plan, own, d.job);
-    for (const std::string& warning : made.warnings) warn(d, step.offset, warning);
-    add_roof(solid, made, plane);
+    const std::shared_ptr<const Roof> made = d.task.roofs->roof(plan, own, d.job);
+    for (const std::string& warning : made->warnings) warn(d, step.offset, warning);
+    add_roof(solid, *made, plane);
   }
   take_solid(d, state, std::move(solid));
   state.roof_up = static_cast<std::uint8_t>(plane.w);

@@ -133,8 +133,9 @@ bool has_parts(const Contents& each, const GenerateContext& context) {
 /// Makes models on all threads and adds them in order.
 template <class Make, class Add>
 std::optional<Error> make_and_add(Job& job, std::size_t count, const Make& make, const Add& add) {
-  // Models of one batch are in memory at the same time.
-  constexpr std::size_t batch = 256;
+  // Models of one batch are in memory at the same time. A single thread has nothing to wait for: with one model at a
+  // time, the memory of each is used again while it is in the cache.
+  const std::size_t batch = has_threads(job) ? 256 : 1;
   for (std::size_t begin = 0; begin < count; begin += batch) {
     const std::size_t size = std::min(batch, count - begin);
     std::vector<std::optional<Result<Model>>> made(size);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <span>
 
 #include "core/base/math.h"
 #include "core/generators/city/shape.h"
@@ -29,13 +30,19 @@ void SharedEdge::append_between(const CmPoint& from, const CmPoint& to, CmRing& 
   if (added.empty()) return;
   const dvec2 origin = in_cm(from), along = in_cm(to) - origin;
   const double length2 = glm::dot(along, along);
-  std::vector<std::pair<double, CmPoint>> found;
+  // Most edges have few corners, which need no memory.
+  using Found = std::pair<double, CmPoint>;
+  constexpr std::size_t few = 8;
+  std::array<Found, few> own;
+  std::vector<Found> more(added.size() > few ? added.size() : 0);
+  const std::span<Found> found = added.size() > few ? std::span(more) : std::span(own);
+  std::size_t count = 0;
   for (const CmPoint& p : added) {
     const double share = glm::dot(in_cm(p) - origin, along) / length2;
-    if (share > 0 && share < 1 && p != from && p != to) found.emplace_back(share, p);
+    if (share > 0 && share < 1 && p != from && p != to) found[count++] = {share, p};
   }
-  std::sort(found.begin(), found.end());
-  for (std::size_t i = 0; i < found.size(); ++i) {
+  std::sort(found.begin(), found.begin() + static_cast<std::ptrdiff_t>(count));
+  for (std::size_t i = 0; i < count; ++i) {
     if (i == 0 || found[i].second != found[i - 1].second) ring.push_back(found[i].second);
   }
 }
@@ -106,41 +113,29 @@ std::size_t Division::long_pieces() const {
   }));
 }
 
-/// Simple outlines whose edges cancel, except those of the block, cover each point of it once.
+/// Simple outlines whose edges cancel, except those of the block, cover each point of it once. Edges cancel if the sum of
+/// their hashes is 0, where an edge in the opposite direction has the negative hash.
 bool Division::is_partition() {
-  struct Side {
-    CmPoint low, high;
-    int count = 0;
+  const auto bits = [](const CmPoint& p) {
+    return std::uint64_t{static_cast<std::uint32_t>(p.x)} << 32U | static_cast<std::uint32_t>(p.y);
   };
-  std::vector<Side> sides;
-  sides.reserve(8 * pieces_.size() + 2 * whole_.ring.size());
-  const auto add = [&sides](const CmRing& ring, int count) {
+  const auto sum_of = [&bits](const CmRing& ring) {
+    std::uint64_t sum = 0;
     for (std::size_t i = 0; i < ring.size(); ++i) {
       const CmPoint &a = ring[i], &b = ring[i + 1 < ring.size() ? i + 1 : 0];
-      if (a < b) {
-        sides.push_back({a, b, count});
-      } else {
-        sides.push_back({b, a, 0 - count});
-      }
+      sum += a < b ? key_at(key_at(0, bits(a)), bits(b)) : 0 - key_at(key_at(0, bits(b)), bits(a));
     }
+    return sum;
   };
-  add(outline(whole_), -1);
+  std::uint64_t open = sum_of(outline(whole_));
   outlines_.clear();
+  outlines_.reserve(pieces_.size());
   for (const Piece& piece : pieces_) {
     const CmRing& ring = outlines_.emplace_back(outline(piece));
     if (!is_simple(ring) || doubled_area(ring) <= 0) return false;
-    add(ring, 1);
+    open -= sum_of(ring);
   }
-  std::sort(sides.begin(), sides.end(),
-            [](const Side& s, const Side& t) { return s.low != t.low ? s.low < t.low : s.high < t.high; });
-  int open = 0;
-  for (std::size_t i = 0; i < sides.size(); ++i) {
-    open += sides[i].count;
-    const bool is_last =
-        i + 1 == sides.size() || sides[i + 1].low != sides[i].low || sides[i + 1].high != sides[i].high;
-    if (is_last && open != 0) return false;
-  }
-  return true;
+  return open == 0;
 }
 
 /// Undoes all cuts.
@@ -330,10 +325,11 @@ bool Division::try_cut(const Piece& piece, const dvec2& origin, const dvec2& dir
   find_meetings(piece, origin, direction);
   if (meetings_.size() != 2 && !keep_chord(meetings_, origin, direction)) return false;
   // The cheapest conditions come first, since most cuts fail by area or frontage.
-  set_side(piece, meetings_[0], meetings_[1], left.piece);
-  if (left.piece.ring.size() < 3 || !has_size(left.piece)) return false;
-  set_side(piece, meetings_[1], meetings_[0], right.piece);
-  if (right.piece.ring.size() < 3 || !has_size(right.piece)) return false;
+  const Meeting &from = meetings_[0], &to = meetings_[1];
+  if (!has_side_area(piece, from, to) || !has_side_area(piece, to, from)) return false;
+  if (!has_side_frontage(piece, from, to) || !has_side_frontage(piece, to, from)) return false;
+  set_side(piece, from, to, left.piece);
+  set_side(piece, to, from, right.piece);
   if (!has_shape(left.piece, most_cosine, cut_aspect_, left.box) ||
       !has_shape(right.piece, most_cosine, cut_aspect_, right.box) || !is_simple(left.piece.ring) ||
       !is_simple(right.piece.ring))
@@ -345,6 +341,40 @@ bool Division::try_cut(const Piece& piece, const dvec2& origin, const dvec2& dir
     if (!meeting.is_corner) edges_[piece.edges[meeting.corner]].added.push_back(meeting.at);
   }
   return true;
+}
+
+/// Calls `visit` with both ends and the number of each edge of a part of the outline, from one meeting to the other. The
+/// part has no inner corner if both are on one edge; `visit` is then not called.
+template <class Visit>
+void Division::each_edge(const Piece& piece, const Meeting& from, const Meeting& to, const Visit& visit) {
+  const std::size_t count = piece.ring.size();
+  const std::size_t last = to.is_corner ? (to.corner > 0 ? to.corner - 1 : count - 1) : to.corner;
+  if (from.corner == last) return;
+  CmPoint start = from.at;
+  for (std::size_t i = from.corner; i != last;) {
+    const std::uint32_t edge = piece.edges[i];
+    i = i + 1 < count ? i + 1 : 0;
+    visit(start, piece.ring[i], edge);
+    start = piece.ring[i];
+  }
+  visit(start, to.at, piece.edges[last]);
+}
+
+/// Whether the part of the outline from one meeting to the other, closed by the cut, has the least area.
+bool Division::has_side_area(const Piece& piece, const Meeting& from, const Meeting& to) const {
+  std::int64_t doubled = 0;
+  each_edge(piece, from, to,
+            [&](const CmPoint& a, const CmPoint& b, std::uint32_t) { doubled += cross(from.at, a, b); });
+  return doubled > 0 && static_cast<double>(doubled) >= 2e4 * lots_.area[0];
+}
+
+/// Whether that part has the least frontage.
+bool Division::has_side_frontage(const Piece& piece, const Meeting& from, const Meeting& to) const {
+  double sum = 0;
+  each_edge(piece, from, to, [&](const CmPoint& a, const CmPoint& b, std::uint32_t edge) {
+    if (edges_[edge].street != no_index) sum += distance(a, b);
+  });
+  return sum >= least_width();
 }
 
 /// Makes `side` the part of the outline from one meeting to the other, closed by an edge that is not numbered yet.

@@ -89,6 +89,10 @@ class Division {
   static bool keep_chord(std::vector<Meeting>& meetings, const glm::dvec2& origin,
                          const glm::dvec2& direction);
   void find_meetings(const Piece& piece, const glm::dvec2& origin, const glm::dvec2& direction);
+  template <class Visit>
+  static void each_edge(const Piece& piece, const Meeting& from, const Meeting& to, const Visit& visit);
+  bool has_side_area(const Piece& piece, const Meeting& from, const Meeting& to) const;
+  bool has_side_frontage(const Piece& piece, const Meeting& from, const Meeting& to) const;
   void set_side(const Piece& piece, const Meeting& from, const Meeting& to, Piece& side);
   bool has_shape(const Piece& piece, double most_cosine, double aspect, LeastBox& box) const;
   std::uint32_t inner_edge();
