@@ -1,7 +1,10 @@
 #include "core/texture/ground.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
+#include <vector>
 
 #include "core/base/math.h"
 #include "core/texture/cells.h"
@@ -100,25 +103,52 @@ struct Litter {
   float differ = 0.5F;      ///< of the tones
 };
 
+/// Returns the numbers of the pieces from the highest to the lowest. Each texel shows its highest piece, so the order
+/// changes nothing but the time: most texels of the lower pieces are hidden already.
+template <class Piece>
+std::vector<std::uint32_t> from_the_highest(const std::vector<Piece>& pieces) {
+  std::vector<std::uint32_t> order(pieces.size());
+  for (std::uint32_t i = 0; i < order.size(); ++i) order[i] = i;
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::uint32_t a, std::uint32_t b) { return pieces[a].high > pieces[b].high; });
+  return order;
+}
+
+float draw(Rng& rng, float low, float high) {
+  return static_cast<float>(rng.uniform(static_cast<double>(low), static_cast<double>(high)));
+}
+
+struct Blade {
+  Patch patch;
+  float high, tone;
+};
+
+Blade blade_of(const Litter& litter, const Field& clumps, Rng own) {
+  Blade blade;
+  Patch& patch = blade.patch;
+  const float x = draw(own, 0, 1);
+  patch.at = {x, draw(own, 0, 1)};
+  patch.along = direction(draw(own, 0, 1));
+  patch.half_length = 0.5F * draw(own, litter.shortest, litter.longest);
+  patch.half_width = patch.half_length * litter.width;
+  blade.high = draw(own, litter.low, litter.high);
+  const glm::vec2 there = patch.at * static_cast<float>(clumps.size());
+  blade.tone = 0.5F + litter.differ * draw(own, -0.5F, 0.5F) +
+               clumps.at(static_cast<int>(there.x), static_cast<int>(there.y));
+  return blade;
+}
+
 /// Blades and stalks: the higher covers the lower; darker towards their base. `clumps` is added to the tones.
 void add_blades(Relief& relief, const Litter& litter, const Field& clumps, Rng rng, const Job& job) {
   const int size = relief.height.size();
-  for (int i = 0; i < litter.count; ++i) {
-    if (i % pieces_a_look == 0) job.check();
-    Rng own = rng.at(static_cast<std::uint64_t>(i));
-    const auto draw = [&](float low, float high) {
-      return static_cast<float>(own.uniform(static_cast<double>(low), static_cast<double>(high)));
-    };
-    Patch patch;
-    patch.at = {draw(0, 1), draw(0, 1)};
-    patch.along = direction(draw(0, 1));
-    patch.half_length = 0.5F * draw(litter.shortest, litter.longest);
-    patch.half_width = patch.half_length * litter.width;
-    const float middle = draw(litter.low, litter.high), there_x = patch.at.x * static_cast<float>(size),
-                there_y = patch.at.y * static_cast<float>(size);
-    const float tone = 0.5F + litter.differ * draw(-0.5F, 0.5F) +
-                       clumps.at(static_cast<int>(there_x), static_cast<int>(there_y));
-    each_texel(patch, size, [&](int x, int y, float a, float b) {
+  std::vector<Blade> blades;
+  for (int i = 0; i < litter.count; ++i)
+    blades.push_back(blade_of(litter, clumps, rng.at(static_cast<std::uint64_t>(i))));
+  int drawn = 0;
+  for (const std::uint32_t i : from_the_highest(blades)) {
+    if (drawn++ % pieces_a_look == 0) job.check();
+    const float middle = blades[i].high, tone = blades[i].tone;
+    each_texel(blades[i].patch, size, [&](int x, int y, float a, float b) {
       float& there = relief.height.at(x, y);
       if (middle <= there) return;
       const float across = std::abs(b) / std::max(0.25F, 1 - 0.7F * std::max(a, 0.0F));
@@ -132,48 +162,61 @@ void add_blades(Relief& relief, const Litter& litter, const Field& clumps, Rng r
   }
 }
 
+struct Stone {
+  Patch patch;
+  std::array<glm::vec3, 5> planes;  ///< that cut the dome: direction and distance
+  float high, tone;
+};
+
+Stone stone_of(const Litter& litter, Rng own) {
+  Stone stone;
+  Patch& patch = stone.patch;
+  const float x = draw(own, 0, 1);
+  patch.at = {x, draw(own, 0, 1)};
+  patch.along = direction(draw(own, 0, 1));
+  const float random = draw(own, 0, 1);  // small ones are more frequent
+  patch.half_length =
+      0.5F * (litter.shortest + (litter.longest - litter.shortest) * random * random * random);
+  patch.half_width = patch.half_length * draw(own, litter.width, 1);
+  for (glm::vec3& plane : stone.planes) {
+    const glm::vec2 side = direction(draw(own, 0, 1));
+    plane = {side.x, side.y, draw(own, 0.35F, 0.75F)};
+  }
+  const float size_share = patch.half_length / (0.5F * litter.longest);
+  stone.high = litter.low + (litter.high - litter.low) * (0.35F + 0.65F * size_share);
+  stone.tone = 0.5F + litter.differ * draw(own, -0.5F, 0.5F);
+  return stone;
+}
+
 /// Stones: domes cut by a few planes, each with a tone of its own, darker towards their foot.
 void add_stones(Relief& relief, const Litter& litter, Rng rng, const Job& job) {
   const int size = relief.height.size();
-  constexpr int cuts = 5;
-  for (int i = 0; i < litter.count; ++i) {
-    if (i % pieces_a_look == 0) job.check();
-    Rng own = rng.at(static_cast<std::uint64_t>(i));
-    const auto draw = [&](float low, float high) {
-      return static_cast<float>(own.uniform(static_cast<double>(low), static_cast<double>(high)));
-    };
-    Patch patch;
-    patch.at = {draw(0, 1), draw(0, 1)};
-    patch.along = direction(draw(0, 1));
-    const float chance = draw(0, 1);  // small ones are more frequent
-    patch.half_length =
-        0.5F * (litter.shortest + (litter.longest - litter.shortest) * chance * chance * chance);
-    patch.half_width = patch.half_length * draw(litter.width, 1);
-    glm::vec3 planes[cuts];
-    for (glm::vec3& plane : planes) {
-      const glm::vec2 side = direction(draw(0, 1));
-      plane = {side.x, side.y, draw(0.35F, 0.75F)};
-    }
-    const float size_share = patch.half_length / (0.5F * litter.longest);
-    const float high = litter.low + (litter.high - litter.low) * (0.35F + 0.65F * size_share);
-    const float tone = 0.5F + litter.differ * draw(-0.5F, 0.5F);
-    each_texel(patch, size, [&](int x, int y, float a, float b) {
+  std::vector<Stone> stones;
+  for (int i = 0; i < litter.count; ++i)
+    stones.push_back(stone_of(litter, rng.at(static_cast<std::uint64_t>(i))));
+  int drawn = 0;
+  for (const std::uint32_t i : from_the_highest(stones)) {
+    if (drawn++ % pieces_a_look == 0) job.check();
+    const Stone& stone = stones[i];
+    const float rise = stone.high - litter.low;
+    each_texel(stone.patch, size, [&](int x, int y, float a, float b) {
       float& there = relief.height.at(x, y);
+      if (stone.high <= there) return;
       float up = std::sqrt(std::max(0.0F, 1 - a * a - b * b));
-      const auto height = [&] { return litter.low + (high - litter.low) * up; };
       // Cuts only make a stone lower.
-      if (up <= 0 || height() <= there) return;
+      if (up <= 0 || litter.low + rise * up <= there) return;
       float facet = 0;
-      for (const glm::vec3& plane : planes) {
+      for (const glm::vec3& plane : stone.planes) {
         const float bound = (plane.z * 1.25F - a * plane.x - b * plane.y) * 1.6F;
         if (bound < up) {
           up = bound;
           facet = plane.x;
         }
       }
-      if (up <= 0 || height() <= there) return;
-      there = height();
-      relief.tone.at(x, y) = tone + 0.1F * facet - 0.25F * (1 - std::min(1.0F, 2 * up));
+      const float height = litter.low + rise * up;
+      if (up <= 0 || height <= there) return;
+      there = height;
+      relief.tone.at(x, y) = stone.tone + 0.1F * facet - 0.25F * (1 - std::min(1.0F, 2 * up));
     });
   }
 }

@@ -37,6 +37,7 @@ struct Surface {
 /// A raised field behind a groove; the frame outside.
 Surface panelled(std::span<const Panel> panels, float x, float y) {
   for (const Panel& panel : panels) {
+    if (y <= panel.y0 || y >= panel.y1) continue;  // most panels, and the same ones in all of a row
     const float inside = std::min(std::min(x - panel.x0, panel.x1 - x) * leaf_width,
                                   std::min(y - panel.y0, panel.y1 - y) * leaf_height);
     if (inside <= 0) continue;

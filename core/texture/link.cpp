@@ -85,7 +85,7 @@ std::optional<Link> read_link(std::string_view name) {
 }
 
 std::shared_ptr<const Image> image_of(const Link& link, TextureStore* store, const Job& job) {
-  const std::shared_ptr<const Maps> maps = maps_of(link.recipe, link.size, store, job);
+  const std::shared_ptr<const Maps> maps = maps_of(link.recipe, link.size, {}, store, job);
   const std::array<std::shared_ptr<const Image>, 3> images = {maps->color, maps->normal, maps->surface};
   return images[static_cast<std::size_t>(link.channel)];
 }

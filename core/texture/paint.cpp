@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -25,14 +26,20 @@ std::string key_of(const TextureRecipe& recipe, int size) {
   return key;
 }
 
-std::shared_ptr<const Maps> make(const TextureRecipe& recipe, int size, const Job& job) {
+/// What distinguishes the stored images of some parts from those of all.
+std::string suffix_of(MapParts parts) {
+  return std::string(parts.normal ? "" : " no normal") + (parts.surface ? "" : " no surface");
+}
+
+std::shared_ptr<const Maps> make(const TextureRecipe& recipe, int size, MapParts parts, const Job& job) {
   const Painting painting =
       paint_kind(recipe.kind, painted_size(recipe.kind, size), recipe.seed, recipe.color, job);
-  return std::make_shared<const Maps>(make_maps(painting.relief, painting.finish, recipe.kind, job));
+  return std::make_shared<const Maps>(make_maps(painting.relief, painting.finish, recipe.kind, parts, job));
 }
 
 /// Images that have URLs of generated textures instead of bytes.
-std::shared_ptr<const Maps> linked_maps(const TextureRecipe& recipe, int size, const std::string& prefix) {
+std::shared_ptr<const Maps> linked_maps(const TextureRecipe& recipe, int size, MapParts parts,
+                                        const std::string& prefix) {
   const auto linked = [&](Channel channel, const char* suffix) {
     auto image = std::make_shared<Image>();
     image->name = recipe.kind + suffix;
@@ -40,14 +47,14 @@ std::shared_ptr<const Maps> linked_maps(const TextureRecipe& recipe, int size, c
     return image;
   };
   return std::make_shared<const Maps>(Maps{linked(Channel::color, "_color"),
-                                           linked(Channel::normal, "_normal"),
-                                           linked(Channel::surface, "_surface")});
+                                           parts.normal ? linked(Channel::normal, "_normal") : nullptr,
+                                           parts.surface ? linked(Channel::surface, "_surface") : nullptr});
 }
 
 /// A generated PNG image in another form.
 std::shared_ptr<const Image> in_form(const std::shared_ptr<const Image>& image, ImageForm form,
                                      WebpQuality quality, const Job& job) {
-  if (form == ImageForm::png) return image;
+  if (form == ImageForm::png || !image) return image;
   const Result<Picture> picture = decode_png(std::as_bytes(std::span(image->bytes)), {}, job);
   if (!picture) return image;
   const Array<std::uint8_t> file = encode_webp(picture->view(), quality, job);
@@ -62,15 +69,16 @@ std::shared_ptr<const Image> in_form(const std::shared_ptr<const Image>& image, 
 }
 
 /// The images of a recipe in any form.
-std::shared_ptr<const Maps> formed_maps(const TextureRecipe& recipe, int size, ImageForm form,
+std::shared_ptr<const Maps> formed_maps(const TextureRecipe& recipe, int size, MapParts parts, ImageForm form,
                                         TextureStore* store, const Job& job) {
-  if (form == ImageForm::png) return maps_of(recipe, size, store, job);
-  const std::string key = key_of(recipe, size) + (form == ImageForm::webp ? " webp" : " both");
+  if (form == ImageForm::png) return maps_of(recipe, size, parts, store, job);
+  const std::string key =
+      key_of(recipe, size) + (form == ImageForm::webp ? " webp" : " both") + suffix_of(parts);
   if (store) {
     if (const std::shared_ptr<const void> kept = store->find(key))
       return std::static_pointer_cast<const Maps>(kept);
   }
-  const std::shared_ptr<const Maps> plain = maps_of(recipe, size, store, job);
+  const std::shared_ptr<const Maps> plain = maps_of(recipe, size, parts, store, job);
   auto maps = std::make_shared<Maps>();
   parallel_for(job, 3, 1, [&](std::size_t begin, std::size_t, std::size_t) {
     if (begin == 0) maps->color = in_form(plain->color, form, WebpQuality::usual, job);
@@ -93,15 +101,30 @@ void strip(Model& model) {
   model.textures.clear();
 }
 
-/// Positions in Model::textures.
+/// Positions in Model::textures; -1 for none.
 struct Places {
-  int color = 0, normal = 0, surface = 0;
+  int color = -1, normal = -1, surface = -1;
 };
+
+/// The position of an added texture; -1 for null.
+int add_texture(Model& model, const std::shared_ptr<const Image>& image) {
+  if (!image) return -1;
+  model.textures.push_back(image);
+  return static_cast<int>(model.textures.size()) - 1;
+}
+
+/// The recipe without its colour where all colours share normals and the surface: the relief of a wall is the same in
+/// every colour.
+TextureRecipe relief_recipe(const TextureRecipe& recipe) {
+  TextureRecipe plain = recipe;
+  if (wall_kind(recipe.kind) != nullptr) plain.color.reset();
+  return plain;
+}
 
 /// Sets the textures of a material, except those that it has already, for the set of texture coordinates that
 /// it names.
 void put(TextureUse& use, int texture, bool repeats) {
-  if (use.texture < 0) use = {texture, use.uv_set, repeats};
+  if (use.texture < 0 && texture >= 0) use = {texture, use.uv_set, repeats};
 }
 
 void dress(Material& material, const Places& places, bool repeats) {
@@ -132,8 +155,10 @@ std::span<const std::string_view> texture_kinds() {
 
 int painted_size(std::string_view kind, int size) {
   constexpr int least = 64;
-  const bool is_single = !is_repeating_kind(kind) && leaf_picture(kind).count == 1;
-  return is_single && size > least ? size / 2 : size;
+  const WallKind* const wall = wall_kind(kind);
+  const bool is_half =
+      wall != nullptr ? wall->is_smooth : !is_bark_kind(kind) && leaf_picture(kind).count == 1;
+  return is_half && size > least ? size / 2 : size;
 }
 
 bool is_repeating_kind(std::string_view name) { return is_bark_kind(name) || wall_kind(name) != nullptr; }
@@ -144,42 +169,43 @@ Painting paint_kind(std::string_view kind, int size, std::uint64_t seed, const T
                             : paint_leaf(kind, size, seed, tint, job);
 }
 
-std::shared_ptr<const Maps> maps_of(const TextureRecipe& recipe, int size, TextureStore* store,
-                                    const Job& job) {
-  const std::string key = key_of(recipe, size);
+std::shared_ptr<const Maps> maps_of(const TextureRecipe& recipe, int size, MapParts parts,
+                                    TextureStore* store, const Job& job) {
+  const std::string all = key_of(recipe, size), key = all + suffix_of(parts);
   if (store) {
-    if (const std::shared_ptr<const void> kept = store->find(key))
-      return std::static_pointer_cast<const Maps>(kept);
+    std::shared_ptr<const void> kept = store->find(key);
+    if (!kept && key != all) kept = store->find(all);
+    if (kept) return std::static_pointer_cast<const Maps>(kept);
   }
-  std::shared_ptr<const Maps> maps = make(recipe, size, job);
+  std::shared_ptr<const Maps> maps = make(recipe, size, parts, job);
   if (store) store->keep(key, maps, maps->bytes());
   return maps;
 }
 
 void paint(Model& model, int size, const ImageStyle& style, TextureStore* store, const Job& job) {
   if (size == 0) return strip(model);
-  std::map<std::string, Places> made;
-  std::map<std::string, Places> uncolored;  // the relief of a wall is the same in every colour
+  std::set<std::string> with_normals;  // keys of reliefs whose normals a material shows
+  for (const Material& material : model.materials) {
+    if (!material.recipe.has_own_sides) with_normals.insert(key_of(relief_recipe(material.recipe), size));
+  }
+  std::map<std::string, Places> made, reliefs;
   for (Material& material : model.materials) {
     if (material.recipe.kind.empty()) continue;
-    const std::string key = key_of(material.recipe, size);
-    const auto [place, is_new] = made.try_emplace(key);
+    const auto [place, is_new] = made.try_emplace(key_of(material.recipe, size));
     if (is_new) {
+      const std::string relief = key_of(relief_recipe(material.recipe), size);
+      const auto [known, is_first] = reliefs.try_emplace(relief);
+      const MapParts parts{is_first && with_normals.count(relief) > 0, is_first};
       const std::shared_ptr<const Maps> maps =
-          style.is_linked ? linked_maps(material.recipe, size, style.prefix)
-                          : formed_maps(material.recipe, size, style.form, store, job);
-      const auto first = static_cast<int>(model.textures.size());
-      place->second = {first, first + 1, first + 2};
-      model.textures.push_back(maps->color);
-      TextureRecipe plain = material.recipe;
-      plain.color.reset();
-      const auto [known, is_first] = uncolored.try_emplace(key_of(plain, size), place->second);
-      if (!is_first && wall_kind(plain.kind) != nullptr) {
-        place->second = {first, known->second.normal, known->second.surface};
-      } else {
-        model.textures.push_back(maps->normal);
-        model.textures.push_back(maps->surface);
+          style.is_linked ? linked_maps(material.recipe, size, parts, style.prefix)
+                          : formed_maps(material.recipe, size, parts, style.form, store, job);
+      place->second.color = add_texture(model, maps->color);
+      if (is_first) {
+        known->second.normal = parts.normal ? add_texture(model, maps->normal) : -1;
+        known->second.surface = add_texture(model, maps->surface);
       }
+      place->second.normal = known->second.normal;
+      place->second.surface = known->second.surface;
     }
     dress(material, place->second, is_repeating_kind(material.recipe.kind));
     material.recipe = {};

@@ -20,15 +20,16 @@ std::span<const std::string_view> texture_kinds();
 bool is_repeating_kind(std::string_view name);
 
 /// Returns the width and height in texels at which a kind is painted for textures of `size`: half of it for single
-/// leaves and petals, which few pixels show; not below 64.
+/// leaves and petals, which few pixels show, and for smooth surfaces, whose grain spans several texels also then; not
+/// below 64.
 int painted_size(std::string_view kind, int size);
 
 /// Paints a texture. `kind` is one of texture_kinds().
 Painting paint_kind(std::string_view kind, int size, std::uint64_t seed, const Tint& tint, const Job& job);
 
-/// Returns the images of a recipe as PNG, from `store` or made now. `store` may be null.
-std::shared_ptr<const Maps> maps_of(const TextureRecipe& recipe, int size, TextureStore* store,
-                                    const Job& job);
+/// Returns the images of a recipe as PNG, from `store` or made now, at least those of `parts`. `store` may be null.
+std::shared_ptr<const Maps> maps_of(const TextureRecipe& recipe, int size, MapParts parts,
+                                    TextureStore* store, const Job& job);
 
 /// How generated images are written: as PNG, as WebP, or as both, where the WebP is Image::webp.
 enum class ImageForm { png, webp, both };

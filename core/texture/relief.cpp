@@ -256,14 +256,15 @@ Relief paint_rows(int size, Accent accent, const Job& job, const PaintRows& pain
   return relief;
 }
 
-Maps make_maps(const Relief& relief, const Finish& finish, const std::string& name, const Job& job) {
+Maps make_maps(const Relief& relief, const Finish& finish, const std::string& name, MapParts parts,
+               const Job& job) {
   const Source source{relief, finish, name, job,
                       std::vector<float>(static_cast<std::size_t>(relief.height.size()), 0.0F)};
   Maps maps;
   parallel_for(job, 3, 1, [&](std::size_t begin, std::size_t, std::size_t) {
     if (begin == 0) maps.color = color_image(source);
-    if (begin == 1) maps.normal = normal_image(source);
-    if (begin == 2) maps.surface = surface_image(source);
+    if (begin == 1 && parts.normal) maps.normal = normal_image(source);
+    if (begin == 2 && parts.surface) maps.surface = surface_image(source);
   });
   return maps;
 }

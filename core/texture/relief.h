@@ -51,15 +51,21 @@ struct Finish {
 };
 
 /// Three PNG files: colour (RGB, RGBA with the cover as alpha, or grey), normals (RGB, in the tangent space
-/// of glTF), and occlusion, roughness and metallic (RGB, as glTF packs them; metallic is 0).
+/// of glTF), and occlusion, roughness and metallic (RGB, as glTF packs them; metallic is 0). An image that was not
+/// requested is null.
 struct Maps {
   std::shared_ptr<const Image> color, normal, surface;
-  std::size_t bytes() const { return bytes_of(*color) + bytes_of(*normal) + bytes_of(*surface); }
+  std::size_t bytes() const { return bytes_of(color) + bytes_of(normal) + bytes_of(surface); }
 
  private:
-  static std::size_t bytes_of(const Image& image) {
-    return image.bytes.size() + (image.webp ? image.webp->bytes.size() : 0);
+  static std::size_t bytes_of(const std::shared_ptr<const Image>& image) {
+    return image ? image->bytes.size() + bytes_of(image->webp) : 0;
   }
+};
+
+/// The images that are made beside the colour.
+struct MapParts {
+  bool normal = true, surface = true;
 };
 
 /// Returns the width and height of the third image (occlusion, roughness, metallic) beside others of `size`: half of
@@ -67,6 +73,7 @@ struct Maps {
 constexpr int surface_size(int size) { return size < 32 ? size : size / 2; }
 
 /// Makes the images of a relief. Their names begin with `name`.
-Maps make_maps(const Relief& relief, const Finish& finish, const std::string& name, const Job& job);
+Maps make_maps(const Relief& relief, const Finish& finish, const std::string& name, MapParts parts,
+               const Job& job);
 
 }  // namespace seedmesh::texture

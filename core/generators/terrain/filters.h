@@ -75,7 +75,8 @@ struct DropletPlan {
 
 /// Applies hydraulic erosion by drops after Beyer, "Implementation of a method for hydraulic erosion", 2015.
 /// Drops fall in batches whose number and size depend on the field alone. The drops of a batch see the same
-/// ground, and their changes are added in order. Cost: about 1 microsecond for a drop of 30 steps.
+/// ground, and their changes are added in order. Cost: about 0.3 microseconds for a drop of 30 steps, and for each batch
+/// 1 ns for each sample.
 void erode(Field& field, const DropletPlan& plan, Rng rng, const Job& job);
 
 struct StreamPlan {

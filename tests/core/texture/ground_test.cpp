@@ -29,7 +29,7 @@ class Grounds : public testing::TestWithParam<std::string_view> {
   static Maps maps(std::uint64_t seed) {
     const Job job(1, Job::Options{});
     const Painting painting = paint_kind(GetParam(), size, seed, {}, job);
-    return make_maps(painting.relief, painting.finish, "ground", job);
+    return make_maps(painting.relief, painting.finish, "ground", {}, job);
   }
   /// Linear, by texel.
   static std::vector<double> luminance(std::uint64_t seed) {

@@ -27,7 +27,7 @@ Picture decoded(const Image& image) {
 Maps maps_of(std::string_view kind, int size, std::uint64_t seed, int threads = 1) {
   const Job job = job_of(threads);
   const Painting painting = paint_kind(kind, size, seed, {}, job);
-  return make_maps(painting.relief, painting.finish, std::string(kind), job);
+  return make_maps(painting.relief, painting.finish, std::string(kind), {}, job);
 }
 
 int at(const Picture& picture, std::size_t x, std::size_t y, std::size_t channel) {
@@ -95,7 +95,7 @@ TEST(Bark, AndWallsRepeatWithoutASeam) {
 TEST(Bark, TakesTheColourOfTheRequest) {
   const Job job = job_of();
   const Painting painting = paint_bark("oak_bark", 64, 1, Tint{{10, 20, 200}}, job);
-  const Picture color = decoded(*make_maps(painting.relief, painting.finish, "x", job).color);
+  const Picture color = decoded(*make_maps(painting.relief, painting.finish, "x", {}, job).color);
   double red = 0, blue = 0;
   for (std::size_t y = 0; y < 64; ++y) {
     for (std::size_t x = 0; x < 64; ++x) {
@@ -275,18 +275,6 @@ TEST(Paint, MakesOneImageForEqualRecipes) {
   EXPECT_TRUE(model.materials[2].double_sided);
 }
 
-TEST(Paint, RemovesAllTexturesOnRequest) {
-  Model model;
-  model.materials.resize(1);
-  model.materials[0].recipe = {"oak_bark", 1, {}};
-  model.textures.push_back(std::make_shared<Image>());
-  model.materials[0].normal_texture.texture = 0;
-  const Job job = job_of();
-  paint(model, 0, {}, nullptr, job);
-  EXPECT_TRUE(model.textures.empty());
-  EXPECT_EQ(model.materials[0].normal_texture.texture, -1);
-}
-
 /// Keeps everything and counts.
 struct Store : TextureStore {
   std::shared_ptr<const void> find(const std::string& key) override {
@@ -301,6 +289,62 @@ struct Store : TextureStore {
   std::map<std::string, std::shared_ptr<const void>> kept;
   int hits = 0;
 };
+
+TextureRecipe recipe_of(std::string kind, bool has_own_sides = false) {
+  TextureRecipe recipe;
+  recipe.kind = std::move(kind);
+  recipe.has_own_sides = has_own_sides;
+  return recipe;
+}
+
+TEST(Paint, MakesNoNormalsThatNoMaterialShows) {
+  for (const bool is_linked : {false, true}) {
+    Model model;
+    model.materials.resize(3);
+    model.materials[0].recipe = recipe_of("rooms", true);
+    model.materials[1].recipe = recipe_of("grime", true);
+    model.materials[2].recipe = recipe_of("grime");
+    paint(model, 64, {.is_linked = is_linked}, nullptr, job_of());
+    EXPECT_EQ(model.textures.size(), 5U);  // two of the rooms, three of the dirt
+    EXPECT_EQ(model.materials[0].normal_texture.texture, -1);
+    EXPECT_EQ(model.materials[1].normal_texture.texture, -1);
+    EXPECT_GE(model.materials[2].normal_texture.texture, 0);
+    for (const auto& image : model.textures) EXPECT_NE(image, nullptr);
+  }
+}
+
+TEST(Paint, TakesSomeImagesFromAllThatAreStored) {
+  Store store;
+  const Job job = job_of();
+  const TextureRecipe recipe = recipe_of("brick");
+  const auto all = texture::maps_of(recipe, 32, {}, &store, job);
+  EXPECT_EQ(texture::maps_of(recipe, 32, {.normal = false, .surface = false}, &store, job), all);
+  const auto color =
+      texture::maps_of(recipe_of("slate"), 32, {.normal = false, .surface = false}, &store, job);
+  EXPECT_EQ(color->normal, nullptr);
+  EXPECT_EQ(color->surface, nullptr);
+  EXPECT_NE(texture::maps_of(recipe_of("slate"), 32, {}, &store, job)->normal, nullptr);
+}
+
+TEST(Paint, DrawsSmoothSurfacesAtHalfTheSize) {
+  const Job job = job_of();
+  for (const std::string kind : {"plaster", "concrete", "paint", "dressed_stone", "sheet", "grime"})
+    EXPECT_EQ(decoded(*texture::maps_of(recipe_of(kind), 256, {}, nullptr, job)->color).width, 128U) << kind;
+  for (const std::string kind : {"brick", "slate", "panels", "rooms", "oak_bark"})
+    EXPECT_EQ(decoded(*texture::maps_of(recipe_of(kind), 256, {}, nullptr, job)->color).width, 256U) << kind;
+}
+
+TEST(Paint, RemovesAllTexturesOnRequest) {
+  Model model;
+  model.materials.resize(1);
+  model.materials[0].recipe = {"oak_bark", 1, {}};
+  model.textures.push_back(std::make_shared<Image>());
+  model.materials[0].normal_texture.texture = 0;
+  const Job job = job_of();
+  paint(model, 0, {}, nullptr, job);
+  EXPECT_TRUE(model.textures.empty());
+  EXPECT_EQ(model.materials[0].normal_texture.texture, -1);
+}
 
 TEST(Paint, TakesFromTheStoreWhatItHasPutThere) {
   Store store;
