@@ -51,8 +51,29 @@ Relief plated(const Plates& plates, int size, Rng rng, const Job& job) {
   });
 }
 
+/// Long ridges that meet and part again, between furrows that are wide or nearly closed.
 Relief oak(int size, Rng rng, const Job& job) {
-  return plated({{14, 5}, {14, 6}, 0.4F, 0.34F, 0.3F, 0.25F}, size, rng, job);
+  const Field wobble = field_of({size, {12, 5}, {4, 0.6F}, 1, rng.at("wobble")}, size, job);
+  const Cells ridges(size, {13, 3}, rng.at("ridges"));
+  const Noise fibre_noise(size, {30, 9}, {3, 0.65F}, 0.6F, rng.at("fibres")),
+      gap_noise(size, {6, 4}, {3, 0.6F}, 1, rng.at("gap"));
+  return paint_rows(size, Accent::none, job, [&](int begin, int end, const auto& row_at) {
+    CellRows ridge_rows(ridges, wobble, 0.55F);
+    NoiseRows fibre_rows(fibre_noise), gap_rows(gap_noise);
+    for (int y = begin; y < end; ++y) {
+      const CellRows::Row ridge = ridge_rows.row(y);
+      const float *fine = fibre_rows.row(y), *gap = gap_rows.row(y);
+      const ReliefRow out = row_at(y);
+      for (int x = 0; x < size; ++x) {
+        const float width = 0.22F + 0.3F * gap[x];
+        const float round = step_between(-0.06F, width < 0.07F ? 0.07F : width, ridge.border[x]);
+        const float flat = round * (1 - 0.28F * ridge.shade[x]);
+        out.height[x] = clamp_share(0.68F * flat + 0.32F * (0.5F + fine[x]) * (0.4F + 0.6F * round));
+        out.tone[x] = clamp_share(0.14F + 0.5F * out.height[x] + 0.3F * fine[x] + 0.12F * gap[x] +
+                                  0.16F * (ridge.shade[x] - 0.5F));
+      }
+    }
+  });
 }
 
 /// Long plates of many sizes between deep furrows, each with overlapping thin flakes.
@@ -228,7 +249,7 @@ struct Kind {
 };
 
 constexpr Kind kinds[] = {
-    {"oak_bark", oak, {148, 133, 114}, 0.40F, 1.35F, {96, 110, 70}, 0.032F, 0.98F, 0.88F, 0.95F, 0.7F},
+    {"oak_bark", oak, {158, 145, 128}, 0.42F, 1.3F, {96, 110, 70}, 0.032F, 0.98F, 0.88F, 0.95F, 0.7F},
     {"pine_bark", pine, {160, 116, 88}, 0.40F, 1.35F, {170, 120, 80}, 0.034F, 0.98F, 0.85F, 0.9F, 0.75F},
     {"spruce_bark", spruce, {140, 119, 101}, 0.45F, 1.35F, {120, 120, 100}, 0.013F, 0.97F, 0.88F, 0.9F, 0.6F},
     {"willow_bark", willow, {142, 130, 110}, 0.34F, 1.35F, {110, 120, 80}, 0.045F, 0.98F, 0.88F, 0.95F, 0.7F},
