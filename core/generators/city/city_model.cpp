@@ -291,6 +291,7 @@ Result<Model> city_model(CityPlan& plan, const CityParams& params, const Generat
   if (auto warning = tunnel_warning(surface)) model.warnings.push_back(*std::move(warning));
   surface.release_edges();
   if (surface.is_level() && !needs_outlines(plan, params)) release_streets(plan);
+  if (job.budget()->prefers_low_memory()) return_unused_heap();
   if (auto error = add_contents(model, nodes, chunks, surface, params, context)) return std::move(*error);
   return model;
 }

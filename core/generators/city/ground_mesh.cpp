@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/base/math.h"
+#include "core/geom/mesh/finish.h"
 #include "core/geom/mesh/weld.h"
 #include "core/geom/polygon/delaunay.h"
 
@@ -260,13 +261,16 @@ void GroundMesh::add_triangles(std::uint32_t first) {
 }
 
 void GroundMesh::weld_if_large(Job& job) {
-  constexpr std::size_t large = 200'000;  // vertices
+  constexpr std::size_t large = 65'536;  // vertices
   if (mesh_.position.size() < large) return;
   weld(mesh_, job);
   append_last();
 }
 
+/// Blocks are ordered one by one, since ordering all of a large mesh at once needs as much memory again.
+
 void GroundMesh::append_last() {
+  order_for_cache(mesh_, job_);
   const auto first = static_cast<std::uint32_t>(welded_.position.size());
   welded_.position.append(mesh_.position.span());
   welded_.normal.append(mesh_.normal.span());
@@ -282,6 +286,7 @@ Mesh GroundMesh::take(Job& job) {
   weld(mesh_, job);
   if (welded_.position.empty()) return std::move(mesh_);
   append_last();
+  welded_.cache_ordered = true;
   return std::move(welded_);
 }
 

@@ -18,10 +18,18 @@ class MergedCopies {
   /// left out.
   void add(const Mesh& mesh, int material, const Transform& at, std::uint32_t chunk);
 
+  /// Adds the meshes of all nodes of a model. `materials` are those of the city, indexed by those of the model. Returns
+  /// false, and adds nothing, if a node has copies, or more than a translation, or a mesh without normals or materials.
+  bool add_nodes(const Model& model, const std::vector<int>& materials, const Transform& at,
+                 std::uint32_t chunk);
+
   /// Adds all meshes to the model, each below the node `group` of its chunk.
   void write(Model& model, ChunkNodes& nodes, const char* group, const char* name);
 
  private:
+  /// Returns the mesh that takes this number of vertices more.
+  Mesh& mesh_for(const Mesh& from, std::size_t vertices, int material, std::uint32_t chunk);
+
   /// Chunk, material, and which attributes there are.
   using Key = std::tuple<std::uint32_t, int, bool, bool>;
 

@@ -129,8 +129,11 @@ void CopyWriter::add(Model made, const std::string& name, const char* group, con
   Job& job = context_.job;
   std::vector<int> materials;
   for (Material& material : made.materials) materials.push_back(add_material(std::move(material), made));
+  const bool is_merged = merged_ && copies.size() == 1;
+  if (is_merged && levels_of(made) == 1 && merged_->add_nodes(made, materials, copies[0].at, copies[0].chunk))
+    return;
   std::vector<std::vector<Primitive>> levels = scene::extract_levels(made, job);
-  if (merged_ && copies.size() == 1) return merge(levels, materials, copies[0]);
+  if (is_merged) return merge(levels, materials, copies[0]);
   LevelInfo info;
   std::vector<int> meshes;
   for (std::size_t level = 0; level < levels.size(); ++level) {
