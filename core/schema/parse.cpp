@@ -16,6 +16,7 @@ namespace {
 
 constexpr int number_out_of_range = 406;  ///< nlohmann's id of "number overflow"
 constexpr std::size_t most_too_large = 100;
+constexpr std::size_t escape_size = 6;  ///< of \uXXXX
 
 /// A number beyond the range of a double that was replaced by null: the index among all nulls, and its text.
 struct TooLarge {
@@ -84,6 +85,13 @@ class Builder {
     }
     // `position` counts the characters read, the offending one included.
     const std::size_t offset = std::min(position == 0 ? 0 : position - 1, text_.size());
+    if (const std::optional<std::size_t> half = lone_surrogate(offset, failure)) {
+      return refuse(Code::malformed,
+                    issue_at(IssueKind::syntax, "", text_, *half,
+                             "this is not JSON: found \"" + std::string(text_.substr(*half, escape_size)) +
+                                 "\", half of a surrogate pair; expected an escape from \\ud800 to \\udbff "
+                                 "and directly after it one from \\udc00 to \\udfff"));
+    }
     return refuse(Code::malformed,
                   issue_at(IssueKind::syntax, "", text_, offset, "this is not JSON: " + unexpected(offset)));
   }
@@ -145,6 +153,24 @@ class Builder {
   bool refuse(Code code, Issue issue) {
     error = Error{code, {std::move(issue)}};
     return false;
+  }
+
+  /// The position of the escape that a failure about surrogates means: that of the last first half before `offset`, or
+  /// the last escape where there is no such half directly before it.
+  std::optional<std::size_t> lone_surrogate(std::size_t offset, const Json::exception& failure) const {
+    if (std::string_view(failure.what()).find("surrogate") == std::string_view::npos) return std::nullopt;
+    const std::size_t last = text_.rfind("\\u", offset);
+    if (last == std::string_view::npos) return std::nullopt;
+    // After a first half, the library also reads the escape that should have been the second half.
+    const bool is_after_half =
+        last >= escape_size && is_first_half(text_.substr(last - escape_size, escape_size));
+    return is_after_half ? last - escape_size : last;
+  }
+
+  static bool is_first_half(std::string_view escape) {
+    constexpr std::string_view second_digits = "89abAB";
+    return escape[0] == '\\' && escape[1] == 'u' && (escape[2] == 'd' || escape[2] == 'D') &&
+           second_digits.find(escape[3]) != std::string_view::npos;
   }
 
   std::string unexpected(std::size_t offset) const {

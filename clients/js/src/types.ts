@@ -30,7 +30,7 @@ export interface Output {
   variants?: number;
   /** The greatest number of triangles of the finest level, copies included. A larger model is made coarser until it fits, by a coarser level of detail or by edge collapse. If that is not possible, the request is refused. */
   max_triangles?: number;
-  /** Tangents of the vertices. auto makes them if a material has a normal map. none leaves them out, which saves 16 bytes for each vertex; readers of the file then compute their own. */
+  /** Tangents of the vertices. auto makes them if a material has a normal map. none leaves them out, which saves 16 bytes for each vertex; readers of the file then compute their own, and the validator of Khronos warns that these may differ (MESH_PRIMITIVE_GENERATED_TANGENT_SPACE). */
   tangents?: "auto" | "none";
 }
 

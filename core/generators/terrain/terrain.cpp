@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "core/base/math.h"
 #include "core/generators/child.h"
 #include "core/generators/terrain/dress.h"
 #include "core/generators/terrain/engines.h"
@@ -24,6 +25,8 @@ namespace {
 // derive() lists heights of fields with at most this number of samples along a side.
 constexpr int longest_listed = 257;
 constexpr std::uint64_t bytes_a_vertex = 36;  // position, normal, texture coordinates, colour
+// Of a vertex of ground with details: the texture coordinates of its grounds, and the tangent.
+constexpr std::uint64_t bytes_of_coordinates = 8, bytes_of_tangent = 16;
 
 /// Adds the warning of filled voids to a model.
 Result<Model> with_voids(Result<Model> model, const Field& field) {
@@ -210,6 +213,25 @@ Result<Json> derive(const TerrainParams& params, const GenerateContext& context)
   return answer;
 }
 
+/// The bytes of the file of a grid. The grounds of a terrain with details follow from its heights, so their number is a
+/// mean of the presets, 2.7, as is the share of vertices that several grounds have.
+static std::uint64_t estimated_bytes(const TerrainParams& params, std::uint64_t triangles,
+                                     const Demand& demand) {
+  constexpr std::uint64_t document = 1200, bytes_a_triangle = 6;
+  constexpr double several = 1.4, bytes_a_texel = 2.7 * 2.5;  // of all images of all grounds
+  const auto squares = static_cast<std::uint64_t>(finished_side(params) - 1);
+  const std::uint64_t vertices = triangles / 2 + 2 * squares + 1;
+  const std::uint64_t least = document + vertices * bytes_a_vertex + triangles * bytes_a_triangle;
+  const bool has_detail = params.detail && params.shape == TerrainShape::plane && params.texture == 0;
+  if (!has_detail || demand.textures == 0) return least;
+  const std::uint64_t of_vertex =
+      bytes_a_vertex + bytes_of_coordinates + (demand.tangents ? bytes_of_tangent : 0);
+  const double texels = static_cast<double>(demand.textures) * demand.textures;
+  const double more = several * static_cast<double>(vertices * of_vertex) + bytes_a_texel * texels -
+                      static_cast<double>(vertices * bytes_a_vertex);
+  return least + static_cast<std::uint64_t>(math::to_int64(more));
+}
+
 Result<Appraisal> appraise(const TerrainParams& params, const GenerateContext& context) {
   Job& job = context.job;
   if (auto refused = refusal(params, job.limits())) return std::move(*refused);
@@ -233,9 +255,7 @@ Result<Appraisal> appraise(const TerrainParams& params, const GenerateContext& c
   estimate.triangles = grid_triangles(params);
   refuse_large_grid(params, job);
   estimate.exact = !params.water_level;
-  constexpr std::uint64_t document = 1200;
-  estimate.bytes =
-      document + (estimate.triangles / 2 + 2 * squares + 1) * bytes_a_vertex + estimate.triangles * 6;
+  estimate.bytes = estimated_bytes(params, estimate.triangles, context.demand);
   appraisal.estimate = estimate;
   return appraisal;
 }

@@ -316,6 +316,17 @@ TEST(Output, HoldsTheBudgetOfAllVariantsTogether) {
   EXPECT_LE(made("hutsko_tree", R"({"variants":3,"max_triangles":2000})").statistics.triangles, 2'000U);
 }
 
+TEST(Output, EstimatesTheBytesOfTerrainsWithTheirTextures) {
+  for (const char* preset : {"midpoint_hills", "mesas", "dunes", "lava_plain"}) {
+    const Result<Request> request = read_request(request_of(preset, "{}"), Limits{});
+    ASSERT_TRUE(request);
+    const double estimated = json::parse(*validate(*request, {}))["estimate"]["bytes"].get<double>();
+    const auto made = static_cast<double>(produce(*request, {})->payload.size());
+    EXPECT_LT(estimated, 1.5 * made) << preset;
+    EXPECT_GT(estimated, made / 1.5) << preset;
+  }
+}
+
 TEST(Output, EstimatesTheBytesOfATreeBeforeItIsMade) {
   for (const char* preset : {"oak", "dead_tree", "proctree_0", "sculpted_sphere"}) {
     for (const char* output : {R"({"textures":64})", R"({"textures":512})", R"({"textures":"none"})"}) {

@@ -1,7 +1,9 @@
 #include <gmock/gmock.h>
 
+#include <initializer_list>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <tuple>
 
 #include "core/schema/json.h"
 
@@ -52,6 +54,21 @@ TEST(ParseJson, ReportsTheLineAndColumnOfASyntaxError) {
   EXPECT_EQ(issue.line, 2);
   EXPECT_EQ(issue.column, 8);
   EXPECT_THAT(issue.message, testing::HasSubstr("unexpected \"x\""));
+}
+
+TEST(ParseJson, NamesTheLoneHalfOfASurrogatePair) {
+  for (const auto& [text, half, column] : std::initializer_list<std::tuple<const char*, const char*, int>>{
+           {R"({"a": "x\ud800"})", R"("\ud800")", 9},
+           {R"({"a": "\uDBFFxy"})", R"("\uDBFF")", 8},
+           {R"({"a": "\ud83d\u0041"})", R"("\ud83d")", 8},
+           {R"({"a": "\udc00"})", R"("\udc00")", 8}}) {
+    const Issue issue = refusal_of(text).issue;
+    EXPECT_EQ(issue.kind, IssueKind::syntax);
+    EXPECT_EQ(issue.column, column) << text;
+    EXPECT_THAT(issue.message, testing::AllOf(testing::HasSubstr(half), testing::HasSubstr("surrogate")))
+        << text;
+  }
+  EXPECT_EQ(parsed(R"("\ud83d\ude00")"), "\U0001F600");
 }
 
 TEST(ParseJson, ReportsATextThatEndsTooEarly) {
