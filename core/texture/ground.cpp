@@ -242,14 +242,14 @@ Relief grained(int size, Lattice coarse, float height, float tone, Rng rng, cons
 
 Relief grass_ground(int size, Rng rng, const Job& job) {
   Relief relief = grained(size, {14, 14}, 0.1F, 0.12F, rng.at("earth"), job);
-  const Litter blades{.count = 15'000,
-                      .shortest = 0.02F,
-                      .longest = 0.06F,
-                      .width = 0.055F,
+  const Litter blades{.count = 10'500,
+                      .shortest = 0.025F,
+                      .longest = 0.07F,
+                      .width = 0.07F,
                       .low = 0.3F,
                       .high = 1,
-                      .differ = 0.45F};
-  const Noise clumps(size, {9, 9}, {3, 0.6F}, 0.26F, rng.at("clumps"));
+                      .differ = 0.62F};
+  const Noise clumps(size, {11, 11}, {3, 0.6F}, 0.15F, rng.at("clumps"));
   add_blades(relief, blades, field_of(clumps, size, job), rng.at("blades"), job);
   return centred(std::move(relief), 0.57);
 }
