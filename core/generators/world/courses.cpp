@@ -80,17 +80,16 @@ class Lowering {
       RiverPoint& p = points[k];
       const bool is_end = k + 1 == points.size();
       double most = p.water;
-      if (!is_end)
-        most = std::min(most, most_at({p.east, p.north, p.water + p.cut, course.ruggedness[k]}, n, k));
       if (course.into_lake >= 0 && !is_end) most = std::min(most, before_lake(p, lake(course.into_lake)));
-      if (course.lake >= 0 && k == 0) most = std::min(most, most_at_shores(lake(course.lake), n));
+      if (!is_end) most = most_at(most, {p.east, p.north, p.water + p.cut, course.ruggedness[k]}, n, k);
+      if (course.lake >= 0 && k == 0) most = most_at_shores(most, lake(course.lake), n);
       water = is_end ? std::min(water, p.water) : std::max(water, most);
       p.cut += p.water - water;
       p.water = water;
     }
     if (course.lake < 0) return;
     Lake& own = lake(course.lake);
-    own.level = has_river ? points.front().water : std::min(own.level, most_at_shores(own, n));
+    own.level = has_river ? points.front().water : most_at_shores(own.level, own, n);
   }
 
  private:
@@ -143,10 +142,10 @@ class Lowering {
     }
   }
 
-  /// The level that valleys around a position allow; of the river `own`, those of the points after `from`.
-  double most_at(const Site& site, int own, std::size_t from) const {
+  /// The level of at most `most` that valleys around a position allow; of the river `own`, those of the points after
+  /// `from`.
+  double most_at(double most, const Site& site, int own, std::size_t from) const {
     const double east = site.east, north = site.north;
-    double most = std::numeric_limits<double>::infinity();
     for (const std::size_t n : near_) add_course(most, site, n, static_cast<int>(n) == own ? from + 1 : 0);
     for (const Lake& near : lakes_) {
       const double x = east - near.east, y = north - near.north, away = std::sqrt(x * x + y * y);
@@ -157,23 +156,20 @@ class Lowering {
     return most;
   }
 
-  double most_at_shores(const Lake& own, int n) const {
+  double most_at_shores(double most, const Lake& own, int n) const {
     constexpr double d = 0.70710678118654752;
     constexpr double turns[8][2] = {{1, 0}, {d, d}, {0, 1}, {-d, d}, {-1, 0}, {-d, -d}, {0, -1}, {d, -d}};
-    double most = std::numeric_limits<double>::infinity();
     for (const auto& turn : turns) {
       const double shore = shore_distance(own, own.east + turn[0], own.north + turn[1], 1);
       // the land of the middle stands for that of the shore
-      most = std::min(
-          most, most_at_shore(
-                    {own.east + shore * turn[0], own.north + shore * turn[1], own.level + shallow, 0}, n));
+      most = most_at_shore(
+          most, {own.east + shore * turn[0], own.north + shore * turn[1], own.level + shallow, 0}, n);
     }
     return most;
   }
 
   /// The same as most_at() without the rivers that flow from or into the lake of a node.
-  double most_at_shore(const Site& site, int n) const {
-    double most = std::numeric_limits<double>::infinity();
+  double most_at_shore(double most, const Site& site, int n) const {
     const int own = courses_[static_cast<std::size_t>(n)].lake;
     for (std::size_t m = 0; m < courses_.size(); ++m) {
       if (static_cast<int>(m) != n && courses_[m].into_lake != own) add_course(most, site, m, 0);
