@@ -152,6 +152,17 @@ Error too_steep(const CityParams& params) {
         "limits in streets.classes"}}};
 }
 
+/// Refuses areas whose streets would need more memory than the limit, before they grow.
+void refuse_too_large(const GrowthInput& input, const Job& job) {
+  const std::uint64_t most = job.limits().memory_bytes;
+  const double needed = least_pieces(input) * static_cast<double>(bytes_a_street);
+  if (needed <= static_cast<double>(most)) return;
+  job.refuse(limit_issue({Resource::memory_bytes, most, static_cast<std::uint64_t>(needed)},
+                         "the streets of this area need more memory than the limit; expected a smaller area, "
+                         "or greater distances between streets",
+                         "/area"));
+}
+
 std::optional<Error> refusal(const CityParams& params, const GenerateContext& context) {
   std::vector<Issue> issues = check(params, {context.job, context.generators});
   if (issues.empty()) return std::nullopt;
@@ -226,6 +237,7 @@ Result<CityPlan> plan_on(const CityParams& params, std::shared_ptr<const Landfor
                              footprints.is_empty() ? nullptr : &footprints,
                              plan.classes,
                              least_height(*plan.landform)};
+  refuse_too_large(input, job);
   plan.graph = grow_streets(input, job);
   plan.wards = std::move(wards.wards);
   plan.gates = std::move(wards.gates);

@@ -70,6 +70,10 @@ Route grow_majors(const GrowthInput& input, Job& job);
 /// Returns positions in centimetres that are on land, out of a lattice of 15 by 15 over the bounding box of the land.
 std::vector<glm::dvec2> lattice_of(const Region& region);
 
+/// Returns how many pieces of streets grow at least: an estimate from the counts of level, dense areas, or 0 where it is
+/// not known.
+double least_pieces(const GrowthInput& input);
+
 /// Returns one straight street through a dense position, for areas in which the pattern has no street. Empty where the
 /// density is too low everywhere, or if the productions build no road.
 std::vector<StreetPiece> through_street(const GrowthInput& input, const Job& job);

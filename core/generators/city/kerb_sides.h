@@ -36,4 +36,17 @@ std::vector<double> corner_reaches(const StreetGraph& graph, const std::vector<K
 /// Empty at a node without sides that are laid out.
 CmRing junction_ring(const StreetGraph& graph, const std::vector<KerbSide>& sides, std::uint32_t node);
 
+/// Returns the outline of a carriageway. Of a street along the border, the half inside is part of the area.
+CmRing carriageway_ring(const StreetGraph& graph, const std::vector<KerbSide>& sides, std::uint32_t edge);
+
+/// Returns the sidewalk to the left of a half-edge: along the kerb, and back along the block. Corners are divided at their
+/// middle.
+CmRing sidewalk_ring(const std::vector<KerbSide>& sides, std::uint32_t half);
+
+/// Makes the ends of carriageways at junctions perpendicular where there is space.
+void cut_carriageways(const StreetGraph& graph, std::vector<KerbSide>& sides);
+
+/// Removes the perpendicular ends at junctions that would cross themselves with them.
+void undo_unsound_cuts(const StreetGraph& graph, std::vector<KerbSide>& sides);
+
 }  // namespace seedmesh::city

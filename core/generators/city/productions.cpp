@@ -15,8 +15,30 @@ using lsystem::Slice;
 constexpr std::uint32_t own_slot = 0, left_slot = 3, right_slot = 6, delay_slot = 9, rule_slot = 12,
                         road_slot = 15, angle_slot = 18, length_slot = 19, slot_count = 20;
 constexpr std::uint32_t most_parameters = 3;
-/// Sites that wait at one time, of about 150 bytes each. Real growth has a few thousand.
-constexpr std::size_t most_sites = 100'000;
+/// Sites that wait at one time, of about 150 bytes each, and steps: those without roads, and more for each road that /// Sites that wait at one time, of about 150 bytes each, and steps: those without roads, and more for each road that was
+/// built.
+constexpr std::size_t first_sites = 10'000, sites_a_road = 10;
+constexpr std::uint64_t first_steps = 50'000, steps_a_road = 1'000;
+
+/// Counts the roads that are built.
+class CountedRules final : public RoadRules {
+ public:
+  explicit CountedRules(RoadRules& rules) : rules_(rules) {}
+  GlobalGoals global_goals(double rule, double road, Rng key) override {
+    return rules_.global_goals(rule, road, key);
+  }
+  RoadState local_constraints(double road) override {
+    const RoadState state = rules_.local_constraints(road);
+    built_ += state == RoadState::succeed ? 1 : 0;
+    return state;
+  }
+  std::array<double, 2> measure(double road) const override { return rules_.measure(road); }
+  std::uint64_t built() const { return built_; }
+
+ private:
+  RoadRules& rules_;
+  std::uint64_t built_ = 0;
+};
 
 void bind_common(lang::Names& names) {
   names.bind_constant("UNASSIGNED", static_cast<double>(RoadState::unassigned));
@@ -287,15 +309,17 @@ bool StreetGrammar::grow(const std::vector<Start>& starts, RoadRules& rules, std
   Sites sites;
   for (const Start& each : starts)
     sites.push({0, each.key, {{'R', {each.delay, each.rule, 0}}, {'I', {each.road, 0, 0}}}});
+  CountedRules counted(rules);
   for (std::uint64_t done = 0; !sites.empty(); ++done) {
-    if (done >= most_steps || sites.size() > most_sites) return false;
+    if (done >= std::min(most_steps, first_steps + steps_a_road * counted.built())) return false;
+    if (sites.size() > first_sites + sites_a_road * counted.built()) return false;
     if (done % 64 == 0) job.check();
     // A word of this length comes from productions that multiply without branches.
     constexpr std::size_t most_modules = 256;
     if (sites.top().word.size() > most_modules) return false;
     const Site site = sites.top();
     sites.pop();
-    rewrite(site, rules, sites);
+    rewrite(site, counted, sites);
   }
   return true;
 }

@@ -50,8 +50,8 @@ class StreetGrammar {
     double delay = 0, rule = 0, road = 0;
     std::uint64_t key = 0;
   };
-  /// Rewrites all sites in the order of (step, key), until none is left, `most_steps` rewritings are done, or
-  /// more than 100,000 sites wait. Returns whether all sites came to an end.
+  /// Rewrites all sites in the order of (step, key), until none is left, `most_steps` rewritings are done, or there are
+  /// far more rewritings or waiting sites than roads. Returns whether all sites came to an end.
   bool grow(const std::vector<Start>& starts, RoadRules& rules, std::uint64_t most_steps,
             const Job& job) const;
 

@@ -16,8 +16,7 @@ namespace {
 
 using glm::dvec2;
 
-constexpr double least_progress = 30;   // of a kerb between two corners, cm
-constexpr double least_straight = 300;  // of a carriageway between perpendicular ends, cm
+constexpr double least_progress = 30;  // of a kerb between two corners, cm
 constexpr std::size_t faces_a_chunk = 64;
 
 /// One outline of a face.
@@ -25,6 +24,13 @@ struct Outline {
   std::vector<std::uint32_t> half_edges;
   bool is_outer = true;
 };
+
+/// Shares of the widths of a street, of the radius of fillets and of the cut of corners.
+struct Widths {
+  double carriageway = 1, walk = 1, fillet = 1, cut = 0;
+};
+constexpr Widths without_cut[] = {{1, 1, 1}, {1, 1, 0},   {1, 0.6, 0}, {1, 0.3, 0}, {0.8, 0.3, 0},
+                                  {1, 0, 0}, {0.6, 0, 0}, {0.3, 0, 0}, {0.1, 0, 0}, {0.03, 0, 0}};
 
 /// How the street space of a face was laid out.
 struct FaceLayout {
@@ -41,6 +47,8 @@ class StreetSpace {
         cut_width_(cut.width),
         cos_least_turn_(math::cos(math::radians(180 - cut.greatest_angle))) {
     sides_.resize(graph_.edges.size() * 2);
+    if (cut_width_ > 0) attempts_ = {{1, 1, 1, 1}, {1, 1, 1, 0.5}};
+    for (const Widths& each : without_cut) attempts_.push_back(each);
   }
 
   std::vector<BlockOutline> lay_out() {
@@ -49,7 +57,8 @@ class StreetSpace {
     parallel_for(job_, layouts.size(), faces_a_chunk, [&](std::size_t begin, std::size_t end, std::size_t) {
       for (std::size_t i = begin; i < end; ++i) lay_out_face(faces, faces.faces[i], layouts[i]);
     });
-    cut_carriageways();
+    cut_carriageways(graph_, sides_);
+    undo_unsound_cuts(graph_, sides_);
     plan_.corner_reaches = corner_reaches(graph_, sides_);
     add_junctions();
     add_carriageways();
@@ -68,10 +77,6 @@ class StreetSpace {
   double walk_width(std::uint32_t half) const {
     return graph_.is_street(half / 2) ? plan_.class_of(half / 2).sidewalk[half % 2] * 100 : 0;
   }
-
-  struct Widths {
-    double carriageway = 1, walk = 1, fillet = 1, cut = 0;
-  };
 
   std::vector<CmPoint> corner_at(std::uint32_t before, std::uint32_t half, const Widths& widths,
                                  bool is_kerb) const {
@@ -103,10 +108,7 @@ class StreetSpace {
     layout.is_used =
         is_on_land(plan_.region, position_in(graph_.nodes, graph_.edges, layout.outlines[0].half_edges));
     if (!layout.is_used) return;
-    if (cut_width_ > 0 && (try_widths(layout, {1, 1, 1, 1}) || try_widths(layout, {1, 1, 1, 0.5}))) return;
-    static constexpr Widths attempts[] = {{1, 1, 1}, {1, 1, 0},   {1, 0.6, 0}, {1, 0.3, 0}, {0.8, 0.3, 0},
-                                          {1, 0, 0}, {0.6, 0, 0}, {0.3, 0, 0}, {0.1, 0, 0}, {0.03, 0, 0}};
-    if (std::ranges::any_of(attempts, [&](const Widths& w) { return try_widths(layout, w); })) return;
+    if (std::ranges::any_of(attempts_, [&](const Widths& w) { return try_widths(layout, w); })) return;
     // The outlines of the graph itself, all of them: an attempt ends at the first one that is not sound.
     layout.has_walks = false;
     for (const Outline& outline : layout.outlines) place_corners(outline, {0, 0, 0}, false);
@@ -143,7 +145,7 @@ class StreetSpace {
     for (const Outline& outline : layout.outlines) {
       for (const std::uint32_t half : outline.half_edges) {
         if (!graph_.is_street(half / 2)) continue;
-        const CmRing ring = sidewalk_ring(half);
+        const CmRing ring = sidewalk_ring(sides_, half);
         if (!is_simple(ring) || doubled_area(ring) <= 0) return false;
       }
     }
@@ -181,53 +183,6 @@ class StreetSpace {
     return is_simple(ring) && is_outer == (doubled_area(ring) > 0);
   }
 
-  /// The sidewalk to the left of a half-edge: along the kerb, and back along the block. Corners are divided at
-  /// their middle.
-  CmRing sidewalk_ring(std::uint32_t half) const {
-    const KerbSide& side = sides_[half];
-    const KerbSide& next = sides_[side.after];
-    const auto middle = [](const std::vector<CmPoint>& corner) { return (corner.size() - 1) / 2; };
-    CmRing ring;
-    ring.reserve(side.corner.size() + side.outer_corner.size() + next.corner.size() +
-                 next.outer_corner.size() + 2);
-    for (std::size_t i = middle(side.corner); i < side.corner.size(); ++i) append_new(ring, side.corner[i]);
-    append_new(ring, side.cut_from);
-    append_new(ring, side.cut_to);
-    for (std::size_t i = 0; i <= middle(next.corner); ++i) append_new(ring, next.corner[i]);
-    for (std::size_t i = middle(next.outer_corner) + 1; i-- > 0;) append_new(ring, next.outer_corner[i]);
-    for (std::size_t i = side.outer_corner.size(); i-- > middle(side.outer_corner);)
-      append_new(ring, side.outer_corner[i]);
-    close(ring);
-    return ring;
-  }
-
-  /// Ends of carriageways at junctions become perpendicular where there is space.
-  void cut_carriageways() {
-    for (std::uint32_t edge = 0; edge < graph_.edges.size(); ++edge) {
-      if (!graph_.is_street(edge)) continue;
-      KerbSide &left = sides_[2 * edge], &right = sides_[2 * edge + 1];
-      if (!left.is_laid_out || !right.is_laid_out) continue;
-      const dvec2 start = in_cm(graph_.nodes[graph_.edges[edge].from]), d = unit_of(graph_, 2 * edge);
-      const auto along = [&](const CmPoint& p) { return glm::dot(in_cm(p) - start, d); };
-      const bool cuts_start = is_cut(graph_.edges[edge].from), cuts_end = is_cut(graph_.edges[edge].to);
-      const double left_start = along(left.from()), right_start = along(right.to);
-      const double left_end = along(left.to), right_end = along(right.from());
-      const double begin = std::max(left_start, right_start), end = std::min(left_end, right_end);
-      if (end - begin < least_straight) continue;
-      const auto on_kerb = [&](const CmPoint& a, const CmPoint& b, double at) {
-        const double share = (at - along(a)) / (along(b) - along(a));
-        return rounded_cm(in_cm(a) + (in_cm(b) - in_cm(a)) * share);
-      };
-      constexpr double same = 20;  // cm
-      if (cuts_start && begin - left_start > same) left.cut_from = on_kerb(left.from(), left.to, begin);
-      if (cuts_start && begin - right_start > same) right.cut_to = on_kerb(right.from(), right.to, begin);
-      if (cuts_end && left_end - end > same) left.cut_to = on_kerb(left.from(), left.to, end);
-      if (cuts_end && right_end - end > same) right.cut_from = on_kerb(right.from(), right.to, end);
-    }
-  }
-
-  bool is_cut(std::uint32_t node) const { return graph_.is_border[node] == 0 && graph_.degree(node) >= 3; }
-
   void add_part(PartKind kind, CmRing ring, std::uint32_t street, std::uint32_t node) {
     Part part;
     part.kind = kind;
@@ -240,7 +195,7 @@ class StreetSpace {
   /// A town wall takes the place of the sidewalk on the right side of its street.
   void add_sidewalk(std::uint32_t half) {
     const bool is_wall = half % 2 == 1 && plan_.class_of(half / 2).has_wall;
-    add_part(is_wall ? PartKind::verge : PartKind::sidewalk, sidewalk_ring(half), half / 2, no_index);
+    add_part(is_wall ? PartKind::verge : PartKind::sidewalk, sidewalk_ring(sides_, half), half / 2, no_index);
     plan_.parts.back().is_wall = is_wall;
   }
 
@@ -260,21 +215,7 @@ class StreetSpace {
     for (std::uint32_t edge = 0; edge < graph_.edges.size(); ++edge) {
       if (!graph_.is_street(edge)) continue;
       const KerbSide &left = sides_[2 * edge], &right = sides_[2 * edge + 1];
-      const std::uint32_t from = graph_.edges[edge].from, to = graph_.edges[edge].to;
-      const auto ends_at_border = [&](std::uint32_t node) {
-        return graph_.is_border[node] != 0 && graph_.degree(node) == 1;
-      };
-      CmRing ring;
-      // Of a street along the border, the half inside is part of the area.
-      const auto add_side = [&](const KerbSide& side, std::uint32_t begin, std::uint32_t end) {
-        append_new(ring, side.is_laid_out ? side.cut_to : graph_.nodes[begin]);
-        append_new(ring, side.is_laid_out ? side.cut_from : graph_.nodes[end]);
-      };
-      add_side(right, from, to);
-      if (ends_at_border(to)) append_new(ring, graph_.nodes[to]);
-      add_side(left, to, from);
-      if (ends_at_border(from)) append_new(ring, graph_.nodes[from]);
-      close(ring);
+      CmRing ring = carriageway_ring(graph_, sides_, edge);
       if (ring.size() < 3 || doubled_area(ring) == 0) continue;
       carriageways_[edge] = static_cast<std::uint32_t>(plan_.parts.size());
       add_part(PartKind::carriageway, std::move(ring), edge, no_index);
@@ -292,7 +233,12 @@ class StreetSpace {
     if (!layout.has_walks || !has_street) {
       Part part;
       part.kind = has_street ? PartKind::verge : PartKind::park;
-      for (const Outline& outline : layout.outlines) part.rings.push_back(kerb_ring(outline));
+      for (const Outline& outline : layout.outlines) {
+        CmRing ring = kerb_ring(outline);
+        // Streets without a width that end within the face have no area.
+        if (outline.is_outer || (ring.size() >= 3 && doubled_area(ring) != 0))
+          part.rings.push_back(std::move(ring));
+      }
       plan_.parts.push_back(std::move(part));
       return;
     }
@@ -374,6 +320,7 @@ class StreetSpace {
   const StreetGraph& graph_;
   Job& job_;
   double cut_width_, cos_least_turn_;
+  std::vector<Widths> attempts_;
   std::vector<KerbSide> sides_;
   std::vector<std::uint32_t> carriageways_;  ///< parts, by edge
 };

@@ -10,6 +10,7 @@
 #include <variant>
 
 #include "core/base/math.h"
+#include "core/generators/city/growth.h"
 #include "core/generators/city/shape.h"
 #include "core/generators/city/statistics.h"
 #include "core/schema/json.h"
@@ -519,6 +520,64 @@ TEST(City, StopsProductionsThatMultiplyWithoutEnd) {
   EXPECT_THROW(plan_of(params, job), Stop);
   params.streets.productions = {"R(a, b) -> R(a, b) R(a, b)"};
   EXPECT_THROW(plan_of(params, job), Stop);
+}
+
+TEST(City, RefusesFarTooManyStreetsBeforeTheyGrow) {
+  CityParams params = small_town(40000, 40000);
+  params.streets.length = 20;
+  params.streets.major_spacing = 60;
+  Job job(1, Job::Options{});
+  EXPECT_THROW(plan_of(params, job), Stop);
+  EXPECT_LT(job.budget()->peak(), 1U << 20U);
+  // Most of this area has too few people for streets.
+  params.maps.density = "(abs(x) < 150) * (abs(y) < 150)";
+  Job sparse(1, Job::Options{});
+  EXPECT_TRUE(plan_of(params, sparse));
+}
+
+/// The estimate is below what grows, so that it refuses nothing that fits.
+TEST(City, EstimatesFewerStreetsThanGrow) {
+  for (const CityPattern pattern : {CityPattern::organic, CityPattern::radial, CityPattern::raster}) {
+    for (const double length : {25.0, 75.0}) {
+      for (const double spacing : {80.0, 300.0}) {
+        CityParams params = small_town(900, 900);
+        params.streets.pattern = pattern;
+        params.streets.length = length;
+        params.streets.major_spacing = spacing;
+        params.streets.branch_probability = 0;
+        params.streets.fill = 0.6;
+        params.maps.density = "0.5";
+        std::vector<Issue> issues;
+        const Job job(1, Job::Options{});
+        const CityPlan plan = made(params, 1);
+        const StreetGrammar grammar(params.streets.productions, "", issues);
+        const auto density = FieldMap::read(params.maps.density, "", {-1, -1}, {1, 1}, job, issues);
+        GrowthInput input{
+            .streets = params.streets, .density = *density, .grammar = grammar, .region = plan.region};
+        EXPECT_LT(least_pieces(input), plan.graph.edges.size()) << length << " " << spacing;
+        EXPECT_GT(least_pieces(input), 0.2 * static_cast<double>(plan.graph.edges.size()));
+      }
+    }
+  }
+}
+
+/// Streets wider than the space between them have no width, and left rings of two corners.
+TEST(City, ClosesThePartitionAroundStreetsWithoutSpace) {
+  CityParams params = small_town(39.47, 37.96);
+  params.given.given_streets =
+      lines({{{-23.22, 31.75}, {-24.44, 26.89}, {-22.96, 22.1}, {-19.11, 18.89}, {-17.41, 14.17}},
+             {{-24.44, 26.89}, {-7.07, 33.14}},
+             {{-21.78, -11.14}, {-7.62, -7.8}, {6.33, -3.68}, {16.21, 7}},
+             {{8.61, 6.57}, {9.86, 1.64}, {8.25, -3.19}},
+             {{8.61, 6.57}, {19.73, 2.84}}},
+            {{"width", 27.82}});
+  const CityPlan plan = made(params, 5);
+  double covered = 0;
+  for (const Part& part : plan.parts) {
+    covered += area_of(part.rings);
+    for (const CmRing& ring : part.rings) EXPECT_GE(ring.size(), 3U);
+  }
+  EXPECT_NEAR(covered / area_of(plan.area), 1, 1e-4);
 }
 
 TEST(City, GrowsMoreWhereBranchesAreNotErased) {
