@@ -267,8 +267,7 @@ void GroundMesh::weld_if_large(Job& job) {
   append_last();
 }
 
-/// Blocks are ordered one by one, since ordering all of a large mesh at once needs as much memory again.
-
+// Blocks are ordered one by one, since ordering all of a large mesh at once needs as much memory again.
 void GroundMesh::append_last() {
   order_for_cache(mesh_, job_);
   const auto first = static_cast<std::uint32_t>(welded_.position.size());
@@ -280,6 +279,7 @@ void GroundMesh::append_last() {
   mesh_.normal.clear();
   mesh_.uv[0].clear();
   mesh_.index.wide.clear();
+  mesh_.cache_ordered = false;
 }
 
 Mesh GroundMesh::take(Job& job) {

@@ -306,7 +306,7 @@ TEST(Cpfg, LeavesOutDrawingRulesForSeveralModules) {
 TEST(Cpfg, TakesAtMostAThousandSteps) {
   const auto result = imported("cpfg", "Lsystem: 1\nderivation length: 1100\nAxiom: A\nA --> A\n");
   EXPECT_EQ(parameters_of(result)["iterations"], 1000);
-  EXPECT_THAT(reports(result), Contains(StartsWith("2:20 the derivation length 1100 is 1000 here")));
+  EXPECT_THAT(reports(result), Contains(StartsWith("2:20 the derivation length 1100 becomes 1000")));
 }
 
 TEST(Cpfg, ClosesABranchOfAContext) {
