@@ -20,8 +20,7 @@ std::span<const std::string_view> texture_kinds();
 bool is_repeating_kind(std::string_view name);
 
 /// Returns the width and height in texels at which a kind is painted for textures of `size`: half of it for single
-/// leaves and petals, which few pixels show, and for smooth surfaces, whose grain spans several texels also then; not
-/// below 64.
+/// leaves and petals, which few pixels show; not below 64.
 int painted_size(std::string_view kind, int size);
 
 /// Paints a texture. `kind` is one of texture_kinds().

@@ -17,8 +17,6 @@ struct WallKind {
   /// Whether the texture is light grey and gets its colour, joints included, from TextureRecipe::factor.
   /// Others have the colour of TextureRecipe::color, and mortar of its own colour.
   bool is_grey;
-  /// Whether no detail is finer than 4 mm, so that the image has half of the usual size.
-  bool is_smooth = false;
 };
 
 /// Returns all kinds of walls.

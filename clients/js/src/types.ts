@@ -12,7 +12,7 @@ export interface Output {
   provenance?: "full" | "none";
   /** none adds no animation. growth adds a skin and an animation in which the plant grows from a seed to its full size. */
   animation?: "none" | "growth";
-  /** The width and height of generated textures in texels, a power of two. Images of single leaves and of smooth walls have half of it, and those of occlusion and roughness half of that of their material. none leaves out all textures, including those of the request. links names generated textures of 512 texels by URLs of this service, which are immutable and shared by all models; the formats are glb and gltf, without an impostor. */
+  /** The width and height of generated textures in texels, a power of two. Images of leaves have half of it, and those of occlusion and roughness half of that of their material. none leaves out all textures, including those of the request. links names generated textures of 512 texels by URLs of this service, which are immutable and shared by all models; the formats are glb and gltf, without an impostor. */
   textures?: number | "none" | "links";
   /** The file format of generated images. png: every reader. webp: about a tenth of the size, for readers of EXT_texture_webp, which the file then requires. both: WebP, and PNG for readers without it. auto: webp in the profile web, else png. Images of the request keep their format. */
   image_format?: "auto" | "png" | "webp" | "both";

@@ -326,12 +326,11 @@ TEST(Paint, TakesSomeImagesFromAllThatAreStored) {
   EXPECT_NE(texture::maps_of(recipe_of("slate"), 32, {}, &store, job)->normal, nullptr);
 }
 
-TEST(Paint, DrawsSmoothSurfacesAtHalfTheSize) {
+TEST(Paint, DrawsSingleLeavesAtHalfTheSize) {
   const Job job = job_of();
-  for (const std::string kind : {"plaster", "concrete", "paint", "dressed_stone", "sheet", "grime"})
-    EXPECT_EQ(decoded(*texture::maps_of(recipe_of(kind), 256, {}, nullptr, job)->color).width, 128U) << kind;
-  for (const std::string kind : {"brick", "slate", "panels", "rooms", "oak_bark"})
+  for (const std::string kind : {"plaster", "concrete", "brick", "slate", "rooms", "oak_bark"})
     EXPECT_EQ(decoded(*texture::maps_of(recipe_of(kind), 256, {}, nullptr, job)->color).width, 256U) << kind;
+  EXPECT_EQ(decoded(*texture::maps_of(recipe_of("oval"), 256, {}, nullptr, job)->color).width, 128U);
 }
 
 TEST(Paint, RemovesAllTexturesOnRequest) {
