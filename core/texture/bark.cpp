@@ -55,7 +55,7 @@ Relief plated(const Plates& plates, int size, Rng rng, const Job& job) {
 Relief oak(int size, Rng rng, const Job& job) {
   const Field wobble = field_of({size, {12, 5}, {4, 0.6F}, 1, rng.at("wobble")}, size, job);
   const Cells ridges(size, {13, 3}, rng.at("ridges"));
-  const Noise fibre_noise(size, {30, 9}, {3, 0.65F}, 0.6F, rng.at("fibres")),
+  const Noise fibre_noise(size, {30, 9}, {2, 0.6F}, 0.6F, rng.at("fibres")),
       gap_noise(size, {6, 4}, {3, 0.6F}, 1, rng.at("gap"));
   return paint_rows(size, Accent::none, job, [&](int begin, int end, const auto& row_at) {
     CellRows ridge_rows(ridges, wobble, 0.55F);
@@ -249,7 +249,7 @@ struct Kind {
 };
 
 constexpr Kind kinds[] = {
-    {"oak_bark", oak, {158, 145, 128}, 0.42F, 1.3F, {96, 110, 70}, 0.032F, 0.98F, 0.88F, 0.95F, 0.7F},
+    {"oak_bark", oak, {158, 145, 128}, 0.42F, 1.3F, {96, 110, 70}, 0.024F, 0.98F, 0.88F, 0.95F, 0.7F},
     {"pine_bark", pine, {160, 116, 88}, 0.40F, 1.35F, {170, 120, 80}, 0.034F, 0.98F, 0.85F, 0.9F, 0.75F},
     {"spruce_bark", spruce, {140, 119, 101}, 0.45F, 1.35F, {120, 120, 100}, 0.013F, 0.97F, 0.88F, 0.9F, 0.6F},
     {"willow_bark", willow, {142, 130, 110}, 0.34F, 1.35F, {110, 120, 80}, 0.045F, 0.98F, 0.88F, 0.95F, 0.7F},
