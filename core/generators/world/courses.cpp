@@ -29,10 +29,11 @@ std::pair<double, double> left_of(const std::vector<RiverPoint>& points, std::si
 
 struct Bounds {
   double west = 1e12, south = 1e12, east = -1e12, north = -1e12;
+  double lowest = 1e12, widest = 0;  ///< water and half of the width
 };
 Bounds joined(const Bounds& a, const Bounds& b) {
-  return {std::min(a.west, b.west), std::min(a.south, b.south), std::max(a.east, b.east),
-          std::max(a.north, b.north)};
+  return {std::min(a.west, b.west),   std::min(a.south, b.south),   std::max(a.east, b.east),
+          std::max(a.north, b.north), std::min(a.lowest, b.lowest), std::max(a.widest, b.widest)};
 }
 
 constexpr std::size_t points_a_piece = 8;
@@ -47,7 +48,8 @@ Extent extent_of(const Course& course) {
   for (std::size_t k = 0; k < course.points.size(); ++k) {
     if (k % points_a_piece == 0) extent.pieces.emplace_back();
     const RiverPoint& p = course.points[k];
-    extent.pieces.back() = joined(extent.pieces.back(), {p.east, p.north, p.east, p.north});
+    extent.pieces.back() =
+        joined(extent.pieces.back(), {p.east, p.north, p.east, p.north, p.water, p.width / 2});
   }
   for (const Bounds& piece : extent.pieces) extent.whole = joined(extent.whole, piece);
   return extent;
@@ -61,6 +63,16 @@ struct Site {
 /// What the valley of another water allows: land at this height has water below it.
 double below_valley(const Site& site, const Beside& beside) {
   return std::max(beside.water, valley_side(site.land, site.ruggedness, beside).height - shallow);
+}
+
+/// Whether no point within bounds has a valley that is lower than `highest` at a position: the side of a valley is
+/// higher the farther, the higher and the narrower the water is.
+bool are_above(double highest, const Site& site, const Bounds& bounds) {
+  const double x = std::max({0.0, bounds.west - site.east, site.east - bounds.east});
+  const double y = std::max({0.0, bounds.south - site.north, site.north - bounds.north});
+  // a little nearer, so that rounding does not count
+  const double away = std::max(0.0, std::sqrt(x * x + y * y) - 1e-3);
+  return is_above(highest, site.land, site.ruggedness, {away, bounds.widest, bounds.lowest});
 }
 
 /// Lowers the waters of a region.
@@ -86,6 +98,8 @@ class Lowering {
       water = is_end ? std::min(water, p.water) : std::max(water, most);
       p.cut += p.water - water;
       p.water = water;
+      Bounds& piece = extents_[static_cast<std::size_t>(n)].pieces[k / points_a_piece];
+      piece.lowest = std::min(piece.lowest, water);
     }
     if (course.lake < 0) return;
     Lake& own = lake(course.lake);
@@ -126,10 +140,12 @@ class Lowering {
   void add_course(double& most, const Site& site, std::size_t n, std::size_t from) const {
     const std::vector<RiverPoint>& points = courses_[n].points;
     const Extent& extent = extents_[n];
-    const Bounds own{site.east, site.north, site.east, site.north};
+    const Bounds own{site.east, site.north, site.east, site.north, 0, 0};
     if (!is_near(extent.whole, own)) return;
     for (std::size_t piece = from / points_a_piece; piece < extent.pieces.size(); ++piece) {
-      if (!is_near(extent.pieces[piece], own)) continue;
+      const Bounds& bounds = extent.pieces[piece];
+      if (!is_near(bounds, own) || bounds.lowest >= most) continue;
+      if (most + shallow <= site.land && are_above(most + shallow, site, bounds)) continue;
       const std::size_t end = std::min(points.size(), (piece + 1) * points_a_piece);
       for (std::size_t k = std::max(from, piece * points_a_piece); k < end; ++k) {
         const double x = site.east - points[k].east, y = site.north - points[k].north, square = x * x + y * y;
