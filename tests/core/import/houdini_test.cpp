@@ -136,8 +136,9 @@ TEST(Houdini, ReadsThePositionOfTheTurtle) {
 TEST(Houdini, WarnsOfLabelsWithoutACounterpart) {
   const auto result = imported("houdini", "Type: Tube\nRows: 8\nPremise: F\nRule 1: F=FF\nGenerations: 1\n");
   ASSERT_TRUE(result) << reports(result)[0];
-  EXPECT_THAT(reports(result),
-              testing::IsSupersetOf({HasSubstr("`Type` is a parameter without a counterpart"), HasSubstr("`Rows`")}));
+  EXPECT_THAT(
+      reports(result),
+      testing::IsSupersetOf({HasSubstr("`Type` is a parameter without a counterpart"), HasSubstr("`Rows`")}));
 }
 
 TEST(Houdini, DrawsNothingForVariables) {
