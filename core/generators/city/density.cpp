@@ -53,7 +53,7 @@ std::optional<FieldMap> FieldMap::read(const MapValue& value, const std::string&
     std::string error;
     texture::Picture picture;
     if (!read_pixels(text, job, error, picture)) {
-      issues.push_back({IssueKind::invalid_value, pointer, error});
+      issues.emplace_back(IssueKind::invalid_value, pointer, error);
       return std::nullopt;
     }
     map.low_ = low;
@@ -79,13 +79,15 @@ std::optional<FieldMap> FieldMap::read_text(const std::string& text, const std::
   names.bind_slot("y", 1);
   std::size_t at = 0;
   map.expression_ = map.program_.parse(tokens, at, names, errors);
-  if (tokens[at].kind != lang::TokenKind::end)
+  if (tokens[at].kind != lang::TokenKind::end) {
     errors.push_back({tokens[at].offset,
                       "found " + lang::in_quotes(tokens[at]) + ", expected an operator or the end",
                       IssueKind::syntax});
-  if (errors.empty() && map.program_.draws(map.expression_))
+  }
+  if (errors.empty() && map.program_.draws(map.expression_)) {
     errors.push_back({0, "found a function of random numbers; a map has one value for each position",
                       IssueKind::invalid_value});
+  }
   if (errors.empty()) return map;
   lang::add_issues(pointer, text, errors, issues);
   return std::nullopt;

@@ -49,9 +49,10 @@ class Reader {
 
   void read_collection(const Json& json) {
     const auto list = json.find("features");
-    if (list == json.end())
+    if (list == json.end()) {
       return refuse(IssueKind::missing, pointer_,
                     "found no member \"features\", expected a list of features");
+    }
     if (!list->is_array())
       return refuse(IssueKind::wrong_type, pointer_ + "/features", "expected a list of features");
     if (list->size() > most_features) {
@@ -241,9 +242,10 @@ std::vector<GeoFeature> features_of(const GeoJson& value, GeoKind kind, const st
 
 std::vector<Rings> polygons_of(const GeoJson& value, const std::string& pointer, const GeoReport& report) {
   std::vector<Rings> all;
-  for (GeoFeature& each : features_of(value, GeoKind::polygons, pointer, report))
+  for (GeoFeature& each : features_of(value, GeoKind::polygons, pointer, report)) {
     all.insert(all.end(), std::make_move_iterator(each.polygons.begin()),
                std::make_move_iterator(each.polygons.end()));
+  }
   return all;
 }
 

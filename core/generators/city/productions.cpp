@@ -159,9 +159,10 @@ class StreetGrammar::Reader {
     const auto tokens = lang::tokenize(text_, slice.from, slice.to, errors_);
     std::size_t at = 0;
     lang::Expression result = program_.parse(tokens, at, names_, errors_);
-    if (tokens[at].kind != lang::TokenKind::end)
+    if (tokens[at].kind != lang::TokenKind::end) {
       add(tokens[at].offset, "found " + lang::in_quotes(tokens[at]) + ", expected an operator or the end",
           IssueKind::syntax);
+    }
     if (program_.draws(result)) add(slice.from, "street productions draw no random numbers");
     return result;
   }
@@ -205,9 +206,10 @@ class StreetGrammar::Reader {
       depth += each.symbol == '[' ? 1 : each.symbol == ']' ? -1 : 0;
       if (depth < 0 || depth > 1) break;
     }
-    if (depth != 0)
+    if (depth != 0) {
       add(offset, "found brackets that are nested or not balanced; expected pairs side by side",
           IssueKind::syntax);
+    }
   }
 
   const std::string& text_;

@@ -84,15 +84,17 @@ std::vector<Issue> check_format(const FractalParams& params, const WantedFormat&
   std::vector<Issue> issues;
   if (form.format != "ply") {
     if (params.method != FractalMethod::escape)
-      issues.push_back({IssueKind::conflict, "/method", found + ", but an image is made of \"escape\""});
+      issues.emplace_back(IssueKind::conflict, "/method", found + ", but an image is made of \"escape\"");
     return issues;
   }
-  if (params.method != FractalMethod::frcm)
-    issues.push_back(
-        {IssueKind::conflict, "/method", found + ", but a PLY file contains the points of \"frcm\""});
-  if (!params.stages.empty())
-    issues.push_back({IssueKind::conflict, "/stages",
-                      "found stages in the format ply, which has one point cloud; expected none"});
+  if (params.method != FractalMethod::frcm) {
+    issues.emplace_back(IssueKind::conflict, "/method",
+                        found + ", but a PLY file contains the points of \"frcm\"");
+  }
+  if (!params.stages.empty()) {
+    issues.emplace_back(IssueKind::conflict, "/stages",
+                        "found stages in the format ply, which has one point cloud; expected none");
+  }
   return issues;
 }
 

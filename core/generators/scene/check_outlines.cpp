@@ -25,9 +25,10 @@ void check_rings(const Rings& rings, const std::string& pointer, const Job& job,
         "found " + std::to_string(points) + " points; expected at most " + std::to_string(most_points));
     return;
   }
-  for (const PlanDefect& defect : defects_of(plan_of_rings(rings), &job))
+  for (const PlanDefect& defect : defects_of(plan_of_rings(rings), &job)) {
     issues.emplace_back(IssueKind::invalid_value, pointer + "/" + std::to_string(defect.ring),
                         defect.message);
+  }
 }
 
 void check_building(const SceneBuilding& building, const std::string& pointer, const Job& job,

@@ -233,9 +233,10 @@ class Changes {
   /// Adds those at the rows [begin, end).
   void add(const Array<Change>& list, std::int32_t begin, std::int32_t end) {
     for (const Change& change : list.span()) {
-      const auto z = static_cast<std::int32_t>(change.z + 0.5F);
+      const float east = change.x + 0.5F, south = change.z + 0.5F;  // the nearest sample is the whole part
+      const auto x = static_cast<std::int32_t>(east), z = static_cast<std::int32_t>(south);
       if (z < begin || z >= end) continue;
-      row(z)[static_cast<std::int32_t>(change.x + 0.5F)] += change.amount;
+      row(z)[x] += change.amount;
     }
   }
 

@@ -153,10 +153,11 @@ Result<Field> of_picture(const TerrainImage& image, const texture::Decoded& deco
                          const Job& job) {
   const texture::Picture& picture = *decoded.picture;
   std::string wrong = misfit(picture, image.encoding);
-  if (wrong.empty() && decoded.is_lossy && packs_digits(image.encoding))
+  if (wrong.empty() && decoded.is_lossy && packs_digits(image.encoding)) {
     wrong =
         "found a JPEG or a WebP with losses, which changes the digits of heights; expected a PNG or a WebP "
         "without loss";
+  }
   if (!wrong.empty()) return fault("/image/data", wrong);
   const std::int64_t colored = image.encoding == TerrainEncoding::grey
                                    ? first_colored(picture, decoded.is_lossy ? lossy_slack : 0)

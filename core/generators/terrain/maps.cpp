@@ -180,7 +180,7 @@ const char* size_pointer(const TerrainParams& params) {
 /// What the engine of the profile does not take.
 void add_engine_issues(const TerrainParams& params, const WantedFormat& form, std::vector<Issue>& issues) {
   const auto add_issue = [&](IssueKind kind, const char* pointer, std::string message) {
-    issues.push_back({kind, pointer, std::move(message)});
+    issues.emplace_back(kind, pointer, std::move(message));
   };
   const std::string profile(form.profile);
   const std::optional<Engine> engine = engine_of(form.profile);
@@ -202,9 +202,10 @@ void add_engine_issues(const TerrainParams& params, const WantedFormat& form, st
     add_issue(IssueKind::conflict, "/heightmap/byte_order",
               "found big; the profile " + profile + " has the low byte first");
   }
-  if (engine == Engine::unity && given.flip)
+  if (engine == Engine::unity && given.flip) {
     add_issue(IssueKind::conflict, "/heightmap/flip",
               "the profile unity has the southern row first as it is");
+  }
   if (params.algorithm == TerrainAlgorithm::image) return;  // whose size is known when it is read
   const int side = finished_side(params);
   if (std::string wrong = misfit(*engine, side, side); !wrong.empty())
@@ -312,7 +313,7 @@ texture::Picture ground_texture(GroundKind kind, std::int32_t side, Rng rng, con
 std::vector<Issue> format_errors(const TerrainParams& params, const WantedFormat& form) {
   std::vector<Issue> issues;
   const auto add_issue = [&](IssueKind kind, const char* pointer, std::string message) {
-    issues.push_back({kind, pointer, std::move(message)});
+    issues.emplace_back(kind, pointer, std::move(message));
   };
   const TerrainHeightmap& given = params.heightmap;
   if (params.shape != TerrainShape::plane) {
