@@ -16,7 +16,7 @@ namespace {
 
 constexpr int number_out_of_range = 406;  ///< nlohmann's id of "number overflow"
 constexpr std::size_t most_too_large = 100;
-constexpr std::size_t escape_size = 6;  ///< of \uXXXX
+constexpr std::size_t escape_size = 6;  ///< a backslash, u and four digits
 
 /// A number beyond the range of a double that was replaced by null: the index among all nulls, and its text.
 struct TooLarge {

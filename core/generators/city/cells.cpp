@@ -376,9 +376,10 @@ CellStreets grow_cell(const GrowthInput& input, const StreetGraph& majors,
   for (const std::vector<std::uint32_t>& loop : loops) cell.add_loop(majors, loop);
   cell.avoid_tunnels(majors.bridges);
   const auto grow = [&](const std::vector<StreetGrammar::Start>& starts) {
-    if (input.grammar.grow(starts, cell, most_steps_of_a_cell, job)) return;
-    job.refuse(limit_issue({Resource::steps, most_steps_of_a_cell, most_steps_of_a_cell + 1},
-                           "the streets of a cell do not stop growing", "/streets/productions"));
+    const auto steps = input.grammar.grow(starts, cell, most_steps_of_a_cell, job);
+    if (!steps) return;
+    job.refuse(limit_issue({Resource::steps, *steps, *steps + 1}, "the streets of a cell do not stop growing",
+                           "/streets/productions"));
   };
   grow(cell.starts());
   constexpr int most_restarts = 6;

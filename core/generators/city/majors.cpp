@@ -326,9 +326,8 @@ dvec2 frame_at(const CityStreets& streets, bool is_radial, const dvec2& cm) {
 Route grow_majors(const GrowthInput& input, Job& job) {
   const Net net(input.streets, job.rng().at("majors"));
   NetRules rules(input, net);
-  const std::uint64_t most_steps = job.limits().shapes;
-  if (!input.grammar.grow(rules.starts(), rules, most_steps, job)) {
-    job.refuse(limit_issue({Resource::steps, most_steps, most_steps + 1}, "the streets do not stop growing",
+  if (const auto steps = input.grammar.grow(rules.starts(), rules, job.limits().shapes, job)) {
+    job.refuse(limit_issue({Resource::steps, *steps, *steps + 1}, "the streets do not stop growing",
                            "/streets/productions"));
   }
   return std::move(rules.route);

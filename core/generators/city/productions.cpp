@@ -15,8 +15,8 @@ using lsystem::Slice;
 constexpr std::uint32_t own_slot = 0, left_slot = 3, right_slot = 6, delay_slot = 9, rule_slot = 12,
                         road_slot = 15, angle_slot = 18, length_slot = 19, slot_count = 20;
 constexpr std::uint32_t most_parameters = 3;
-/// Sites that wait at one time, of about 150 bytes each, and steps: those without roads, and more for each road that /// Sites that wait at one time, of about 150 bytes each, and steps: those without roads, and more for each road that was
-/// built.
+/// Sites that wait at one time, of about 150 bytes each, and steps: those without a road, and more for each road that
+/// was built.
 constexpr std::size_t first_sites = 10'000, sites_a_road = 10;
 constexpr std::uint64_t first_steps = 50'000, steps_a_road = 1'000;
 
@@ -306,24 +306,24 @@ void StreetGrammar::rewrite(const Site& site, RoadRules& rules, Sites& sites) co
   sites.push(std::move(rest));
 }
 
-bool StreetGrammar::grow(const std::vector<Start>& starts, RoadRules& rules, std::uint64_t most_steps,
-                         const Job& job) const {
+std::optional<std::uint64_t> StreetGrammar::grow(const std::vector<Start>& starts, RoadRules& rules,
+                                                 std::uint64_t most_steps, const Job& job) const {
   Sites sites;
   for (const Start& each : starts)
     sites.push({0, each.key, {{'R', {each.delay, each.rule, 0}}, {'I', {each.road, 0, 0}}}});
   CountedRules counted(rules);
   for (std::uint64_t done = 0; !sites.empty(); ++done) {
-    if (done >= std::min(most_steps, first_steps + steps_a_road * counted.built())) return false;
-    if (sites.size() > first_sites + sites_a_road * counted.built()) return false;
+    if (done >= std::min(most_steps, first_steps + steps_a_road * counted.built())) return done;
+    if (sites.size() > first_sites + sites_a_road * counted.built()) return done;
     if (done % 64 == 0) job.check();
     // A word of this length comes from productions that multiply without branches.
     constexpr std::size_t most_modules = 256;
-    if (sites.top().word.size() > most_modules) return false;
+    if (sites.top().word.size() > most_modules) return done;
     const Site site = sites.top();
     sites.pop();
     rewrite(site, counted, sites);
   }
-  return true;
+  return std::nullopt;
 }
 
 }  // namespace seedmesh::city

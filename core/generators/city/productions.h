@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <queue>
 #include <string>
 #include <vector>
@@ -51,9 +52,10 @@ class StreetGrammar {
     std::uint64_t key = 0;
   };
   /// Rewrites all sites in the order of (step, key), until none is left, `most_steps` rewritings are done, or there are
-  /// far more rewritings or waiting sites than roads. Returns whether all sites came to an end.
-  bool grow(const std::vector<Start>& starts, RoadRules& rules, std::uint64_t most_steps,
-            const Job& job) const;
+  /// far more rewritings or waiting sites than roads. Returns nothing if all sites came to an end, otherwise the number of
+  /// rewritings until then.
+  std::optional<std::uint64_t> grow(const std::vector<Start>& starts, RoadRules& rules,
+                                    std::uint64_t most_steps, const Job& job) const;
 
  private:
   struct Module {
