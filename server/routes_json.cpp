@@ -31,8 +31,8 @@ std::variant<ImportInput, http::Response> import_question(Call& call, const Over
     } else if (key == "entry") {
       question.entry = value;
     } else {
-      issues.push_back(
-          {IssueKind::unknown_key, "/" + key, "expected format or entry; an import has no other options"});
+      issues.emplace_back(IssueKind::unknown_key, "/" + key,
+                          "expected format or entry; an import has no other options");
     }
   }
   if (!issues.empty()) return refuse(call, problem_of({Code::invalid, std::move(issues)}));

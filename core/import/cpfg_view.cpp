@@ -198,9 +198,10 @@ class Files {
     for (const auto& [name, text] : files_) {
       const bool is_curve = ends_with(name, ".func") || ends_with(name, ".fset");
       if (is_curve && std::find(order.begin(), order.end(), name) == order.end()) order.push_back(name);
-      if (!is_curve && !ends_with(name, ".v"))
+      if (!is_curve && !ends_with(name, ".v")) {
         source_.warn(0, "the file " + lang_quotes(name) +
                             " is left out; only view files and files of functions are read");
+      }
     }
     for (const std::string& name : order) {
       const auto found = files_.find(name);

@@ -26,6 +26,7 @@ class ShapemlText {
   /// Writes the expression of the tokens from `from` to before `to`, with names translated to those of CGA.
   void expression(std::size_t from, std::size_t to, TracedText& out);
 
+ protected:
   ForeignText& source_;
   std::string text_;                  ///< without comments
   std::set<std::string> made_names_;  ///< to which tokens point

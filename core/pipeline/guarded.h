@@ -12,7 +12,8 @@ namespace seedmesh {
 /// Converts the pointer of a generator, which is relative to its parameters, to one into the request. Empty
 /// pointers and those that begin with "/output/" stay.
 inline std::string in_request(std::string pointer) {
-  return pointer.empty() || pointer.starts_with("/output/") ? pointer : "/parameters" + pointer;
+  if (pointer.empty() || pointer.starts_with("/output/")) return pointer;
+  return "/parameters" + pointer;
 }
 
 /// The same for all issues of an error.

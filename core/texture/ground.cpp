@@ -142,6 +142,7 @@ Blade blade_of(const Litter& litter, const Field& clumps, Rng own) {
 void add_blades(Relief& relief, const Litter& litter, const Field& clumps, Rng rng, const Job& job) {
   const int size = relief.height.size();
   std::vector<Blade> blades;
+  blades.reserve(static_cast<std::size_t>(litter.count));
   for (int i = 0; i < litter.count; ++i)
     blades.push_back(blade_of(litter, clumps, rng.at(static_cast<std::uint64_t>(i))));
   int drawn = 0;
@@ -192,6 +193,7 @@ Stone stone_of(const Litter& litter, Rng own) {
 void add_stones(Relief& relief, const Litter& litter, Rng rng, const Job& job) {
   const int size = relief.height.size();
   std::vector<Stone> stones;
+  stones.reserve(static_cast<std::size_t>(litter.count));
   for (int i = 0; i < litter.count; ++i)
     stones.push_back(stone_of(litter, rng.at(static_cast<std::uint64_t>(i))));
   int drawn = 0;

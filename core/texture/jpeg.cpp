@@ -106,9 +106,10 @@ Result<Picture> decode_jpeg(std::span<const std::byte> file, const PngLimits& li
   if (auto error = detail::size_error("JPEG", reader.jpeg.image_width, reader.jpeg.image_height, limits))
     return *std::move(error);
   const int components = reader.jpeg.num_components;
-  if (components != 1 && components != 3)
+  if (components != 1 && components != 3) {
     return detail::refused_picture("the JPEG has " + std::to_string(components) +
                                    " channels; expected 1 or 3");
+  }
   Picture picture;
   picture.width = reader.jpeg.image_width;
   picture.height = reader.jpeg.image_height;

@@ -73,11 +73,15 @@ SEEDMESH_WIDE void add_alpha(const float* __restrict cover, int size, std::uint3
   for (int x = 0; x < size; ++x) out[x] |= byte_of(cover[x], all) << 24U;
 }
 
-/// `here` begins one texel before the row and ends one after it. `steep` is half the height of the relief in texels.
-/// The third channel follows from the bytes of the other two.
-SEEDMESH_WIDE void pack_normals(const float* __restrict above, const float* __restrict here,
-                                const float* __restrict below, float steep, bool is_small, int size,
+/// Three rows of heights. `here` begins one texel before the row and ends one after it.
+struct HeightRows {
+  const float *above, *here, *below;
+};
+
+/// `steep` is half the height of the relief in texels. The third channel follows from the bytes of the other two.
+SEEDMESH_WIDE void pack_normals(const HeightRows& rows, float steep, bool is_small, int size,
                                 std::uint32_t* __restrict out) {
+  const float* __restrict above = rows.above, * __restrict here = rows.here, * __restrict below = rows.below;
   const Levels levels(is_small ? 4 : 1), last(is_small ? 2 : 1);
   for (int x = 0; x < size; ++x) {
     const float dx = (here[x] - here[x + 2]) * steep, dy = (below[x] - above[x]) * steep;
@@ -226,8 +230,8 @@ std::shared_ptr<const Image> normal_image(const Source& source) {
                    around.front() = here[last];
                    std::copy_n(here, size, around.begin() + 1);
                    around.back() = here[0];
-                   pack_normals(height.row((y - 1) & last), around.data(), height.row((y + 1) & last), steep,
-                                source.finish.is_small, size, row.data());
+                   pack_normals({height.row((y - 1) & last), around.data(), height.row((y + 1) & last)},
+                                steep, source.finish.is_small, size, row.data());
                  });
 }
 

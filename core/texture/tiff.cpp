@@ -103,18 +103,20 @@ std::string obstacle(const Layout& layout, std::size_t file_bytes) {
                                             COMPRESSION_DEFLATE,  COMPRESSION_ADOBE_DEFLATE,
                                             COMPRESSION_PACKBITS, COMPRESSION_ZSTD};
   const auto found = [](int number, const char* text) { return "found " + std::to_string(number) + text; };
-  if (std::find(compressions.begin(), compressions.end(), layout.compression) == compressions.end())
+  if (std::find(compressions.begin(), compressions.end(), layout.compression) == compressions.end()) {
     return found(layout.compression,
                  " as the compression; expected none, LZW, Deflate, PackBits or Zstandard");
+  }
   const bool is_float = layout.format == SAMPLEFORMAT_IEEEFP;
   const bool is_integer = layout.format == SAMPLEFORMAT_UINT || layout.format == SAMPLEFORMAT_INT ||
                           layout.format == SAMPLEFORMAT_VOID;
   const bool fits = is_float ? layout.bits == 32 || layout.bits == 64
                              : is_integer && (layout.bits == 8 || layout.bits == 16 || layout.bits == 32);
-  if (!fits)
+  if (!fits) {
     return found(
         layout.bits,
         " bits of a sample; expected integers of 8, 16 or 32 bits, or floating-point numbers of 32 or 64");
+  }
   if (layout.channels < 1 || layout.channels > 8) return found(layout.channels, " channels; expected 1 to 8");
   if (layout.orientation != ORIENTATION_TOPLEFT && layout.orientation != ORIENTATION_BOTLEFT)
     return found(layout.orientation, " as the orientation; expected 1 or 4");

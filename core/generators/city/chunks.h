@@ -48,6 +48,7 @@ class ChunkNodes {
   int group(std::uint32_t chunk, const char* name);
   /// Returns the node of the chunk, or of the city.
   int chunk(std::uint32_t chunk);
+  const Chunks& chunks() const { return chunks_; }
 
  private:
   Model& model_;

@@ -166,8 +166,8 @@ bool needs_outlines(const CityPlan& plan, const CityParams& params) {
 }
 
 /// One mesh for each kind of part in each chunk. Frees the outlines of the plan that nothing needs any more.
-void add_ground(Model& model, CityPlan& plan, Surface& surface, const CityParams& params,
-                const Chunks& chunks, ChunkNodes& nodes, const GenerateContext& context) {
+void add_ground(Model& model, CityPlan& plan, Surface& surface, const CityParams& params, ChunkNodes& nodes,
+                const GenerateContext& context) {
   Job& job = context.job;
   const bool keeps_outlines = !surface.is_level() || needs_outlines(plan, params);
   std::map<std::string, int> materials;
@@ -178,7 +178,7 @@ void add_ground(Model& model, CityPlan& plan, Surface& surface, const CityParams
     if (is_new) model.materials.push_back(make_material());
     add_mesh(model, name, material->second, mesh.take(job), nodes.group(chunk, "ground"));
   };
-  for (const GroundPiece& piece : ground_pieces(plan, chunks)) {
+  for (const GroundPiece& piece : ground_pieces(plan, nodes.chunks())) {
     GroundMeshes meshes(plan, surface, context.demand.textures > 0, job);
     std::size_t done = 0;
     for (const std::uint32_t n : piece.parts) {
@@ -199,7 +199,7 @@ void add_ground(Model& model, CityPlan& plan, Surface& surface, const CityParams
     add("lane_lines", striped("lane_line", {24, 16, 24}), meshes.lane_lines, piece.chunk);
     add(
         look.name, [&] { return material_of(look, params); }, meshes.plain, piece.chunk);
-    if (!chunks.is_divided() && piece.kind == PartKind::carriageway) surface.release_strips();
+    if (!nodes.chunks().is_divided() && piece.kind == PartKind::carriageway) surface.release_strips();
     constexpr std::size_t many_parts = 5000;
     if (!keeps_outlines && piece.parts.size() >= many_parts) return_unused_heap();
   }
@@ -284,7 +284,7 @@ Result<Model> city_model(CityPlan& plan, const CityParams& params, const Generat
   const Chunks chunks(plan, params);
   ChunkNodes nodes(model, chunks);
   Mesh bridges = bridge_mesh(plan, job);
-  add_ground(model, plan, surface, params, chunks, nodes, context);
+  add_ground(model, plan, surface, params, nodes, context);
   add_town_wall(model, plan, surface, params, job);
   add_foundations(model, plan, surface, params, job);
   add_bridges_and_tunnels(model, std::move(bridges), surface, params, job);
