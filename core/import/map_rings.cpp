@@ -136,9 +136,9 @@ Plan with_holes(PlanRing outer, const std::vector<PlanRing>& holes, const Job* j
   for (int round = 0; round < most_rounds && plan.rings.size() > 1; ++round) {
     plan = read_plan(std::move(plan.rings));
     std::vector<bool> has_error(plan.rings.size(), false);
-    for (const PlanDefect& fault : defects_of(plan, job)) {
+    for (const PlanDefect& defect : defects_of(plan, job)) {
       // The second of two rings that meet is named; the first can be the outer ring.
-      if (fault.ring > 0) has_error[fault.ring] = true;
+      if (defect.ring > 0) has_error[defect.ring] = true;
     }
     if (std::find(has_error.begin(), has_error.end(), true) == has_error.end()) break;
     std::vector<PlanRing> kept{plan.rings[0]};

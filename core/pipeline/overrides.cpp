@@ -156,14 +156,14 @@ std::optional<Result<Request>> read_preset(std::string_view name, const Override
   Json request = preset->second.request;
   const std::string generator = request.at("generator");
 
-  IssueList faults;
+  IssueList errors;
   std::set<std::string_view> seen;
   std::vector<std::pair<std::string, std::string>> places;
   for (const auto& [key, value] : overrides) {
     if (find_bad_utf8(key) != std::string_view::npos || find_bad_utf8(value) != std::string_view::npos) {
-      faults.add({IssueKind::syntax, "", "the query is not UTF-8"});
+      errors.add({IssueKind::syntax, "", "the query is not UTF-8"});
     } else if (!seen.insert(key).second) {
-      faults.add({IssueKind::duplicate_key, pointer_token(key),
+      errors.add({IssueKind::duplicate_key, pointer_token(key),
                   "\"" + shortened(key, 40) + "\" is given twice in the query"});
     } else if (const auto target = target_of(key, generator)) {
       // A seed stays a text where it is beyond 64 bits, so that a message repeats all its digits.
@@ -171,13 +171,13 @@ std::optional<Result<Request>> read_preset(std::string_view name, const Override
             key == "seed" && is_digits(value) ? Json(value) : value_of(*target->schema, value));
       places.emplace_back(target->pointer(), key);
     } else {
-      faults.add({IssueKind::unknown_key, pointer_token(key), unknown_key(key, generator)});
+      errors.add({IssueKind::unknown_key, pointer_token(key), unknown_key(key, generator)});
     }
   }
   Job::Options options;
   options.limits = limits;
   Result<Request> result = read_request_body(request, options);
-  std::vector<Issue> issues = faults.take();
+  std::vector<Issue> issues = errors.take();
   if (result && issues.empty()) return result;
   if (!result) {
     std::vector<Issue> others = result.error().issues;

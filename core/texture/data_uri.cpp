@@ -53,7 +53,7 @@ std::string said_of(std::string_view text) {
   return "\"" + std::string(head) + (head.size() < text.size() ? "…" : "") + "\", which is not such an image";
 }
 
-Error fault(std::string message) {
+Error invalid_input(std::string message) {
   return {Code::invalid, {{IssueKind::invalid_value, "", std::move(message)}}};
 }
 
@@ -117,7 +117,7 @@ std::string fault_of_jpeg(const std::vector<std::uint8_t>& bytes) {
 
 }  // namespace
 
-std::string fault_of_image_uri(std::string_view text) {
+std::string error_of_image_uri(std::string_view text) {
   const bool is_png = text.starts_with(png_head);
   if (is_png || text.starts_with(jpeg_head)) {
     const auto bytes = decoded(text.substr(is_png ? png_head.size() : jpeg_head.size()));
@@ -132,14 +132,14 @@ std::string fault_of_image_uri(std::string_view text) {
 Result<std::shared_ptr<const Image>> image_of_data_uri(std::string_view text, const std::string& name,
                                                        const Job& job) {
   const bool is_png = text.starts_with(png_head);
-  if (!is_png && !text.starts_with(jpeg_head)) return fault(fault_of_image_uri(text));
+  if (!is_png && !text.starts_with(jpeg_head)) return invalid_input(error_of_image_uri(text));
   auto bytes = decoded(text.substr(is_png ? png_head.size() : jpeg_head.size()));
-  if (!bytes) return fault("found characters that are not base64");
+  if (!bytes) return invalid_input("found characters that are not base64");
   if (is_png) {
     if (auto picture = decode_png(std::as_bytes(std::span(*bytes)), {longest_side}, job); !picture)
       return std::move(picture).error();
   } else if (std::string message = fault_of_jpeg(*bytes); !message.empty()) {
-    return fault(std::move(message));
+    return invalid_input(std::move(message));
   }
   auto image = std::make_shared<Image>();
   image->name = name;

@@ -11,7 +11,7 @@ namespace seedmesh::texture {
 
 /// Checks that a text is the data URI of a complete PNG or JPEG file. Returns an empty text if so, else the
 /// error. The pixels are not decoded. Cost: about 2 ns a byte.
-std::string fault_of_image_uri(std::string_view text);
+std::string error_of_image_uri(std::string_view text);
 
 /// Returns the bytes of the file. A PNG file is decoded (png.h), so that a damaged file or one of more than 8,192
 /// texels along a side is an error. Of a JPEG file, its end and the segments before its data are checked, and the

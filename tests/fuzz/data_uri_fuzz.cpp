@@ -14,7 +14,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   try {
     const auto image = texture::image_of_data_uri(text, "x", job);
     if (!image && image.error().issues.front().message.empty()) std::abort();
-    if (image && ((*image)->bytes.empty() || !texture::fault_of_image_uri(text).empty())) std::abort();
+    if (image && ((*image)->bytes.empty() || !texture::error_of_image_uri(text).empty())) std::abort();
   } catch (const Stop&) {
     // The memory budget is exceeded, which the pipeline reports to the client.
   }

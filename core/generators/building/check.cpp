@@ -180,7 +180,7 @@ std::pair<int, int> restrictions_of(const BuildingParams& params) {
 
 /// Reads the rules and adds the issues of rules and start. Null if the rules have syntax errors.
 std::shared_ptr<const RuleSet> read(const BuildingParams& params, std::vector<Issue>& issues) {
-  std::vector<lang::TextError> faults;
+  std::vector<lang::TextError> errors;
   if (params.rules && params.blueprint) {
     issues.emplace_back(IssueKind::conflict, "/blueprint",
                         "found rules and a blueprint, expected one of them");
@@ -191,23 +191,23 @@ std::shared_ptr<const RuleSet> read(const BuildingParams& params, std::vector<Is
   if (issues.size() > before) return nullptr;
   const RuleText& rules = set->text;
   Grammar& grammar = set->grammar;
-  grammar = read_rules(rules, params.start.value_or(""), faults);
-  if (faults.size() == 1 || rules.parts.size() > 1) {
-    for (const lang::TextError& fault : faults)
-      issues.push_back(issue_at(fault.kind, rules, fault.offset, fault.message));
-  } else if (!faults.empty()) {
-    std::vector<lang::TextError> all = faults;
+  grammar = read_rules(rules, params.start.value_or(""), errors);
+  if (errors.size() == 1 || rules.parts.size() > 1) {
+    for (const lang::TextError& error : errors)
+      issues.push_back(issue_at(error.kind, rules, error.offset, error.message));
+  } else if (!errors.empty()) {
+    std::vector<lang::TextError> all = errors;
     lang::add_issues("/rules", rules.text, all, issues);
   }
   const bool has_text_restriction =
       params.restrict == BuildingRestrict::non_erasing || params.restrict == BuildingRestrict::unimarker;
-  if (faults.empty() && has_text_restriction) {
+  if (errors.empty() && has_text_restriction) {
     add_refused(params, rules, "/restrict",
                 errors_of_restriction(grammar, params.restrict == BuildingRestrict::unimarker), issues);
   }
-  if (faults.empty() && params.weights == BuildingWeights::strict)
+  if (errors.empty() && params.weights == BuildingWeights::strict)
     add_refused(params, rules, "/weights", errors_of_weights(grammar), issues);
-  if (!faults.empty()) return nullptr;
+  if (!errors.empty()) return nullptr;
   if (params.rules) warn_of_materials(grammar, params, rules);
   check_start(params, rules, grammar, issues);
   grammar.texts.share();

@@ -137,7 +137,7 @@ std::uint32_t least_parameters(const Grammar& grammar, std::uint32_t symbol) {
 
 void check_grammar(Parser& p, std::string_view start) {
   if (p.grammar.rules.empty()) {
-    if (!p.faults.empty()) return;
+    if (!p.errors.empty()) return;
     const bool has_declarations = !p.grammar.attributes.empty() || !p.functions.empty();
     if (!p.grammar.is_cityengine && !has_declarations)
       return add_error(p, p.tokens.at(0), "found no rule, expected at least one");
@@ -153,8 +153,8 @@ void check_grammar(Parser& p, std::string_view start) {
     const auto found = p.symbols.find(start);
     p.grammar.start = found == p.symbols.end() ? none : found->second;
   }
-  if (p.faults.empty()) check_weights(p);
-  if (p.faults.empty()) {
+  if (p.errors.empty()) check_weights(p);
+  if (p.errors.empty()) {
     for (const Symbol& symbol : p.grammar.symbols) {
       leave_endless_whole(p, symbol);
       warn_of_unreachable(p, symbol);
@@ -167,8 +167,8 @@ void check_grammar(Parser& p, std::string_view start) {
       return p.grammar.rules[r].parameter_count == step.argument_count;
     };
     if (!step.is_leaf && !symbol.rules.empty() && std::ranges::none_of(symbol.rules, takes) &&
-        p.faults.size() < lang::max_errors) {
-      p.faults.push_back({step.offset,
+        p.errors.size() < lang::max_errors) {
+      p.errors.push_back({step.offset,
                           "`" + symbol.name + "` takes " +
                               std::to_string(p.grammar.rules[symbol.rules[0]].parameter_count) +
                               " parameters, found " + std::to_string(step.argument_count),

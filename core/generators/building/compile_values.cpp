@@ -334,9 +334,9 @@ Value compile_value(Parser& p, std::size_t from, std::size_t to) {
   end.text = {};
   writing.out.push_back(end);
   std::size_t at = 0;
-  const std::size_t before = p.faults.size();
-  value.expression = p.grammar.program.parse(writing.out, at, p.names, p.faults);
-  if (p.faults.size() == before && at + 1 < writing.out.size()) {
+  const std::size_t before = p.errors.size();
+  value.expression = p.grammar.program.parse(writing.out, at, p.names, p.errors);
+  if (p.errors.size() == before && at + 1 < writing.out.size()) {
     add_error(p, writing.out[at],
               "found " + in_quotes(writing.out[at]) + ", expected an operator or the end of the expression");
   }

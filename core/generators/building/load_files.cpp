@@ -25,11 +25,11 @@ struct Overrides {
 class Loader {
  public:
   Loader(const RuleText& files, std::string_view plain, std::string_view style,
-         std::vector<lang::TextError>& faults)
-      : files_(files), plain_(plain), style_(style), faults_(faults) {}
+         std::vector<lang::TextError>& errors)
+      : files_(files), plain_(plain), style_(style), errors_(errors) {}
 
   void load(const RuleText::Part& part, const std::string& prefix, const Overrides& overrides, int depth) {
-    RuleTokens file = read_tokens(plain_, part, faults_);
+    RuleTokens file = read_tokens(plain_, part, errors_);
     include_files(file, depth);
     std::vector<Statement> all = statements_of(file);
     drop_replaced(file, all);
@@ -89,7 +89,7 @@ class Loader {
         return;
       }
       warn(token, "`import` has no name, so that the names of " + lang::in_quotes(path) + " get no prefix");
-      RuleTokens other = read_tokens(plain_, *part, faults_);
+      RuleTokens other = read_tokens(plain_, *part, errors_);
       include_files(other, depth + 1);
       const std::size_t begin = file.tokens.size() - 1;
       file.included.push_back(begin);
@@ -284,12 +284,12 @@ class Loader {
   }
 
   void error(const Token& token, std::string message) {
-    if (faults_.size() < lang::max_errors) faults_.push_back({token.offset, std::move(message)});
+    if (errors_.size() < lang::max_errors) errors_.push_back({token.offset, std::move(message)});
   }
 
   const RuleText& files_;
   std::string_view plain_, style_;
-  std::vector<lang::TextError>& faults_;
+  std::vector<lang::TextError>& errors_;
   std::map<std::string, std::string> starts_;
   std::size_t instances_ = 0;
 };
@@ -297,10 +297,10 @@ class Loader {
 }  // namespace
 
 LoadedTokens load_files(const RuleText& files, std::string_view plain, std::string_view style,
-                        std::vector<lang::TextError>& faults) {
+                        std::vector<lang::TextError>& errors) {
   const RuleText::Part& main = files.parts.front();
   LoadedTokens plain_tokens;
-  plain_tokens.tokens = lang::tokenize(plain, main.first, main.first + main.count, faults);
+  plain_tokens.tokens = lang::tokenize(plain, main.first, main.first + main.count, errors);
   // Most rules have none of these words: their tokens stay as they are.
   const bool is_plain = std::ranges::none_of(plain_tokens.tokens, [](const Token& token) {
     return is_name(token, "import") || is_name(token, "style") || is_name(token, "start") ||
@@ -310,12 +310,12 @@ LoadedTokens load_files(const RuleText& files, std::string_view plain, std::stri
   std::vector<lang::TextError> again;  // the same errors of the main file, and those of the others
   Loader loader(files, plain, style, again);
   loader.load(main, "", {}, 0);
-  for (lang::TextError& fault : again) {
+  for (lang::TextError& error : again) {
     const auto is_same = [&](const lang::TextError& known) {
-      return known.offset == fault.offset && known.message == fault.message;
+      return known.offset == error.offset && known.message == error.message;
     };
-    if (faults.size() < lang::max_errors && std::ranges::none_of(faults, is_same))
-      faults.push_back(std::move(fault));
+    if (errors.size() < lang::max_errors && std::ranges::none_of(errors, is_same))
+      errors.push_back(std::move(error));
   }
   return std::move(loader.out);
 }

@@ -27,6 +27,6 @@ struct LoadedTokens {
 
 /// `plain` is the joined text without comments. `style` selects one of the styles of the main file; empty: Default.
 LoadedTokens load_files(const RuleText& files, std::string_view plain, std::string_view style,
-                        std::vector<lang::TextError>& faults);
+                        std::vector<lang::TextError>& errors);
 
 }  // namespace seedmesh::building

@@ -125,7 +125,7 @@ void check_materials(const BuildingParams& params, std::vector<Issue>& issues) {
     if (!given.images) continue;
     const auto check = [&](const std::string& uri, const char* member) {
       if (uri.empty()) return;
-      std::string error = texture::fault_of_image_uri(uri);
+      std::string error = texture::error_of_image_uri(uri);
       if (!error.empty()) {
         issues.emplace_back(IssueKind::invalid_value, "/materials/" + name + "/images/" + member,
                             std::move(error));
@@ -136,7 +136,7 @@ void check_materials(const BuildingParams& params, std::vector<Issue>& issues) {
     check(given.images->surface, "surface");
   }
   if (params.facade_image.empty()) return;
-  if (std::string error = texture::fault_of_image_uri(params.facade_image); !error.empty())
+  if (std::string error = texture::error_of_image_uri(params.facade_image); !error.empty())
     issues.emplace_back(IssueKind::invalid_value, "/facade_image", std::move(error));
 }
 

@@ -202,17 +202,17 @@ void parse_all(Parser& p, std::string_view start) {
 
 }  // namespace
 
-Grammar read_rules(const RuleText& text, std::string_view start, std::vector<lang::TextError>& faults) {
+Grammar read_rules(const RuleText& text, std::string_view start, std::vector<lang::TextError>& errors) {
   Grammar grammar;
   const std::size_t dollar = start.find('$');
   const std::string_view style =
       dollar == std::string_view::npos ? std::string_view() : start.substr(0, dollar);
   if (dollar != std::string_view::npos) start.remove_prefix(dollar + 1);
-  Parser parser(text, style, grammar, faults);
+  Parser parser(text, style, grammar, errors);
   for (const lang::TextError& warning : parser.tokens.warnings())
     add_warning(parser, static_cast<std::uint32_t>(warning.offset), warning.message);
   parse_all(parser, start);
-  std::ranges::stable_sort(faults, {}, &lang::TextError::offset);
+  std::ranges::stable_sort(errors, {}, &lang::TextError::offset);
   for (Warning& warning : grammar.warnings) {
     const Issue place = issue_at(IssueKind::syntax, text, static_cast<std::size_t>(warning.line), "");
     warning.pointer = place.pointer;

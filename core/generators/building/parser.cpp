@@ -34,16 +34,16 @@ constexpr SlotName slot_names[] = {
 }  // namespace
 
 Parser::Parser(const RuleText& text, std::string_view style, Grammar& given,
-               std::vector<lang::TextError>& errors)
-    : grammar(given), faults(errors), tokens(text, style, errors) {
+               std::vector<lang::TextError>& found)
+    : grammar(given), errors(found), tokens(text, style, found) {
   for (const SlotName& each : slot_names) names.bind_slot(each.name, each.slot);
 }
 
 void add_error(Parser& p, const Token& token, std::string message, IssueKind kind) {
-  if (p.faults.size() >= lang::max_errors || token.offset == p.last_error) return;
+  if (p.errors.size() >= lang::max_errors || token.offset == p.last_error) return;
   p.last_error = token.offset;
-  if (p.faults.size() + 1 == lang::max_errors) message += " (further errors are not reported)";
-  p.faults.push_back({token.offset, std::move(message), kind});
+  if (p.errors.size() + 1 == lang::max_errors) message += " (further errors are not reported)";
+  p.errors.push_back({token.offset, std::move(message), kind});
 }
 
 void add_unexpected(Parser& p, std::string_view expected) {

@@ -45,11 +45,10 @@ struct Declaration {
 };
 
 struct Parser {
-  Parser(const RuleText& text, std::string_view style, Grammar& grammar,
-         std::vector<lang::TextError>& faults);
+  Parser(const RuleText& text, std::string_view style, Grammar& grammar, std::vector<lang::TextError>& found);
 
   Grammar& grammar;
-  std::vector<lang::TextError>& faults;
+  std::vector<lang::TextError>& errors;
   Tokens tokens;
   std::size_t at = 0;  ///< the next token
   int depth = 0;       ///< open brackets

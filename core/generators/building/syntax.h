@@ -381,6 +381,6 @@ std::uint32_t least_parameters(const Grammar& grammar, std::uint32_t symbol);
 /// Reads rules in both notations. Adds every error at its byte of the joined text. `start` is a symbol, perhaps
 /// with a style before it (Modern$Lot); if it is empty, that of the rule after @StartRule or `start`, or of the
 /// first rule. Cost: linear. Brackets may be nested 100 deep.
-Grammar read_rules(const RuleText& text, std::string_view start, std::vector<lang::TextError>& faults);
+Grammar read_rules(const RuleText& text, std::string_view start, std::vector<lang::TextError>& errors);
 
 }  // namespace seedmesh::building

@@ -83,13 +83,13 @@ std::uint32_t Grammar::symbol_named(std::string_view name) const {
   return none;
 }
 
-Tokens::Tokens(const RuleText& text, std::string_view style, std::vector<lang::TextError>& faults)
+Tokens::Tokens(const RuleText& text, std::string_view style, std::vector<lang::TextError>& errors)
     : files_(text), main_size_(text.parts.front().count) {
   for (const RuleText::Part& part : text.parts) {  // a comment without an end ends with its file
     text_.resize(part.first, '\n');
     text_ += without_comments(text.text_of(part));
   }
-  loaded_ = load_files(text, text_, style, faults);
+  loaded_ = load_files(text, text_, style, errors);
   drop_empty_brackets(loaded_.tokens);
   partner_.assign(tokens_.size(), tokens_.size() - 1);
   std::vector<std::size_t> open;
@@ -98,13 +98,13 @@ Tokens::Tokens(const RuleText& text, std::string_view style, std::vector<lang::T
       open.push_back(i);
     } else if (closes(tokens_[i])) {
       if (open.empty()) {
-        if (faults.size() < lang::max_errors) {
-          faults.push_back({tokens_[i].offset,
+        if (errors.size() < lang::max_errors) {
+          errors.push_back({tokens_[i].offset,
                             "found " + in_quotes(tokens_[i]) + ", expected an opening bracket before it"});
         }
       } else {
-        if (!fit(tokens_[open.back()].text, tokens_[i].text) && faults.size() < lang::max_errors) {
-          faults.push_back({tokens_[i].offset, "found " + in_quotes(tokens_[i]) +
+        if (!fit(tokens_[open.back()].text, tokens_[i].text) && errors.size() < lang::max_errors) {
+          errors.push_back({tokens_[i].offset, "found " + in_quotes(tokens_[i]) +
                                                    ", expected the partner of " +
                                                    in_quotes(tokens_[open.back()])});
         }
@@ -114,8 +114,8 @@ Tokens::Tokens(const RuleText& text, std::string_view style, std::vector<lang::T
     }
   }
   for (const std::size_t i : open) {
-    if (faults.size() < lang::max_errors)
-      faults.push_back({tokens_[i].offset, in_quotes(tokens_[i]) + " is not closed"});
+    if (errors.size() < lang::max_errors)
+      errors.push_back({tokens_[i].offset, in_quotes(tokens_[i]) + " is not closed"});
   }
 }
 

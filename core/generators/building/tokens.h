@@ -17,7 +17,7 @@ class Tokens {
   Tokens(const Tokens&) = delete;
   Tokens& operator=(const Tokens&) = delete;
   /// Tokens of imported files follow those of the main file. Their names get the prefix of the import (load_files.h).
-  Tokens(const RuleText& text, std::string_view style, std::vector<lang::TextError>& faults);
+  Tokens(const RuleText& text, std::string_view style, std::vector<lang::TextError>& errors);
   /// Gives token i another text, which has to outlive the tokens.
   void rename(std::size_t i, std::string_view text) { tokens_[i].text = text; }
   const lang::Token& at(std::size_t i) const { return tokens_[i < tokens_.size() ? i : tokens_.size() - 1]; }

@@ -49,7 +49,7 @@ void check_materials(const LsystemParams& params, std::vector<Issue>& issues) {
     }
     const auto check = [&](const std::string& uri, const char* member) {
       if (uri.empty()) return;
-      std::string error = texture::fault_of_image_uri(uri);
+      std::string error = texture::error_of_image_uri(uri);
       if (!error.empty())
         issues.push_back({IssueKind::invalid_value, pointer_to(i) + "/images/" + member, std::move(error)});
     };

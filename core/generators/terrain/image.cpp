@@ -30,7 +30,7 @@ constexpr std::array<std::int8_t, 256> digit_values() {
 }
 constexpr std::array<std::int8_t, 256> values = digit_values();
 
-Error fault(std::string pointer, std::string message) {
+Error invalid_input(std::string pointer, std::string message) {
   return Error{Code::invalid, {{IssueKind::invalid_value, std::move(pointer), std::move(message)}}};
 }
 
@@ -56,21 +56,21 @@ bool is_raw(TerrainEncoding encoding) {
 Result<Field> of_raw(const TerrainImage& image, std::span<const std::uint8_t> bytes, const Scale& scale,
                      const Job& job) {
   if (bytes.size() % 2 != 0 || bytes.size() < 8) {
-    return fault("/image/data", "found " + std::to_string(bytes.size()) +
-                                    " bytes; samples have 2 bytes each, and there are at least 4");
+    return invalid_input("/image/data", "found " + std::to_string(bytes.size()) +
+                                            " bytes; samples have 2 bytes each, and there are at least 4");
   }
   const std::size_t count = bytes.size() / 2;
   const auto root = static_cast<std::size_t>(std::floor(std::sqrt(static_cast<double>(count)) + 0.5));
   const std::size_t width = image.width ? static_cast<std::size_t>(*image.width) : root;
   if (width == 0 || count % width != 0 || count / width < 2 || (!image.width && root * root != count)) {
     const bool is_hgt = image.encoding == TerrainEncoding::hgt;
-    return fault("/image/data", "found " + std::to_string(count) + " samples, which are not " +
-                                    (image.width ? "rows of " + std::to_string(*image.width)
-                                     : is_hgt    ? std::string("a square; an .hgt file is square")
-                                                 : std::string("a square; give the width")));
+    return invalid_input("/image/data", "found " + std::to_string(count) + " samples, which are not " +
+                                            (image.width ? "rows of " + std::to_string(*image.width)
+                                             : is_hgt    ? std::string("a square; an .hgt file is square")
+                                                         : std::string("a square; give the width")));
   }
   if (width > longest_side || count / width > longest_side)
-    return fault("/image/data", "a side has more than 16385 samples");
+    return invalid_input("/image/data", "a side has more than 16385 samples");
   Field field(job, static_cast<std::int32_t>(width), static_cast<std::int32_t>(count / width), 0);
   const bool is_big = image.encoding == TerrainEncoding::r16_big ||
                       image.encoding == TerrainEncoding::s16_big || image.encoding == TerrainEncoding::hgt;
@@ -158,12 +158,12 @@ Result<Field> of_picture(const TerrainImage& image, const texture::Decoded& deco
         "found a JPEG or a WebP with losses, which changes the digits of heights; expected a PNG or a WebP "
         "without loss";
   }
-  if (!wrong.empty()) return fault("/image/data", wrong);
+  if (!wrong.empty()) return invalid_input("/image/data", wrong);
   const std::int64_t colored = image.encoding == TerrainEncoding::grey
                                    ? first_colored(picture, decoded.is_lossy ? lossy_slack : 0)
                                    : -1;
   if (colored >= 0) {
-    return fault(
+    return invalid_input(
         "/image/data",
         "the pixel in column " + std::to_string(colored % picture.width) + " of row " +
             std::to_string(colored / picture.width) +
@@ -184,12 +184,13 @@ Result<Field> of_picture(const TerrainImage& image, const texture::Decoded& deco
 Result<Field> of_samples(const TerrainImage& image, const texture::Decoded& decoded, const Job& job) {
   const texture::Samples& samples = *decoded.samples;
   if (image.encoding != TerrainEncoding::metres) {
-    return fault("/image/encoding",
-                 "found a TIFF of signed, 32-bit or floating-point samples; expected metres");
+    return invalid_input("/image/encoding",
+                         "found a TIFF of signed, 32-bit or floating-point samples; expected metres");
   }
   if (samples.width < 2 || samples.height < 2) {
-    return fault("/image/data", "found " + std::to_string(samples.width) + " x " +
-                                    std::to_string(samples.height) + " samples; a field has at least 2 x 2");
+    return invalid_input("/image/data", "found " + std::to_string(samples.width) + " x " +
+                                            std::to_string(samples.height) +
+                                            " samples; a field has at least 2 x 2");
   }
   Field field(job, static_cast<std::int32_t>(samples.width), static_cast<std::int32_t>(samples.height), 0);
   const bool has_voids = decoded.no_data.has_value();
@@ -208,7 +209,7 @@ Result<Field> of_file(const TerrainImage& image, std::span<const std::uint8_t> b
                       const Job& job) {
   Result<texture::Decoded> read =
       texture::decode_picture(std::as_bytes(bytes), {.longest_side = longest_side}, job);
-  if (!read) return fault("/image/data", read.error().issues.front().message);
+  if (!read) return invalid_input("/image/data", read.error().issues.front().message);
   return read->picture ? of_picture(image, *read, scale, job) : of_samples(image, *read, job);
 }
 
@@ -224,7 +225,7 @@ Result<Array<std::uint8_t>> bytes_of_base64(std::string_view text, const Job& jo
   if (text.starts_with("data:")) {
     const std::size_t comma = text.find(',');
     if (comma == std::string_view::npos || !text.substr(0, comma).ends_with(";base64"))
-      return fault("", "found a data: URL without base64; expected data:image/png;base64,…");
+      return invalid_input("", "found a data: URL without base64; expected data:image/png;base64,…");
     start = comma + 1;
   }
   std::string_view digits = text.substr(start);
@@ -234,23 +235,24 @@ Result<Array<std::uint8_t>> bytes_of_base64(std::string_view text, const Job& jo
   std::uint32_t word = 0;
   for (std::size_t i = 0; i < digits.size(); ++i) {
     const std::int8_t value = values[static_cast<unsigned char>(digits[i])];
-    if (value == no_digit) return fault("", "character " + std::to_string(start + i + 1) + " is not base64");
+    if (value == no_digit)
+      return invalid_input("", "character " + std::to_string(start + i + 1) + " is not base64");
     word = word << 6U | static_cast<std::uint32_t>(value);
     if (i % 4 != 0) bytes.push_back(static_cast<std::uint8_t>(word >> (6 - i % 4 * 2)));
   }
   if (digits.size() % 4 == 1)
-    return fault("", "found base64 whose last group has one character of four; expected two or more");
+    return invalid_input("", "found base64 whose last group has one character of four; expected two or more");
   return bytes;
 }
 
 Result<Field> field_of_image(const TerrainImage& image, const Job& job) {
   Result<Array<std::uint8_t>> bytes = bytes_of_base64(image.data, job);
-  if (!bytes) return fault("/image/data", bytes.error().issues.front().message);
+  if (!bytes) return invalid_input("/image/data", bytes.error().issues.front().message);
   const Scale scale{image.low, image.high - image.low};
   Result<Field> field = is_raw(image.encoding) ? of_raw(image, bytes->span(), scale, job)
                                                : of_file(image, bytes->span(), scale, job);
   if (!field) return field;
-  if (!fill_voids(*field, job)) return fault("/image/data", "no sample has a height");
+  if (!fill_voids(*field, job)) return invalid_input("/image/data", "no sample has a height");
   if (image.flip) flip(*field);
   return field;
 }

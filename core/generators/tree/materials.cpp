@@ -72,7 +72,7 @@ template <class Images>
 void check(const Images& images, const std::string& pointer, std::vector<Issue>& issues) {
   const auto check_one = [&](const std::string& uri, const char* member) {
     if (uri.empty()) return;
-    std::string error = texture::fault_of_image_uri(uri);
+    std::string error = texture::error_of_image_uri(uri);
     if (!error.empty())
       issues.push_back({IssueKind::invalid_value, pointer + "/" + member, std::move(error)});
   };

@@ -20,7 +20,7 @@ constexpr double touching = 1e-7;
 // A triangle or ring of less than this share of the squared diagonal has no area.
 constexpr double no_area = 1e-14;
 // Further errors are not reported.
-constexpr std::size_t most_faults = 64;
+constexpr std::size_t most_defects = 64;
 
 double cross(const dvec2& a, const dvec2& b) { return a.x * b.y - a.y * b.x; }
 
@@ -63,27 +63,27 @@ bool turns_back(const Side& side, const Side& next, double reach) {
          (distance_to(next.to, side) <= reach || distance_to(side.from, next) <= reach);
 }
 
-void find_ring_faults(const Plan& plan, double diagonal, std::vector<PlanDefect>& faults) {
+void find_ring_defects(const Plan& plan, double diagonal, std::vector<PlanDefect>& defects) {
   for (std::uint32_t r = 0; r < plan.rings.size(); ++r) {
     const PlanRing& ring = plan.rings[r];
     const auto count = static_cast<std::uint32_t>(ring.size());
     if (count < 3) {
-      faults.push_back({r, 0,
-                        "ring " + std::to_string(r) + " has " + std::to_string(count) +
-                            " points; an outline needs at least 3"});
+      defects.push_back({r, 0,
+                         "ring " + std::to_string(r) + " has " + std::to_string(count) +
+                             " points; an outline needs at least 3"});
       continue;
     }
-    for (std::uint32_t i = 0; i < count && faults.size() < most_faults; ++i) {
+    for (std::uint32_t i = 0; i < count && defects.size() < most_defects; ++i) {
       const std::uint32_t next = (i + 1) % count;
       if (glm::length(ring[next] - ring[i]) <= same_point * diagonal)
-        faults.push_back({r, next, name_of(r, next) + " repeats the point before it"});
+        defects.push_back({r, next, name_of(r, next) + " repeats the point before it"});
     }
     if (std::abs(signed_area(ring)) <= no_area * diagonal * diagonal)
-      faults.push_back({r, 0, "ring " + std::to_string(r) + " has no area"});
+      defects.push_back({r, 0, "ring " + std::to_string(r) + " has no area"});
   }
 }
 
-void find_meetings(const Plan& plan, double reach, const Job* job, std::vector<PlanDefect>& faults) {
+void find_meetings(const Plan& plan, double reach, const Job* job, std::vector<PlanDefect>& defects) {
   const std::vector<Side> sides = sides_of(plan);
   std::vector<std::size_t> order(sides.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -103,15 +103,15 @@ void find_meetings(const Plan& plan, double reach, const Job* job, std::vector<P
                           : is_before ? turns_back(b, a, reach)
                                       : do_meet(a, b, reach);
     if (is_fault) {
-      faults.push_back({b.ring, b.vertex,
-                        "the edge from " + name_of(b.ring, b.vertex) + " crosses or touches the edge from " +
-                            name_of(a.ring, a.vertex)});
+      defects.push_back({b.ring, b.vertex,
+                         "the edge from " + name_of(b.ring, b.vertex) + " crosses or touches the edge from " +
+                             name_of(a.ring, a.vertex)});
     }
-    return faults.size() < most_faults;
+    return defects.size() < most_defects;
   });
 }
 
-void find_lost_holes(const Plan& plan, const Job* job, std::vector<PlanDefect>& faults) {
+void find_lost_holes(const Plan& plan, const Job* job, std::vector<PlanDefect>& defects) {
   std::vector<Plan> rings;
   std::vector<std::pair<dvec2, dvec2>> boxes;
   for (const PlanRing& ring : plan.rings) {
@@ -127,16 +127,16 @@ void find_lost_holes(const Plan& plan, const Job* job, std::vector<PlanDefect>& 
     const auto& [low, high] = boxes[ring];
     return p.x >= low.x && p.y >= low.y && p.x <= high.x && p.y <= high.y && contains(rings[ring], p);
   };
-  for (std::uint32_t r = 1; r < plan.rings.size() && faults.size() < most_faults; ++r) {
+  for (std::uint32_t r = 1; r < plan.rings.size() && defects.size() < most_defects; ++r) {
     if (job) job->check();
     const dvec2 p = plan.rings[r][0];
     if (!is_in(0, p)) {
-      faults.push_back({r, 0, "ring " + std::to_string(r) + " is a hole outside of ring 0"});
+      defects.push_back({r, 0, "ring " + std::to_string(r) + " is a hole outside of ring 0"});
       continue;
     }
     for (std::uint32_t other = 1; other < plan.rings.size(); ++other) {
       if (other == r || !is_in(other, p)) continue;
-      faults.push_back(
+      defects.push_back(
           {r, 0,
            "ring " + std::to_string(r) + " is a hole inside of the hole of ring " + std::to_string(other)});
       break;
@@ -147,22 +147,22 @@ void find_lost_holes(const Plan& plan, const Job* job, std::vector<PlanDefect>& 
 }  // namespace
 
 std::vector<PlanDefect> defects_of(const Plan& plan, const Job* job) {
-  std::vector<PlanDefect> faults;
+  std::vector<PlanDefect> defects;
   if (plan.rings.empty()) return {{0, 0, "a plan needs at least one ring"}};
   for (std::uint32_t r = 0; r < plan.rings.size(); ++r) {
-    for (std::uint32_t i = 0; i < plan.rings[r].size() && faults.size() < most_faults; ++i) {
+    for (std::uint32_t i = 0; i < plan.rings[r].size() && defects.size() < most_defects; ++i) {
       const dvec2 p = plan.rings[r][i];
       if (!std::isfinite(p.x) || !std::isfinite(p.y))
-        faults.push_back({r, i, name_of(r, i) + " is not finite"});
+        defects.push_back({r, i, name_of(r, i) + " is not finite"});
     }
   }
-  if (!faults.empty()) return faults;
+  if (!defects.empty()) return defects;
   const double diagonal = diagonal_of(plan);
-  find_ring_faults(plan, diagonal, faults);
-  if (!faults.empty()) return faults;
-  find_meetings(plan, touching * diagonal, job, faults);
-  if (faults.empty()) find_lost_holes(plan, job, faults);
-  return faults;
+  find_ring_defects(plan, diagonal, defects);
+  if (!defects.empty()) return defects;
+  find_meetings(plan, touching * diagonal, job, defects);
+  if (defects.empty()) find_lost_holes(plan, job, defects);
+  return defects;
 }
 
 Plan read_plan(std::vector<PlanRing> rings) {

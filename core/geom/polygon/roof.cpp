@@ -42,13 +42,13 @@ class RoofMaker {
     for (std::uint32_t i = 0; i < count_; ++i) base_.source.push_back(i);
   }
 
-  Roof make(const std::vector<PlanDefect>& faults) {
+  Roof make(const std::vector<PlanDefect>& defects) {
     drop_ = 0;
     outward_.assign(count_, 0);
     std::optional<RoofSurface> body;
-    if (!faults.empty())
-      roof_.warnings.push_back("no roof can be made over this outline: " + faults[0].message);
-    switch (faults.empty() ? options_.kind : RoofKind::flat) {
+    if (!defects.empty())
+      roof_.warnings.push_back("no roof can be made over this outline: " + defects[0].message);
+    switch (defects.empty() ? options_.kind : RoofKind::flat) {
       case RoofKind::flat:
         break;
       case RoofKind::shed:
@@ -74,7 +74,7 @@ class RoofMaker {
       add_faces(*body, false, 0);
     }
     const bool has_cover = options_.overhang > 0 || options_.verge > 0 || options_.thickness > 0;
-    if (has_cover && faults.empty()) add_cover();
+    if (has_cover && defects.empty()) add_cover();
     return std::move(roof_);
   }
 
@@ -369,13 +369,13 @@ class RoofMaker {
 }  // namespace
 
 Roof roof(const Plan& plan, const RoofOptions& options, const Job& job) {
-  const std::vector<PlanDefect> faults = defects_of(plan, &job);
-  if (!faults.empty() || options.kind == RoofKind::flat)
-    return RoofMaker(plan, options, attempts[0], job).make(faults);
+  const std::vector<PlanDefect> defects = defects_of(plan, &job);
+  if (!defects.empty() || options.kind == RoofKind::flat)
+    return RoofMaker(plan, options, attempts[0], job).make(defects);
   std::optional<Roof> bare;  // closed except for its cover
   for (const Attempt& attempt : attempts) {
     RoofMaker maker(plan, options, attempt, job);
-    Roof made = maker.make(faults);
+    Roof made = maker.make(defects);
     if (!maker.has_slopes() || !is_closed(made, false, job)) continue;
     if (is_closed(made, true, job)) return made;
     if (!bare) bare = std::move(made);
@@ -387,7 +387,7 @@ Roof roof(const Plan& plan, const RoofOptions& options, const Job& job) {
   }
   RoofOptions level = options;
   level.kind = RoofKind::flat;
-  Roof made = RoofMaker(plan, level, attempts[0], job).make(faults);
+  Roof made = RoofMaker(plan, level, attempts[0], job).make(defects);
   made.warnings.emplace_back("no roof of this kind can be made over this plan, so the roof is flat");
   return made;
 }

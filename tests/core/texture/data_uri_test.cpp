@@ -36,11 +36,11 @@ TEST(DataUri, RejectsOtherFiles) {
 
 TEST(DataUri, ReportsWhatWasFoundInsteadOfAnImage) {
   using testing::StartsWith;
-  EXPECT_THAT(fault_of_image_uri("https://example.org/bark.png"),
+  EXPECT_THAT(error_of_image_uri("https://example.org/bark.png"),
               StartsWith("found \"https://example.org/bark.png\", which is not such an image; expected"));
-  EXPECT_THAT(fault_of_image_uri("data:image/webp;base64,UklGRg=="),
+  EXPECT_THAT(error_of_image_uri("data:image/webp;base64,UklGRg=="),
               StartsWith("found \"data:image/webp…\""));
-  EXPECT_THAT(fault_of_image_uri("\xC3\xA9"), StartsWith("found no image; expected"));
+  EXPECT_THAT(error_of_image_uri("\xC3\xA9"), StartsWith("found no image; expected"));
 }
 
 TEST(DataUri, RejectsATruncatedImage) {
@@ -49,10 +49,10 @@ TEST(DataUri, RejectsATruncatedImage) {
 }
 
 TEST(DataUri, DetectsATruncatedImageWithoutDecodingIt) {
-  EXPECT_EQ(fault_of_image_uri(red), "");
+  EXPECT_EQ(error_of_image_uri(red), "");
   for (std::size_t length = 24; length + 4 < red.size(); length += 4)
-    EXPECT_FALSE(fault_of_image_uri(red.substr(0, length)).empty()) << length;
-  EXPECT_EQ(fault_of_image_uri("data:image/png;base64,iVBORw0KGgo="),
+    EXPECT_FALSE(error_of_image_uri(red.substr(0, length)).empty()) << length;
+  EXPECT_EQ(error_of_image_uri("data:image/png;base64,iVBORw0KGgo="),
             "the PNG is truncated: it ends after 8 bytes, before the end of its data");
 }
 
