@@ -42,10 +42,10 @@ class Check {
   }
 
  private:
-  void add_error_if(bool is_error, IssueKind kind, std::string pointer, std::string message) {
-    if (is_error) add_error(kind, std::move(pointer), std::move(message));
+  void error_if(bool is_error, IssueKind kind, std::string pointer, std::string message) {
+    if (is_error) error(kind, std::move(pointer), std::move(message));
   }
-  void add_error(IssueKind kind, std::string pointer, std::string message) {
+  void error(IssueKind kind, std::string pointer, std::string message) {
     issues_.push_back({kind, std::move(pointer), std::move(message)});
   }
 
@@ -62,9 +62,9 @@ class Check {
     if (!value || is(to)) return;
     std::string owners;
     for (const Algorithm each : to) owners += (owners.empty() ? "" : ", ") + std::string(text_of(each));
-    add_error(IssueKind::conflict, std::string("/") + name,
-              std::string(text_of(params_.algorithm)) + " has no " + name +
-                  "; only these algorithms have it: " + owners);
+    error(IssueKind::conflict, std::string("/") + name,
+          std::string(text_of(params_.algorithm)) + " has no " + name +
+              "; only these algorithms have it: " + owners);
   }
 
   void belongings() {
@@ -73,8 +73,8 @@ class Check {
             {fault_formation, poisson_faulting, fbm, brownian, expression, fracture});
     belongs("expression", params_.expression, {expression});
     if (is({expression}) && !params_.expression) {
-      add_error(IssueKind::missing, "",
-                "\"expression\" is missing; the algorithm expression takes its heights from it");
+      error(IssueKind::missing, "",
+            "\"expression\" is missing; the algorithm expression takes its heights from it");
     }
     belongs("amplitude", params_.amplitude,
             {triangular_edge, diamond_square, square_square, fbm, brownian, fracture});
@@ -94,17 +94,15 @@ class Check {
     belongs("fracture", params_.fracture, {fracture});
     belongs("image", params_.image, {image});
     if (is({image}) && !params_.image)
-      add_error(IssueKind::missing, "",
-                "\"image\" is missing; the algorithm image reads its heights from it");
+      error(IssueKind::missing, "", "\"image\" is missing; the algorithm image reads its heights from it");
     if (is({triangular_edge}) && params_.hurst &&
         params_.mode.value_or(TerrainMode::random) == TerrainMode::random)
-      add_error(IssueKind::conflict, "/hurst",
-                "the mode random does not use hurst; only the mode midpoint does");
+      error(IssueKind::conflict, "/hurst", "the mode random does not use hurst; only the mode midpoint does");
     if (params_.fault_width &&
         params_.fault_step.value_or(TerrainFaultStep::hard) == TerrainFaultStep::hard &&
         is({fault_formation, poisson_faulting})) {
-      add_error(IssueKind::conflict, "/fault_width",
-                "a hard step has no width; expected fault_step line or cosine");
+      error(IssueKind::conflict, "/fault_width",
+            "a hard step has no width; expected fault_step line or cosine");
     }
   }
 
@@ -117,16 +115,16 @@ class Check {
     if (is({image, expression, brownian})) {
       const std::string reason =
           std::string("the algorithm ") + std::string(text_of(params_.algorithm)) + " has no iterations";
-      if (params_.iterations) add_error(IssueKind::conflict, "/iterations", reason);
-      if (params_.extra_iterations > 0) add_error(IssueKind::conflict, "/extra_iterations", reason);
+      if (params_.iterations) error(IssueKind::conflict, "/iterations", reason);
+      if (params_.extra_iterations > 0) error(IssueKind::conflict, "/extra_iterations", reason);
     } else if (is({triangular_edge, diamond_square, square_square}) && all > most_rounds) {
-      add_error(IssueKind::out_of_range, "/iterations",
-                found + "; expected at most " + std::to_string(most_rounds) +
-                    " rounds of subdivision, which give " + std::to_string(longest_side) +
-                    " samples along a side");
+      error(IssueKind::out_of_range, "/iterations",
+            found + "; expected at most " + std::to_string(most_rounds) +
+                " rounds of subdivision, which give " + std::to_string(longest_side) +
+                " samples along a side");
     } else if (is({fbm}) && (all < 1 || all > most_octaves)) {
-      add_error(IssueKind::out_of_range, "/iterations",
-                found + "; expected 1 to " + std::to_string(most_octaves) + " octaves of noise");
+      error(IssueKind::out_of_range, "/iterations",
+            found + "; expected 1 to " + std::to_string(most_octaves) + " octaves of noise");
     } else if (static_cast<std::uint32_t>(all) > limits_.iterations) {
       issues_.push_back(
           limit_issue({Resource::iterations, limits_.iterations, static_cast<std::uint64_t>(all)},
@@ -138,79 +136,78 @@ class Check {
     const TerrainEncoding encoding = image.encoding;
     const bool is_raw = encoding == TerrainEncoding::r16 || encoding == TerrainEncoding::r16_big ||
                         encoding == TerrainEncoding::s16 || encoding == TerrainEncoding::s16_big;
-    add_error_if(image.width && !is_raw, IssueKind::conflict, "/image/width",
-                 "the file states its own width; this belongs to raw data (r16, r16_big, s16, s16_big)");
+    error_if(image.width && !is_raw, IssueKind::conflict, "/image/width",
+             "the file states its own width; this belongs to raw data (r16, r16_big, s16, s16_big)");
     const bool has_range = encoding == TerrainEncoding::grey || encoding == TerrainEncoding::rgb24 ||
                            encoding == TerrainEncoding::rgba32 || encoding == TerrainEncoding::r16 ||
                            encoding == TerrainEncoding::r16_big;
     const TerrainImage usual;
-    add_error_if(!has_range && image.low != usual.low, IssueKind::conflict, "/image/low",
-                 "has no effect, because the values of this encoding are metres");
-    add_error_if(!has_range && image.high != usual.high, IssueKind::conflict, "/image/high",
-                 "has no effect, because the values of this encoding are metres");
-    add_error_if(has_range && image.low == image.high, IssueKind::invalid_value, "/image/high",
-                 "low and high are the same height");
+    error_if(!has_range && image.low != usual.low, IssueKind::conflict, "/image/low",
+             "has no effect, because the values of this encoding are metres");
+    error_if(!has_range && image.high != usual.high, IssueKind::conflict, "/image/high",
+             "has no effect, because the values of this encoding are metres");
+    error_if(has_range && image.low == image.high, IssueKind::invalid_value, "/image/high",
+             "low and high are the same height");
   }
 
   void heights() {
     if (is({Algorithm::fault_formation, Algorithm::poisson_faulting})) {
       const FaultPlan plan = fault_plan(params_);
       if (plan.least > plan.greatest) {
-        add_error(IssueKind::out_of_range, "/fault_min",
-                  "the smallest fault is above the greatest, " + std::to_string(plan.greatest) + " m");
+        error(IssueKind::out_of_range, "/fault_min",
+              "the smallest fault is above the greatest, " + std::to_string(plan.greatest) + " m");
       }
     }
-    add_error_if(params_.normalise && params_.normalise->low > params_.normalise->high,
-                 IssueKind::out_of_range, "/normalise/low", "the lowest height is above the highest");
+    error_if(params_.normalise && params_.normalise->low > params_.normalise->high, IssueKind::out_of_range,
+             "/normalise/low", "the lowest height is above the highest");
     if (params_.normalise) rising("/normalise/from", params_.normalise->from);
     if (params_.terraces) rising("/terraces/from", params_.terraces->from);
-    add_error_if(params_.island && params_.island->floor && params_.island->depth, IssueKind::conflict,
-                 "/island/depth",
-                 "found both floor and depth; expected one of them, because each sets the height of the rim");
+    error_if(params_.island && params_.island->floor && params_.island->depth, IssueKind::conflict,
+             "/island/depth",
+             "found both floor and depth; expected one of them, because each sets the height of the rim");
     if (params_.image) check_image(*params_.image);
     const TerrainHeightmap& map = params_.heightmap;
-    add_error_if(map.low && map.high && *map.low >= *map.high, IssueKind::out_of_range, "/heightmap/low",
-                 "low is not below high; expected a smaller value");
+    error_if(map.low && map.high && *map.low >= *map.high, IssueKind::out_of_range, "/heightmap/low",
+             "low is not below high; expected a smaller value");
   }
 
   void rising(const char* pointer, const std::optional<std::array<double, 2>>& pair) {
-    add_error_if(pair && (*pair)[0] >= (*pair)[1], IssueKind::out_of_range, pointer,
-                 "the first height is not below the second");
+    error_if(pair && (*pair)[0] >= (*pair)[1], IssueKind::out_of_range, pointer,
+             "the first height is not below the second");
   }
 
   void sphere() {
     using enum TerrainAlgorithm;
     if (!is({fault_formation, poisson_faulting, fbm, expression, fracture})) {
-      return add_error(
-          IssueKind::not_available, "/shape",
-          std::string(text_of(params_.algorithm)) +
-              " cannot make a sphere; expected fault_formation, poisson_faulting, fbm, expression "
-              "or fracture");
+      return error(IssueKind::not_available, "/shape",
+                   std::string(text_of(params_.algorithm)) +
+                       " cannot make a sphere; expected fault_formation, poisson_faulting, fbm, expression "
+                       "or fracture");
     }
     if (params_.resolution && *params_.resolution > longest_sphere) {
-      add_error(IssueKind::out_of_range, "/resolution",
-                "found " + std::to_string(*params_.resolution) + "; expected at most " +
-                    std::to_string(longest_sphere) + " samples along an edge of the cube of a sphere");
+      error(IssueKind::out_of_range, "/resolution",
+            "found " + std::to_string(*params_.resolution) + "; expected at most " +
+                std::to_string(longest_sphere) + " samples along an edge of the cube of a sphere");
     }
-    add_error_if(params_.fault_step.value_or(TerrainFaultStep::hard) != TerrainFaultStep::hard,
-                 IssueKind::not_available, "/fault_step", "a sphere has only hard steps");
+    error_if(params_.fault_step.value_or(TerrainFaultStep::hard) != TerrainFaultStep::hard,
+             IssueKind::not_available, "/fault_step", "a sphere has only hard steps");
     planes_only("a sphere");
   }
 
   void rock() {
-    add_error_if(params_.shape != TerrainShape::sphere, IssueKind::conflict, "/shape",
-                 "found \"" + std::string(text_of(params_.shape)) +
-                     "\"; fracture breaks a solid, expected \"sphere\"");
-    add_error_if(params_.fracture && params_.fracture->depth[0] > params_.fracture->depth[1],
-                 IssueKind::out_of_range, "/fracture/depth",
-                 "the least distance of a plane is above the greatest");
+    error_if(params_.shape != TerrainShape::sphere, IssueKind::conflict, "/shape",
+             "found \"" + std::string(text_of(params_.shape)) +
+                 "\"; fracture breaks a solid, expected \"sphere\"");
+    error_if(params_.fracture && params_.fracture->depth[0] > params_.fracture->depth[1],
+             IssueKind::out_of_range, "/fracture/depth",
+             "the least distance of a plane is above the greatest");
   }
 
   void planes_only(const std::string& shape) {
     const auto refuse = [&](bool given, const char* pointer) {
       if (given) {
-        add_error(IssueKind::not_available, pointer,
-                  shape + " does not have this parameter; expected the shape plane");
+        error(IssueKind::not_available, pointer,
+              shape + " does not have this parameter; expected the shape plane");
       }
     };
     refuse(params_.tile.has_value(), "/tile");
@@ -238,57 +235,55 @@ class Check {
     const bool is_profile = params_.shape == TerrainShape::profile;
     if (is({brownian})) {
       if (!is_profile) {
-        add_error(IssueKind::conflict, "/shape",
-                  "found \"" + std::string(text_of(params_.shape)) +
-                      "\"; brownian is a motion along a line, expected \"profile\"");
+        error(IssueKind::conflict, "/shape",
+              "found \"" + std::string(text_of(params_.shape)) +
+                  "\"; brownian is a motion along a line, expected \"profile\"");
       }
       if (params_.hurst && !(*params_.hurst > 0 && *params_.hurst < 1)) {
-        add_error(IssueKind::out_of_range, "/hurst",
-                  "found " + number_text(*params_.hurst) + "; brownian needs more than 0 and less than 1");
+        error(IssueKind::out_of_range, "/hurst",
+              "found " + number_text(*params_.hurst) + "; brownian needs more than 0 and less than 1");
       }
       if (made_side(params_) > longest_brownian) {
-        add_error(IssueKind::out_of_range, "/resolution",
-                  "found " + std::to_string(made_side(params_)) + "; expected at most " +
-                      std::to_string(longest_brownian) + " samples of brownian");
+        error(IssueKind::out_of_range, "/resolution",
+              "found " + std::to_string(made_side(params_)) + "; expected at most " +
+                  std::to_string(longest_brownian) + " samples of brownian");
       }
     }
     if (!is_profile) return;
     if (!is({brownian, fbm})) {
-      add_error(IssueKind::not_available, "/shape",
-                std::string(text_of(params_.algorithm)) + " has no profile; expected brownian or fbm");
+      error(IssueKind::not_available, "/shape",
+            std::string(text_of(params_.algorithm)) + " has no profile; expected brownian or fbm");
     }
     planes_only("a profile");
   }
 
   void tile() {
     using enum TerrainAlgorithm;
-    if (is({image}))
-      return add_error(IssueKind::not_available, "/tile", "an image cannot be divided into tiles");
+    if (is({image})) return error(IssueKind::not_available, "/tile", "an image cannot be divided into tiles");
     const bool faults = is({fault_formation, poisson_faulting});
-    add_error_if(
+    error_if(
         !faults && params_.tile->across && !params_.island && !params_.hydraulic, IssueKind::conflict,
         "/tile/across",
         "this world is infinite; across needs fault_formation, poisson_faulting, an island or hydraulic");
     const int across = params_.tile->across.value_or(1);
     const bool finite = faults || params_.hydraulic;
     if (finite && (params_.tile->x < 0 || params_.tile->x >= across)) {
-      add_error(IssueKind::out_of_range, "/tile/x",
-                "found " + std::to_string(params_.tile->x) + "; expected 0 to " + std::to_string(across - 1));
+      error(IssueKind::out_of_range, "/tile/x",
+            "found " + std::to_string(params_.tile->x) + "; expected 0 to " + std::to_string(across - 1));
     }
     if (finite && (params_.tile->z < 0 || params_.tile->z >= across)) {
-      add_error(IssueKind::out_of_range, "/tile/z",
-                "found " + std::to_string(params_.tile->z) + "; expected 0 to " + std::to_string(across - 1));
+      error(IssueKind::out_of_range, "/tile/z",
+            "found " + std::to_string(params_.tile->z) + "; expected 0 to " + std::to_string(across - 1));
     }
     if (params_.edge.value_or(TerrainEdge::two_neighbours) != TerrainEdge::two_neighbours) {
-      add_error(
-          IssueKind::conflict, "/edge",
-          "tiles only fit together under the rule two_neighbours; with others, the border depends on the "
-          "inside");
+      error(IssueKind::conflict, "/edge",
+            "tiles only fit together under the rule two_neighbours; with others, the border depends on the "
+            "inside");
     }
-    add_error_if(params_.corners.has_value(), IssueKind::conflict, "/corners",
-                 "tiles share their corners with their neighbours, so the seed determines them");
-    add_error_if(params_.grid.has_value(), IssueKind::conflict, "/grid",
-                 "tiles share their start heights with their neighbours, so the seed determines them");
+    error_if(params_.corners.has_value(), IssueKind::conflict, "/corners",
+             "tiles share their corners with their neighbours, so the seed determines them");
+    error_if(params_.grid.has_value(), IssueKind::conflict, "/grid",
+             "tiles share their start heights with their neighbours, so the seed determines them");
     tile_filters(faults);
   }
 
@@ -296,37 +291,34 @@ class Check {
   void tile_filters(bool faults) {
     constexpr int farthest_smooth = 256;
     if (smooth_reach(params_.smooth) > farthest_smooth) {
-      add_error(IssueKind::out_of_range, "/smooth",
-                "found " + Json(params_.smooth).dump() + " %, which reads samples farther than " +
-                    std::to_string(farthest_smooth) + " samples away; expected at most 93.7 % for a tile");
+      error(IssueKind::out_of_range, "/smooth",
+            "found " + Json(params_.smooth).dump() + " %, which reads samples farther than " +
+                std::to_string(farthest_smooth) + " samples away; expected at most 93.7 % for a tile");
     }
-    add_error_if(
-        params_.normalise && !params_.normalise->from, IssueKind::missing, "/normalise",
-        "\"from\" is missing; a tile needs it, because it does not know the heights of its neighbours");
-    add_error_if(
-        params_.terraces && !params_.terraces->from, IssueKind::missing, "/terraces",
-        "\"from\" is missing; a tile needs it, because it does not know the heights of its neighbours");
-    add_error_if(
-        params_.island && !params_.island->floor, IssueKind::missing, "/island",
-        "\"floor\" is missing; a tile needs it, because it does not know the heights of its neighbours");
-    add_error_if(params_.island && !faults && !params_.tile->across, IssueKind::missing, "/tile",
-                 "\"across\" is missing; an island needs the number of its tiles along a side");
+    error_if(params_.normalise && !params_.normalise->from, IssueKind::missing, "/normalise",
+             "\"from\" is missing; a tile needs it, because it does not know the heights of its neighbours");
+    error_if(params_.terraces && !params_.terraces->from, IssueKind::missing, "/terraces",
+             "\"from\" is missing; a tile needs it, because it does not know the heights of its neighbours");
+    error_if(params_.island && !params_.island->floor, IssueKind::missing, "/island",
+             "\"floor\" is missing; a tile needs it, because it does not know the heights of its neighbours");
+    error_if(params_.island && !faults && !params_.tile->across, IssueKind::missing, "/tile",
+             "\"across\" is missing; an island needs the number of its tiles along a side");
     if (params_.hydraulic) hydraulic_tile();
-    add_error_if(params_.resample.has_value(), IssueKind::conflict, "/resample",
-                 "the samples of a tile are those of the world; expected resolution or iterations instead");
+    error_if(params_.resample.has_value(), IssueKind::conflict, "/resample",
+             "the samples of a tile are those of the world; expected resolution or iterations instead");
   }
 
   /// Water runs over the whole world, so each tile needs all of it.
   void hydraulic_tile() {
     constexpr std::int64_t longest_side = 4'097;
     if (!params_.tile->across) {
-      return add_error(IssueKind::missing, "/tile",
-                       "\"across\" is missing; water needs the number of tiles of its world along a side");
+      return error(IssueKind::missing, "/tile",
+                   "\"across\" is missing; water needs the number of tiles of its world along a side");
     }
     if (const std::int64_t side = samples_across(params_); side > longest_side) {
-      add_error(IssueKind::out_of_range, "/tile/across",
-                "found a world of " + std::to_string(side) +
-                    " samples along a side; the limit with water is " + std::to_string(longest_side));
+      error(IssueKind::out_of_range, "/tile/across",
+            "found a world of " + std::to_string(side) + " samples along a side; the limit with water is " +
+                std::to_string(longest_side));
     }
   }
 
@@ -335,9 +327,9 @@ class Check {
     const bool drops = given.method == TerrainMethod::droplets;
     const auto belongs_to = [&](bool has, bool to_drops, const char* name) {
       if (has && drops != to_drops) {
-        add_error(IssueKind::conflict, std::string("/hydraulic/") + name,
-                  std::string(text_of(given.method)) + " does not have this parameter; expected the method " +
-                      (to_drops ? "droplets" : "stream_power"));
+        error(IssueKind::conflict, std::string("/hydraulic/") + name,
+              std::string(text_of(given.method)) + " does not have this parameter; expected the method " +
+                  (to_drops ? "droplets" : "stream_power"));
       }
     };
     belongs_to(given.droplets.has_value(), true, "droplets");
@@ -355,8 +347,8 @@ class Check {
 
   void onto() {
     const auto refuse = [&](bool given, const char* pointer) {
-      add_error_if(given, IssueKind::conflict, pointer,
-                   "heights on a model do not have this parameter; expected a request without onto");
+      error_if(given, IssueKind::conflict, pointer,
+               "heights on a model do not have this parameter; expected a request without onto");
     };
     refuse(params_.shape == TerrainShape::sphere, "/shape");
     refuse(params_.tile.has_value(), "/tile");
@@ -366,31 +358,30 @@ class Check {
     refuse(params_.water_level.has_value(), "/water_level");
     refuse(params_.detail, "/detail");
     const bool moves = params_.onto->mapping == TerrainMapping::displacement;
-    add_error_if(moves && params_.texture > 0, IssueKind::conflict, "/texture",
-                 "a displacement has no texture; expected the mapping normal_map");
-    add_error_if(!moves && params_.onto->subdivide > 0, IssueKind::conflict, "/onto/subdivide",
-                 "a normal map does not subdivide; expected the mapping displacement");
+    error_if(moves && params_.texture > 0, IssueKind::conflict, "/texture",
+             "a displacement has no texture; expected the mapping normal_map");
+    error_if(!moves && params_.onto->subdivide > 0, IssueKind::conflict, "/onto/subdivide",
+             "a normal map does not subdivide; expected the mapping displacement");
   }
 
   void mesh() {
-    add_error_if(params_.max_error && params_.mesh == TerrainMesh::grid, IssueKind::conflict, "/max_error",
-                 "a grid has every sample and no error; expected the mesh rtin or greedy");
-    add_error_if(params_.base && params_.skirt > 0, IssueKind::conflict, "/skirt",
-                 "a closed solid has no skirt");
-    add_error_if(params_.detail && params_.texture > 0, IssueKind::conflict, "/detail",
-                 "a ground with a texture of the whole field has no details that repeat; expected texture 0");
+    error_if(params_.max_error && params_.mesh == TerrainMesh::grid, IssueKind::conflict, "/max_error",
+             "a grid has every sample and no error; expected the mesh rtin or greedy");
+    error_if(params_.base && params_.skirt > 0, IssueKind::conflict, "/skirt", "a closed solid has no skirt");
+    error_if(params_.detail && params_.texture > 0, IssueKind::conflict, "/detail",
+             "a ground with a texture of the whole field has no details that repeat; expected texture 0");
     if (params_.texture > 0 && params_.texture < least_texture) {
-      add_error(IssueKind::out_of_range, "/texture",
-                "found " + std::to_string(params_.texture) + "; expected 0, or " +
-                    std::to_string(least_texture) + " to 4096");
+      error(IssueKind::out_of_range, "/texture",
+            "found " + std::to_string(params_.texture) + "; expected 0, or " + std::to_string(least_texture) +
+                " to 4096");
     }
     if (!issues_.empty() || params_.mesh != TerrainMesh::rtin || params_.algorithm == Algorithm::image)
       return;
     const int side = finished_side(params_);
     if (!fits_rtin(side, side)) {
-      add_error(IssueKind::conflict, "/mesh",
-                "this field has " + std::to_string(side) +
-                    " samples along a side; rtin needs 2^n + 1; resample the field, or use greedy");
+      error(IssueKind::conflict, "/mesh",
+            "this field has " + std::to_string(side) +
+                " samples along a side; rtin needs 2^n + 1; resample the field, or use greedy");
     }
   }
 
