@@ -81,7 +81,7 @@ int main(int count, char** arguments) {
       files["/" + entry.path().lexically_relative(folder).generic_string()] = entry.path();
   }
   std::ofstream out(arguments[2]);
-  out << "// CachedModel by embed_assets. Do not edit.\n#include \"server/pages.h\"\n\nnamespace seedmesh "
+  out << "// Made by embed_assets. Do not edit.\n#include \"server/pages.h\"\n\nnamespace seedmesh "
          "{\n\n"
       << "std::span<const Asset> " << (only_docs ? "embedded_docs" : "embedded_assets")
       << "() {\n  static constexpr Asset assets[] = {\n";
@@ -97,5 +97,7 @@ int main(int count, char** arguments) {
     out << "},\n";
   }
   out << "  };\n  return assets;\n}\n\n}  // namespace seedmesh\n";
+  if (files.empty()) std::fprintf(stderr, "embed_assets: found no file in %s\n", arguments[1]);
+  if (!out.good()) std::fprintf(stderr, "embed_assets: cannot write %s\n", arguments[2]);
   return files.empty() || !out.good() ? 1 : 0;
 }
