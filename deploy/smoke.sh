@@ -117,7 +117,7 @@ until healthy; do
   sleep 0.01
 done
 first=$(($(now_ms) - begun))
-preset=$(curl -fsS "http://127.0.0.1:$port/v1/presets" | grep -o '"name": *"[^"]*"' | head -1 | cut -d'"' -f4)
+preset=$(curl -fsS "http://127.0.0.1:$port/v1/presets" | grep -o '"name": *"[^"]*"' | awk -F'"' 'NR == 1 { print $4 }')
 
 holds "says that it is healthy" inside $uid healthcheck --host 127.0.0.1
 holds "serves the page" serves_the_page
