@@ -13,6 +13,7 @@ using glm::dvec2;
 constexpr double straight = 0.05;        // sine of a turn that counts as none
 constexpr double sharpest_mitre = -1.6;  // radians; outer corners that turn further are cut off
 constexpr int arc_pieces = 4;
+constexpr double step_slant = 30;        // cm
 constexpr double least_fillet = 50;      // cm
 constexpr double greatest_fillet = 500;  // cm
 
@@ -52,6 +53,9 @@ std::vector<CmPoint> corner_points(const CornerInput& corner) {
     return a == b ? std::vector<CmPoint>{a} : std::vector<CmPoint>{a, b};
   };
   if (corner.is_dead_end) return pair(corner.cap, corner.cap);
+  // The wider outline ends first, so that no step lies on the line across the end of the wider street.
+  if (corner.step > 0 && h1 * c > h2) return pair(corner.step - s * h2, -(corner.step + step_slant) / c);
+  if (corner.step > 0 && h2 * c > h1) return pair(-(corner.step + step_slant) / c, corner.step - s * h1);
   if (c > 0 && std::abs(s) < straight) {
     if (std::abs(h1 - h2) > 1) return pair(0, 0);
     const dvec2 normal = left_of(d1) + left_of(d2);

@@ -15,6 +15,9 @@ struct CornerInput {
   double fillet = 0;   ///< greatest radius of the arc in a convex corner
   double chamfer = 0;  ///< width of the cut across a convex corner
   double cap = 0;      ///< how far the outline passes the tip of a dead end
+  /// Where one of the streets is so much wider that its outline would pass the node: a step between the widths, this
+  /// far from the node towards the narrower street. Not positive: the outlines end where they meet.
+  double step = 0;
 };
 
 /// Returns the greatest radius of an arc, in centimetres, that stays on the street's side of the block's corner,

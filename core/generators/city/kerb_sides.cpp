@@ -108,6 +108,11 @@ CmRing sidewalk_ring(const std::vector<KerbSide>& sides, std::uint32_t half) {
 }
 
 void cut_carriageways(const StreetGraph& graph, std::vector<KerbSide>& sides) {
+  for (KerbSide& side : sides) {
+    if (!side.is_laid_out) continue;
+    side.cut_from = side.from();
+    side.cut_to = side.to;
+  }
   for (std::uint32_t edge = 0; edge < graph.edges.size(); ++edge) {
     if (!graph.is_street(edge)) continue;
     KerbSide &left = sides[2 * edge], &right = sides[2 * edge + 1];
@@ -132,15 +137,18 @@ void cut_carriageways(const StreetGraph& graph, std::vector<KerbSide>& sides) {
   }
 }
 
-void undo_unsound_cuts(const StreetGraph& graph, std::vector<KerbSide>& sides) {
+std::vector<std::uint32_t> undo_unsound_cuts(const StreetGraph& graph, std::vector<KerbSide>& sides) {
+  std::vector<std::uint32_t> unsound;
   for (std::uint32_t node = 0; node < graph.nodes.size(); ++node) {
-    if (!is_cut(graph, node) || is_sound_or_empty(junction_ring(graph, sides, node))) continue;
+    if (is_sound_or_empty(junction_ring(graph, sides, node))) continue;
     for (const std::uint32_t arm : graph.arms.of(node)) {
       if (!graph.is_street(arm / 2)) continue;
-      sides[arm].cut_from = sides[arm].from();
+      if (sides[arm].is_laid_out) sides[arm].cut_from = sides[arm].from();
       sides[arm ^ 1U].cut_to = sides[arm ^ 1U].to;
     }
+    if (!is_sound_or_empty(junction_ring(graph, sides, node))) unsound.push_back(node);
   }
+  return unsound;
 }
 
 }  // namespace seedmesh::city

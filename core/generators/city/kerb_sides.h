@@ -43,10 +43,11 @@ CmRing carriageway_ring(const StreetGraph& graph, const std::vector<KerbSide>& s
 /// middle.
 CmRing sidewalk_ring(const std::vector<KerbSide>& sides, std::uint32_t half);
 
-/// Makes the ends of carriageways at junctions perpendicular where there is space.
+/// Makes the ends of carriageways at junctions perpendicular where there is space. Replaces the ends that there are.
 void cut_carriageways(const StreetGraph& graph, std::vector<KerbSide>& sides);
 
-/// Removes the perpendicular ends at junctions that would cross themselves with them.
-void undo_unsound_cuts(const StreetGraph& graph, std::vector<KerbSide>& sides);
+/// Removes the perpendicular ends at junctions whose outlines would cross themselves because of these ends. Returns the
+/// nodes whose outlines still cross themselves.
+std::vector<std::uint32_t> undo_unsound_cuts(const StreetGraph& graph, std::vector<KerbSide>& sides);
 
 }  // namespace seedmesh::city

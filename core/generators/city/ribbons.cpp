@@ -58,7 +58,7 @@ class StreetSpace {
       for (std::size_t i = begin; i < end; ++i) lay_out_face(faces, faces.faces[i], layouts[i]);
     });
     cut_carriageways(graph_, sides_);
-    undo_unsound_cuts(graph_, sides_);
+    step_unsound_junctions(faces, layouts);
     plan_.corner_reaches = corner_reaches(graph_, sides_);
     add_junctions();
     add_carriageways();
@@ -71,6 +71,26 @@ class StreetSpace {
   }
 
  private:
+  /// Lays the faces around junctions whose outlines cross themselves out again, with steps between their widths.
+  void step_unsound_junctions(const PlanarFaces& faces, std::vector<FaceLayout>& layouts) {
+    const std::vector<std::uint32_t> unsound = undo_unsound_cuts(graph_, sides_);
+    if (unsound.empty()) return;
+    is_stepped_.assign(graph_.nodes.size(), 0);
+    for (const std::uint32_t node : unsound) is_stepped_[node] = 1;
+    const auto is_near = [&](const Outline& outline) {
+      return std::ranges::any_of(outline.half_edges, [&](std::uint32_t half) {
+        return is_stepped_[start_of(graph_.edges, half)] != 0;
+      });
+    };
+    for (std::size_t i = 0; i < layouts.size(); ++i) {
+      if (!std::ranges::any_of(layouts[i].outlines, is_near)) continue;
+      layouts[i] = {};
+      lay_out_face(faces, faces.faces[i], layouts[i]);
+    }
+    cut_carriageways(graph_, sides_);
+    undo_unsound_cuts(graph_, sides_);
+  }
+
   double half_width(std::uint32_t half) const {
     return graph_.is_street(half / 2) ? plan_.class_of(half / 2).width * 50 : 0;
   }
@@ -90,6 +110,8 @@ class StreetSpace {
     corner.distance_after = half_width(half) * widths.carriageway + (is_kerb ? 0 : walk_after);
     corner.cap = is_kerb ? 0 : walk_after;
     const bool is_between_streets = graph_.is_street(before / 2) && graph_.is_street(half / 2);
+    if (is_between_streets && !is_stepped_.empty() && is_stepped_[start_of(graph_.edges, half)] != 0)
+      corner.step = least_progress + (is_kerb ? 0 : std::max(walk_before, walk_after));
     if (is_kerb && widths.fillet > 0 && is_between_streets)
       corner.fillet = fillet_of(corner, std::min(walk_before, walk_after));
     if (!is_kerb && is_between_streets && glm::dot(corner.before, corner.after) <= cos_least_turn_)
@@ -321,6 +343,7 @@ class StreetSpace {
   Job& job_;
   double cut_width_, cos_least_turn_;
   std::vector<Widths> attempts_;
+  std::vector<std::uint8_t> is_stepped_;  ///< by node; empty where no junction has a step
   std::vector<KerbSide> sides_;
   std::vector<std::uint32_t> carriageways_;  ///< parts, by edge
 };
