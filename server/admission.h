@@ -1,7 +1,7 @@
 #pragma once
 /// Limits how many requests are worked on at the same time and how many may wait, in order of arrival.
 ///
-/// As in imgproxy, the queue is bounded: a request that would wait too long is refused at once, so that an
+/// As in imgproxy, the queue is bounded. A request that finds it full is refused at once, so that an
 /// overload does not slow down the requests that are accepted.
 ///
 /// Tiles of worlds have a class of their own: clients never ask again for a tile that failed, so a tile is not refused.

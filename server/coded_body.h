@@ -13,9 +13,9 @@ struct CodedBody {
 };
 
 /// Returns the model in the best coding that the client accepts; nothing where the memory in flight does not suffice.
-/// The model is not encoded if it is small, if compression would save less than 15 %, if the client asks for a range,
-/// or if the settings exclude it. Small models are encoded here, large ones while they are sent. The cache
-/// keeps the encoded form of models up to 64 MiB.
+/// The model is not encoded if it is small, if compression would save less than 15 %, for a range request, or
+/// by the settings. Small models are encoded here, large ones while they are sent. The cache keeps the
+/// encoded form of models up to 64 MiB.
 std::optional<CodedBody> coded_body(const Call& call, const TaggedRequest& wanted, const Cache::Entry& model,
                                     Coding best);
 

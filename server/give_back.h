@@ -1,5 +1,5 @@
 #pragma once
-/// Memory that requests have left free in the C library's arenas, given back to the system.
+/// Returns memory to the system that requests have left free in the arenas of the C library.
 #include <condition_variable>
 #include <cstdint>
 #include <functional>
@@ -8,16 +8,17 @@
 
 namespace seedmesh {
 
-/// Configures glibc malloc: blocks of at least 1 MiB are unmapped when they are freed, more than 4 MiB of free memory
-/// at the end of an arena is returned to the system, and there are at most max(4, 2 * workers) arenas. By default
-/// glibc raises these thresholds while it runs, to up to 32 and 64 MiB, and uses up to eight arenas for each core.
-/// Call it before the first thread is started. A variable MALLOC_... of the environment takes precedence.
+/// Configures glibc malloc. Blocks of at least 1 MiB are unmapped when they are freed. More than 4 MiB of
+/// free memory at the end of an arena is returned to the system. There are at most max(4, 2 * workers)
+/// arenas. By default glibc raises these thresholds while it runs, to up to 32 and 64 MiB, and uses up to
+/// eight arenas for each core. Call it before the first thread is started. A variable MALLOC_... of the
+/// environment takes precedence.
 void keep_little_memory(int workers);
 
 /// While an object exists, its thread reads the resident memory of the process every second. It returns the free
-/// memory of the arenas to the system if the resident memory has grown by 4 MiB since the last time. It also does so
-/// if requests have been answered, the memory is 4 MiB above its minimum, and either none is in flight or ten seconds
-/// have passed.
+/// memory of the arenas to the system if the resident memory has grown by 4 MiB since the last time. It also
+/// does so if requests have been answered and the memory is 4 MiB above its minimum. For this, either no
+/// request is in flight, or ten seconds have passed.
 class GiveBack {
  public:
   struct Activity {

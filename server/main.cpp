@@ -95,7 +95,7 @@ void add_sync(CLI::App& command, SyncOptions& sync, Texts& texts) {
   command.add_option("directory", sync.directory, "Directory with request files.")->required();
   command.add_flag("--check", sync.check, "Write nothing; exit status 1 if a model would change.");
   command.add_flag("--list", sync.list, "Print the paths of the models and exit.");
-  command.add_option("--server", sync.server, "Ask this server instead of making models here.")
+  command.add_option("--server", sync.server, "Get models from this server; do not make them here.")
       ->type_name("URL");
   command.add_option("--key", sync.key, "API key for the server.")->envname("SEEDMESH_KEY");
   add_settings(command, texts, limits_and_textures);
@@ -137,9 +137,9 @@ void add_commands(CLI::App& app, Arguments& arguments, Texts& texts) {
   importing->add_option("file", arguments.files.in, "The file; - means standard input.")->required();
   importing->add_option("-f,--format", arguments.files.format, formats_text());
   importing->add_option("-e,--entry", arguments.files.entry,
-                        "The system to import from a file with several.");
+                        "The system to import, if the file has several.");
   importing->add_option("-w,--with", arguments.files.with,
-                        "A file beside it, such as a view file of cpfg; may be repeated.");
+                        "A further file, such as a view file of cpfg; may be repeated.");
   importing->add_option(
       "-t,--to", arguments.files.to,
       "Write a file of this program instead: proctree or proctree_js. The file can then be a request.");
@@ -172,7 +172,7 @@ void add_commands(CLI::App& app, Arguments& arguments, Texts& texts) {
   command("key", "Create a new API key and signing key, and print the lines for the settings.")
       ->add_option("name", arguments.key_name, "Name of both keys.")
       ->required();
-  CLI::App* checking = command("healthcheck", "Check that a service on this machine answers.");
+  CLI::App* checking = command("healthcheck", "Check that a service on this machine responds.");
   add_settings(*serving, texts, all_settings);
   for (CLI::App* each : {generating, validating, deriving, importing}) add_settings(*each, texts, limits);
   for (CLI::App* each : {many, agents}) add_settings(*each, texts, limits_and_textures);

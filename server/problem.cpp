@@ -51,7 +51,7 @@ const std::vector<ProblemKind>& problem_kinds() {
       {400, "malformed-request", "The request is malformed"},
       {401, "unauthorized", "A key is required"},
       {403, "forbidden", "This is not allowed"},
-      {404, "not-found", "There is nothing here"},
+      {404, "not-found", "This URL does not exist"},
       {405, "method-not-allowed", "The method is not allowed here"},
       {406, "not-acceptable", "No acceptable representation"},
       {411, "length-required", "Content-Length is required"},
@@ -65,7 +65,7 @@ const std::vector<ProblemKind>& problem_kinds() {
       {429, "queue-full", "Too many requests are waiting"},
       {429, "rate-limited", "Too many requests with this key"},
       {431, "headers-too-large", "The header fields are too large"},
-      {499, "client-gone", "The client has gone"},
+      {499, "client-gone", "The client has disconnected"},
       {500, "internal-error", "Internal error"},
       {503, "unavailable", "The service cannot accept the request now"},
       {504, "deadline-exceeded", "The request took too long"},
@@ -107,7 +107,7 @@ Problem problem_of(const Error& error) {
       made = problem(504, "The time limit has passed; the work has been stopped.");
       break;
     case Code::cancelled:
-      made = problem(499, "The client has gone; the work has been stopped.");
+      made = problem(499, "The client has disconnected; the work has been stopped.");
       break;
     case Code::internal:
       return internal_error(joined_messages(error));

@@ -95,7 +95,7 @@ class RemoteSource final : public ModelSource {
     if (!answer) return {"", reason_of(answer)};
     const std::string version = text_in(Json::parse(answer->body, nullptr, false), "engine", "");
     if (answer->status == 200 && !version.empty()) return {version, ""};
-    return {"", origin_ + prefix_ + "/version answered with " + issues_of(*answer).front().message};
+    return {"", origin_ + prefix_ + "/version returned " + issues_of(*answer).front().message};
   }
 
   SourceAnswer make(const std::string& request, const std::string& known, int,
@@ -123,7 +123,7 @@ class RemoteSource final : public ModelSource {
 
  private:
   std::string reason_of(const httplib::Result& result) const {
-    return "no answer from " + origin_ + prefix_ + " (" + httplib::to_string(result.error()) + ")";
+    return "no response from " + origin_ + prefix_ + " (" + httplib::to_string(result.error()) + ")";
   }
 
   /// GET, or POST with a body. Each call has a connection of its own, because calls run side by side.

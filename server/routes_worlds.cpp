@@ -187,9 +187,9 @@ std::string address_of(const Call& call, const std::string& token, std::string_v
 }
 
 Problem too_long() {
-  return problem_of({Code::limit,
-                     {{IssueKind::limit, "",
-                       "found a world whose token has more than 2,000 characters; every tile carries it"}}});
+  return problem_of(
+      {Code::limit,
+       {{IssueKind::limit, "", "found a token of more than 2,000 characters, expected at most 2,000"}}});
 }
 
 /// Returns an issue for each key of a query except one.

@@ -21,8 +21,8 @@ struct SyncOptions {
 ///
 /// A model counts as unchanged if the lock has the hash of its request file, its size and its engine; nothing is
 /// sent or made for it. Removes the models of request files that are gone, unless they were changed by hand.
-/// Returns the exit status: 0; 1 if a request was refused, a check found a difference, or the run was
-/// interrupted; 2 if a file cannot be written or there is no server.
+/// Returns the exit status: 0 for success; 1 if a request was refused, a check found a difference, or the run
+/// was interrupted; 2 if a file cannot be written or there is no server.
 int sync_command(const Config& config, const SyncOptions& options);
 
 }  // namespace seedmesh

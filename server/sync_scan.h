@@ -8,7 +8,7 @@
 
 namespace seedmesh {
 
-/// The end of the names of files that are being written.
+/// The suffix of the names of files that are being written.
 inline constexpr char part_suffix[] = ".seedmesh-part";
 
 struct ScannedOutput {

@@ -160,7 +160,7 @@ class TilesRun {
         Result<std::optional<WorldFile>> file = world_file(world_, name, job_options());
         if (!file) return std::move(file).error();
         if (!*file)
-          return Error{Code::internal, {{IssueKind::internal, "", "a tile names no file of its world"}}};
+          return Error{Code::internal, {{IssueKind::internal, "", "a tile refers to an unknown file"}}};
         return std::move((*file)->bytes);
       });
     }

@@ -12,7 +12,7 @@
 
 namespace seedmesh {
 
-constexpr std::size_t longest_world_token = 2'000;  ///< characters; every tile carries it
+constexpr std::size_t longest_world_token = 2'000;  ///< characters; it is part of the URL of every tile
 
 /// A world that a URL names.
 struct NamedWorld {

@@ -86,8 +86,8 @@ struct Unit {
 
 Schema load_json(const std::filesystem::path& path);
 
-/// The schema with all references resolved, as the service answers it. Marks::keep adds "x-params": name where a
-/// reference names a whole file.
+/// The schema with all references resolved, as the service returns it. Marks::keep adds "x-params": name
+/// where a reference names a whole file.
 enum class Marks { leave_out, keep };
 Schema resolve(const std::filesystem::path& path, Marks marks = Marks::leave_out);
 

@@ -33,8 +33,8 @@ Issue iterations_issue(std::uint64_t found, const Limits& limits);
 
 /// The exception that ends a request: a limit is exceeded, the deadline has passed, the request is cancelled,
 /// or a value turns out to be unusable while the work runs. Only Job and MemoryBudget throw it. core/pipeline
-/// catches it for all requests, the import of cpfg for the statements that it runs, and the writer of WebP to end its
-/// encoder. Its pointer is relative to the parameters of the outermost request.
+/// catches it for all requests. The import of cpfg catches it for the statements that it runs, and the writer
+/// of WebP to end its encoder. Its pointer is relative to the parameters of the outermost request.
 class Stop : public std::exception {
  public:
   Stop(Code code, Issue issue) : code_(code), issue_(std::move(issue)) {}
@@ -104,9 +104,9 @@ class Job {
   /// with it. The child reports no progress: its stages are part of a stage of this request.
   Job for_child(std::uint64_t seed, std::string_view pointer = {}) const;
 
-  /// For an estimate inside this request: the same seed, limits, stop, deadline and memory budget, but it counts
-  /// modules, shapes, triangles and bytes from 0, so that an estimate spends nothing of the request. It works on
-  /// one thread and reports no progress.
+  /// For an estimate inside this request: the same seed, limits, stop, deadline and memory budget. It counts
+  /// modules, shapes, triangles and bytes from 0, so that an estimate spends nothing of the request. It works
+  /// on one thread and reports no progress.
   Job for_estimate() const;
 
   /// While the scope lives, a limit of this job or of its children that has no pointer of its own is reported at
@@ -177,7 +177,7 @@ class Job {
 
 /// Counts single units in an inner loop. It takes them from the Job in portions of 4,096 and calls
 /// Job::check() with each portion. Each thread needs its own Meter. The rest of the last portion is not
-/// returned, so a count may be too high by 4,095 for each thread: the limit may be reported by that much too
+/// returned, so a count may be too high by 4,095 for each thread. The limit may therefore be reported too
 /// early, but never too late.
 class Meter {
  public:

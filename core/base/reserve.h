@@ -25,8 +25,8 @@ class Reserve {
   /// unspecified content. Maps a new huge page where none has enough space. Throws std::bad_alloc.
   std::byte* share(std::size_t room);
   /// Keeps pages that a request frees. `used` and `peak` are those of its budget, `memory` included in `used`.
-  /// Keeps them only while all kept pages and `used` together are at most max(most / 2, peak), so that the
-  /// reserve does not increase the memory that a big request needs. False: the caller unmaps the pages.
+  /// Keeps them only while all kept pages and `used` together are at most max(most / 2, peak). The reserve
+  /// thus does not increase the memory that a big request needs. False: the caller unmaps the pages.
   bool keep(std::byte* memory, std::size_t room, std::uint64_t used, std::uint64_t peak);
   /// Returns all kept pages to the system.
   void clear();

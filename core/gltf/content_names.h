@@ -1,6 +1,6 @@
 #pragma once
 /// Names that follow from content: in all files, equal names of meshes, materials and images mean equal
-/// content, so that an engine that keeps one file for each name shows every model as it is.
+/// content. An engine that keeps one file for each name therefore shows every model correctly.
 #include <cstdint>
 #include <string>
 #include <string_view>

@@ -208,7 +208,7 @@ class ArbaroReader {
   /// The shapes are discs of two to nine corners and spheres.
   void set_leaf(std::string_view text, double number, std::size_t at) {
     if (text == "0" || text == "disc" || text == "disc1") return;
-    if (text == "sphere" || text == "box" || number >= 9) source_.warn(at, "leaves are flat here");
+    if (text == "sphere" || text == "box" || number >= 9) source_.warn(at, "leaves are flat in Seedmesh");
     if (text == "disc3" || number == 3 || text == "triangle") leaf_ = "cordate";
     if (text == "disc4" || number == 4 || text == "square") leaf_ = "kite";
   }

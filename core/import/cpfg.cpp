@@ -190,7 +190,7 @@ std::optional<double> CpfgReader::number(const TracedText& body, std::size_t at)
   std::size_t read = 0;
   const lang::Expression value = program.parse(tokens, read, constants(), errors);
   if (errors.empty() && tokens[read].kind != lang::TokenKind::end)
-    errors.push_back({tokens[read].offset, "found more after the number"});
+    errors.push_back({tokens[read].offset, "found text after the number"});
   for (const lang::TextError& error : errors)
     source_.report(body.origin(error.offset), error.message, error.kind);
   if (!errors.empty()) return std::nullopt;

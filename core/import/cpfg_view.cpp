@@ -274,8 +274,7 @@ class Files {
     const std::vector<double> numbers =
         numbers_of(end == std::string::npos ? "" : std::string_view(value).substr(end));
     if (!numbers.empty() && numbers[0] > 0 && numbers[0] <= 1e6) surfaces[name]["size"] = numbers[0];
-    source_.warn(0,
-                 lang_quotes(file) + ": a leaf stands for the surface " + lang_quotes(value.substr(0, end)),
+    source_.warn(0, lang_quotes(file) + ": a leaf replaces the surface " + lang_quotes(value.substr(0, end)),
                  "/parameters/surfaces/" + name);
   }
 

@@ -47,7 +47,8 @@ class HoudiniReader {
       modules(*premise_, Role::word, axiom);
       put("/axiom", axiom.text(), axiom.runs());
     }
-    if (is_bare_ && rules.empty()) source_.report(premise_->from, "found no rule; expected such as `A=FA`");
+    if (is_bare_ && rules.empty())
+      source_.report(premise_->from, "found no rule; expected one such as `A=FA`");
     parameters_["productions"] = Json::array();
     for (const Line& each : rules) rule(each);
     positions_.put(parameters_);
@@ -91,8 +92,9 @@ class HoudiniReader {
       premise_ = line;
       is_bare_ = true;
     } else {
-      source_.report(line.from,
-                     "found no parameter of the node and no rule; expected such as `Angle: 28` or `A=FA`");
+      source_.report(
+          line.from,
+          "found no parameter of the node and no rule; expected something such as `Angle: 28` or `A=FA`");
     }
   }
 

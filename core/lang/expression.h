@@ -100,8 +100,8 @@ std::uint32_t name_distance(std::string_view a, std::string_view b);
 /// The greatest distance of a useful hint for `name`.
 std::uint32_t hint_distance(std::string_view name);
 
-/// A built-in function, for the parser, the evaluator, the docs and GET /v1/vocabulary. A name may have several rows of
-/// different arity (ran), which follow each other.
+/// A built-in function, for the parser, the evaluator, the docs and GET /v1/vocabulary. A name may have
+/// several adjacent rows with different numbers of arguments, as the function ran() has.
 struct Function {
   std::string_view name;
   int arity;                   ///< number of arguments, at most max_arity

@@ -1,7 +1,7 @@
 #pragma once
-/// Evaluates one expression for many cells at once: each operation runs over a whole row of cells before the next one,
-/// so that simple operations use vector instructions. For fields of numbers, where Program::evaluate() would spend most
-/// of its time choosing operations.
+/// Evaluates one expression for many cells at once. Each operation runs over a whole row of cells before the
+/// next one, so that simple operations use vector instructions. Used for fields of numbers, for which
+/// Program::evaluate() would spend most of its time choosing operations.
 #include <cstddef>
 #include <span>
 #include <vector>

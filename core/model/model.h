@@ -71,8 +71,9 @@ struct Material {
   bool unlit = false;           ///< writes KHR_materials_unlit, never as required
   float specular = 1;           ///< strength of reflections
   glm::vec3 specular_color{1};  ///< colour of reflections that are seen straight on, linear
-  /// Share of the light that passes through a thin sheet and leaves it diffusely on the other side, and its
-  /// colour as a multiple of the base colour (linear); above 0 writes KHR_materials_diffuse_transmission.
+  /// Share of the light that passes through a thin sheet and leaves it diffusely on the other side. Its
+  /// colour is a multiple of the base colour (linear). A share above 0 writes
+  /// KHR_materials_diffuse_transmission.
   float transmission = 0;
   glm::vec3 transmission_color{1};
   TextureRecipe recipe;     ///< paint() replaces it by textures

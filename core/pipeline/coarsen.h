@@ -24,8 +24,8 @@ struct SimplifyLimits {
   double detail = std::numeric_limits<double>::infinity();
 };
 
-/// Simplifies the meshes of a level until it draws at most `most` triangles or they can lose no more: thins
-/// out leaves, simplifies the rest, then removes its smallest pieces. All meshes lose the same share, but
+/// Simplifies the meshes of a level until it draws at most `most` triangles or no more can be removed. Removes
+/// some leaves, simplifies the rest, then removes its smallest pieces. All meshes lose the same share, but
 /// meshes with fewer than `least` triangles stay. Indices are 32-bit.
 void coarsen_all(Model& model, std::size_t level, std::uint64_t most, std::uint64_t least,
                  const SimplifyLimits& limits, Job& job);

@@ -1,5 +1,5 @@
 #pragma once
-/// The one table of output formats. core/pipeline, the server and the command line read it; tests compare it
+/// The only table of output formats. core/pipeline, the server and the command line read it. Tests compare it
 /// with output.schema.json, with openapi.json and with the formats that generators list.
 #include <algorithm>
 #include <cstddef>

@@ -40,8 +40,9 @@ struct Naming {
 /// tilesets of their own, whose roots have the same box and error.
 std::string explicit_tileset(const Address& root, const Naming& naming, const BoundsOf& bounds_of);
 
-/// Returns an implicit tileset. Most clients overlook the metadata and halve box and error of the root, so the box is
-/// exactly the square of side `extent` in plan, and `error`, halved `level` times, is never below the error of a tile.
+/// Returns an implicit tileset. Most clients ignore the metadata and halve the box and error of the root for
+/// each level. The box is therefore exactly the square of side `extent` in plan. `error` divided by 2^level
+/// is never below the error of a tile.
 std::string implicit_tileset(double extent, double error, const Naming& naming, const BoundsOf& bounds_of);
 
 /// Returns the Morton index of a tile within its level of a subtree: bits of x at even positions, bits of y at

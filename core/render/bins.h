@@ -1,5 +1,5 @@
 #pragma once
-/// Sorts triangles by the rows of an image that they may cover, so that a band of rows is drawn while its samples
+/// Sorts triangles by the rows of an image that they may cover. A band of rows is then drawn while its samples
 /// are in the cache of a core. For core/render only.
 #include <span>
 

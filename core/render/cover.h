@@ -1,6 +1,7 @@
 #pragma once
-/// The samples that a triangle covers, eight at a time. Corners are fixed-point numbers and each edge belongs to one of
-/// its two triangles, so that the same triangles give the same samples on every machine, without gaps or doubles.
+/// The samples that a triangle covers, eight at a time. Corners are fixed-point numbers, and each edge
+/// belongs to one of its two triangles. The same triangles therefore give the same samples on every machine,
+/// without gaps or overlaps.
 ///
 /// Edge functions after Pineda, "A parallel algorithm for polygon rasterization", 1988.
 #include <array>

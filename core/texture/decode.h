@@ -35,9 +35,9 @@ Result<Picture> decode_jpeg(std::span<const std::byte> file, const PngLimits& li
 /// Reads a WebP without animation: RGB, or RGBA if it has alpha.
 Result<Decoded> decode_webp(std::span<const std::byte> file, const PngLimits& limits, const Job& job);
 
-/// Returns the first image of a TIFF (TIFF 6.0, BigTIFF) in strips or tiles, uncompressed or with LZW, Deflate,
-/// PackBits or Zstandard: grey, RGB and palettes of 8 or 16 bits as a picture, other numbers as samples. Rows of a
-/// GeoTIFF that run northwards are put in order.
+/// Returns the first image of a TIFF (TIFF 6.0, BigTIFF) in strips or tiles, uncompressed or with LZW,
+/// Deflate, PackBits or Zstandard. Grey, RGB and palettes of 8 or 16 bits become a picture, other numbers
+/// samples. Rows of a GeoTIFF that run northwards are put in order.
 Result<Decoded> decode_tiff(std::span<const std::byte> file, const PngLimits& limits, const Job& job);
 
 namespace detail {

@@ -1,6 +1,6 @@
 #pragma once
-/// Dirt on walls, as a texture with alpha for faces just before the wall: in the upper half streaks below the ends of a
-/// sill, in the lower half what rain splashes up from the ground, which repeats sideways.
+/// Dirt on walls, as a texture with alpha for faces just in front of the wall. The upper half has streaks
+/// below the ends of a sill. The lower half has splashes of rain from the ground, and repeats horizontally.
 #include "core/base/rng.h"
 #include "core/texture/relief.h"
 

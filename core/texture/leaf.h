@@ -30,10 +30,10 @@ std::string_view leaf_kind(LeafShape shape, bool is_twig);
 /// texels, so that images of thin needles need a low value, or the crown vanishes.
 float leaf_cutoff(std::string_view kind);
 
-/// Makes the material one of thin leaves: light passes through, less through needles, more yellow than the
-/// reflected light except through petals; and reflections are weaker than those of a plain dielectric, because
-/// the cuticle is rough at grazing angles. The shares are in the range that the PROSPECT model gives for fresh
-/// leaves (Jacquemoud and Baret, 1990).
+/// Makes the material one of thin leaves. Light passes through, less through needles. Except through petals,
+/// it is more yellow than the reflected light. Reflections are weaker than those of a plain dielectric,
+/// because the cuticle is rough at grazing angles. The shares are in the range that the PROSPECT model gives
+/// for fresh leaves (Jacquemoud and Baret, 1990).
 void let_light_through(Material& material, LeafShape shape);
 
 /// Paints a leaf texture. `kind` is one of leaf_kinds(). Cost: 10 to 30 ns a texel.

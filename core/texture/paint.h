@@ -19,8 +19,8 @@ std::span<const std::string_view> texture_kinds();
 /// Whether a kind tiles; bark and walls do.
 bool is_repeating_kind(std::string_view name);
 
-/// Returns the width and height in texels at which a kind is painted for textures of `size`: half of it for single
-/// leaves and petals, which few pixels show; not below 64.
+/// Returns the width and height in texels at which a kind is painted for textures of `size`. For single leaves
+/// and petals, which cover few pixels, this is half of `size`, but not below 64.
 int painted_size(std::string_view kind, int size);
 
 /// Paints a texture. `kind` is one of texture_kinds().

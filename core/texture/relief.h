@@ -50,9 +50,10 @@ struct Finish {
   bool is_small = false;  ///< smaller files: coarser values
 };
 
-/// Three PNG files: colour (RGB, RGBA with the cover as alpha, or grey), normals (RGB, in the tangent space
-/// of glTF), and occlusion, roughness and metallic (RGB, as glTF packs them; metallic is 0). An image that was not
-/// requested is null.
+/// Three PNG files. An image that was not requested is null.
+/// - Colour: RGB, RGBA with the cover as alpha, or grey.
+/// - Normals: RGB, in the tangent space of glTF.
+/// - Occlusion, roughness and metallic: RGB, as glTF packs them; metallic is 0.
 struct Maps {
   std::shared_ptr<const Image> color, normal, surface;
   std::size_t bytes() const { return bytes_of(color) + bytes_of(normal) + bytes_of(surface); }
@@ -68,8 +69,8 @@ struct MapParts {
   bool normal = true, surface = true;
 };
 
-/// Returns the width and height of the third image (occlusion, roughness, metallic) beside others of `size`: half of
-/// it, as more detail would not be visible; `size` itself below 32.
+/// Returns the width and height of the third image (occlusion, roughness, metallic) if the others have `size`.
+/// It is half of `size`, because more detail would not be visible; for a `size` below 32 it is `size`.
 constexpr int surface_size(int size) { return size < 32 ? size : size / 2; }
 
 /// Makes the images of a relief. Their names begin with `name`.

@@ -1,8 +1,8 @@
 #pragma once
-/// Textures of surfaces by seed: brick, plaster, roof tiles, slate, planks, ashlar, concrete, sheet metal, metal
-/// panels, dressed stone and paint of buildings; windows in walls (bay.h), rooms (rooms.h), doors (joinery.h), dirt
-/// (grime.h) and grounds (ground.h). They tile seamlessly in both directions and have a size in metres. Up the wall or
-/// the slope is up in the image.
+/// Textures of surfaces by seed. For buildings: brick, plaster, roof tiles, slate, planks, ashlar, concrete,
+/// sheet metal, metal panels, dressed stone and paint. Also: windows in walls (bay.h), rooms (rooms.h), doors
+/// (joinery.h), dirt (grime.h) and grounds (ground.h). They tile seamlessly in both directions and have a
+/// size in metres. Up the wall or the slope is up in the image.
 #include <glm/vec2.hpp>
 #include <span>
 #include <string_view>

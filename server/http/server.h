@@ -44,8 +44,8 @@ struct Exchange {
 
 /// Called from many threads.
 struct Callbacks {
-  Handler handle;                                                  ///< may throw; `fail` answers then
-  std::function<Response(const Request&, const Refusal&)> refuse;  ///< answers what is not a valid request
+  Handler handle;                                                  ///< may throw; `fail` responds then
+  std::function<Response(const Request&, const Refusal&)> refuse;  ///< responds to an invalid request
   std::function<Response(const Request&, const std::string& what)> fail;
   std::function<void(const Exchange&)> done;
 };

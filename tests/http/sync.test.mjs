@@ -123,10 +123,10 @@ test('an unchanged directory asks the server for its engine alone', async () => 
   assert.equal(counts['/version'], 2, JSON.stringify(counts));
   assert.equal(Object.entries(counts).filter(([route]) => /generate|models/.test(route)).reduce((sum, [, count]) => sum + count, 0), 1, JSON.stringify(counts));
   await own.stop();
-  assert.match((await sync(each, '--server', own.url)).out, /^note: the engine is not compared: no answer from .*\n0 made, 1 same/);
+  assert.match((await sync(each, '--server', own.url)).out, /^note: the engine is not compared: no response from .*\n0 made, 1 same/);
   fs.rmSync(each.file('a.glb'));
   const gone = await sync(each, '--server', own.url);
-  assert.deepEqual([gone.status, /no answer from/.test(gone.err)], [2, true]);
+  assert.deepEqual([gone.status, /no response from/.test(gone.err)], [2, true]);
   assert.equal((await sync(each, '--server', 'localhost')).status, 2);
   assert.equal((await sync({ path: each.file('none') })).status, 2);
 });

@@ -64,8 +64,8 @@ struct Bounds {
 };
 
 /// Returns all errors. Sets `rules`, or `pictures` if the request has a shape grammar. If `rules` is not
-/// null, its rules are not read again; they have to be those of the parameters (has_rules_of). Rules with
-/// errors become null.
+/// null, its rules are not read again; they have to be those of the parameters (has_rules_of). `rules`
+/// becomes null if the rules have errors.
 std::vector<Issue> check_all(const BuildingParams& params, const Bounds& bounds,
                              std::shared_ptr<const RuleSet>& rules, PictureGrammar& pictures);
 

@@ -42,7 +42,7 @@ void warn_of_unreachable(Parser& p, const Symbol& symbol) {
     add_warning(p, rule.offset,
                 "this rule of `" + symbol.name + "` is never used: the rule in line " +
                     std::to_string(p.tokens.line_of(p.grammar.rules[found->second].offset)) +
-                    " before it always holds");
+                    " before it always applies");
   }
 }
 

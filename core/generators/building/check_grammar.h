@@ -8,8 +8,8 @@ namespace seedmesh::building {
 /// never used and rules that contain their own symbol without end.
 void check_grammar(Parser& p, std::string_view start);
 
-/// Returns the symbols whose weights are constants that do not sum to 1, or to more than 1 beside an else. One error
-/// for each.
+/// Returns an error for each symbol whose weights are constants with a sum other than 1. Beside an `else`, the
+/// sum may be less than 1.
 std::vector<lang::TextError> errors_of_weights(const Grammar& grammar);
 
 }  // namespace seedmesh::building

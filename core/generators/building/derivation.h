@@ -26,7 +26,7 @@ struct Site {
   std::uint64_t key;
 };
 
-/// The reason why a step is impossible, where this is no error of the whole derivation.
+/// The reason why a step is impossible, for an error that does not end the derivation.
 struct StepError {
   std::uint32_t offset = 0;
   std::string message;
@@ -48,7 +48,7 @@ struct Derivation {
 
   // Evaluation (evaluate.h)
   std::vector<lang::TaggedValue> slots;
-  const ShapeState* seen = nullptr;  ///< the shape for which expressions are evaluated
+  const ShapeState* seen = nullptr;  ///< state of the shape for which expressions are evaluated
   std::uint32_t seen_shape = none, filled_attributes = none;
   bool is_filled = false;  ///< the slots hold the values of `seen`
   Rng random{0};

@@ -18,7 +18,7 @@ void reject_attribute(const Derivation& d, std::uint32_t offset, const lang::Tag
     if (!value.is_text() && attribute.value.expression.text == 0) continue;
     const Issue place = issue_in_rules(d.task, IssueKind::evaluation, offset, "");
     d.job.refuse({IssueKind::wrong_type, "/attributes/" + attribute.name,
-                  message + ", as the rules use it in line " + std::to_string(place.line) + ", column " +
+                  message + "; the rules use it in line " + std::to_string(place.line) + ", column " +
                       std::to_string(place.column)});
   }
 }

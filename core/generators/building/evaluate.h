@@ -17,12 +17,12 @@ void fill_slots(Derivation& d);
 lang::TaggedValue evaluate(Derivation& d, const Value& value);
 /// Returns the value of a node of an expression (syntax.h).
 lang::TaggedValue evaluate_tree(Derivation& d, std::uint32_t node);
-/// Returns the answer of a query to other shapes, for the shape that the derivation looks at.
+/// Returns the result of a query to other shapes, for the shape that look_at() selected.
 lang::TaggedValue answer_of(Derivation& d, const Query& query);
 /// Whether a condition holds: its value is a text, or a number other than 0.
 bool holds(Derivation& d, const Value& condition);
-/// Returns a finite number of at most 10,000 km; everything else is rejected at the expression. A text that an
-/// attribute of the request brought is rejected at that attribute.
+/// Returns a finite number of at most 10,000 km; everything else is rejected at the expression. If a text is
+/// the value of an attribute of the request, the error points to that attribute.
 double number_of(Derivation& d, const Value& value);
 /// Returns a length in metres. A relative argument is multiplied by `whole`.
 double length_of(Derivation& d, const Argument& argument, double whole);

@@ -2,9 +2,9 @@
 /// Puts rule files that import each other into one list of tokens. Names of an imported file get its prefix: the rule
 /// `Roof` of a file imported as `r` becomes `r.Roof`, as other files write it.
 ///
-/// An attribute of the importing file replaces that of the same name in the imported file, unless the import protects
-/// it; an import can also give attributes values and redefine extension rules (CGA reference, import). `alias.Rule -->`
-/// in the importing file replaces a rule of the imported one.
+/// An attribute of the importing file replaces that of the same name in the imported file, unless the import
+/// protects it. An import can also set values of attributes and redefine extension rules (CGA reference,
+/// import). `alias.Rule -->` in the importing file replaces a rule of the imported one.
 #include <set>
 #include <string>
 #include <string_view>

@@ -58,7 +58,7 @@ TaggedValue read_material(Evaluation& at, ValueArguments a) {
   name = name.substr(0, name.find_last_of('.'));
   if (!std::ranges::binary_search(at.d.task.files, name)) {
     warn(at.d, at.offset,
-         "the request has no material " + lang::in_quotes(name) + ", which would stand for " +
+         "the request has no material " + lang::in_quotes(name) + ", which would replace " +
              lang::in_quotes(path) + "; shapes have the plain material of this name");
   }
   ValueArray out;

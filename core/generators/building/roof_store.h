@@ -11,7 +11,7 @@
 
 namespace seedmesh::building {
 
-/// Thread-safe. A roof depends on its plan and options alone, so that it never matters who made it.
+/// Thread-safe. A roof depends on its plan and options alone, so all requests may share it.
 class RoofStore {
  public:
   /// Returns what roof() returns for these arguments. Keeps the first 1,000 roofs over at most 32 points.

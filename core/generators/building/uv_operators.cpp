@@ -132,7 +132,7 @@ void use_image(Derivation& d, const Step& step, ShapeState& state, const std::st
   state.style = style_with(d, style);
   if (!std::ranges::binary_search(d.task.files, name)) {
     warn(d, step.offset,
-         "the request has no material " + lang::in_quotes(name) + ", whose image would stand for " +
+         "the request has no material " + lang::in_quotes(name) + ", whose image would replace " +
              lang::in_quotes(path) + "; shapes have the plain material of this name");
   }
 }

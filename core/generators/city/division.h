@@ -29,7 +29,7 @@ struct Piece {
   CmRing ring;
   std::vector<std::uint32_t> edges;
   std::uint64_t key = 0;
-  bool is_inner = false;  ///< without frontage, by intention
+  bool is_inner = false;  ///< the method leaves it without frontage
 };
 
 constexpr double least_block_angle = 12.5;  // degrees
@@ -58,8 +58,8 @@ class Division {
 
   /// Returns the length of a piece along streets, in centimetres.
   double frontage(const Piece& piece) const;
-  /// Whether a piece has at least the area, frontage and side that the request asks for, no corner sharper than
-  /// `angle` (degrees), and at most the aspect `aspect` (long side divided by short side).
+  /// Whether a piece has at least the least area, frontage and side of the request. Also, it has no corner
+  /// sharper than `angle` (degrees), and at most the aspect `aspect` (long side divided by short side).
   bool is_fit(const Piece& piece, double angle, double aspect) const;
 
  private:
@@ -105,15 +105,15 @@ class Division {
   std::vector<CmRing> outlines_;  ///< of the pieces, if they were checked last
   std::uint32_t inner_ = no_index;
   double cut_aspect_ = 0;  ///< greatest aspect that a piece may have after the cut that is being searched
-  // Kept for their memory: offsets of the corners from a cut, and where it meets the outline.
+  // Members only to reuse their memory: offsets of the corners from a cut, and where it meets the outline.
   std::vector<double> offsets_;
   std::vector<Meeting> meetings_;
 };
 
-/// Returns the pieces along the streets of a block by its straight skeleton (Vanegas et al. 2012), and, where
-/// `depth` (cm) is finite, the courts that are farther from all streets. Pieces that hold no lot are joined with
-/// a neighbour. Adds the edges between pieces to the division. Returns an empty list if the skeleton does not
-/// give valid pieces.
+/// Returns the pieces along the streets of a block by its straight skeleton (Vanegas et al. 2012). If `depth`
+/// (cm) is finite, also returns the courts that are farther from all streets. Pieces that hold no lot are
+/// joined with a neighbour. Adds the edges between pieces to the division. Returns an empty list if the
+/// skeleton does not give valid pieces.
 std::vector<Piece> strips_of(Division& division, double depth, const Job& job);
 
 }  // namespace seedmesh::city

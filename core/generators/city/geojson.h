@@ -32,8 +32,8 @@ struct GeoReport {
 
 /// Returns the features with lines or with polygons. Features without a geometry and geometries without coordinates
 /// are left out, as RFC 7946 allows them. Lines do not repeat a corner, and rings not their first point.
-/// Issues: what RFC 7946 forbids, coordinates beyond 1,000 km, lines with fewer than two and rings with fewer than three
-/// different corners, positions that look like degrees, and no geometry of the wanted kind where there are others.
+/// Issues: what RFC 7946 forbids; coordinates beyond 1,000 km; lines with fewer than two different corners;
+/// rings with fewer than three; positions that look like degrees; geometries of other kinds alone.
 /// Warnings: geometries of another kind beside those of the wanted kind.
 std::vector<GeoFeature> features_of(const GeoJson& value, GeoKind kind, const std::string& pointer,
                                     const GeoReport& report);

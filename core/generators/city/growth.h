@@ -1,6 +1,6 @@
 #pragma once
-/// Streets that grow: major streets first, then the cells between them one by one, so that a change in one
-/// quarter does not affect the others. Kelly and McCabe, "Citygen: an interactive system for procedural city
+/// Streets that grow: major streets first, then the minor streets of each cell between them. A change in one
+/// cell does not affect the others. Kelly and McCabe, "Citygen: an interactive system for procedural city
 /// generation", 2007, over the productions of Parish and Mueller (productions.h).
 #include <optional>
 #include <vector>
@@ -38,19 +38,19 @@ struct GrowthInput {
   std::vector<CrossSection> sections = {};     ///< by tag
   double least_height = -1e9;                  ///< of streets, m
 
-  /// Whether an obstacle is at a position in metres, or a given building is nearer to it than 1 m plus half the width
-  /// of the widest class of streets with its sidewalk.
+  /// Whether an obstacle is at a position in metres, or a given building is too near. Its least distance is 1 m
+  /// plus half the width of the widest class of streets with its sidewalk.
   bool is_blocked(const glm::dvec2& metres) const;
   /// Whether a given building is nearer to the piece than half the width of its street with the sidewalk. Samples the
   /// piece every metre.
   bool is_on_footprint(const StreetPiece& piece) const;
-  /// Whether an obstacle is on the segment between two positions in centimetres, sampled every 4 m, or the ground
-  /// along it is too steep for a street of this grade limit.
+  /// Whether an obstacle is on the segment between two positions (cm), or the ground along it is too steep
+  /// for a street of this grade limit. Samples the obstacles every 4 m.
   bool is_blocked(const glm::dvec2& a, const glm::dvec2& b, double grade_limit) const;
   /// The same for obstacles and given buildings alone.
   bool is_obstructed(const glm::dvec2& a, const glm::dvec2& b) const;
-  /// Whether the ground between the ends of a segment (cm) is more than 1.5 times as steep as `grade_limit`, or the
-  /// ground along it is more than 5 m above or below the straight line between the ends.
+  /// Whether the ground along a segment (cm) is too steep. Between its ends it may be at most 1.5 times as
+  /// steep as `grade_limit`, and at most 5 m above or below the straight line.
   bool is_too_steep(const glm::dvec2& a, const glm::dvec2& b, double grade_limit) const;
   /// Whether a piece meets given streets only where it crosses one of them at a wide angle.
   bool keeps_off_given(const StreetPiece& piece) const;

@@ -51,8 +51,8 @@ class Landform {
   std::optional<double> water_level_;
 };
 
-/// Whether the ground between the ends of a segment (cm) is more than 1.5 times as steep as `grade_limit`, or the
-/// ground along it is more than 5 m above or below the straight line between the ends.
+/// Whether the ground along a segment (cm) is too steep. Between its ends it may be at most 1.5 times as steep
+/// as `grade_limit`, and at most 5 m above or below the straight line.
 bool is_too_steep(const Landform& landform, const glm::dvec2& a, const glm::dvec2& b, double grade_limit);
 
 /// Adds the errors of the ground of a request that the schema cannot express.

@@ -1,6 +1,6 @@
 #pragma once
-/// Lots: blocks cut in two until the pieces are small enough. Every cut is refused that would leave a piece too
-/// small, too narrow, too pointed, or without its frontage, so that access is guaranteed by construction.
+/// Lots: blocks cut in two until the pieces are small enough. A cut is refused if it would leave a piece too
+/// small, too narrow, too pointed, or without its frontage. Every lot therefore has access to a street.
 /// Vanegas, Kelly, Weber, Halatsch, Aliaga and Mueller, "Procedural generation of parcels in urban modeling",
 /// 2012, with access tested before a cut instead of after it.
 #include "core/base/job.h"

@@ -1,6 +1,6 @@
 #pragma once
-/// Joins meshes of models that stand only once. Meshes of the same chunk and material become one mesh. Engines draw
-/// few large meshes faster than thousands of small ones, and files are smaller.
+/// Joins meshes of models that occur only once. Meshes of the same chunk and material become one mesh.
+/// Engines draw few large meshes faster than thousands of small ones, and files are smaller.
 #include <map>
 #include <tuple>
 #include <vector>

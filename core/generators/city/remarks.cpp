@@ -101,7 +101,7 @@ void add_unused_geometries(const CityParams& params, const CityPlan& plan, std::
     const std::vector<GeoFeature> features = features_of(value, kind, pointer, {unused, &warnings});
     if (!features.empty() && is_beside_area(features, plan.area)) {
       warnings.push_back(
-          {pointer, "all of it is outside of the area; expected metres about the same origin"});
+          {pointer, "all of it is outside of the area; expected metres from the origin of the area"});
     }
   };
   const auto add_map = [&](const MapValue& value, const std::string& pointer) {

@@ -92,10 +92,10 @@ StreetFields fields_of(const CityStreets& streets, const FieldGround& ground, Rn
 /// Returns the pattern where the map of patterns is 1.
 CityPattern second_pattern_of(const CityStreets& streets);
 
-/// Returns the highways and the major streets: streamlines of both directions, about `highway_spacing` and
-/// `major_spacing` apart, divided where they cross (Jobard and Lefer, "Creating evenly spaced streamlines of
-/// arbitrary density", 1997). At about the share `t_junctions` of the crossings one arm is removed. Random
-/// choices depend on positions only.
+/// Returns the highways and the major streets, divided where they cross. They are streamlines of both
+/// directions, about `highway_spacing` and `major_spacing` apart (Jobard and Lefer, "Creating evenly spaced
+/// streamlines of arbitrary density", 1997). At about the share `t_junctions` of the crossings one arm is
+/// removed. Random choices depend on positions only.
 Route trace_majors(const GrowthInput& input, const TensorField& field, Job& job);
 
 }  // namespace seedmesh::city

@@ -156,7 +156,7 @@ class CodeReader {
   lang::Expression changed(Slice old, std::size_t sign, std::size_t end) {
     const bool by_one = text_[sign] == text_[sign + 1];
     if (by_one && skip_spaces(text_, sign + 2, end) < end) {
-      add_error(sign + 2, "found more after `" + std::string(text_.substr(sign, 2)) + "`");
+      add_error(sign + 2, "found text after `" + std::string(text_.substr(sign, 2)) + "`");
     }
     const std::size_t before = source_.errors.size();
     std::vector<lang::Token> tokens = lang::tokenize(text_, old.from, old.to, source_.errors);

@@ -96,7 +96,7 @@ void define_functions(Compilation& c) {
       tried.parse(function->body, at, c.names, sources[i].errors, c.limits.expression_depth);
       if (sources[i].errors.empty() && function->body[at].kind != lang::TokenKind::end) {
         sources[i].errors.push_back(
-            {function->body[at].offset, "found more after the end of the expression"});
+            {function->body[at].offset, "found text after the end of the expression"});
       }
       c.names.forget_after(c.constant_count);
       if (!sources[i].errors.empty()) c.names.mark_invalid(names[i]);

@@ -80,7 +80,7 @@ class Resolver {
     std::size_t at = 0;
     const lang::Expression expression = program.parse(tokens, at, known, errors);
     if (errors.empty() && tokens[at].kind != lang::TokenKind::end) {
-      errors.push_back({tokens[at].offset, "found more after the end of the expression"});
+      errors.push_back({tokens[at].offset, "found text after the end of the expression"});
     }
     if (!errors.empty()) {
       lang::add_issues(pointer(entry), text, errors, issues_);

@@ -153,7 +153,7 @@ void read_condition(std::string_view text, WrittenProduction& out, std::vector<T
       condition.from = skip_spaces(text, std::min(close + 1, condition.to), condition.to);
     } else {
       const std::size_t rest = skip_spaces(text, std::min(close + 1, condition.to), condition.to);
-      if (rest < condition.to) errors.push_back({rest, "found more after the statements; expected an arrow"});
+      if (rest < condition.to) errors.push_back({rest, "found text after the statements; expected an arrow"});
       condition.to = open;
     }
   };

@@ -1,8 +1,8 @@
 #pragma once
 /// Large self-similar systems: what a symbol derives to is drawn once, and placed wherever it occurs again.
 ///
-/// The number of meshes does not depend on the number of steps, so that the 21 million segments of a tree of fifteen
-/// steps need the memory of a few thousand.
+/// The number of meshes does not depend on the number of steps. The 21 million segments of a tree of fifteen
+/// steps therefore need the memory of a few thousand segments.
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 

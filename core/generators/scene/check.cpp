@@ -133,7 +133,7 @@ class Checker {
       return;
     }
     if (has_range && *variation.from > *variation.to) {
-      add(IssueKind::out_of_range, pointer + "/from", "from is above to");
+      add(IssueKind::out_of_range, pointer + "/from", "`from` is greater than `to`");
       return;
     }
     const Generator* generator = find_generator(context_.generators, model.generator);
@@ -212,7 +212,7 @@ class Checker {
     }
     const auto limits = [&](const auto& given, const char* name) {
       if (given && given->from && given->to && *given->from > *given->to)
-        add(IssueKind::out_of_range, pointer + "/" + name, "from is above to");
+        add(IssueKind::out_of_range, pointer + "/" + name, "`from` is greater than `to`");
     };
     limits(place.slope, "slope");
     limits(place.altitude, "altitude");
@@ -270,7 +270,7 @@ class Checker {
     }
     if (!near.from && !near.to) add(IssueKind::missing, pointer, "expected `from`, `to` or both");
     if (near.from && near.to && *near.from > *near.to)
-      add(IssueKind::out_of_range, pointer + "/from", "from is above to");
+      add(IssueKind::out_of_range, pointer + "/from", "`from` is greater than `to`");
   }
 
   const SceneParams& params_;

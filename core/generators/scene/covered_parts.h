@@ -29,9 +29,9 @@ class CoveredParts {
   CoveredParts();
 
   /// Returns the covered squares. `offset` is the index of the neighbouring cell in cells_around. `at` is the position
-  /// inside that cell as (x, z), each from 0 to 1; values outside are clamped. The position is rounded to a box of
-  /// 1/16 of a cell, and only squares that every position of the box covers are returned, so squares at the rim of the
-  /// disc can be missing.
+  /// inside that cell as (x, z), each from 0 to 1; values outside are clamped. The position is rounded to a
+  /// box of 1/16 of a cell. Only squares that every position of the box covers are returned, so squares at
+  /// the edge of the disc can be missing.
   CellParts of(std::size_t offset, const glm::vec2& at) const {
     return table_[row_of(offset, box_of(at.x), box_of(at.y))];
   }

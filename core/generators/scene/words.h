@@ -7,10 +7,10 @@
 
 namespace seedmesh::scene {
 
-/// Returns for each placed model that is an L-system, by its name, {string, truncated, length, branches, depth}:
-/// the last word, whether it is cut at 64 KiB, the number of its modules, the number of its branches ("["), and
-/// how deep brackets nest. The depth of a word that is cut is null. All words together are cut at 16 MiB. Errors:
-/// those of a model.
+/// Returns {string, truncated, length, branches, depth} for each placed L-system, by the name of its model.
+/// These are the last word, whether it is cut at 64 KiB, and the numbers of its modules and of its branches
+/// ("["). The depth is that of nested brackets. The depth of a word that is cut is null. All words together
+/// are cut at 16 MiB. Errors: those of a model.
 Result<Json> words_of(const Planting& planting, const VariantTable& variant_table,
                       const GenerateContext& context);
 

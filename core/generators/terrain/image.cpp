@@ -57,7 +57,7 @@ Result<Field> of_raw(const TerrainImage& image, std::span<const std::uint8_t> by
                      const Job& job) {
   if (bytes.size() % 2 != 0 || bytes.size() < 8) {
     return invalid_input("/image/data", "found " + std::to_string(bytes.size()) +
-                                            " bytes; samples have 2 bytes each, and there are at least 4");
+                                            " bytes; expected at least 4 samples of 2 bytes each");
   }
   const std::size_t count = bytes.size() / 2;
   const auto root = static_cast<std::size_t>(std::floor(std::sqrt(static_cast<double>(count)) + 0.5));

@@ -31,11 +31,11 @@ Mesh far_leaf(const TreeParams& params, LeafDetail detail, int level, const Job&
 /// before all backs and does not share vertices between triangles.
 Mesh outer_sides(const Mesh& mesh, const Mesh& leaf, const glm::vec3& middle, const Job& job);
 
-/// Returns the factor by which the texture of single triangles has to be brighter than that of leaves with two sides,
-/// so that both crowns look equally bright: renderers flip the normals of back sides, away from the sky. The factor
-/// is the mean light on `all` divided by that on `outer`, as seen in three horizontal views, under a sky with a fifth
-/// of the light of the sun. `all`: all leaves as `triangle` with backs;
-/// `outer`: those of the level after outer_sides(). Cost: about 0.5 us a triangle.
+/// Returns the factor for the brightness of the texture of single triangles. With it, a crown is as bright as
+/// with leaves of two sides. Renderers flip the normals of back sides, away from the sky. The factor is the
+/// mean light on `all` divided by that on `outer`, in three horizontal views. The light of the sky is a fifth
+/// of that of the sun. `all`: all leaves as `triangle` with backs; `outer`: those of the level after
+/// outer_sides(). Cost: about 0.5 us a triangle.
 float gain_of(const Mesh& all, const Mesh& outer, const Job& job);
 
 /// Returns the factor for the colours of leaves at a coarser level, of which the share `share` remains. It

@@ -1,7 +1,8 @@
 #pragma once
-/// The orientations of leaves on their stems, after Weber and Penn, SIGGRAPH 1995: rotated about the stem,
-/// then down from it, then turned to the light (their section 4.5), then with the upper side up. Computed for
-/// a batch of leaves at once, in single precision, so that the compiler can use vectors: about 3 ns a leaf.
+/// The orientations of leaves on their stems, after Weber and Penn, SIGGRAPH 1995. A leaf is rotated about
+/// the stem, then down from it, then to the light (their section 4.5). Its upper side is then turned up.
+/// Computed for a batch of leaves at once, in single precision, so that the compiler can use vectors: about 3
+/// ns a leaf.
 #include <cstddef>
 
 #include "core/generators/tree/skeleton_writer.h"

@@ -11,8 +11,8 @@ namespace seedmesh::tree {
 bool has_linear_faces(const TreeParams& params);
 
 /// The shares of parts that are made at a distance. The paper draws the first of 16 stems and of 4 leaves.
-/// Here a random number of each part decides, so that what is made for a distance is a subset of what is made
-/// for a shorter one.
+/// Here a random number of each part decides. The parts that are made for a distance are therefore a subset of
+/// those for a shorter distance.
 struct RangeShares {
   double sides = 1;     ///< corners of cross-sections: all to 300 m, a sixth from 800 m
   double branches = 1;  ///< main branches: all to 300 m, none from 900 m

@@ -3,9 +3,9 @@
 /// bend, split, taper and bear shorter stems, down to the leaves. The foot is at the origin; metres, +Y up.
 ///
 /// The paper leaves the following open. The rounding error of the number of splits is accumulated along one
-/// stem, not across a level, so that a choice for one stem does not change others. A stem and its clones share the
-/// children of the stem. A helix makes one turn in six pieces. The height is at least a tenth of Scale. Cost:
-/// linear in the size of the skeleton.
+/// stem, not across a level. A choice for one stem therefore does not change others. A stem and its clones
+/// share the children of the stem. A helix makes one turn in six pieces. The height is at least a tenth of
+/// Scale. Cost: linear in the size of the skeleton.
 #include "core/generators/tree/skeleton_writer.h"
 
 namespace seedmesh::tree {

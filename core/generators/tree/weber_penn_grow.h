@@ -1,6 +1,6 @@
 #pragma once
-/// Grows the stems of a tree by Weber and Penn: each is walked from its base to its tip, its joints and
-/// leaves are written, and its clones and children are put on a stack of stems that wait.
+/// Grows the stems of a tree by Weber and Penn. Each stem is traversed from its base to its tip, and its joints
+/// and leaves are written. Its clones and children are pushed on a stack.
 #include <vector>
 
 #include "core/generators/tree/leaf_frames.h"

@@ -61,8 +61,8 @@ std::vector<House> houses_near(const World& world, const Rectangle& box, double 
 
 /// Adds the houses whose middle is in the tile. In tiles of up to 128 m they are models, or walls and a gable
 /// roof. In tiles of up to 512 m all are walls and a roof. In tiles of up to 2 km they are boxes, and up to 8 km
-/// one prism for each square of side / 64. Towns have boxes in tiles of 512 m, and prisms for squares of 40 m in
-/// tiles of 1 km and of 64 m in tiles of 2 km.
+/// one prism for each square of side / 64. Towns have boxes in tiles of 512 m. They have prisms for squares of
+/// 40 m in tiles of 1 km, and for squares of 64 m in tiles of 2 km.
 void add_houses(Glb& glb, const World& world, const TileFrame& frame, double base, Job& job,
                 std::string_view folder);
 

@@ -37,9 +37,9 @@ struct NoiseKeys {
 /// Derives the keys of all noises from the key of a world.
 NoiseKeys noise_keys(std::uint64_t key);
 
-/// The data that a layer reads around the part that it makes: cells of a region, water, settlements that
-/// determine roads, earthworks of roads, settlements with fields, settlements with houses, and the data of a
-/// town's plan.
+/// The data that a layer reads around the part that it makes: cells of a region; water; settlements that
+/// determine roads; earthworks of roads; settlements with fields; settlements with houses; the data of the plan
+/// of a town.
 enum class Reads : std::uint8_t { cells, water, roads, works, fields, houses, towns };
 
 /// Immutable; copies share the store. Positions of the plane ("absolute") are metres from its own zero; those of

@@ -23,8 +23,8 @@ class Detail {
   int bark_sides(int most) const;
   /// The share of the organs that is kept: 1 / sqrt(level + 1).
   double organs() const;
-  /// The most triangles of the bark, where the finest level has `finest` and the share `seen` of it is
-  /// visible: 1 / (level + 1)^0.65 of the visible part, and 1 / (2 (level + 1)) of the part hidden by leaves.
+  /// The most triangles of the bark, if the finest level has `finest` and the share `seen` of it is visible.
+  /// They are 1 / (level + 1)^0.65 of the visible part, and 1 / (2 (level + 1)) of the part hidden by leaves.
   std::uint64_t bark(std::uint64_t finest, double seen) const;
   /// The share of the area covered by organs that may become uncovered.
   double loss() const { return 0.005 * level_; }

@@ -43,8 +43,8 @@ inline double collapse_cost(const Quadric& from, const Quadric& to, const glm::d
 inline std::size_t after(std::size_t corner) { return corner % 3 == 2 ? corner - 2 : corner + 1; }
 inline std::size_t before(std::size_t corner) { return corner % 3 == 0 ? corner + 2 : corner - 1; }
 
-/// The cheapest allowed collapse of a point onto a neighbour with its exact cost; or only a lower bound of
-/// the cost (`to` is no_point), when it is not yet known whether a collapse is allowed.
+/// The cheapest allowed collapse of a point onto a neighbour, with its exact cost. If it is not yet known which
+/// collapse is allowed, `to` is no_point and the cost is a lower bound.
 struct CollapseCandidate {
   static constexpr std::uint32_t no_point = 0xFFFFFFFFU;
   double cost;

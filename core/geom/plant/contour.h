@@ -42,8 +42,9 @@ std::vector<ContourCorner> corners_of_circle(std::uint32_t sides);
 /// Returns the least number of sides with which all points of all contours are kept.
 std::uint32_t least_sides(std::span<const Contour> contours);
 
-/// Returns the number of sides of a regular polygon whose edges are as short as the shortest edge, or the
-/// smallest distance of an edge from the origin, of any contour. scale_of() gets this number of sides.
+/// Returns the number of sides of a regular polygon. Its edges are as long as the shortest edge of all
+/// contours, or as their smallest distance from the origin if that is less. scale_of() gets this number of
+/// sides.
 int fineness(std::span<const Contour> contours, std::uint32_t sides);
 
 }  // namespace seedmesh

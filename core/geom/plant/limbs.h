@@ -9,8 +9,8 @@
 
 namespace seedmesh {
 
-/// A joint is a point of the skeleton; a joint with a parent is also the internode (a straight piece of bark)
-/// that runs from its parent to itself. A limb is a chain of internodes: a joint continues the limb of its
+/// A joint is a point of the skeleton. A joint with a parent is also the internode (a straight piece of bark)
+/// that runs from its parent to itself. A limb is a chain of internodes. A joint continues the limb of its
 /// parent unless `starts_limb` is set (a side branch) or it has no parent (a root). At most one child
 /// continues a limb. All arrays that are not empty have size() elements.
 struct Limbs {

@@ -15,8 +15,8 @@ namespace seedmesh {
 /// - uv: the box of the outline is mapped to 0..1, u along its first edge.
 /// - Polygons that share edges are oriented so that they agree on the outside, whatever direction they were
 ///   drawn in.
-/// - Where an edge would be in more than two triangles of a mesh, or no orientation makes all agree (a
-///   Moebius strip), the later polygon goes to the next layer (a separate manifold mesh). Most drawings have
+/// - The later polygon goes to the next layer (a separate manifold mesh) in two cases: an edge would be in more
+///   than two triangles of a mesh, or no orientation makes all agree (a Moebius strip). Most drawings have
 ///   one layer.
 /// - Results of one layer may become primitives of one mesh; each layer needs a mesh and a node of its own.
 ///

@@ -68,10 +68,11 @@ struct Bark {
 /// - Ends. A root begins with a flat floor, a side branch with a cone inside its parent. A free tip ends in a
 ///   cone within the drawn length. An end with branches, or at a bend that is not mitred, ends in a cone of
 ///   half the radius beyond the drawn length.
-/// - Bends. A bend is mitred up to 120 degrees, unless the rings at both ends of an internode would cross on
-///   its inner side or a face would face away from a normal. Then the tube is closed and a new one begins.
-/// - Small internodes. An internode is left out if its length is below 1e-5 of the model's diagonal, or if it
-///   is so thin that its corners would be welded at 1e-6 of the diagonal.
+/// - Bends. A bend is mitred up to 120 degrees. At a larger bend the tube is closed and a new one
+///   begins. The same happens if a face would face away from a normal, or if the rings at both ends of an
+///   internode would cross on its inner side.
+/// - Small internodes. An internode is left out if its length is below 1e-5 of the model's diagonal. It is also
+///   left out if its corners would be welded at 1e-6 of the diagonal.
 /// - Repeated internodes. Of internodes that coincide (same ends in either order, same radii) the first is
 ///   written. What grows from a later one grows from the first.
 /// - Colours. A limb that changes its colour goes on in the other mesh with the same ring; together the

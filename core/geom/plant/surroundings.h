@@ -12,7 +12,7 @@
 namespace seedmesh {
 
 /// Light by shadow voxels (Palubicki et al., "Self-organizing tree models for image synthesis", 2009, section
-/// 4.1.2): limbs in a cell shade the cells below it in a pyramid, by shade * falloff^-q in the q-th
+/// 4.1.2). Limbs in a cell shade the cells below it in a pyramid, by shade * falloff^-q in the q-th
 /// layer below.
 struct ShadowOptions {
   double cell = 0.5;     ///< m
@@ -32,9 +32,10 @@ struct Stretch {
                     0;  ///< identifiers of the limb of this internode, and of the limb of its parent joint
 };
 
-/// A tip that queries. A query ignores the limb of the tip and the limb that continues it, the first internodes of
-/// side limbs of the latter, internodes that start at the joint or the position of the tip, and the last internodes
-/// below it.
+/// A tip that queries. A query ignores:
+/// - the limb of the tip, and the limb that continues it with the first internodes of its side limbs;
+/// - internodes that start at the joint or the position of the tip;
+/// - the last internodes below the tip.
 struct Prober {
   glm::dvec3 position{0}, heading{0, 1, 0};
   double radius = 0;

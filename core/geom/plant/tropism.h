@@ -1,10 +1,10 @@
 #pragma once
 /// Tropisms: forces that turn a growing tip toward a direction, by gravity, light or wind.
 ///
-/// After Prusinkiewicz and Lindenmayer, The Algorithmic Beauty of Plants, 1990, section 2.1.4: after each
-/// segment the heading H turns toward the vector T by e |H x T| radians about H x T, where e is the branch's
-/// susceptibility to bending. As in cpfg there may be several tropisms. Each has its own elasticity, which is
-/// part of the turtle's state and can be changed by symbols.
+/// Source: Prusinkiewicz and Lindenmayer, The Algorithmic Beauty of Plants, 1990, section 2.1.4. After each
+/// segment the heading H turns toward the vector T by e |H x T| radians about H x T. The number e is the
+/// branch's susceptibility to bending. As in cpfg there may be several tropisms. Each has its own elasticity,
+/// which is part of the turtle's state and can be changed by symbols.
 #include <cstddef>
 #include <vector>
 

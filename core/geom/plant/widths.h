@@ -16,8 +16,8 @@ struct ChainWidths {
 };
 
 /// The radius at the beginning of an internode depends linearly on the number of internodes in the longest
-/// chain that starts with it: from `tip` (the last one) to `base` (the longest chain of all). The internode
-/// ends with the radius at which the longest chain beyond it begins (Tunnel 2012, section 3).
+/// chain that starts with it. It is `tip` for a last internode and `base` for the longest chain of all. The
+/// internode ends with the radius at which the longest chain beyond it begins (Tunnel 2012, section 3).
 void widen_by_longest_chain(Limbs& limbs, const ChainWidths& widths, Job& job);
 
 struct PipeWidths {

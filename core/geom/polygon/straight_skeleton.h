@@ -1,6 +1,6 @@
 #pragma once
-/// The weighted straight skeleton of a plan: every edge moves inwards at its own speed with mitred corners,
-/// and the traces of the corners divide the plan into faces of the edges.
+/// The weighted straight skeleton of a plan. Every edge moves inwards at its own speed with mitred corners.
+/// The traces of the corners divide the plan into faces, each of which belongs to one edge.
 ///
 /// Aichholzer, Aurenhammer, Alberts and Gaertner, "A novel type of skeleton for polygons", 1995; weights as in
 /// Biedl et al., "Weighted straight skeletons in the plane", 2015. Events with equal time and position are

@@ -29,10 +29,10 @@ struct Shown {
   std::vector<std::size_t> parts;
 };
 
-/// Appends the JSON array of all nodes: the nodes of the model in their order; then the copies of nodes as
-/// their children ("window_0"), which share the mesh; last the coarser levels of both ("bark_LOD1"), which
-/// MSFT_lod refers to and no scene shows. Those of an object are grouped below a node for each level ("oak_LOD1").
-/// Identity transforms are left out. Spends the bytes of the text from
+/// Appends the JSON array of all nodes. First come the nodes of the model in their order. Then come the
+/// copies of nodes as their children ("window_0"), which share the mesh. Last come the coarser levels of both
+/// ("bark_LOD1"), to which MSFT_lod refers and which are in no scene. Those of an object are grouped below a
+/// node for each level ("oak_LOD1"). Identity transforms are left out. Spends the bytes of the text from
 /// `job`.
 void append_nodes(std::string& out, const Model& model, const Shown& shown, Job& job);
 

@@ -1,6 +1,6 @@
 #pragma once
-/// Levels of detail of an object with several meshes. Where each mesh has levels of its own (MSFT_lod), engines
-/// make a group of levels for each, with bounds of its own, and the parts change at different distances. Levels
+/// Levels of detail of an object with several meshes. If each mesh has levels of its own (MSFT_lod), engines
+/// make a group of levels with its own bounds for each. The parts then change at different distances. Levels
 /// of the root change together.
 #include <cstddef>
 #include <vector>

@@ -85,10 +85,9 @@ TEST(Hints, PointAtTheRestrictionThatABlueprintBreaks) {
 TEST(Hints, PointAtTheAttributeThatIsAText) {
   BuildingParams params = with("attr h = 3\nA --> extrude(h) B.", {10, 0, 10});
   params.attributes["h"] = std::string("tall");
-  EXPECT_EQ(
-      error_of(params),
-      "/attributes/h 0:0 found the text `tall`, expected a number, as the rules use it in line 2, column "
-      "15");
+  EXPECT_EQ(error_of(params),
+            "/attributes/h 0:0 found the text `tall`, expected a number; the rules use it in line 2, column "
+            "15");
 }
 
 TEST(Hints, PointAtTheAttributeThatIsANumber) {

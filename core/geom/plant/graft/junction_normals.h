@@ -2,7 +2,7 @@
 /// The normal solver for loops: normals that both surfaces of a junction share.
 ///
 /// Rings know their normals by formula; vertices on loops do not. A loop's normal is the mean of two normals,
-/// one of each surface, where each is the mean of the faces weighted by their angle at the vertex (Thürmer
+/// one of each surface. Each of these is the mean of the faces weighted by their angle at the vertex (Thürmer
 /// and Wüthrich, "Computing vertex normals from polygonal facets", 1998). It is then turned until it is in
 /// front of all its faces, where that is possible.
 #include <span>
@@ -30,9 +30,10 @@ struct FaceBlock {
 /// Fills a block. Angles are exact within 2e-5 radians. Reads a float behind each position.
 void measure_faces(FaceBlock& block, const glm::vec3* position);
 
-/// Turns normals, each of which belongs to several faces, until each is in front of all its faces by a
-/// little: a normal that is not is moved toward the face, face after face, at most 24 times. `normals` are by
-/// group and those of odd groups are not used. Linear time where no normal has to turn.
+/// Turns normals, each of which belongs to several faces, until each is slightly in front of all its faces. A
+/// normal that faces away from a face is turned to the front of that face, in at most 24 passes over the
+/// faces. `normals` are by group and those of odd groups are not used. Linear time where no normal has to
+/// turn.
 void relax_normals(std::span<const LoopFace> faces, std::span<GroupNormal> normals);
 
 /// Computes the normals of all changed loops (BarkRounds::touched), as group normals.

@@ -8,9 +8,9 @@ namespace seedmesh {
 bool has_rib_seams(const BarkBuffers& bark, std::size_t limb);
 
 /// Replaces the normals of a limb with ribs, except on loops, by the means of its faces, weighted by angle,
-/// and turns them in front of their faces as relax_normals() does. For limbs whose normals by formula face
-/// away from faces: rings of few corners cut deep ribs, or a flare, into faces that lean more than the ribs
-/// do.
+/// and turns them in front of their faces as relax_normals() does. Used if normals by formula face away from
+/// faces of the limb. With few corners for a ring, the faces of deep ribs or of a flare are steeper than the
+/// ribs themselves.
 void smooth_rib_normals(BarkBuffers& bark, std::size_t limb);
 
 }  // namespace seedmesh

@@ -19,7 +19,7 @@ inline std::size_t strip_triangles(const RingCorners& below, const RingCorners& 
 }
 
 /// Writes 3 * strip_triangles() indices, counter-clockwise seen from outside. Triangles follow the shorter
-/// diagonal, as long as neither ring is ahead of the other by more than `most_lead` radians: a side to a
+/// diagonal, as long as neither ring is ahead of the other by more than `most_lead` radians. A side to a
 /// farther corner would face away from its neighbours. Linear time. Reads a float behind each position.
 void write_strip(const RingCorners& below, const RingCorners& above, float most_lead,
                  const glm::vec3* position, std::uint32_t* out);
