@@ -70,15 +70,24 @@ glm::dvec3 nearest_of_cone(const glm::dvec3& q, const glm::dvec3& half) {
   return nearer(q * half, side * half, floor * half) / half;
 }
 
+glm::dvec3 middle_of(const Solid& solid) { return solid.position + glm::dvec3{0, 0.5 * solid.size.y, 0}; }
+
+/// True inside; on the surface, where the distance is 0, it may be either.
+bool encloses(const Solid& solid, const glm::dvec3& point) {
+  if (solid.shape == SolidShape::mesh) return solid.mesh->holds(point);
+  return is_inside(solid.shape, (point - middle_of(solid)) / (0.5 * solid.size));
+}
+
+double surface_distance(const Solid& solid, const glm::dvec3& point) {
+  return length_of(nearest_on_surface(solid, point) - point);
+}
+
 }  // namespace
 
-SurfacePoint surface_near(const Solid& solid, const glm::dvec3& point) {
-  if (solid.shape == SolidShape::mesh) {
-    const MeshField::Nearest found = solid.mesh->nearest(point);
-    return {found.point, solid.mesh->holds(point) ? -found.distance : found.distance};
-  }
+glm::dvec3 nearest_on_surface(const Solid& solid, const glm::dvec3& point) {
+  if (solid.shape == SolidShape::mesh) return solid.mesh->nearest(point).point;
   const glm::dvec3 half = 0.5 * solid.size;
-  const glm::dvec3 middle = solid.position + glm::dvec3{0, half.y, 0};
+  const glm::dvec3 middle = middle_of(solid);
   const glm::dvec3 q = (point - middle) / half;
   glm::dvec3 on{0};
   switch (solid.shape) {
@@ -98,9 +107,21 @@ SurfacePoint surface_near(const Solid& solid, const glm::dvec3& point) {
       on = nearest_of_box(q, half);
       break;
   }
-  const glm::dvec3 nearest = middle + on * half;
+  return middle + on * half;
+}
+
+SurfacePoint surface_near(const Solid& solid, const glm::dvec3& point) {
+  const glm::dvec3 nearest = nearest_on_surface(solid, point);
   const double distance = length_of(nearest - point);
-  return {nearest, is_inside(solid.shape, q) ? -distance : distance};
+  return {nearest, encloses(solid, point) ? -distance : distance};
+}
+
+bool lies_inside(const Solid& solid, const glm::dvec3& point) {
+  return encloses(solid, point) && surface_distance(solid, point) != 0;
+}
+
+bool lies_outside(const Solid& solid, const glm::dvec3& point) {
+  return !encloses(solid, point) && surface_distance(solid, point) != 0;
 }
 
 }  // namespace seedmesh

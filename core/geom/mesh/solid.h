@@ -28,5 +28,12 @@ struct SurfacePoint {
 
 /// Returns the nearest point of the surface and the signed distance.
 SurfacePoint surface_near(const Solid& solid, const glm::dvec3& point);
+/// Returns the nearest point of the surface alone, without testing on which side the point is.
+glm::dvec3 nearest_on_surface(const Solid& solid, const glm::dvec3& point);
+
+/// True where the signed distance is negative. The distance is computed only for points that are enclosed.
+bool lies_inside(const Solid& solid, const glm::dvec3& point);
+/// True where the signed distance is positive. The distance is computed only for points that are not enclosed.
+bool lies_outside(const Solid& solid, const glm::dvec3& point);
 
 }  // namespace seedmesh

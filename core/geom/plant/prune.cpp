@@ -33,7 +33,7 @@ class Pruning {
  private:
   static constexpr std::uint32_t gone = Limbs::none;
 
-  bool is_in(const glm::dvec3& point) const { return surroundings_.signed_distance_at(point) >= 0; }
+  bool is_in(const glm::dvec3& point) const { return !surroundings_.forbids(point); }
 
   void test(std::uint32_t joint) {
     const std::uint32_t parent = limbs_.parent[joint];

@@ -76,14 +76,22 @@ double Surroundings::signed_distance_at(const glm::dvec3& point) const {
   return room;
 }
 
+bool Surroundings::forbids(const glm::dvec3& point) const {
+  const auto is_outside = [&](const Solid& guide) { return lies_outside(guide, point); };
+  const auto is_inside = [&](const Solid& obstacle) { return lies_inside(obstacle, point); };
+  return (!options_.guides.empty() && std::ranges::all_of(options_.guides, is_outside)) ||
+         std::ranges::any_of(options_.obstacles, is_inside);
+}
+
 glm::dvec3 Surroundings::toward_surface(const glm::dvec3& point) const {
   double least = everywhere;
   glm::dvec3 to{0};
   for (const Solid& solid : options_.obstacles.empty() ? options_.guides : options_.obstacles) {
-    const SurfacePoint found = surface_near(solid, point);
-    if (std::abs(found.distance) >= least) continue;
-    least = std::abs(found.distance);
-    to = found.nearest - point;
+    const glm::dvec3 apart = nearest_on_surface(solid, point) - point;
+    const double distance = length_of(apart);
+    if (distance >= least) continue;
+    least = distance;
+    to = apart;
   }
   return math::unit(to, glm::dvec3{0});
 }
@@ -194,7 +202,7 @@ bool Surroundings::collides(const Prober& prober, const glm::dvec3& from, const 
 bool Surroundings::is_free(const Prober& prober, double length) const {
   if (bounds_growth()) {
     for (int i = 0; i <= probes; ++i) {
-      if (signed_distance_at(prober.position + prober.heading * (length * i / probes)) < 0) return false;
+      if (forbids(prober.position + prober.heading * (length * i / probes))) return false;
     }
   }
   if (grown_.empty()) return true;

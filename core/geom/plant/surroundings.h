@@ -58,6 +58,8 @@ class Surroundings {
   /// Returns the signed distance from a point to the surface of guides and obstacles, in metres: positive where
   /// growth is allowed. 1e9 where there are neither guides nor obstacles.
   double signed_distance_at(const glm::dvec3& point) const;
+  /// True where signed_distance_at() is negative; faster, because most points need no distance.
+  bool forbids(const glm::dvec3& point) const;
   /// Returns the unit vector to the nearest point of an obstacle, or of a guide where there are no obstacles; 0 on
   /// the surface or where there are neither.
   glm::dvec3 toward_surface(const glm::dvec3& point) const;

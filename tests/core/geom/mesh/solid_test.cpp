@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
 
 #include "core/base/rng.h"
 
@@ -72,6 +73,28 @@ TEST(MeshField, AgreesWithTheBoxOfItsForm) {
     const glm::dvec3 p{rng.uniform(-2, 2), rng.uniform(-1, 3), rng.uniform(-2, 2)};
     EXPECT_NEAR(field.nearest(p).distance, std::abs(distance(box, p)), 1e-9);
     EXPECT_EQ(field.holds(p), distance(box, p) < 0);
+  }
+}
+
+TEST(Solid, TellsSidesAsTheSignOfTheDistance) {
+  Job job(1, Job::Options{});
+  Solid mesh = solid(SolidShape::mesh);
+  mesh.mesh = std::make_shared<const MeshField>(cube(job), glm::dvec3{1, 1, 1}, glm::dvec3{0, 1, 0}, job);
+  Rng rng(5);
+  for (const Solid& one : {solid(SolidShape::box), solid(SolidShape::sphere), solid(SolidShape::cylinder),
+                           solid(SolidShape::cone), mesh}) {
+    for (int i = 0; i < 300; ++i) {
+      const glm::dvec3 p{rng.uniform(-2, 2), rng.uniform(-1, 3), rng.uniform(-2, 2)};
+      EXPECT_EQ(lies_inside(one, p), distance(one, p) < 0);
+      EXPECT_EQ(lies_outside(one, p), distance(one, p) > 0);
+      EXPECT_EQ(nearest_on_surface(one, p), surface_near(one, p).nearest);
+    }
+  }
+  for (const Solid& one : {solid(SolidShape::box), mesh}) {
+    for (const glm::dvec3 on : {glm::dvec3{0.25, 0, 0.5}, {0.25, 2, 0.5}, {1, 0.75, 0.5}, {-1, 0.75, 0.5}}) {
+      EXPECT_FALSE(lies_inside(one, on)) << "a point of the surface is on neither side";
+      EXPECT_FALSE(lies_outside(one, on));
+    }
   }
 }
 
