@@ -106,6 +106,20 @@ double sharpest_cosine(std::span<const CmPoint> ring) {
   return sharpest;
 }
 
+CmRing without_bends(std::span<const CmPoint> ring, double least) {
+  CmRing kept(ring.begin(), ring.end());
+  for (std::size_t i = 0; i < kept.size() && kept.size() > 3;) {
+    const CmPoint &a = kept[i > 0 ? i - 1 : kept.size() - 1], &b = kept[i + 1 < kept.size() ? i + 1 : 0];
+    if (distance_to_segment(in_cm(kept[i]), in_cm(a), in_cm(b)) < least) {
+      kept.erase(kept.begin() + static_cast<std::ptrdiff_t>(i));
+      i -= i > 0 ? 1 : 0;
+    } else {
+      ++i;
+    }
+  }
+  return kept;
+}
+
 bool has_narrow_part(std::span<const CmPoint> ring, double least) {
   constexpr double opposite = -0.8;  // cosine
   const std::size_t count = ring.size();

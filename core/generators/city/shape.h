@@ -21,6 +21,10 @@ CmRing hull_of(std::span<const CmPoint> ring);
 /// Returns the cosine of the sharpest inner corner of a counter-clockwise ring; -1 without any.
 double sharpest_cosine(std::span<const CmPoint> ring);
 
+/// Returns a ring without the corners that are less than `least`, in centimetres, from the line between their neighbours.
+/// At least three corners stay.
+CmRing without_bends(std::span<const CmPoint> ring, double least);
+
 /// Whether a counter-clockwise ring is somewhere narrower than `least`, in centimetres, between a corner and an edge
 /// that runs back beside it. Cost: quadratic.
 bool has_narrow_part(std::span<const CmPoint> ring, double least);

@@ -17,8 +17,10 @@ namespace seedmesh::city {
 using glm::dvec2;
 
 namespace {
-constexpr double near_outline = 1.6;  // points this near to the outline lie on it, cm
-}
+constexpr double least_bend = 3;          // of corners whose angles count, cm
+constexpr double sharpest_inner = 0.976;  // cosine of the least angle of inner lots, 12.6 degrees
+constexpr double near_outline = 1.6;      // points this near to the outline lie on it, cm
+}  // namespace
 
 /// Builds the pieces from the faces of a straight skeleton.
 class Strips {
@@ -215,7 +217,7 @@ class Strips {
     const LeastBox box = least_box(piece->ring);
     return static_cast<double>(doubled_area(piece->ring)) >= 2e4 * division_.lots_.area[0] &&
            box.narrowest >= division_.lots_.width * 100 + 3 && box.long_side <= 6 * box.short_side &&
-           sharpest_cosine(piece->ring) < 0.976;
+           sharpest_cosine(without_bends(piece->ring, least_bend)) < sharpest_inner;
   }
 
   std::optional<std::size_t> unfit_cell() const {
