@@ -54,10 +54,12 @@ std::vector<CmPoint> corner_points(const CornerInput& corner) {
   };
   if (corner.is_dead_end) return pair(corner.cap, corner.cap);
   // The wider outline ends first, so that no step lies on the line across the end of the wider street.
-  if (corner.step > 0 && h1 * c > h2) return pair(corner.step - s * h2, -(corner.step + step_slant) / c);
-  if (corner.step > 0 && h2 * c > h1) return pair(-(corner.step + step_slant) / c, corner.step - s * h1);
+  const double reach = corner.step + corner.walk;
+  if (corner.step > 0 && h1 * c > h2) return pair(reach - s * h2, -(reach + step_slant) / c);
+  if (corner.step > 0 && h2 * c > h1) return pair(-(reach + step_slant) / c, reach - s * h1);
   if (c > 0 && std::abs(s) < straight) {
-    if (std::abs(h1 - h2) > 1) return pair(0, 0);
+    const double past = h1 > h2 ? corner.walk : -corner.walk;
+    if (std::abs(h1 - h2) > 1) return pair(past, -past);
     const dvec2 normal = left_of(d1) + left_of(d2);
     return {
         rounded_cm(corner.at + normal * ((h1 + h2) / 2 / (normal.x * normal.x + normal.y * normal.y) * 2))};

@@ -18,6 +18,8 @@ struct CornerInput {
   /// Where one of the streets is so much wider that its outline would pass the node: a step between the widths, this
   /// far from the node towards the narrower street. Not positive: the outlines end where they meet.
   double step = 0;
+  double walk =
+      0;  ///< of the border of a block: how far its step is from that of the kerb, towards the narrower street
 };
 
 /// Returns the greatest radius of an arc, in centimetres, that stays on the street's side of the block's corner,

@@ -111,7 +111,9 @@ class StreetSpace {
     corner.cap = is_kerb ? 0 : walk_after;
     const bool is_between_streets = graph_.is_street(before / 2) && graph_.is_street(half / 2);
     if (is_between_streets && !is_stepped_.empty() && is_stepped_[start_of(graph_.edges, half)] != 0)
-      corner.step = least_progress + (is_kerb ? 0 : std::max(walk_before, walk_after));
+      corner.step = least_progress;
+    if (!is_kerb && is_between_streets && half_width(before) != half_width(half))
+      corner.walk = std::max(walk_before, walk_after);
     if (is_kerb && widths.fillet > 0 && is_between_streets)
       corner.fillet = fillet_of(corner, std::min(walk_before, walk_after));
     if (!is_kerb && is_between_streets && glm::dot(corner.before, corner.after) <= cos_least_turn_)
@@ -161,9 +163,9 @@ class StreetSpace {
       kerbs.push_back(std::move(kerb));
       borders.push_back(std::move(border));
     }
-    if (!are_apart(kerbs)) return false;
+    if (!are_nested(kerbs)) return false;
     if (!layout.has_walks) return true;
-    if (!are_apart(borders)) return false;
+    if (!are_nested(borders)) return false;
     for (const Outline& outline : layout.outlines) {
       for (const std::uint32_t half : outline.half_edges) {
         if (!graph_.is_street(half / 2)) continue;
@@ -203,6 +205,13 @@ class StreetSpace {
 
   static bool is_sound(const CmRing& ring, bool is_outer) {
     return is_simple(ring) && is_outer == (doubled_area(ring) > 0);
+  }
+
+  /// Whether the outlines of a face do not meet, and all but the first lie inside of the first.
+  static bool are_nested(const std::vector<CmRing>& rings) {
+    return are_apart(rings) && std::all_of(rings.begin() + 1, rings.end(), [&](const CmRing& hole) {
+             return hole.empty() || is_inside(rings[0], in_cm(hole[0]));
+           });
   }
 
   void add_part(PartKind kind, CmRing ring, std::uint32_t street, std::uint32_t node) {

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdlib>
+
 #include "core/generators/city/city.h"
 #include "core/generators/city/shape.h"
 #include "generated/params/city.h"
@@ -47,6 +49,28 @@ TEST(Ribbons, HaveSimpleOutlinesWhereStreetsOfVeryDifferentWidthsMeet) {
     ASSERT_NEAR(sum / area_of(plan->area), 1, 1e-9) << "seed " << seed;
   }
   EXPECT_GT(plans, 200U);
+}
+
+/// The outermost streets run around the area, nearer to its border than their sidewalks are wide.
+TEST(Ribbons, StayInsideTheAreaAroundARasterThatReachesItsBorder) {
+  CityParams params;
+  params.area.size = {731, 854};
+  params.streets.pattern = CityPattern::raster;
+  params.streets.major_spacing = 388;
+  params.streets.classes.major = {.width = 20.7, .sidewalk = 5.2};
+  Job job(273086, Job::Options{});
+  const Result<CityPlan> plan = plan_of(params, job);
+  ASSERT_TRUE(plan);
+  double sum = 0;
+  for (const Part& part : plan->parts) {
+    sum += area_of(part.rings);
+    EXPECT_GT(area_of(part.rings), 0) << name_of(part.kind);
+    for (const CmPoint& p : part.rings[0]) {
+      ASSERT_LE(std::abs(p.x), 36'550) << name_of(part.kind);
+      ASSERT_LE(std::abs(p.y), 42'700) << name_of(part.kind);
+    }
+  }
+  EXPECT_NEAR(sum, 731 * 854, 1e-3);
 }
 
 }  // namespace
