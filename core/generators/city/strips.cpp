@@ -17,9 +17,9 @@ namespace seedmesh::city {
 using glm::dvec2;
 
 namespace {
-constexpr double least_bend = 3;          // of corners whose angles count, cm
-constexpr double sharpest_inner = 0.976;  // cosine of the least angle of inner lots, 12.6 degrees
-constexpr double near_outline = 1.6;      // points this near to the outline lie on it, cm
+constexpr double least_bend = 3;      // of corners whose angles count, cm
+constexpr double sharpest = 0.976;    // cosine of the least angle of strips, 12.6 degrees
+constexpr double near_outline = 1.6;  // points this near to the outline lie on it, cm
 }  // namespace
 
 /// Builds the pieces from the faces of a straight skeleton.
@@ -213,11 +213,11 @@ class Strips {
   bool is_fit(const Cell& cell) const {
     const std::optional<Piece> piece = piece_of(cell);
     if (!piece) return false;
+    if (sharpest_cosine(without_bends(piece->ring, least_bend)) >= sharpest) return false;
     if (!cell.is_inner) return division_.is_fit(*piece, least_block_angle, 1e9);
     const LeastBox box = least_box(piece->ring);
     return static_cast<double>(doubled_area(piece->ring)) >= 2e4 * division_.lots_.area[0] &&
-           box.narrowest >= division_.lots_.width * 100 + 3 && box.long_side <= 6 * box.short_side &&
-           sharpest_cosine(without_bends(piece->ring, least_bend)) < sharpest_inner;
+           box.narrowest >= division_.lots_.width * 100 + 3 && box.long_side <= 6 * box.short_side;
   }
 
   std::optional<std::size_t> unfit_cell() const {

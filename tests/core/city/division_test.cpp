@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/base/math.h"
+#include "core/generators/city/shape.h"
 #include "generated/params/city.h"
 
 namespace seedmesh::city {
@@ -41,7 +42,7 @@ void count_edges(const CmRing& ring, int by, Balance& balance) {
   }
 }
 
-/// The pieces have the area of the block with the corners that cuts add to its sides, and each edge inside of it is that of one piece on each side. Returns how many
+/// The pieces have no corner below 12 degrees, the area of the block with the corners that cuts add to its sides, and each edge inside of it is that of one piece on each side. Returns how many
 /// pieces there are.
 std::size_t expect_a_partition(std::uint64_t seed, CityDivision method) {
   CityLots lots;
@@ -59,6 +60,7 @@ std::size_t expect_a_partition(std::uint64_t seed, CityDivision method) {
     const CmRing ring = division.outline(piece);
     count_edges(ring, -1, balance);
     EXPECT_GT(doubled_area(ring), 0);
+    EXPECT_LT(sharpest_cosine(without_bends(ring, 2)), std::cos(math::radians(11.9))) << "seed " << seed;
     area += doubled_area(ring);
   }
   EXPECT_EQ(area, doubled_area(whole)) << "seed " << seed;
@@ -71,9 +73,9 @@ TEST(Division, CutsRandomBlocksIntoAnExactPartition) {
   for (const CityDivision method : {CityDivision::recursive, CityDivision::offset, CityDivision::skeleton,
                                     CityDivision::burgage, CityDivision::none}) {
     std::size_t divided = 0;
-    for (std::uint64_t seed = 0; seed < 1'000; ++seed)
+    for (std::uint64_t seed = 0; seed < 4'000; ++seed)
       divided += expect_a_partition(seed, method) > 1 ? 1 : 0;
-    EXPECT_EQ(divided > 300, method != CityDivision::none) << divided << " of 1,000 blocks are divided";
+    EXPECT_EQ(divided > 1'200, method != CityDivision::none) << divided << " of 4,000 blocks are divided";
   }
 }
 
