@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <iterator>
 #include <nlohmann/json.hpp>
-#include <set>
 #include <utility>
 
 #include "core/base/math.h"
@@ -22,6 +21,7 @@
 #include "core/model/build.h"
 #include "core/model/levels.h"
 #include "core/schema/warning_list.h"
+#include "core/texture/file_size.h"
 #include "generated/params/building.h"
 
 namespace seedmesh::building {
@@ -239,8 +239,6 @@ void add_levels(Model& model, Work& work, const BuildingParams& params, const Sh
 /// The bytes of textures made by seed, and of texture coordinates and tangents of their faces.
 std::uint64_t texture_bytes(const BuildingParams& params, const Grammar& grammar, const Shapes& shapes,
                             const GenerateContext& context) {
-  // Bytes a texel of the PNG files of a material, and of its colour image, as means over all kinds.
-  constexpr double set_bytes = 0.5, color_bytes = 0.15;
   constexpr std::uint64_t vertex_bytes = 24;
   Model model;
   MaterialTable materials(model, params, shapes, context);
@@ -253,19 +251,9 @@ std::uint64_t texture_bytes(const BuildingParams& params, const Grammar& grammar
                 : dimension(shape.size) == 3   ? 24U
                                                : 4U;
   }
-  std::set<std::string> kinds;
-  std::set<std::pair<std::string, std::uint32_t>> colors;
-  for (const Material& material : model.materials) {
-    if (material.recipe.kind.empty()) continue;
-    const auto color = material.recipe.color.value_or(std::array<std::uint8_t, 3>{});
-    kinds.insert(material.recipe.kind);
-    colors.emplace(material.recipe.kind,
-                   std::uint32_t{color[0]} << 16U | std::uint32_t{color[1]} << 8U | std::uint32_t{color[2]});
-  }
-  const double texels = static_cast<double>(context.demand.textures) * context.demand.textures;
-  const double pictures = texels * (set_bytes * static_cast<double>(kinds.size()) +
-                                    color_bytes * static_cast<double>(colors.size() - kinds.size()));
-  return vertices * vertex_bytes + static_cast<std::uint64_t>(math::to_int64(pictures));
+  texture::TextureSizes sizes;
+  for (const Material& material : model.materials) sizes.add(material);
+  return vertices * vertex_bytes + sizes.bytes(context.demand.textures);
 }
 
 void append(std::vector<Warning>& to, const std::vector<Warning>& from) {

@@ -16,6 +16,7 @@
 #include "core/generators/city/objects.h"
 #include "core/generators/city/solid_builder.h"
 #include "core/generators/scene/model_levels.h"
+#include "core/texture/file_size.h"
 #include "generated/params/city.h"
 
 namespace seedmesh::city {
@@ -327,8 +328,10 @@ std::optional<Error> estimate_contents(Estimate& estimate, const Surface& surfac
   const ViewPoint view(params);
   Demand demand;
   demand.lods = level_count(view, context.demand);
+  texture::TextureSizes textures;
   const auto measured = [&](Result<Model> made) {
     const ModelCounts counts = count(*made);
+    for (const Material& material : made->materials) textures.add(material);
     return std::pair<LevelInfo, std::uint64_t>(level_info_of(*std::move(made), job), counts.bytes);
   };
   // Windows are a whole number, and with a camera the levels of houses depend on their sizes.
@@ -359,6 +362,7 @@ std::optional<Error> estimate_contents(Estimate& estimate, const Surface& surfac
     estimate.triangles += triangles;
     estimate.bytes += 50 * triangles;
   }
+  estimate.bytes += textures.bytes(context.demand.textures);
   return std::nullopt;
 }
 

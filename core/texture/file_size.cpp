@@ -1,0 +1,102 @@
+#include "core/texture/file_size.h"
+
+#include <algorithm>
+#include <array>
+#include <iterator>
+#include <string_view>
+
+#include "core/base/math.h"
+
+namespace seedmesh::texture {
+namespace {
+
+/// The bytes of the three PNG files of a kind for each texel of the colour image, measured at 512 texels.
+struct KindSize {
+  std::string_view kind;
+  float color, normal, surface;
+};
+constexpr KindSize kind_sizes[] = {KindSize{"oak_bark", 0.54F, 1.91F, 0.29F},
+                                   {"pine_bark", 0.58F, 1.96F, 0.31F},
+                                   {"spruce_bark", 0.73F, 2.40F, 0.41F},
+                                   {"willow_bark", 0.47F, 1.67F, 0.23F},
+                                   {"birch_bark", 1.19F, 1.20F, 0.24F},
+                                   {"beech_bark", 0.64F, 0.91F, 0.18F},
+                                   {"cherry_bark", 1.12F, 1.30F, 0.29F},
+                                   {"palm_bark", 0.42F, 1.42F, 0.28F},
+                                   {"cedar_bark", 0.38F, 1.02F, 0.17F},
+                                   {"simple_leaf", 0.23F, 0.31F, 0.03F},
+                                   {"willow_leaf", 0.26F, 0.31F, 0.03F},
+                                   {"birch_leaf", 0.23F, 0.29F, 0.03F},
+                                   {"cordate_leaf", 0.23F, 0.30F, 0.03F},
+                                   {"lobed_leaf", 0.22F, 0.30F, 0.03F},
+                                   {"maple_leaf", 0.23F, 0.28F, 0.02F},
+                                   {"ginkgo_leaf", 0.27F, 0.32F, 0.03F},
+                                   {"compound_leaf", 0.30F, 0.43F, 0.04F},
+                                   {"palmate_leaf", 0.26F, 0.36F, 0.03F},
+                                   {"needles", 0.36F, 0.47F, 0.05F},
+                                   {"palm_leaf", 0.37F, 0.52F, 0.05F},
+                                   {"kite_leaf", 0.18F, 0.22F, 0.02F},
+                                   {"petal", 0.30F, 0.31F, 0.03F},
+                                   {"simple_twig", 0.91F, 1.41F, 0.12F},
+                                   {"willow_twig", 1.05F, 1.51F, 0.13F},
+                                   {"birch_twig", 0.93F, 1.35F, 0.11F},
+                                   {"cordate_twig", 0.97F, 1.46F, 0.12F},
+                                   {"lobed_twig", 0.87F, 1.37F, 0.11F},
+                                   {"maple_twig", 1.00F, 1.48F, 0.12F},
+                                   {"ginkgo_twig", 1.07F, 1.66F, 0.11F},
+                                   {"needles_twig", 1.18F, 1.76F, 0.17F},
+                                   {"petal_twig", 1.21F, 1.62F, 0.11F},
+                                   {"brick", 0.26F, 0.81F, 0.08F},
+                                   {"plaster", 0.12F, 0.85F, 0.07F},
+                                   {"roof_tile", 0.18F, 0.59F, 0.05F},
+                                   {"slate", 0.19F, 0.45F, 0.05F},
+                                   {"planks", 0.22F, 0.60F, 0.04F},
+                                   {"ashlar", 0.15F, 0.65F, 0.03F},
+                                   {"concrete", 0.17F, 0.72F, 0.09F},
+                                   {"sheet", 0.04F, 0.01F, 0.01F},
+                                   {"panels", 0.03F, 0.01F, 0.00F},
+                                   {"dressed_stone", 0.14F, 0.54F, 0.09F},
+                                   {"paint", 0.04F, 0.04F, 0.01F},
+                                   {"rooms", 0.06F, 0.01F, 0.00F},
+                                   {"joinery", 0.15F, 0.28F, 0.06F},
+                                   {"grime", 0.41F, 0.01F, 0.00F},
+                                   {"brick_bay", 0.20F, 0.93F, 0.02F},
+                                   {"plaster_bay", 0.10F, 1.00F, 0.05F},
+                                   {"planks_bay", 0.19F, 0.30F, 0.01F},
+                                   {"ashlar_bay", 0.12F, 0.50F, 0.01F},
+                                   {"grass_ground", 0.57F, 2.37F, 0.22F},
+                                   {"soil_ground", 0.36F, 1.63F, 0.16F},
+                                   {"rock_ground", 0.38F, 1.97F, 0.20F},
+                                   {"scree_ground", 0.38F, 1.87F, 0.16F},
+                                   {"sand_ground", 0.30F, 1.14F, 0.11F},
+                                   {"snow_ground", 0.23F, 1.49F, 0.11F}};
+constexpr double measured_size = 512;
+constexpr double fall = 0.4;  ///< larger images need fewer bytes a texel: their exponent
+
+const KindSize& size_of(std::string_view kind) {
+  constexpr static KindSize other{"", 0.4F, 1.0F, 0.1F};
+  const auto* found = std::ranges::find(kind_sizes, kind, &KindSize::kind);
+  return found == std::end(kind_sizes) ? other : *found;
+}
+
+}  // namespace
+
+void TextureSizes::add(const Material& material) {
+  const TextureRecipe& recipe = material.recipe;
+  if (recipe.kind.empty()) return;
+  const auto color = recipe.color.value_or(std::array<std::uint8_t, 3>{});
+  colors_.emplace(recipe.kind, std::uint32_t{color[0]} << 16U | std::uint32_t{color[1]} << 8U | color[2]);
+  has_normals_[recipe.kind] |= !recipe.has_own_sides;
+}
+
+std::uint64_t TextureSizes::bytes(int size) const {
+  if (size <= 0) return 0;
+  double a_texel = 0;
+  for (const auto& [kind, color] : colors_) a_texel += static_cast<double>(size_of(kind).color);
+  for (const auto& [kind, has_normal] : has_normals_)
+    a_texel += static_cast<double>(size_of(kind).surface + (has_normal ? size_of(kind).normal : 0));
+  const double scale = math::pow(measured_size / size, fall);
+  return static_cast<std::uint64_t>(math::to_int64(a_texel * scale * size * size));
+}
+
+}  // namespace seedmesh::texture
