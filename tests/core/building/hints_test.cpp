@@ -138,7 +138,7 @@ TEST(Hints, WarnOfOptionsThatASolidIgnores) {
 TEST(Hints, WarnOfARuleThatIsNeverUsed) {
   EXPECT_THAT(warnings("A --> B.\nA --> C."),
               ElementsAre("/rules 2:1 this rule of `A` is never used: the rule in line 1 before it always "
-                          "holds"));
+                          "applies"));
   EXPECT_THAT(warnings("A ~> B. : 0.4\nA ~> C. : 0.6"), IsEmpty());
   EXPECT_THAT(warnings("A : Scope.sx > 3 ~> B.\nA ~> C."), IsEmpty());
   EXPECT_THAT(warnings("A --> B(1)\nB(x) --> C.\nB(x) --> D."), ElementsAre(HasSubstr("/rules 3:1")));

@@ -5,6 +5,7 @@
 #include "core/base/math.h"
 #include "core/generators/building/collision.h"
 #include "core/generators/building/hull.h"
+#include "core/texture/paint.h"
 #include "tests/core/building/rules.h"
 #include "tests/support/context.h"
 #include "tests/support/mesh_faults.h"
@@ -224,9 +225,15 @@ TEST(Appraisals, CountGeneratedTextures) {
   };
   const double none = estimate(BuildingTextures::none, 512);
   EXPECT_EQ(estimate(BuildingTextures::auto_, 0), none);
-  // Four to nine sets of about 130 kB, among them doors, rooms and dirt.
-  EXPECT_GT(estimate(BuildingTextures::auto_, 512), none + 4 * 130'000 - 1);
-  EXPECT_LT(estimate(BuildingTextures::auto_, 512), none + 9 * 130'000 + 1);
+  BuildingParams params;
+  params.blueprint = BuildingBlueprint::house;
+  Model model = demanded(params, {.textures = 512});
+  const Job job(1, Job::Options{});
+  texture::paint(model, 512, {}, nullptr, job);
+  std::size_t made = 0;
+  for (const auto& image : model.textures) made += image->bytes.size();
+  EXPECT_NEAR(estimate(BuildingTextures::auto_, 512) - none, static_cast<double>(made),
+              0.25 * static_cast<double>(made));
 }
 
 TEST(Appraisals, EstimateTheModel) {
