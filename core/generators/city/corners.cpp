@@ -14,6 +14,7 @@ constexpr double straight = 0.05;        // sine of a turn that counts as none
 constexpr double sharpest_mitre = -1.6;  // radians; outer corners that turn further are cut off
 constexpr int arc_pieces = 4;
 constexpr double step_slant = 30;        // cm
+constexpr double least_overlap = 2;      // of ends of streets, by rounding, cm
 constexpr double least_fillet = 50;      // cm
 constexpr double greatest_fillet = 500;  // cm
 
@@ -33,6 +34,19 @@ std::vector<CmPoint> arc(const CornerInput& corner, const dvec2& tip, double tur
     if (points[i] == points[i - 1]) return {rounded_cm(tip)};
   }
   return points;
+}
+
+/// The corner between two widths along a nearly straight line, with the sine of its turn. The wider street ends behind
+/// the end of the narrower one, which is perpendicular to a slightly other direction. So they do not overlap.
+std::vector<CmPoint> step_at_node(const CornerInput& corner, double sine) {
+  const bool narrows = corner.distance_before > corner.distance_after;
+  const double narrow = std::min(corner.distance_before, corner.distance_after);
+  const double back = corner.walk > 0 ? 0 : std::abs(sine) * narrow + least_overlap;
+  const dvec2 a = corner.at + left_of(corner.before) * corner.distance_before +
+                  corner.before * (narrows ? corner.walk - back : -corner.walk);
+  const dvec2 b = corner.at + left_of(corner.after) * corner.distance_after +
+                  corner.after * (narrows ? corner.walk : back - corner.walk);
+  return {rounded_cm(a), rounded_cm(b)};
 }
 
 }  // namespace
@@ -58,8 +72,7 @@ std::vector<CmPoint> corner_points(const CornerInput& corner) {
   if (corner.step > 0 && h1 * c > h2) return pair(reach - s * h2, -(reach + step_slant) / c);
   if (corner.step > 0 && h2 * c > h1) return pair(-(reach + step_slant) / c, reach - s * h1);
   if (c > 0 && std::abs(s) < straight) {
-    const double past = h1 > h2 ? corner.walk : -corner.walk;
-    if (std::abs(h1 - h2) > 1) return pair(past, -past);
+    if (std::abs(h1 - h2) > 1) return step_at_node(corner, s);
     const dvec2 normal = left_of(d1) + left_of(d2);
     return {
         rounded_cm(corner.at + normal * ((h1 + h2) / 2 / (normal.x * normal.x + normal.y * normal.y) * 2))};
