@@ -41,7 +41,8 @@ std::vector<CmPoint> arc(const CornerInput& corner, const dvec2& tip, double tur
 std::vector<CmPoint> step_at_node(const CornerInput& corner, double sine) {
   const bool narrows = corner.distance_before > corner.distance_after;
   const double narrow = std::min(corner.distance_before, corner.distance_after);
-  const double back = corner.walk > 0 ? 0 : std::abs(sine) * narrow + least_overlap;
+  // Shores and the border of the area have no width.
+  const double back = corner.walk > 0 || narrow <= 0 ? 0 : std::abs(sine) * narrow + least_overlap;
   const dvec2 a = corner.at + left_of(corner.before) * corner.distance_before +
                   corner.before * (narrows ? corner.walk - back : -corner.walk);
   const dvec2 b = corner.at + left_of(corner.after) * corner.distance_after +
