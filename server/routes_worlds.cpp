@@ -198,8 +198,8 @@ std::vector<Issue> keys_but(const Overrides& query, std::string_view known) {
   std::vector<Issue> issues;
   for (const auto& [key, value] : query) {
     if (key == known || issues.size() == most_issues) continue;
-    issues.push_back({IssueKind::unknown_key, "/" + key,
-                      known.empty() ? "expected no query" : "expected " + std::string(known) + " alone"});
+    issues.emplace_back(IssueKind::unknown_key, "/" + key,
+                        known.empty() ? "expected no query" : "expected " + std::string(known) + " alone");
   }
   return issues;
 }
@@ -218,8 +218,8 @@ std::variant<WorldBox, http::Response> box_of(const Call& call, const OpenWorld&
   const Overrides& given = std::get<Overrides>(query);
   std::vector<Issue> issues = keys_but(given, "box");
   if (issues.empty() && given.size() != 1) {
-    issues.push_back({given.empty() ? IssueKind::missing : IssueKind::conflict, "/box",
-                      "expected one box=west,south,east,north in metres"});
+    issues.emplace_back(given.empty() ? IssueKind::missing : IssueKind::conflict, "/box",
+                        "expected one box=west,south,east,north in metres");
   }
   if (!issues.empty()) return refuse(call, problem_of({Code::invalid, std::move(issues)}));
   Result<WorldBox> box = read_world_box(world, given.front().second);

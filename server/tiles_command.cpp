@@ -82,6 +82,7 @@ class TilesRun {
     const auto begun = std::chrono::steady_clock::now();
     if (share_.index == 0) make_root();
     std::vector<std::thread> threads;
+    threads.reserve(static_cast<std::size_t>(config_.threads));
     for (int i = 0; i < config_.threads; ++i) threads.emplace_back([this] { work(); });
     watch();
     for (std::thread& thread : threads) thread.join();

@@ -75,9 +75,10 @@ std::string world_token(const Request& request) {
 
 Named read_world_name(std::string_view name, const Job::Options& options,
                       const std::shared_ptr<WorldMemory>& memory) {
-  if (name.size() > longest_world_token)
+  if (name.size() > longest_world_token) {
     return problem(
         414, "The token of a world has at most 2,000 characters, because the URL of every tile has it.");
+  }
   if (name.find('.') != std::string_view::npos) return preset_world(name, options, memory);
   Result<Token> token = read_token(name, largest_token_text);
   if (!token) return problem_of(token.error());

@@ -128,7 +128,7 @@ bool has_errors(const Plan& plan, const Job* job) { return !defects_of(plan, job
 /// Adds the holes that lie in the outer ring. Those with errors become smaller, and are left out if that does not help.
 Plan with_holes(PlanRing outer, const std::vector<PlanRing>& holes, const Job* job, SoundPlans& made) {
   Plan plan = read_plan({std::move(outer)});
-  const Plan alone = plan;
+  Plan alone = plan;
   for (const PlanRing& hole : holes) {
     if (contains(alone, centroid_of(hole)) || contains(alone, hole[0])) plan.rings.push_back(hole);
   }

@@ -63,7 +63,7 @@ std::uint32_t big_endian(const std::uint8_t* bytes) {
 }
 
 /// Checks the chunks of a PNG file (ISO/IEC 15948, 5.3), with the messages of decode_png.
-std::string fault_of_png(const std::vector<std::uint8_t>& bytes) {
+std::string error_of_png(const std::vector<std::uint8_t>& bytes) {
   constexpr std::array<std::uint8_t, 8> signature = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1A, '\n'};
   if (bytes.size() < signature.size() || !std::equal(signature.begin(), signature.end(), bytes.begin()))
     return "found " + std::to_string(bytes.size()) + " bytes without the signature of a PNG";
@@ -76,9 +76,10 @@ std::string fault_of_png(const std::vector<std::uint8_t>& bytes) {
     if (name == "IHDR" && length >= 8) {
       const std::uint32_t width = big_endian(bytes.data() + at + 8),
                           height = big_endian(bytes.data() + at + 12);
-      if (std::max(width, height) > longest_side)
+      if (std::max(width, height) > longest_side) {
         return "the PNG has " + std::to_string(width) + " x " + std::to_string(height) +
                " pixels; a side may have " + std::to_string(longest_side);
+      }
     }
     at += around + length;
   }
@@ -87,8 +88,8 @@ std::string fault_of_png(const std::vector<std::uint8_t>& bytes) {
 }
 
 /// Checks the segments of a JPEG file up to its frame header (ISO/IEC 10918-1, B.1.1.4 and B.2.2), and its end.
-std::string fault_of_jpeg(const std::vector<std::uint8_t>& bytes) {
-  const std::string partial = "found no complete JPEG file";
+std::string error_of_jpeg(const std::vector<std::uint8_t>& bytes) {
+  std::string partial = "found no complete JPEG file";
   const std::size_t size = bytes.size();
   if (size < 4 || bytes[0] != 0xFF || bytes[1] != 0xD8 || bytes[size - 2] != 0xFF || bytes[size - 1] != 0xD9)
     return partial;
@@ -122,8 +123,8 @@ std::string error_of_image_uri(std::string_view text) {
   if (is_png || text.starts_with(jpeg_head)) {
     const auto bytes = decoded(text.substr(is_png ? png_head.size() : jpeg_head.size()));
     if (!bytes) return "found characters that are not base64";
-    if (is_png) return fault_of_png(*bytes);
-    return fault_of_jpeg(*bytes);
+    if (is_png) return error_of_png(*bytes);
+    return error_of_jpeg(*bytes);
   }
   return "found " + said_of(text) + "; expected \"" + std::string(png_head) + "…\" or \"" +
          std::string(jpeg_head) + "…\"";
@@ -138,7 +139,7 @@ Result<std::shared_ptr<const Image>> image_of_data_uri(std::string_view text, co
   if (is_png) {
     if (auto picture = decode_png(std::as_bytes(std::span(*bytes)), {longest_side}, job); !picture)
       return std::move(picture).error();
-  } else if (std::string message = fault_of_jpeg(*bytes); !message.empty()) {
+  } else if (std::string message = error_of_jpeg(*bytes); !message.empty()) {
     return invalid_input(std::move(message));
   }
   auto image = std::make_shared<Image>();

@@ -109,8 +109,8 @@ void mark_ignored(Compilation& c) {
   c.ignored = symbols_of(c, c.params.ignore, "/ignore");
   c.considered = symbols_of(c, c.params.consider, "/consider");
   if (!c.ignored.empty() && !c.considered.empty()) {
-    c.issues.push_back(
-        {IssueKind::conflict, "/consider", "found both `consider` and `ignore`; expected one of them"});
+    c.issues.emplace_back(IssueKind::conflict, "/consider",
+                          "found both `consider` and `ignore`; expected one of them");
   }
 }
 

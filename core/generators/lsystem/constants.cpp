@@ -53,7 +53,7 @@ class Resolver {
       entry.value = evaluate(entry, std::get<std::string>(entry.written->value));
     }
     if (!std::isfinite(entry.value)) {
-      issues_.push_back({IssueKind::evaluation, pointer(entry), "the value is not a finite number"});
+      issues_.emplace_back(IssueKind::evaluation, pointer(entry), "the value is not a finite number");
       entry.value = 0;
     }
     path_.pop_back();

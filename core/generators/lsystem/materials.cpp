@@ -44,14 +44,14 @@ void check_materials(const LsystemParams& params, std::vector<Issue>& issues) {
   for (std::size_t i = 0; i < params.materials.size(); ++i) {
     const Given& given = params.materials[i];
     if (!given.color && !has_texture(given) && given.images.color.empty()) {
-      issues.push_back({IssueKind::missing, pointer_to(i),
-                        "found neither color nor texture nor images/color; a material needs one of them"});
+      issues.emplace_back(IssueKind::missing, pointer_to(i),
+                          "found neither color nor texture nor images/color; a material needs one of them");
     }
     const auto check = [&](const std::string& uri, const char* member) {
       if (uri.empty()) return;
       std::string error = texture::error_of_image_uri(uri);
       if (!error.empty())
-        issues.push_back({IssueKind::invalid_value, pointer_to(i) + "/images/" + member, std::move(error)});
+        issues.emplace_back(IssueKind::invalid_value, pointer_to(i) + "/images/" + member, std::move(error));
     };
     check(given.images.color, "color");
     check(given.images.normal, "normal");

@@ -40,7 +40,7 @@ class Checker {
 
  private:
   void add(IssueKind kind, std::string pointer, std::string message) {
-    issues_.push_back({kind, std::move(pointer), std::move(message)});
+    issues_.emplace_back(kind, std::move(pointer), std::move(message));
   }
 
   void check_ground() {

@@ -46,7 +46,7 @@ class Check {
     if (is_error) error(kind, std::move(pointer), std::move(message));
   }
   void error(IssueKind kind, std::string pointer, std::string message) {
-    issues_.push_back({kind, std::move(pointer), std::move(message)});
+    issues_.emplace_back(kind, std::move(pointer), std::move(message));
   }
 
   bool is(std::initializer_list<Algorithm> algorithms) const {

@@ -74,7 +74,7 @@ void check(const Images& images, const std::string& pointer, std::vector<Issue>&
     if (uri.empty()) return;
     std::string error = texture::error_of_image_uri(uri);
     if (!error.empty())
-      issues.push_back({IssueKind::invalid_value, pointer + "/" + member, std::move(error)});
+      issues.emplace_back(IssueKind::invalid_value, pointer + "/" + member, std::move(error));
   };
   check_one(images.color, "color");
   check_one(images.normal, "normal");

@@ -16,6 +16,7 @@ using testing::IsEmpty;
 
 std::vector<std::string> texts_of(const std::vector<Warning>& warnings) {
   std::vector<std::string> out;
+  out.reserve(warnings.size());
   for (const Warning& each : warnings) {
     out.push_back(each.pointer + " " + std::to_string(each.line) + ":" + std::to_string(each.column) + " " +
                   each.message);
