@@ -178,7 +178,7 @@ std::vector<Primitive> GroundClasses::divided(const Mesh& mesh, const SpotOf& sp
   std::vector<Primitive> primitives;
   for (std::size_t k = 0; k < parts.size(); ++k) {
     if (parts[k].mesh.position.empty()) continue;
-    parts[k].mesh.cache_ordered = true;
+    parts[k].mesh.cache_ordered = mesh.cache_ordered;
     primitives.push_back({std::move(parts[k].mesh), used_[k].material, {}});
   }
   return primitives;

@@ -319,7 +319,7 @@ RefinedMesh refined_mesh(const Field& field, const RefinedGround& ground, const 
     }
   }
   set_colors(ground_colors, out, job);
-  mesh.cache_ordered = true;
+  mesh.cache_ordered = false;
   return out;
 }
 
