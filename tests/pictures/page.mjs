@@ -15,9 +15,10 @@ function prepare([width, height]) {
   renderer.setSize(width, height);
 }
 
-function lights(scene, box, sun_of) {
+/** Adds the sun and the sky. With `near`, a point, there are shadows within 90 m of it alone, but sharper ones. */
+function lights(scene, box, sun_of, near) {
   const { elevation, azimuth, strength, sky } = sun_of;
-  const middle = box.getCenter(new THREE.Vector3()), reach = box.getSize(new THREE.Vector3()).length() / 2 || 1;
+  const middle = near ? near.clone() : box.getCenter(new THREE.Vector3()), reach = near ? 90 : box.getSize(new THREE.Vector3()).length() / 2 || 1;
   const sun = new THREE.DirectionalLight(0xffffff, strength);
   const level = Math.cos(radians(elevation));
   const towards = new THREE.Vector3(level * Math.sin(radians(azimuth)), Math.sin(radians(elevation)), level * Math.cos(radians(azimuth)));
@@ -74,7 +75,6 @@ window.draw = async (url, view, { size, sun }) => {
     for (const map of ['map', 'normalMap', 'roughnessMap', 'aoMap']) if (each.material?.[map]) each.material[map].anisotropy = sharpness;
   });
   const box = new THREE.Box3().setFromObject(model);
-  lights(scene, box, sun);
   // Positions of views of buildings count from the middle of the foot of the front.
   const from = view.front ? [(box.min.x + box.max.x) / 2, 0, box.max.z] : [0, 0, 0];
   const [ax, ay, az] = view.at.map((each, i) => each + from[i]), [tx, ty, tz] = view.to.map((each, i) => each + from[i]);
@@ -82,6 +82,7 @@ window.draw = async (url, view, { size, sun }) => {
   const camera = new THREE.PerspectiveCamera(view.fov, size[0] / size[1], 0.05, 20_000);
   camera.position.set(ax, ay + foot, az);
   camera.lookAt(tx, ty + (view.above_ground ? foot : 0), tz);
+  lights(scene, box, sun, view.above_ground && camera.position);
   let measured;
   if (view.crown) {
     renderer.toneMapping = THREE.NoToneMapping;

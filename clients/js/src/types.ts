@@ -1299,6 +1299,8 @@ export interface SceneParametersLayersItemPlace {
   density_image?: string;
   /** Patches by smooth noise. */
   noise?: SceneParametersLayersItemPlaceNoise;
+  /** Classes of the ground of the terrain. The probability rises from 0 where they have 30 % of the ground to 1 where they have 55 %. Default: all classes. */
+  ground?: ("grass" | "soil" | "rock" | "scree" | "sand" | "snow")[];
   /** Limits of the slope of the ground; level ground has 0. */
   slope?: SceneParametersLayersItemPlaceSlope;
   /** Limits of the height of the ground. */

@@ -229,6 +229,9 @@ class Checker {
       check_near(place.near[i], number, pointer + "/near/" + std::to_string(i));
     if (place.above_water && !params_.terrain)
       add(IssueKind::conflict, pointer + "/above_water", "there is no water; only a terrain has water");
+    if (place.ground && !params_.terrain)
+      add(IssueKind::conflict, pointer + "/ground",
+          "there are no classes of ground; only a terrain has them");
   }
 
   void check_positions(const SceneLayer& layer, const std::string& pointer) {
@@ -252,6 +255,7 @@ class Checker {
     refuse(place.density != 1, "density");
     refuse(place.density_image.has_value(), "density_image");
     refuse(place.noise.has_value(), "noise");
+    refuse(place.ground.has_value(), "ground");
     refuse(place.slope.has_value(), "slope");
     refuse(place.altitude.has_value(), "altitude");
     refuse(place.above_water.has_value(), "above_water");

@@ -13,10 +13,12 @@
 namespace seedmesh {
 struct SceneParams;
 struct TerrainParams;
+enum class SceneGroundClass;
 }  // namespace seedmesh
 namespace seedmesh::terrain {
+class GroundCover;
 class RefinedGround;
-}
+}  // namespace seedmesh::terrain
 
 namespace seedmesh::scene {
 
@@ -40,6 +42,12 @@ class Ground {
   double height(const glm::dvec2& p) const { return refines(p) ? refined_height(p) : sample(p).height; }
   /// Returns the rise per metre to the east and to the south of the same triangle; of refined ground over a metre.
   glm::dvec2 gradient(const glm::dvec2& p) const;
+
+  /// Returns 0 where classes of ground have at most 30 % of the ground, 1 where they have 55 % of it or more, and a
+  /// smooth step between; 1 where cover() was not called.
+  double share_of(const std::vector<SceneGroundClass>& classes, const glm::dvec2& p) const;
+  /// Finds the classes of ground. Foundations that are made later do not change them.
+  void cover(const Job& job);
 
   /// Returns the height of the water, or nullopt without water.
   const std::optional<double>& water() const { return water_; }
@@ -71,6 +79,7 @@ class Ground {
   std::uint64_t seed_ = 0;
   terrain::Field field_;
   std::shared_ptr<const terrain::RefinedGround> refined_;  ///< may be null
+  std::shared_ptr<const terrain::GroundCover> cover_;      ///< may be null
   Array<std::uint8_t> levelled_;  ///< for each sample 1 under a foundation; empty without foundations
 };
 

@@ -9,6 +9,7 @@
 #include "core/base/parallel.h"
 #include "core/generators/terrain/decimate.h"
 #include "core/generators/terrain/ground_classes.h"
+#include "core/generators/terrain/ground_cover.h"
 #include "core/generators/terrain/maps.h"
 #include "core/generators/terrain/model_parts.h"
 #include "core/generators/terrain/plan.h"
@@ -40,15 +41,6 @@ Material wall_material() {
   return material;
 }
 
-/// Returns the height of the water; the lowest height without water.
-float water_of(const TerrainParams& params, const Range& range) {
-  return static_cast<float>(params.water_level.value_or(static_cast<double>(range.low)));
-}
-
-GroundColors colors_of(const TerrainParams& params, const Range& range) {
-  return {palette_of(params), params.tile ? nominal_range(params) : range, water_of(params, range)};
-}
-
 int add_texture(Model& model, std::string name, const texture::Picture& picture, Job& job) {
   const Array<std::uint8_t> file = texture::encode_png(picture.view(), texture::PngEffort::small, job);
   auto image = std::make_shared<Image>();
@@ -67,7 +59,7 @@ class Dressing {
         job_(context.job),
         demand_(context.demand),
         range_(range_of(field, job_)),
-        level_(water_of(params, range_)),
+        level_(static_cast<float>(params.water_level.value_or(static_cast<double>(range_.low)))),
         ground_colors_(colors_of(params, range_)),
         shading_(params.texture > 0 ? Shading::upright : Shading::smooth) {}
 

@@ -41,23 +41,6 @@ float height_at(const Field& field, std::int32_t x, std::int32_t z) {
   return height;
 }
 
-Site blend(const Site& a, const Site& b, float t) {
-  return {a.height + t * (b.height - a.height), a.slope + t * (b.slope - a.slope),
-          a.hollow + t * (b.hollow - a.hollow), a.patch + t * (b.patch - a.patch)};
-}
-
-GroundShares blend(const GroundShares& a, const GroundShares& b, float t) {
-  GroundShares all;
-  for (int k = 0; k < GroundShares::kind_count; ++k) all.of[k] = a.of[k] + t * (b.of[k] - a.of[k]);
-  return all;
-}
-
-/// Returns the bilinear mean of what a function gives for the four samples of a square.
-template <class At>
-auto bilinear(const At& at, float u, float v) {
-  return blend(blend(at(0, 0), at(1, 0), u), blend(at(0, 1), at(1, 1), u), v);
-}
-
 float ridge(float noise) { return mean_size - std::abs(noise); }
 float lump(float noise) { return std::abs(noise) - mean_size; }
 

@@ -227,7 +227,9 @@ Result<Json> derive(const TerrainParams& params, const GenerateContext& context)
 /// mean of the presets, 2.7, as is the share of vertices that several grounds have.
 static std::uint64_t estimated_bytes(const TerrainParams& params, std::uint64_t triangles,
                                      const Demand& demand) {
-  constexpr std::uint64_t document = 1200, bytes_a_triangle = 6;
+  constexpr std::uint64_t document = 1200;
+  // Refined ground is one mesh, whose indices are wide.
+  const std::uint64_t bytes_a_triangle = params.refine ? 12 : 6;
   constexpr double several = 1.4, bytes_a_texel = 2.7 * 2.5;  // of all images of all grounds
   const auto squares = static_cast<std::uint64_t>(finished_side(params) - 1);
   const std::uint64_t vertices = triangles / 2 + 2 * squares + 1;

@@ -840,6 +840,7 @@ class SceneParametersLayersItemPlace(TypedDict, total=False):
     density: float
     density_image: str
     noise: "SceneParametersLayersItemPlaceNoise"
+    ground: List[Literal['grass', 'soil', 'rock', 'scree', 'sand', 'snow']]
     slope: "SceneParametersLayersItemPlaceSlope"
     altitude: "SceneParametersLayersItemPlaceAltitude"
     above_water: "SceneParametersLayersItemPlaceAboveWater"
