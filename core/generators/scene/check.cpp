@@ -229,9 +229,10 @@ class Checker {
       check_near(place.near[i], number, pointer + "/near/" + std::to_string(i));
     if (place.above_water && !params_.terrain)
       add(IssueKind::conflict, pointer + "/above_water", "there is no water; only a terrain has water");
-    if (place.ground && !params_.terrain)
+    if (place.ground && !params_.terrain) {
       add(IssueKind::conflict, pointer + "/ground",
           "there are no classes of ground; only a terrain has them");
+    }
   }
 
   void check_positions(const SceneLayer& layer, const std::string& pointer) {

@@ -33,6 +33,7 @@ class GroundColors {
   GroundColors(PaletteName palette, const Range& range, float level);
   Cover cover(const Site& site) const;
   glm::vec3 color(const Site& site) const;  ///< linear
+  PaletteName palette() const { return palette_; }
 
  private:
   struct Shares {

@@ -71,8 +71,7 @@ class Dressing {
     model.nodes.push_back(std::move(root));
     if (has_detail()) {
       sites_.emplace(sites());
-      classes_.emplace(palette_of(params_), field_, window_of(params_), *sites_, ground_colors_,
-                       ground_material(params_), model);
+      classes_.emplace(field_, window_of(params_), *sites_, ground_colors_, ground_material(params_), model);
     }
     const int ground = has_detail() ? -1 : add_material(model, ground_material(params_));
     if (params_.texture > 0) {
@@ -321,8 +320,7 @@ std::shared_ptr<const RefinedGround> refined_ground(const TerrainParams& params,
   const std::uint64_t squares =
       static_cast<std::uint64_t>(field.width - 1) * static_cast<std::uint64_t>(field.depth - 1);
   refuse_refinement(refinement, 2 * squares, job);
-  return std::make_shared<const RefinedGround>(refinement, palette_of(params),
-                                               colors_of(params, range_of(field, job)), field,
+  return std::make_shared<const RefinedGround>(refinement, colors_of(params, range_of(field, job)), field,
                                                window_of(params), job.rng().at("terrain"), job);
 }
 

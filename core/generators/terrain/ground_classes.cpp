@@ -63,9 +63,9 @@ glm::vec3 varied(const Site& site, float number) {
 
 }  // namespace
 
-GroundClasses::GroundClasses(PaletteName palette, const Field& field, const Window& world, const Sites& sites,
+GroundClasses::GroundClasses(const Field& field, const Window& world, const Sites& sites,
                              const GroundColors& colors, const Material& plain, Model& model)
-    : palette_(palette), field_(field), world_(world), colors_(colors) {
+    : field_(field), world_(world), colors_(colors) {
   GroundShares all;
   float count = 0;
   const std::int32_t step_x = 1 + (field.width - 1) / most_rows, step_z = 1 + (field.depth - 1) / most_rows;

@@ -19,8 +19,8 @@ class GroundClasses {
   /// with the textures of the class.
   /// `field` and `colors` are borrowed; `world` is the window of the field in its world, whose tiles have equal
   /// colours at common borders. 40 ns for each of at most 65,536 samples.
-  GroundClasses(PaletteName palette, const Field& field, const Window& world, const Sites& sites,
-                const GroundColors& colors, const Material& plain, Model& model);
+  GroundClasses(const Field& field, const Window& world, const Sites& sites, const GroundColors& colors,
+                const Material& plain, Model& model);
 
   /// Returns the mesh in one primitive for each class, with texture coordinates in set 1 and tangents. Vertices between
   /// classes or sides are duplicated. Vertex colours are brightened by what the grey textures darken, and vary more
@@ -43,7 +43,7 @@ class GroundClasses {
     glm::dvec2 at{0};
     float own = 0, bumps = 1;
   };
-  GroundShares shares(const Site& site) const { return ground_shares(palette_, colors_, site); }
+  GroundShares shares(const Site& site) const { return ground_shares(colors_, site); }
   std::size_t use_of(const GroundShares& shares) const;
   float own_number(std::int32_t x, std::int32_t z) const;
   Spot spot_of_sample(const Sites& sites, const glm::vec3& position) const;
@@ -51,7 +51,6 @@ class GroundClasses {
   template <class SpotOf>
   std::vector<Primitive> divided(const Mesh& mesh, const SpotOf& spot_of, const Job& job) const;
 
-  PaletteName palette_;
   const Field& field_;
   Window world_;
   const GroundColors& colors_;

@@ -16,8 +16,7 @@ GroundColors colors_of(const TerrainParams& params, const Range& range) {
 
 GroundCover::GroundCover(const TerrainParams& params, const Field& field,
                          std::shared_ptr<const RefinedGround> refined, const Job& job)
-    : palette_(palette_of(params)),
-      colors_(colors_of(params, range_of(field, job))),
+    : colors_(colors_of(params, range_of(field, job))),
       refined_(std::move(refined)),
       width_(field.width),
       depth_(field.depth),
@@ -27,15 +26,14 @@ GroundCover::GroundCover(const TerrainParams& params, const Field& field,
   shares_.reserve(static_cast<std::size_t>(width_) * static_cast<std::size_t>(depth_));
   for (std::int32_t z = 0; z < depth_; ++z) {
     job.check();
-    for (std::int32_t x = 0; x < width_; ++x)
-      shares_.push_back(ground_shares(palette_, colors_, sites.at(x, z)));
+    for (std::int32_t x = 0; x < width_; ++x) shares_.push_back(ground_shares(colors_, sites.at(x, z)));
   }
 }
 
 GroundShares GroundCover::at(double x, double z) const {
   if (refined_ && refined_->holds(x, z)) {
     RefinedGround::Sampler sampler(*refined_);
-    return ground_shares(palette_, colors_, sampler.at(x, z).site);
+    return ground_shares(colors_, sampler.at(x, z).site);
   }
   const double column = std::clamp(x / cell_, 0.0, width_ - 1.0),
                row = std::clamp(z / cell_, 0.0, depth_ - 1.0);

@@ -23,7 +23,6 @@ class GroundCover {
   GroundShares at(double x, double z) const;
 
  private:
-  PaletteName palette_;
   GroundColors colors_;
   std::shared_ptr<const RefinedGround> refined_;
   std::int32_t width_, depth_;

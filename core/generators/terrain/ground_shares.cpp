@@ -10,7 +10,7 @@ constexpr float scree_slope = 0.7F, rock_slope = 0.95F;
 
 }  // namespace
 
-GroundShares ground_shares(PaletteName palette, const GroundColors& colors, const Site& site) {
+GroundShares ground_shares(const GroundColors& colors, const Site& site) {
   const Cover cover = colors.cover(site);
   const float steep = ease(scree_slope, rock_slope, site.slope + 0.12F * site.patch);
   GroundShares all;
@@ -19,7 +19,7 @@ GroundShares ground_shares(PaletteName palette, const GroundColors& colors, cons
     lay(GroundShares::rock, share * steep);
     lay(GroundShares::scree, share * (1 - steep));
   };
-  switch (palette) {
+  switch (colors.palette()) {
     case PaletteName::desert:
       lay(GroundShares::sand, cover.grass + cover.sand);
       lay_stone(cover.rock + cover.snow);

@@ -23,6 +23,6 @@ auto bilinear(const At& at, float u, float v) {
 }
 
 /// Returns the shares at a site.
-GroundShares ground_shares(PaletteName palette, const GroundColors& colors, const Site& site);
+GroundShares ground_shares(const GroundColors& colors, const Site& site);
 
 }  // namespace seedmesh::terrain

@@ -15,6 +15,7 @@ namespace {
 constexpr std::array<double, 5> wavelengths{9.1, 4.3, 2.05, 1.03, 0.51};
 constexpr std::array<double, 3> outcrop_wavelengths{23, 7.3, 2.9};
 constexpr std::array<double, 3> block_sizes{8.7, 3.3, 1.2};
+constexpr std::array<float, 2> thicknesses{2.3F, 0.8F};  // of beds of rock
 // An octave is complete where a wave has three steps, and absent where it has half of that.
 constexpr float least_steps = 1.5F, enough_steps = 3;
 // Amplitude of waves longer than the first wavelength, by their length: the forms that a coarse grid lacks.
@@ -120,8 +121,8 @@ struct RefinedGround::Sampler::Form {
   float wide = 0, small = 0;
 };
 
-RefinedGround::RefinedGround(const Refinement& refinement, PaletteName palette, const GroundColors& colors,
-                             const Field& field, const Window& world, Rng rng, const Job& job)
+RefinedGround::RefinedGround(const Refinement& refinement, const GroundColors& colors, const Field& field,
+                             const Window& world, Rng rng, const Job& job)
     : refinement_(refinement),
       world_east_(static_cast<double>(world.x) * field.cell),
       world_south_(static_cast<double>(world.z) * field.cell),
@@ -144,7 +145,7 @@ RefinedGround::RefinedGround(const Refinement& refinement, PaletteName palette, 
     job.check();
     for (std::int32_t x = 0; x < heights_.width; ++x) {
       sites_.push_back(sites.at(left_ + x, top_ + z));
-      shares_.push_back(ground_shares(palette, colors, sites_.back()));
+      shares_.push_back(ground_shares(colors, sites_.back()));
     }
   }
 }
@@ -234,12 +235,14 @@ RefinedGround::Sampler::Waves RefinedGround::Sampler::waves(double x, double z, 
     // The borders of blocks are not straight.
     const double bend_x = 0.7 * static_cast<double>(all.noise[1]) + 0.3 * static_cast<double>(all.noise[2]),
                  bend_z = 0.5 * static_cast<double>(all.noise[0] - all.noise[2]);
-    if (complete > 0)
+    if (complete > 0) {
       all.blocks[i] =
           complete * Blocks(ground_.rng_.at("blocks").at(i).key(), static_cast<float>(block_sizes[i]))
                          .at(east + bend_x, south + bend_z);
+    }
   }
-  const double dip = 0.17 * east + 0.09 * south, cycle = 64;
+  // Both thicknesses divide the cycle.
+  const double dip = 0.17 * east + 0.09 * south, cycle = 18.4;
   all.along = static_cast<float>(dip - cycle * std::floor(dip / cycle));
   return all;
 }
@@ -265,7 +268,8 @@ RefinedGround::Sampler::Form RefinedGround::Sampler::form(const GroundShares& sh
   const float steep = ease(0.3F, 0.9F, site.slope);
   // Beds of two thicknesses, which come and go.
   const float level = site.height + waves.along + 0.9F * n9 + 0.5F * n4 + 0.2F * n2;
-  const float bed = ledge(level, 2.3F) * (0.5F + n9) + ledge(level + 3 * n9, 0.8F) * (0.4F - n9);
+  const auto& [thick, thin] = thicknesses;
+  const float bed = ledge(level, thick) * (0.5F + n9) + ledge(level + 3 * n9, thin) * (0.4F - n9);
   add(rock,
       0.6F * ridge(n9) + 0.6F * ridge(n4) + (0.5F + steep) * huge + 0.7F * large + steep * bed +
           1.4F * waves.wide,

@@ -24,8 +24,8 @@ struct RefinedPoint {
 class RefinedGround {
  public:
   /// `world`: window of the field in its world.
-  RefinedGround(const Refinement& refinement, PaletteName palette, const GroundColors& colors,
-                const Field& field, const Window& world, Rng rng, const Job& job);
+  RefinedGround(const Refinement& refinement, const GroundColors& colors, const Field& field,
+                const Window& world, Rng rng, const Job& job);
 
   const Refinement& refinement() const { return refinement_; }
   /// Returns true in a divided square. Metres to the east and south of the north-west sample.

@@ -49,8 +49,8 @@ Made made(const Field& field, const TerrainRefine& given, PaletteName palette = 
   const Sites sites(field, all, Rng(3), job);
   const GroundColors colors(palette, range_of(field, job), -1000);
   const Array<glm::u8vec4> bytes = vertex_colors(field, sites, colors, job);
-  const RefinedGround ground(refinement_of(given, field.width, field.depth, field.cell), palette, colors,
-                             field, all, Rng(3), job);
+  const RefinedGround ground(refinement_of(given, field.width, field.depth, field.cell), colors, field, all,
+                             Rng(3), job);
   return {refined_mesh(field, ground, colors, bytes, job),
           grid_mesh(field, all, bytes, Shading::smooth, job)};
 }
