@@ -4,8 +4,10 @@
 #include <array>
 #include <cmath>
 #include <string>
+#include <vector>
 
 #include "core/base/math.h"
+#include "core/base/parallel.h"
 #include "core/base/quick_math.h"
 #include "core/base/rng.h"
 #include "core/generators/terrain/box_mapping.h"
@@ -21,6 +23,8 @@ constexpr std::array<const char*, 6> names{"grass", "soil", "rock", "scree", "sa
 // Classes of a smaller share of the field are left to the others, since each has textures of its own.
 constexpr float least_share = 0.01F;
 constexpr std::int32_t most_rows = 256;
+// Vertices whose noise is evaluated together, so that its lattices are set up once for all of them.
+constexpr std::size_t vertices_a_chunk = 2048;
 // Bare rock is steeper than loose stones lie (35 degrees), by this much at the borders between both.
 constexpr float scree_slope = 0.7F, rock_slope = 0.95F;
 
@@ -169,29 +173,40 @@ std::vector<Primitive> GroundClasses::divide(const Mesh& mesh, const Sites& site
   bump.octaves = 1;
   bump.amplitude = 1;
   bump.wavelength = bump_cells * field_.cell;
-  for (std::size_t v = 0; v < own.size(); ++v) {
-    if (v % 4096 == 0) job.check();
-    const glm::dvec3 p = mesh.position[v];
-    const std::int32_t x = std::clamp(math::to_int32((p.x - west) / field_.cell + 0.5), 0, field_.width - 1),
-                       z = std::clamp(math::to_int32((p.z - north) / field_.cell + 0.5), 0, field_.depth - 1);
-    const Site site = sites.at(x, z);
-    own[v] = shares(site);
-    const std::uint64_t key =
-        key_at(static_cast<std::uint64_t>(world_.x + x), static_cast<std::uint64_t>(world_.z + z));
-    const double east = static_cast<double>(world_.x + x) * field_.cell,
-                 south = static_cast<double>(world_.z + z) * field_.cell;
+  parallel_for(job, own.size(), vertices_a_chunk, [&](std::size_t begin, std::size_t end, std::size_t) {
+    job.check();
+    std::vector<Site> at;
+    std::vector<std::uint64_t> keys;
+    std::vector<double> east, south;
+    for (std::size_t v = begin; v < end; ++v) {
+      const glm::dvec3 p = mesh.position[v];
+      const std::int32_t x = std::clamp(math::to_int32((p.x - west) / field_.cell + 0.5), 0,
+                                        field_.width - 1),
+                         z = std::clamp(math::to_int32((p.z - north) / field_.cell + 0.5), 0,
+                                        field_.depth - 1);
+      at.push_back(sites.at(x, z));
+      keys.push_back(
+          key_at(static_cast<std::uint64_t>(world_.x + x), static_cast<std::uint64_t>(world_.z + z)));
+      east.push_back(static_cast<double>(world_.x + x) * field_.cell);
+      south.push_back(static_cast<double>(world_.z + z) * field_.cell);
+    }
     const auto noise = [&](const NoisePlan& plan, std::uint64_t name) {
-      double value = 0;
-      noise_in_plane(plan, {&east, 1}, {&south, 1}, Rng(name), &value);
-      return value;
+      std::vector<double> values(at.size());
+      noise_in_plane(plan, east, south, Rng(name), values.data());
+      return values;
     };
-    factors[v] = varied(site, key) * shrubs(noise(patches, shrub_key), own[v].of[grass]);
-    float rough = 0;
-    for (int k = 0; k < kind_count; ++k) rough += bumps[k] * own[v].of[k];
-    const glm::vec3 tilt{static_cast<float>(noise(bump, bump_keys[0])), 0,
-                         static_cast<float>(noise(bump, bump_keys[1]))};
-    normals[v] = math::quick_unit(mesh.normal[v] + rough * tilt, mesh.normal[v]);
-  }
+    const std::vector<double> shrub = noise(patches, shrub_key), tilt_x = noise(bump, bump_keys[0]),
+                              tilt_z = noise(bump, bump_keys[1]);
+    for (std::size_t i = 0; i < at.size(); ++i) {
+      const std::size_t v = begin + i;
+      own[v] = shares(at[i]);
+      factors[v] = varied(at[i], keys[i]) * shrubs(shrub[i], own[v].of[grass]);
+      float rough = 0;
+      for (int k = 0; k < kind_count; ++k) rough += bumps[k] * own[v].of[k];
+      const glm::vec3 tilt{static_cast<float>(tilt_x[i]), 0, static_cast<float>(tilt_z[i])};
+      normals[v] = math::quick_unit(mesh.normal[v] + rough * tilt, mesh.normal[v]);
+    }
+  });
   restore_turned_off(mesh, normals, job);
   std::vector<BoxMapped> parts;
   for (const Used& used : used_)
