@@ -1531,6 +1531,18 @@ export interface TerrainParametersHydraulic {
   area_exponent?: number;
 }
 
+/** Finer ground around a point, such as a walking camera. Within the radius, the squares of the grid are divided until their sides are at most the step; further out, the step doubles with each radius until it is that of the grid. Small forms by ground are added: rock has ledges and outcrops, scree lumps, grass hummocks, sand and soil ripples, snow low drifts. They end at the rim and at the border of the field. A shape plane with the mesh grid, without texture. */
+export interface TerrainParametersRefine {
+  /** The point, in metres to the east and south of the middle of the field or tile. */
+  center?: [number, number];
+  /** The distance from the point within which the step holds. */
+  radius?: number;
+  /** The greatest side of the squares within the radius. It is less than the side of the squares of the grid. */
+  step?: number;
+  /** Factor of the heights of the small forms. 0: none, the ground is only smoother. */
+  relief?: number;
+}
+
 /** Applies the heights to the surface of another model instead of a plane. They keep their metres and continue mirrored beyond their edges, so that there is no seam. The model keeps its materials. */
 export interface TerrainParametersOnto {
   model: Child;
@@ -1628,6 +1640,8 @@ export interface TerrainParameters {
   skirt?: number;
   /** Makes a closed solid for printing, with a floor at this distance below the lowest height. */
   base?: number;
+  /** Finer ground around a point, such as a walking camera. Within the radius, the squares of the grid are divided until their sides are at most the step; further out, the step doubles with each radius until it is that of the grid. Small forms by ground are added: rock has ledges and outcrops, scree lumps, grass hummocks, sand and soil ripples, snow low drifts. They end at the rim and at the border of the field. A shape plane with the mesh grid, without texture. */
+  refine?: TerrainParametersRefine;
   /** Colours by height, slope and hollows. stone and mossy are those of rocks: light tops, and tops with moss. */
   palette?: "alpine" | "desert" | "tropical" | "arctic" | "volcanic" | "moon" | "stone" | "mossy" | "grey" | "none";
   specular?: Specular;

@@ -63,6 +63,13 @@ class Checker {
       add(IssueKind::not_available, "/terrain/parameters/onto",
           "the ground of a scene cannot follow a model");
     }
+    const bool has_foundations = std::ranges::any_of(
+        params_.layers, [](const SceneLayer& layer) { return layer.foundation.has_value(); });
+    if (parameters.contains("refine") &&
+        (has_foundations || !params_.paths.empty() || !params_.buildings.empty())) {
+      add(IssueKind::conflict, "/terrain/parameters/refine",
+          "paths, buildings and foundations lie on the squares of the grid; expected a scene without them");
+    }
   }
 
   /// Refuses a scene inside the request, at any depth.

@@ -8,6 +8,7 @@
 #include "core/generators/material_members.h"
 #include "core/generators/scene/buildings.h"
 #include "core/generators/scene/path_bands.h"
+#include "core/generators/terrain/dress.h"
 #include "core/generators/terrain/plan.h"
 #include "core/generators/terrain/terrain.h"
 #include "core/model/append.h"
@@ -106,6 +107,7 @@ Result<Ground> Ground::make(const SceneParams& params, const Job& job) {
   if (ground.terrain_->water_level &&
       *ground.terrain_->water_level > static_cast<double>(terrain::range_of(made, job).low))
     ground.water_ = ground.terrain_->water_level;
+  ground.refined_ = terrain::refined_ground(*ground.terrain_, made, own);
   return ground;
 }
 
@@ -113,6 +115,22 @@ bool Ground::holds(const glm::dvec2& p, double edge) const {
   if (round_) return glm::length(p) <= extent_.max.x - edge;
   return p.x >= extent_.min.x + edge && p.y >= extent_.min.y + edge && p.x <= extent_.max.x - edge &&
          p.y <= extent_.max.y - edge;
+}
+
+glm::dvec2 Ground::gradient(const glm::dvec2& p) const {
+  constexpr double half = 0.5;
+  if (!refines(p)) return sample(p).gradient;
+  return {(refined_height(p + glm::dvec2(half, 0)) - refined_height(p - glm::dvec2(half, 0))) / (2 * half),
+          (refined_height(p + glm::dvec2(0, half)) - refined_height(p - glm::dvec2(0, half))) / (2 * half)};
+}
+
+bool Ground::refines(const glm::dvec2& p) const {
+  return refined_ && refined_->holds(p.x - extent_.min.x, p.y - extent_.min.y);
+}
+
+double Ground::refined_height(const glm::dvec2& p) const {
+  terrain::RefinedGround::Sampler sampler(*refined_);
+  return static_cast<double>(sampler.at(p.x - extent_.min.x, p.y - extent_.min.y).height);
 }
 
 /// Squares are split like grid meshes: along the diagonal with the smaller height difference.
