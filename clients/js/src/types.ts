@@ -323,11 +323,11 @@ export interface CityParametersMaps {
 
 /** Existing parts of the city as GeoJSON in local metres. They stay as they are, and the rest grows from them. */
 export interface CityParametersGiven {
-  /** Existing streets: LineString, MultiLineString, or a GeometryCollection of them. A FeatureCollection, a Feature or a geometry of GeoJSON in metres, east and north. Foreign members have no effect. The properties `class` (highway, major, minor or lane), `width`, `lanes`, `sidewalk` (one number, or left and right), `level`, `bridge` and `tunnel` count. Where two streets meet or cross on one level, an end or corner of one has to lie within 3 m of the other. */
+  /** Existing streets: LineString, MultiLineString, or a GeometryCollection of them. A FeatureCollection, a Feature or a geometry of GeoJSON in metres, east and north. Foreign members have no effect. The properties `class` (highway, major, minor or lane), `width`, `lanes`, `sidewalk` (one number, or left and right), `level`, `bridge` and `tunnel` count. Without `class`, `highway` of OpenStreetMap decides. Where two streets meet or cross on one level, an end or corner of one has to lie within 3 m of the other. */
   streets?: { [key: string]: unknown };
   /** Existing water: Polygon, MultiPolygon, or a GeometryCollection of them. A FeatureCollection, a Feature or a geometry of GeoJSON in metres, east and north. Foreign members have no effect. */
   water?: { [key: string]: unknown };
-  /** Existing buildings: Polygon, MultiPolygon, or a GeometryCollection of them. A FeatureCollection, a Feature or a geometry of GeoJSON in metres, east and north. Foreign members have no effect. The property `height` is that of the walls in metres; without it, `floors` of 3 m, or 9 m. Streets that grow keep clear of the buildings, and no house is built on them. */
+  /** Existing buildings: Polygon, MultiPolygon, or a GeometryCollection of them. A FeatureCollection, a Feature or a geometry of GeoJSON in metres, east and north. Foreign members have no effect. The property `height` is that of the walls in metres; without it, `floors` or `building:levels` of 3 m, or 9 m. Streets that grow keep clear of the buildings, and no house is built on them. */
   footprints?: { [key: string]: unknown };
 }
 
