@@ -104,6 +104,8 @@ Part take_part(Primitive& primitive) {
   if (!mesh.weights.empty())
     name_column(part, "WEIGHTS_0", column_of(mesh.weights, Component::f32, Lanes::vec4));
   take_bones(part, mesh);
+  if (!mesh.next_position.empty())
+    name_column(part, "_NEXT_POSITION", column_of(mesh.next_position, Component::f32, Lanes::vec3));
   return part;
 }
 

@@ -113,6 +113,7 @@ void add(Hasher& hash, const Mesh& mesh) {
   hash.array(mesh.joints);
   hash.array(mesh.weights);
   hash.array(mesh.bone);
+  if (!mesh.next_position.empty()) hash.array(mesh.next_position);
   hash.array(mesh.index.wide);
   hash.array(mesh.index.small);
 }

@@ -45,6 +45,7 @@ Mesh copy_of(const Mesh& mesh) {
   copy(mesh.joints, out.joints);
   copy(mesh.weights, out.weights);
   copy(mesh.bone, out.bone);
+  copy(mesh.next_position, out.next_position);
   copy(mesh.index.wide, out.index.wide);
   copy(mesh.index.small, out.index.small);
   out.bounds = mesh.bounds;

@@ -23,7 +23,8 @@ std::size_t Mesh::elements() const {
 std::uint64_t Mesh::bytes() const {
   if (packed) return packed->bytes;
   std::uint64_t sum = position.bytes() + normal.bytes() + color.bytes() + tangent.bytes() + joints.bytes() +
-                      weights.bytes() + 4 * bone.bytes() + index.wide.bytes() + index.small.bytes();
+                      weights.bytes() + 4 * bone.bytes() + next_position.bytes() + index.wide.bytes() +
+                      index.small.bytes();
   for (const auto& set : uv) sum += set.bytes();
   return sum;
 }

@@ -49,7 +49,9 @@ struct Mesh {
   Array<glm::vec4> tangent;            ///< w = handedness; only where a normal map is
   Array<glm::u16vec4> joints;          ///< up to four joints of the node's skin, with `weights`
   Array<glm::vec4> weights;
-  Array<std::uint16_t> bone;   ///< instead of joints and weights: the only joint that moves the vertex
+  Array<std::uint16_t> bone;  ///< instead of joints and weights: the only joint that moves the vertex
+  Array<glm::vec3>
+      next_position;           ///< on the next coarser level (core/geom/lod/next_positions.h); mostly empty
   Indices index;               ///< 3 for each triangle, 2 for each line
   Box bounds;                  ///< bounds of `position`; set by finish()
   bool cache_ordered = false;  ///< the triangles are in vertex cache order already

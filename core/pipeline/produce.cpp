@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "core/geom/lod/next_positions.h"
 #include "core/geom/mesh/finish.h"
 #include "core/geom/mesh/tangents.h"
 #include "core/gltf/content_names.h"
@@ -145,6 +146,7 @@ Result<Product> produce(const Request& request, const Job::Options& options, Tex
     if (!model) return std::move(model).error();
     if (output.tangents == OutputTangents::auto_) add_tangents(*model, job);
     finish(*model, job);
+    if (profile_of(output.profile).morphs) add_next_positions(*model, job);
     name_model(*model, request, job);
     std::vector<Extra> origin;
     if (output.provenance == OutputProvenance::full) origin = provenance(request);

@@ -13,13 +13,13 @@ namespace {
 
 constexpr bool yes = true, no = false;
 
-constexpr std::array<Profile, 7> profiles = {{{OutputProfile::core, no, no, no, no, no, yes, no},
-                                              {OutputProfile::web, yes, yes, yes, yes, yes, yes, yes},
-                                              {OutputProfile::tiles, yes, no, yes, yes, no, yes, no},
-                                              {OutputProfile::unity, no, no, yes, no, yes, no, no},
-                                              {OutputProfile::unreal, no, no, no, no, no, no, no},
-                                              {OutputProfile::godot, no, no, no, no, no, yes, no},
-                                              {OutputProfile::blender, no, no, yes, no, no, yes, no}}};
+constexpr std::array<Profile, 7> profiles = {{{OutputProfile::core, no, no, no, no, no, yes, no, no},
+                                              {OutputProfile::web, yes, yes, yes, yes, yes, yes, yes, no},
+                                              {OutputProfile::tiles, yes, no, yes, yes, no, yes, no, no},
+                                              {OutputProfile::unity, no, no, yes, no, yes, no, no, yes},
+                                              {OutputProfile::unreal, no, no, no, no, no, no, no, yes},
+                                              {OutputProfile::godot, no, no, no, no, no, yes, no, no},
+                                              {OutputProfile::blender, no, no, yes, no, no, yes, no, no}}};
 
 constexpr std::size_t longest_in_blender = 63;
 

@@ -19,6 +19,7 @@ struct Profile {
   bool lods_inside;    ///< reads MSFT_lod
   bool reads_webp;     ///< reads EXT_texture_webp
   bool prefers_webp;   ///< gets it where output.image_format is auto
+  bool morphs;         ///< levels of detail have _NEXT_POSITION
 };
 
 const Profile& profile_of(OutputProfile name);

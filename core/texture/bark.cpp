@@ -238,6 +238,27 @@ Relief cedar(int size, Rng rng, const Job& job) {
   });
 }
 
+/// Makes the strips from the left edge to a half, a quarter and so on tile: their right edge fades to what is at the
+/// edge of the image, on both sides. The edge itself stays.
+void repeat_edge(Field& field, const Job& job) {
+  constexpr float widest = 0.03F;  // of the fading on each side, as a share of the width
+  const int size = field.size();
+  for_rows(job, size, [&](int begin, int end) {
+    for (int y = begin; y < end; ++y) {
+      float* row = field.row(y);
+      for (float strip = 0.5F; strip >= least_bark_strip; strip *= 0.5F) {
+        const int edge = static_cast<int>(strip * static_cast<float>(size));
+        const float reach = std::min(widest, 0.5F * strip) * static_cast<float>(size);
+        for (int off = -static_cast<int>(reach); off <= static_cast<int>(reach); ++off) {
+          const float share = 1 - step_between(0, std::max(reach, 1.0F), static_cast<float>(std::abs(off)));
+          float& texel = row[edge + off];
+          texel += share * (row[(off + size) % size] - texel);
+        }
+      }
+    }
+  });
+}
+
 struct Kind {
   std::string_view name;
   Relief (*paint)(int size, Rng rng, const Job& job);
@@ -291,7 +312,11 @@ Painting paint_bark(std::string_view kind, int size, std::uint64_t seed, const T
   finish.rough_high = k.rough_high;
   finish.rough_accent = k.rough_accent;
   finish.shade = k.shade;
-  return {k.paint(size, Rng::of_seed(seed).at(kind), job), finish};
+  Relief relief = k.paint(size, Rng::of_seed(seed).at(kind), job);
+  repeat_edge(relief.height, job);
+  repeat_edge(relief.tone, job);
+  if (relief.accent.size() > 1) repeat_edge(relief.accent, job);
+  return {std::move(relief), finish};
 }
 
 }  // namespace seedmesh::texture

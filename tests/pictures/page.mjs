@@ -1,4 +1,4 @@
-// Draws a model from a fixed camera: sun, sky, shadows, neutral tones. Runs in the browser.
+// Draws a model from a fixed camera: sun, sky with its reflections, shadows, neutral tones. Runs in the browser.
 import * as THREE from 'three';
 import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
 
@@ -15,21 +15,78 @@ function prepare([width, height]) {
   renderer.setSize(width, height);
 }
 
-/** Adds the sun and the sky. With `near`, a point, there are shadows within 90 m of it alone, but sharper ones. */
-function lights(scene, box, sun_of, near) {
-  const { elevation, azimuth, strength, sky } = sun_of;
-  const middle = near ? near.clone() : box.getCenter(new THREE.Vector3()), reach = near ? 90 : box.getSize(new THREE.Vector3()).length() / 2 || 1;
-  const sun = new THREE.DirectionalLight(0xffffff, strength);
+/** The direction towards the sun. */
+function towards_sun({ elevation, azimuth }) {
   const level = Math.cos(radians(elevation));
-  const towards = new THREE.Vector3(level * Math.sin(radians(azimuth)), Math.sin(radians(elevation)), level * Math.cos(radians(azimuth)));
-  sun.position.copy(middle).addScaledVector(towards, 3 * reach);
+  return new THREE.Vector3(level * Math.sin(radians(azimuth)), Math.sin(radians(elevation)), level * Math.cos(radians(azimuth)));
+}
+
+/** Adds the sun. It has a shadow around the box. */
+function add_sun(scene, box, sun_of) {
+  const middle = box.getCenter(new THREE.Vector3()), reach = box.getSize(new THREE.Vector3()).length() / 2 || 1;
+  const sun = new THREE.DirectionalLight(0xfffaf2, sun_of.strength);
+  sun.position.copy(middle).addScaledVector(towards_sun(sun_of), 3 * reach);
   sun.target.position.copy(middle);
   sun.castShadow = true;
   Object.assign(sun.shadow.camera, { left: -reach, right: reach, top: reach, bottom: -reach, near: 0.1 * reach, far: 8 * reach });
   sun.shadow.mapSize.set(4096, 4096);
   sun.shadow.bias = -0.0006;
   sun.shadow.normalBias = 0.002 * reach;
-  scene.add(sun, sun.target, new THREE.HemisphereLight(0xffffff, 0x8a8a80, sky));
+  scene.add(sun, sun.target);
+}
+
+/** Light of sun and sky for measurements: the sky is a hemisphere of one colour, and nothing is reflected. */
+function lights(scene, box, sun_of) {
+  add_sun(scene, box, sun_of);
+  scene.add(new THREE.HemisphereLight(0xffffff, 0x8a8a80, sun_of.sky));
+}
+
+/** Radiance of the sky, up to a factor: bright and pale at the horizon and around the sun, blue at the zenith (Preetham 1999, simplified). */
+function sky_radiance(direction, sun) {
+  const height = Math.max(direction.y, 0), pale = Math.exp(-5 * height), angle = Math.acos(Math.min(1, direction.dot(sun)));
+  const glow = 1 + 0.9 * Math.exp(-3 * angle);
+  return [[0.42, 0.86], [0.55, 0.9], [0.78, 0.95]].map(([zenith, horizon]) => glow * (zenith + (horizon - zenith) * pale));
+}
+
+/**
+ * The surroundings as an equirectangular image of radiance: the sky lights level ground with `sky`, and sunlit ground reflects
+ * a fifth of its light. The sun itself is a light of its own.
+ */
+function surroundings(sun_of) {
+  const width = 256, height = 128, data = new Float32Array(4 * width * height), sun = towards_sun(sun_of), direction = new THREE.Vector3();
+  const ground = [0.21, 0.2, 0.16].map((albedo) => (albedo * (sun_of.strength * sun.y + sun_of.sky)) / Math.PI);
+  let irradiance = 0;
+  const at = (x, y) => {
+    const polar = (Math.PI * (y + 0.5)) / height - Math.PI / 2, turn = 2 * Math.PI * ((x + 0.5) / width - 0.5);
+    return direction.set(Math.cos(polar) * Math.cos(turn), Math.sin(polar), Math.cos(polar) * Math.sin(turn));
+  };
+  const cell = (2 * Math.PI * Math.PI) / (width * height);
+  for (let y = height / 2; y < height; ++y) {
+    for (let x = 0; x < width; ++x) {
+      const [r, g, b] = sky_radiance(at(x, y), sun);
+      irradiance += (0.2126 * r + 0.7152 * g + 0.0722 * b) * direction.y * Math.sqrt(1 - direction.y ** 2) * cell;
+    }
+  }
+  for (let y = 0; y < height; ++y) {
+    for (let x = 0; x < width; ++x) {
+      const color = y < height / 2 ? ground : sky_radiance(at(x, y), sun).map((each) => (each * sun_of.sky) / irradiance);
+      data.set([...color, 1], 4 * (y * width + x));
+    }
+  }
+  const image = new THREE.DataTexture(data, width, height, THREE.RGBAFormat, THREE.FloatType);
+  image.mapping = THREE.EquirectangularReflectionMapping;
+  image.magFilter = image.minFilter = THREE.LinearFilter;
+  image.needsUpdate = true;
+  return image;
+}
+
+/** Lights a scene with sun and surroundings, as engines do, and shows the sky. */
+function light_with_sky(scene, box, sun_of) {
+  add_sun(scene, box, sun_of);
+  const image = surroundings(sun_of), generator = new THREE.PMREMGenerator(renderer);
+  scene.environment = generator.fromEquirectangular(image).texture;
+  scene.background = image;
+  generator.dispose();
 }
 
 /** The height of the ground or the water at a point, below the plants. */
@@ -64,7 +121,7 @@ function thirds() {
   return parts.map(({ sum, count, black }) => ({ luminance: sum / Math.max(count, 1), near_black: black / Math.max(count, 1) }));
 }
 
-/** Draws a view of the model at a URL. With `crown`, the model stands alone and its thirds are measured. */
+/** Draws a view of the model at a URL. With `crown`, the thirds of the model alone are measured before. */
 window.draw = async (url, view, { size, sun }) => {
   prepare(size);
   const { scene: model } = await new GLTFLoader().loadAsync(url), scene = new THREE.Scene();
@@ -82,13 +139,19 @@ window.draw = async (url, view, { size, sun }) => {
   const camera = new THREE.PerspectiveCamera(view.fov, size[0] / size[1], 0.05, 20_000);
   camera.position.set(ax, ay + foot, az);
   camera.lookAt(tx, ty + (view.above_ground ? foot : 0), tz);
-  lights(scene, box, sun, view.above_ground && camera.position);
   let measured;
   if (view.crown) {
+    const alone = new THREE.Scene();
+    alone.add(model);
+    lights(alone, box, sun);
     renderer.toneMapping = THREE.NoToneMapping;
-    renderer.render(scene, camera);
+    renderer.render(alone, camera);
     measured = thirds();
+    scene.add(model);
   }
+  // On land, shadows are those around the camera, which would be coarse over the whole land.
+  const around = new THREE.Box3().setFromCenterAndSize(camera.position, new THREE.Vector3(100, 100, 100));
+  light_with_sky(scene, view.above_ground ? around : box, sun);
   if (!view.above_ground) {
     const ground = new THREE.Mesh(new THREE.CircleGeometry(400, 64), new THREE.MeshLambertMaterial({ color: 0x8c8f74 }));
     ground.rotation.x = -Math.PI / 2;
@@ -97,6 +160,7 @@ window.draw = async (url, view, { size, sun }) => {
     scene.add(ground);
   }
   renderer.toneMapping = THREE.NeutralToneMapping;
+  renderer.toneMappingExposure = 1.6;
   renderer.render(scene, camera);
   return { triangles: renderer.info.render.triangles, thirds: measured };
 };

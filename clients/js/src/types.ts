@@ -16,7 +16,7 @@ export interface Output {
   textures?: number | "none" | "links";
   /** The file format of generated images. png: every reader. webp: about a tenth of the size, for readers of EXT_texture_webp, which the file then requires. both: WebP, and PNG for readers without it. auto: webp in the profile web, else png. Images of the request keep their format. */
   image_format?: "auto" | "png" | "webp" | "both";
-  /** The number of levels of detail, each coarser than the one before, or a list of their triangles: shares of the whole model up to 1, or numbers of triangles above 1, falling. The first entry is the finest level, as in [1, 0.5, 0.15, 0.03] or [20000, 5000, 800]. More than one level requires the format zip, which has a file for each, or a profile that has them in one file (MSFT_lod): web or unity. */
+  /** The number of levels of detail, each coarser than the one before, or a list of their triangles: shares of the whole model up to 1, or numbers of triangles above 1, falling. The first entry is the finest level, as in [1, 0.5, 0.15, 0.03] or [20000, 5000, 800]. More than one level requires the format zip, which has a file for each, or a profile that has them in one file (MSFT_lod): web or unity. In the profiles unity and unreal, vertices then have _NEXT_POSITION, their position on the next level, which adds 12 bytes a vertex. */
   lods?: number | number[];
   /** Adds an impostor of each plant as its coarsest level of detail: 12 triangles and a texture of the size `textures`, or half of it in a scene. It requires the format zip, or the profile web or unity. */
   impostor?: boolean;
@@ -323,11 +323,11 @@ export interface CityParametersMaps {
 
 /** Existing parts of the city as GeoJSON in local metres. They stay as they are, and the rest grows from them. */
 export interface CityParametersGiven {
-  /** Existing streets: LineString, MultiLineString, or a GeometryCollection of them. A FeatureCollection, a Feature or a geometry of GeoJSON in metres, east and north. Foreign members have no effect. The properties `class` (highway, major, minor or lane), `width`, `lanes`, `sidewalk` (one number, or left and right), `level`, `bridge` and `tunnel` count. Where two streets meet or cross on one level, an end or corner of one has to lie within 3 m of the other. */
+  /** Existing streets: LineString, MultiLineString, or a GeometryCollection of them. A FeatureCollection, a Feature or a geometry of GeoJSON in metres, east and north. Foreign members have no effect. The properties `class` (highway, major, minor or lane), `width`, `lanes`, `sidewalk` (one number, or left and right), `level`, `bridge` and `tunnel` count. Without `class`, `highway` of OpenStreetMap decides. Where two streets meet or cross on one level, an end or corner of one has to lie within 3 m of the other. */
   streets?: { [key: string]: unknown };
   /** Existing water: Polygon, MultiPolygon, or a GeometryCollection of them. A FeatureCollection, a Feature or a geometry of GeoJSON in metres, east and north. Foreign members have no effect. */
   water?: { [key: string]: unknown };
-  /** Existing buildings: Polygon, MultiPolygon, or a GeometryCollection of them. A FeatureCollection, a Feature or a geometry of GeoJSON in metres, east and north. Foreign members have no effect. The property `height` is that of the walls in metres; without it, `floors` of 3 m, or 9 m. Streets that grow keep clear of the buildings, and no house is built on them. */
+  /** Existing buildings: Polygon, MultiPolygon, or a GeometryCollection of them. A FeatureCollection, a Feature or a geometry of GeoJSON in metres, east and north. Foreign members have no effect. The property `height` is that of the walls in metres; without it, `floors` or `building:levels` of 3 m, or 9 m. Streets that grow keep clear of the buildings, and no house is built on them. */
   footprints?: { [key: string]: unknown };
 }
 

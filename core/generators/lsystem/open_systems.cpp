@@ -200,6 +200,7 @@ OpenSystems::OpenSystems(const LsystemParams& params, const GenerateContext& con
     options.shadow = {light.cell, light.shade, light.falloff, light.layers};
   }
   surroundings_ = std::make_unique<Surroundings>(std::move(options), job);
+  known_ = std::make_unique<KnownShares>(job);
 
   plants_.push_back(std::make_unique<Plant>(params, job));
   for (std::size_t i = 0; i < environment.companions.size(); ++i) {
@@ -299,6 +300,9 @@ void OpenSystems::draw_and_prune(Plant& plant, std::vector<Stretch>& grown) {
     if (prober.limb != Limbs::none) prober.limb = limb[prober.limb];
     if (each.ahead != Limbs::none) prober.limb_ahead = limb[each.ahead];
   }
+  // Only the limbs are of interest here.
+  skeleton.outlines.outline.resize(0);
+  skeleton.organs.organ.resize(0);
   limbs.key.resize(limbs.size());  // index of the joint before pruning
   for (std::size_t i = 0; i < limbs.size(); ++i) limbs.key[i] = i;
   cut(skeleton);
@@ -366,7 +370,7 @@ void OpenSystems::draw(const Grammar& grammar, Drawing& drawing, double share) c
 void OpenSystems::cut(Skeleton& skeleton) const {
   const auto membership =
       params_.environment ? membership_of(params_.environment->membership) : Membership::centre;
-  prune(skeleton, *surroundings_, membership, job_);
+  prune(skeleton, *surroundings_, membership, known_.get(), job_);
 }
 
 TurtleReport OpenSystems::report(const Turtle& turtle, Skeleton& skeleton) const {

@@ -4,8 +4,10 @@
 #include <array>
 #include <cmath>
 #include <string>
+#include <vector>
 
 #include "core/base/math.h"
+#include "core/base/parallel.h"
 #include "core/base/quick_math.h"
 #include "core/base/rng.h"
 #include "core/generators/terrain/box_mapping.h"
@@ -23,6 +25,8 @@ constexpr std::array<const char*, 6> names{"grass", "soil", "rock", "scree", "sa
 // Classes of a smaller share of the field are left to the others, since each has textures of its own.
 constexpr float least_share = 0.01F;
 constexpr std::int32_t most_rows = 256;
+// Vertices whose noise is evaluated together, so that its lattices are set up once for all of them.
+constexpr std::size_t vertices_a_chunk = 2048;
 // Low shrubs and heather cover patches of meadows. The noise is the same in all tiles of a world.
 constexpr int shrub_octaves = 3;
 constexpr double shrub_cells = 6, shrub_gain = 0.7;
@@ -150,19 +154,33 @@ std::vector<Primitive> GroundClasses::divided(const Mesh& mesh, const SpotOf& sp
   bump.octaves = 1;
   bump.amplitude = 1;
   bump.wavelength = bump_cells * field_.cell;
-  PlaneNoise shrub_noise(patches, Rng(shrub_key)), east_bumps(bump, Rng(bump_keys[0])),
-      south_bumps(bump, Rng(bump_keys[1]));
-  for (std::size_t v = 0; v < own.size(); ++v) {
-    if (v % 4096 == 0) job.check();
-    const Spot spot = spot_of(v);
-    own[v] = shares(spot.site);
-    const auto shrub = static_cast<double>(shrub_noise.at(spot.at.x, spot.at.y));
-    factors[v] = varied(spot.site, spot.own) * shrubs(shrub, own[v].of[GroundShares::grass]);
-    float rough = 0;
-    for (int k = 0; k < GroundShares::kind_count; ++k) rough += bumps[k] * own[v].of[k];
-    const glm::vec3 tilt{east_bumps.at(spot.at.x, spot.at.y), 0, south_bumps.at(spot.at.x, spot.at.y)};
-    normals[v] = math::quick_unit(mesh.normal[v] + spot.bumps * rough * tilt, mesh.normal[v]);
-  }
+  parallel_for(job, own.size(), vertices_a_chunk, [&](std::size_t begin, std::size_t end, std::size_t) {
+    job.check();
+    std::vector<Spot> spots;
+    std::vector<double> east, south;
+    for (std::size_t v = begin; v < end; ++v) {
+      spots.push_back(spot_of(v));
+      east.push_back(spots.back().at.x);
+      south.push_back(spots.back().at.y);
+    }
+    const auto noise = [&](const NoisePlan& plan, std::uint64_t name) {
+      std::vector<double> values(spots.size());
+      noise_in_plane(plan, east, south, Rng(name), values.data());
+      return values;
+    };
+    const std::vector<double> shrub = noise(patches, shrub_key), tilt_x = noise(bump, bump_keys[0]),
+                              tilt_z = noise(bump, bump_keys[1]);
+    for (std::size_t i = 0; i < spots.size(); ++i) {
+      const std::size_t v = begin + i;
+      const Spot& spot = spots[i];
+      own[v] = shares(spot.site);
+      factors[v] = varied(spot.site, spot.own) * shrubs(shrub[i], own[v].of[GroundShares::grass]);
+      float rough = 0;
+      for (int k = 0; k < GroundShares::kind_count; ++k) rough += bumps[k] * own[v].of[k];
+      const glm::vec3 tilt{static_cast<float>(tilt_x[i]), 0, static_cast<float>(tilt_z[i])};
+      normals[v] = math::quick_unit(mesh.normal[v] + spot.bumps * rough * tilt, mesh.normal[v]);
+    }
+  });
   restore_turned_off(mesh, normals, job);
   std::vector<BoxMapped> parts;
   for (const Used& used : used_)

@@ -15,6 +15,7 @@
 #include "core/geom/mesh/flipped_normals.h"
 #include "core/geom/plant/graft/graft.h"
 #include "core/geom/plant/grow.h"
+#include "core/texture/bark.h"
 
 namespace seedmesh::tree {
 namespace {
@@ -43,6 +44,7 @@ GraftOptions graft_options(const TreeParams& params, const Detail& detail) {
   options.weld = params.weld;
   options.thinnest = static_cast<float>(params.twig_radius);
   options.wrap = has_bark_texture(params);
+  if (has_generated_bark(params)) options.least_repeats = texture::least_bark_strip;
   if (params.model == TreeModel::weber_penn && params.LobeDepth > 0 && detail.level() < 2 && seen >= 1) {
     options.lobes = params.Lobes;
     options.lobe_depth = static_cast<float>(params.LobeDepth);

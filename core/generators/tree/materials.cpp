@@ -129,6 +129,11 @@ bool has_bark_texture(const TreeParams& params) {
          !params.bark_images.normal.empty() || !params.bark_images.surface.empty();
 }
 
+bool has_generated_bark(const TreeParams& params) {
+  return params.bark != TreeBark::none && params.bark_images.color.empty() &&
+         params.bark_images.normal.empty() && params.bark_images.surface.empty();
+}
+
 TreeBuild build_of(const TreeParams& params) {
   if (params.leaf.build != TreeBuild::usual) return params.leaf.build;
   return params.model == TreeModel::proctree ? TreeBuild::bunch : TreeBuild::card;

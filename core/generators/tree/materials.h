@@ -11,8 +11,11 @@ namespace seedmesh::tree {
 /// Adds an error for each image that cannot be read.
 void check_images(const TreeParams& params, std::vector<Issue>& issues);
 
-/// Whether the bark has a texture, which then repeats a whole number of times around each limb.
+/// Whether the bark has a texture, which then repeats around each limb.
 bool has_bark_texture(const TreeParams& params);
+
+/// Whether all of that texture is generated, so that its strips tile (core/texture/bark.h).
+bool has_generated_bark(const TreeParams& params);
 
 /// The build of the leaves; `usual` is resolved (see the parameter leaf.build).
 TreeBuild build_of(const TreeParams& params);

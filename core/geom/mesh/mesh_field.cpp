@@ -98,6 +98,20 @@ MeshField::MeshField(const Model& model, const glm::dvec3& stretch, const glm::d
     if (node.instances.transforms.empty()) add(group, world[i]);
     for (const Transform& t : node.instances.transforms) add(group, world[i] * matrix_of(t));
   }
+  build_all(job);
+}
+
+MeshField::MeshField(std::span<const Mesh* const> meshes, const Job& job) : corner_(job) {
+  for (const Mesh* mesh : meshes) {
+    for (std::size_t i = 0; i < mesh->index.size(); ++i) {
+      if (i % look_every == 0) job.check();
+      corner_.push_back(mesh->position[mesh->index.at(i)]);
+    }
+  }
+  build_all(job);
+}
+
+void MeshField::build_all(const Job& job) {
   std::vector<std::uint32_t> order(triangles());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<std::uint32_t>(i);
   if (order.empty()) return;

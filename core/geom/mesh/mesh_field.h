@@ -2,6 +2,7 @@
 /// Distance queries on a closed triangle mesh.
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <span>
 #include <vector>
 
 #include "core/base/array.h"
@@ -22,6 +23,9 @@ class MeshField {
   /// `stretch` about the origin and moves them by `shift`.
   MeshField(const Model& model, const glm::dvec3& stretch, const glm::dvec3& shift, const Job& job);
 
+  /// Takes the triangles of meshes as they are.
+  MeshField(std::span<const Mesh* const> meshes, const Job& job);
+
   std::size_t triangles() const { return corner_.size() / 3; }
   /// Returns the nearest point of the surface. There must be at least one triangle.
   Nearest nearest(const glm::dvec3& point) const;
@@ -36,6 +40,8 @@ class MeshField {
         0;  ///< first triangle; of an inner node: second child (the first child is the next node)
     std::uint32_t count = 0;  ///< number of triangles; 0: an inner node
   };
+  /// Builds the hierarchy over `corner_`, and sorts the triangles.
+  void build_all(const Job& job);
   std::uint32_t build(std::uint32_t first, std::uint32_t count, std::vector<std::uint32_t>& order);
   glm::dvec3 corner(std::uint32_t triangle, int k) const {
     return corner_[3 * std::size_t{triangle} + static_cast<std::size_t>(k)];

@@ -27,6 +27,10 @@ struct SkinOptions {
   /// metre of its first circumference, at least once. v keeps the proportions of the texture as the limb
   /// becomes thinner.
   bool wrap = false;
+  /// With `wrap`, below 1 for textures whose strips from 0 to each power of two down to this one also repeat: u goes
+  /// from 0 to such a power around limbs that are thinner than a metre of circumference. Towards the tip of a limb, the
+  /// texture then shrinks less along the limb than around it.
+  float least_repeats = 1;
   /// Fewer sides for limbs that begin thinner than the thickest (by the root of the ratio), and fewer rings
   /// for internodes shorter than a tenth of the model.
   bool adapt = false;

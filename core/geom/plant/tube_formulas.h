@@ -20,9 +20,20 @@ inline float tip_length(float radius, float free) { return std::min(radius, 0.3F
 /// Returns a number in [0, 1) from a hash.
 inline float fraction_of(std::uint64_t hash) { return static_cast<float>(hash >> 40U) * 0x1p-24F; }
 
-/// Returns the repetitions of a wrapped texture around a limb: one for each metre of circumference, at least one.
-inline float texture_repeats(float radius) {
-  return std::max(1.0F, std::floor(static_cast<float>(2 * math::pi) * radius + 0.5F));
+/// Returns the repetitions of a wrapped texture around a limb: one for each metre of circumference. Below one, it is the
+/// nearest power of two by ratio, at least `least`: thin limbs then show a strip of the texture at its own scale.
+inline float texture_repeats(float radius, float least) {
+  constexpr float root_of_half = 0.70710678F;
+  const float around = static_cast<float>(2 * math::pi) * radius;
+  float repeats = std::max(1.0F, std::floor(around + 0.5F));
+  while (repeats > least && around < root_of_half * repeats && repeats <= 1) repeats *= 0.5F;
+  return std::max(repeats, least);
+}
+
+/// Returns the radius that sets the pace of v along a limb. A texture that repeats as a whole keeps its proportions. One
+/// with strips, of which `least` is below 1, becomes narrower than long: half way between its proportions and its scale.
+inline float paced_radius(float radius, float first, float least) {
+  return least < 1 ? std::sqrt(radius * first) : radius;
 }
 
 /// Returns a unit vector at right angles to the unit vector `along` (Duff et al., "Building an Orthonormal Basis,

@@ -119,11 +119,13 @@ void TubeWriter::pace_picture(const Internode& internode) {
   if (!context_.options.wrap) return;
   const auto round = static_cast<float>(2 * math::pi);
   if (turns_ == 0) {
-    turns_ = texture_repeats(internode.base);
+    turns_ = texture_repeats(internode.base, context_.options.least_repeats);
     slowest_ = turns_ / (round * std::max(internode.base, context_.scale.thinnest));
   }
   const float radius = std::max(0.5F * (internode.base + internode.end), context_.scale.thinnest);
-  by_length_ = std::min(turns_ / (round * radius), most_hurry * slowest_);
+  const float first = turns_ / (round * slowest_);
+  const float paced = paced_radius(radius, first, context_.options.least_repeats);
+  by_length_ = std::min(turns_ / (round * paced), most_hurry * slowest_);
 }
 
 void TubeWriter::open(const Internode& first, TubeOpening opening) {

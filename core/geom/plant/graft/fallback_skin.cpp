@@ -109,6 +109,7 @@ void append_skin_of(const GraftInput& in, const LimbCopy& copy, int sides, Joine
   const GraftOptions& options = in.options;
   SkinOptions plain;
   plain.wrap = options.wrap;
+  plain.least_repeats = options.least_repeats;
   plain.contours = options.contours;
   plain.sides = std::max(sides, least_sides_of(plain));
   std::vector<std::uint16_t> number(copy.original.size() <= most_joints ? copy.original.size() : 0);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/geom/plant/tube_formulas.h"
+
 namespace seedmesh {
 namespace {
 
@@ -65,13 +67,14 @@ void LimbAxis::read_colors(const Limbs& limbs) {
     color.push_back(limbs.color.empty() ? std::int16_t{0} : limbs.color[joint[i]]);
 }
 
-void LimbAxis::set_v(float turns) {
+void LimbAxis::set_v(float turns, float least_repeats) {
   v.assign(1, 0.0F);
   const float least = thinnest_share * radius[0];
   for (std::size_t i = 0; i + 1 < at.size(); ++i) {
     const float length = at[i + 1] - at[i];
     const float mean = std::max(0.5F * (radius[i] + radius[i + 1]), least);
-    v.push_back(v.back() + (turns > 0 ? length * turns / mean : length));
+    v.push_back(v.back() +
+                (turns > 0 ? length * turns / paced_radius(mean, radius[0], least_repeats) : length));
   }
 }
 

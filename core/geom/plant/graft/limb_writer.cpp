@@ -291,8 +291,8 @@ void write_visible_limb(LimbWriter& w, std::uint32_t limb) {
   if (start > tip - 8 * w.in.scale.apart) return;
   axis.set_frames(first_direction(w, beginning, loop, hash));
   w.near_piece = 0;
-  w.turns = w.in.options.wrap ? texture_repeats(axis.radius[0]) / (2 * pi) : 0;
-  axis.set_v(w.turns);
+  w.turns = w.in.options.wrap ? texture_repeats(axis.radius[0], w.in.options.least_repeats) / (2 * pi) : 0;
+  axis.set_v(w.turns, w.in.options.least_repeats);
   w.least_sides = 3;
   w.loop_sides = has_loop ? static_cast<int>(loop.count) : 0;
   plan_limb(w, limb, start, tip, has_loop);
