@@ -21,7 +21,7 @@ export async function primitives_of(bytes) {
     const material = primitive.getMaterial();
     const array = (name) => primitive.getAttribute(name);
     return {
-      mesh: mesh.getName(), material: material.getName(), cutoff: material.getAlphaCutoff(), is_cut: material.getAlphaMode() === 'MASK', factor: material.getBaseColorFactor(),
+      mesh: mesh.getName(), material: material.getName(), cutoff: material.getAlphaCutoff(), is_cut: material.getAlphaMode() === 'MASK', double_sided: material.getDoubleSided(), factor: material.getBaseColorFactor(),
       color: picture(material.getBaseColorTexture()), normal: picture(material.getNormalTexture()),
       uv_set: material.getBaseColorTextureInfo()?.getTexCoord() ?? 0, index: primitive.getIndices().getArray(),
       vertices: array('POSITION').getCount(),
