@@ -42,7 +42,7 @@ struct GraftOptions {
   bool points = false;  ///< radii may be 0 before the tip: such limbs are left to skin()
   /// Contours of Limbs::contour; limbs with contours are left to skin().
   std::span<const Contour> contours = {};
-  float v_scale = 1;  ///< repetitions of the texture for each metre along the limb
+  float v_scale = 1;        ///< repetitions of the texture for each metre along the limb
   bool wrap = false;        ///< as SkinOptions::wrap
   float least_repeats = 1;  ///< as SkinOptions::least_repeats
   /// Add tangents along u, as add_tangents() would; none where limbs are left to skin().
