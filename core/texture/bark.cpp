@@ -52,20 +52,26 @@ Relief plated(const Plates& plates, int size, Rng rng, const Job& job) {
 }
 
 /// Long ridges that meet and part again, between furrows that are wide or nearly closed.
-Relief oak(int size, Rng rng, const Job& job) {
-  const Field wobble = field_of({size, {12, 5}, {4, 0.6F}, 1, rng.at("wobble")}, size, job);
-  const Cells ridges(size, {13, 3}, rng.at("ridges"));
-  const Noise fibre_noise(size, {30, 9}, {2, 0.6F}, 0.6F, rng.at("fibres")),
-      gap_noise(size, {6, 4}, {3, 0.6F}, 1, rng.at("gap"));
+struct Ridges {
+  Lattice wobble, ridges, fibres, gaps;
+  float strength;  ///< of the wobble, in ridges
+  float width;     ///< mean width of the slope from a furrow to a ridge, in ridges
+};
+
+Relief ridged(const Ridges& kind, int size, Rng rng, const Job& job) {
+  const Field wobble = field_of({size, kind.wobble, {4, 0.6F}, 1, rng.at("wobble")}, size, job);
+  const Cells ridges(size, kind.ridges, rng.at("ridges"));
+  const Noise fibre_noise(size, kind.fibres, {2, 0.6F}, 0.6F, rng.at("fibres")),
+      gap_noise(size, kind.gaps, {3, 0.6F}, 1, rng.at("gap"));
   return paint_rows(size, Accent::none, job, [&](int begin, int end, const auto& row_at) {
-    CellRows ridge_rows(ridges, wobble, 0.55F);
+    CellRows ridge_rows(ridges, wobble, kind.strength);
     NoiseRows fibre_rows(fibre_noise), gap_rows(gap_noise);
     for (int y = begin; y < end; ++y) {
       const CellRows::Row ridge = ridge_rows.row(y);
       const float *fine = fibre_rows.row(y), *gap = gap_rows.row(y);
       const ReliefRow out = row_at(y);
       for (int x = 0; x < size; ++x) {
-        const float width = 0.22F + 0.3F * gap[x];
+        const float width = kind.width + 0.3F * gap[x];
         const float round = step_between(-0.06F, width < 0.07F ? 0.07F : width, ridge.border[x]);
         const float flat = round * (1 - 0.28F * ridge.shade[x]);
         out.height[x] = clamp_share(0.68F * flat + 0.32F * (0.5F + fine[x]) * (0.4F + 0.6F * round));
@@ -74,6 +80,15 @@ Relief oak(int size, Rng rng, const Job& job) {
       }
     }
   });
+}
+
+Relief oak(int size, Rng rng, const Job& job) {
+  return ridged({{12, 5}, {13, 3}, {30, 9}, {6, 4}, 0.55F, 0.22F}, size, rng, job);
+}
+
+/// Thick ridges and wide furrows, as of old willows and ashes.
+Relief willow(int size, Rng rng, const Job& job) {
+  return ridged({{9, 4}, {9, 3}, {34, 10}, {7, 5}, 0.6F, 0.34F}, size, rng, job);
 }
 
 /// Long plates of many sizes between deep furrows, each with overlapping thin flakes.
@@ -98,8 +113,8 @@ Relief pine(int size, Rng rng, const Job& job) {
       }
       for (int x = 0; x < size; ++x) {
         const float edge = step_between(0.0F, 0.14F, flake.border[x]);
-        out.tone[x] = clamp_share(0.05F + 0.55F * out.height[x] + 0.07F * edge + 0.22F * fine[x] +
-                                  0.3F * large[x] + 0.16F * (flake.shade[x] - 0.5F));
+        out.tone[x] = clamp_share(0.05F + 0.55F * out.height[x] + 0.07F * edge + 0.36F * fine[x] +
+                                  0.1F * large[x] + 0.16F * (flake.shade[x] - 0.5F));
       }
     }
   });
@@ -107,27 +122,6 @@ Relief pine(int size, Rng rng, const Job& job) {
 
 Relief spruce(int size, Rng rng, const Job& job) {
   return plated({{26, 22}, {18, 16}, 0.45F, 0.3F, 0.6F, 0.2F}, size, rng, job);
-}
-
-/// A net of ridges around long furrows, as of old willows and ashes: raised borders of cells.
-Relief willow(int size, Rng rng, const Job& job) {
-  const Field wobble = field_of({size, {8, 4}, {4, 0.55F}, 1, rng.at("wobble")}, size, job);
-  const Cells cells(size, {10, 3}, rng.at("furrows"));
-  const Noise grain_noise = grain(size, rng), patch_noise = patches(size, rng);
-  return paint_rows(size, Accent::none, job, [&](int begin, int end, const auto& row_at) {
-    CellRows cell_rows(cells, wobble, 0.3F);
-    NoiseRows grain_rows(grain_noise), patch_rows(patch_noise);
-    for (int y = begin; y < end; ++y) {
-      const auto [border, shade] = cell_rows.row(y);
-      const float *fine = grain_rows.row(y), *large = patch_rows.row(y);
-      const ReliefRow out = row_at(y);
-      for (int x = 0; x < size; ++x) {
-        const float depth = step_between(0.06F, 0.36F, border[x] * (0.8F + 0.4F * shade[x]));
-        out.height[x] = clamp_share((1 - depth) * 0.78F + 0.22F * (0.5F + fine[x]));
-        out.tone[x] = clamp_share(0.08F + 0.62F * out.height[x] + 0.25F * fine[x] + 0.2F * large[x]);
-      }
-    }
-  });
 }
 
 Relief birch(int size, Rng rng, const Job& job) {
@@ -168,7 +162,7 @@ Relief beech(int size, Rng rng, const Job& job) {
       for (int x = 0; x < size; ++x) {
         out.accent[x] = 0.55F * step_between(0.3F, 0.6F, lichen[x]);
         out.height[x] = clamp_share(0.6F + 0.3F * wrinkles[x] + 0.1F * fine[x] + 0.1F * out.accent[x]);
-        out.tone[x] = clamp_share(0.5F + 0.45F * large[x] + 0.25F * wrinkles[x] + 0.15F * fine[x]);
+        out.tone[x] = clamp_share(0.5F + 0.18F * large[x] + 0.3F * wrinkles[x] + 0.22F * fine[x]);
       }
     }
   });
@@ -270,15 +264,15 @@ struct Kind {
 };
 
 constexpr Kind kinds[] = {
-    {"oak_bark", oak, {158, 145, 128}, 0.42F, 1.3F, {96, 110, 70}, 0.024F, 0.98F, 0.88F, 0.95F, 0.7F},
-    {"pine_bark", pine, {160, 116, 88}, 0.40F, 1.35F, {170, 120, 80}, 0.034F, 0.98F, 0.85F, 0.9F, 0.75F},
-    {"spruce_bark", spruce, {140, 119, 101}, 0.45F, 1.35F, {120, 120, 100}, 0.013F, 0.97F, 0.88F, 0.9F, 0.6F},
-    {"willow_bark", willow, {142, 130, 110}, 0.34F, 1.35F, {110, 120, 80}, 0.045F, 0.98F, 0.88F, 0.95F, 0.7F},
+    {"oak_bark", oak, {158, 145, 128}, 0.42F, 1.3F, {96, 110, 70}, 0.024F, 0.98F, 0.78F, 0.95F, 0.7F},
+    {"pine_bark", pine, {160, 116, 88}, 0.40F, 1.35F, {170, 120, 80}, 0.024F, 0.98F, 0.8F, 0.9F, 0.75F},
+    {"spruce_bark", spruce, {140, 119, 101}, 0.45F, 1.35F, {120, 120, 100}, 0.013F, 0.97F, 0.76F, 0.9F, 0.6F},
+    {"willow_bark", willow, {142, 130, 110}, 0.34F, 1.35F, {110, 120, 80}, 0.03F, 0.98F, 0.79F, 0.95F, 0.7F},
     {"birch_bark", birch, {206, 200, 188}, 0.82F, 1.12F, {44, 38, 34}, 0.012F, 0.9F, 0.6F, 0.95F, 0.35F},
-    {"beech_bark", beech, {134, 132, 124}, 0.72F, 1.22F, {150, 158, 128}, 0.010F, 0.9F, 0.75F, 0.95F, 0.3F},
+    {"beech_bark", beech, {134, 132, 124}, 0.72F, 1.22F, {150, 158, 128}, 0.018F, 0.95F, 0.68F, 0.95F, 0.3F},
     {"cherry_bark", cherry, {104, 62, 50}, 0.62F, 1.45F, {168, 124, 96}, 0.012F, 0.7F, 0.42F, 0.9F, 0.4F},
-    {"palm_bark", palm, {142, 122, 96}, 0.45F, 1.30F, {110, 90, 60}, 0.035F, 0.98F, 0.86F, 0.95F, 0.6F},
-    {"cedar_bark", cedar, {128, 92, 74}, 0.42F, 1.35F, {120, 100, 80}, 0.025F, 0.97F, 0.85F, 0.95F, 0.6F},
+    {"palm_bark", palm, {142, 122, 96}, 0.45F, 1.30F, {110, 90, 60}, 0.035F, 0.98F, 0.78F, 0.95F, 0.6F},
+    {"cedar_bark", cedar, {128, 92, 74}, 0.42F, 1.35F, {120, 100, 80}, 0.025F, 0.97F, 0.77F, 0.95F, 0.6F},
 };
 
 constexpr auto names = [] {

@@ -1,6 +1,6 @@
 #pragma once
 /// Bark textures by seed, of nine kinds. They tile seamlessly in both directions. v grows along the limb, so
-/// that the direction of growth is down in the image. An image covers about a metre of a trunk, or the whole
+/// that the direction of growth is down in the image. An image covers about two thirds of a metre of a trunk, or the whole
 /// girth of a thinner limb. The strips of the image from its left edge to a half, a quarter and so on down to
 /// `least_bark_strip` of its width tile as well, so that thin limbs can show them at the same scale.
 #include <array>
@@ -13,7 +13,7 @@
 namespace seedmesh::texture {
 
 /// The narrowest strip that tiles, as a share of the width.
-constexpr float least_bark_strip = 1.0F / 32;
+constexpr float least_bark_strip = 1.0F / 64;
 
 /// The names of all kinds: "oak_bark", ...
 std::span<const std::string_view> bark_kinds();

@@ -28,7 +28,7 @@ struct SkinOptions {
   /// becomes thinner.
   bool wrap = false;
   /// With `wrap`, below 1 for textures whose strips from 0 to each power of two down to this one also repeat: u goes
-  /// from 0 to such a power around limbs that are thinner than a metre of circumference. Towards the tip of a limb, the
+  /// from 0 to such a power around thin limbs, and has strips_a_metre repetitions a metre around thick ones. Towards the tip of a limb, the
   /// texture then shrinks less along the limb than around it.
   float least_repeats = 1;
   /// Fewer sides for limbs that begin thinner than the thickest (by the root of the ratio), and fewer rings

@@ -20,11 +20,15 @@ inline float tip_length(float radius, float free) { return std::min(radius, 0.3F
 /// Returns a number in [0, 1) from a hash.
 inline float fraction_of(std::uint64_t hash) { return static_cast<float>(hash >> 40U) * 0x1p-24F; }
 
-/// Returns the repetitions of a wrapped texture around a limb: one for each metre of circumference. Below one, it is the
-/// nearest power of two by ratio, at least `least`: thin limbs then show a strip of the texture at its own scale.
+/// A texture whose strips repeat has this number of repetitions for each metre around a limb, others have one. Ridges of
+/// oaks are then 51 mm apart, and plates of pines 74 mm, as on real trunks.
+constexpr float strips_a_metre = 1.5F;
+
+/// Returns the repetitions of a wrapped texture around a limb. Of a texture with strips, of which `least` is below 1, there
+/// may be a power of two below 1, the nearest by ratio: thin limbs then show a strip of the texture at its own scale.
 inline float texture_repeats(float radius, float least) {
   constexpr float root_of_half = 0.70710678F;
-  const float around = static_cast<float>(2 * math::pi) * radius;
+  const float around = static_cast<float>(2 * math::pi) * radius * (least < 1 ? strips_a_metre : 1);
   float repeats = std::max(1.0F, std::floor(around + 0.5F));
   while (repeats > least && around < root_of_half * repeats && repeats <= 1) repeats *= 0.5F;
   return std::max(repeats, least);

@@ -23,7 +23,7 @@ double steepest(const Field& field) {
 
 TEST(Bark, TilesInStripsOfPowersOfTwoOfItsWidth) {
   const Job job(1, Job::Options{});
-  constexpr int size = 256;
+  constexpr int size = 512;
   for (const std::string_view kind : bark_kinds()) {
     const Relief relief = paint_bark(kind, size, 5, {}, job).relief;
     for (const Field* field : {&relief.height, &relief.tone}) {

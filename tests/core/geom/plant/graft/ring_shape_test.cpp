@@ -49,15 +49,15 @@ TEST(RingShape, RepeatsATextureOnceForEachMetreOfCircumference) {
 
 TEST(RingShape, ShowsStripsOfPowersOfTwoAroundThinLimbs) {
   constexpr float least = 1.0F / 32;
-  EXPECT_EQ(texture_repeats(0.12F, least), 1.0F) << "0.754 m are nearer to 1 than to 1/2 by ratio";
-  EXPECT_EQ(texture_repeats(0.08F, least), 0.5F) << "0.503 m";
-  EXPECT_EQ(texture_repeats(0.01F, least), 0.0625F) << "0.0628 m";
+  EXPECT_EQ(texture_repeats(0.08F, least), 1.0F) << "0.754 repetitions are nearer to 1 than to 1/2 by ratio";
+  EXPECT_EQ(texture_repeats(0.053F, least), 0.5F) << "0.4995";
+  EXPECT_EQ(texture_repeats(0.0067F, least), 0.0625F) << "0.0631";
   EXPECT_EQ(texture_repeats(0.0001F, least), least);
-  EXPECT_EQ(texture_repeats(0.5F, least), 3.0F) << "as without strips";
-  for (float radius = 0.004F; radius < 2; radius *= 1.01F) {
+  EXPECT_EQ(texture_repeats(0.5F, least), 5.0F) << "4.71";
+  for (float radius = 0.003F; radius < 2; radius *= 1.01F) {
     const float metres = 6.2831853F * radius / texture_repeats(radius, least);
-    EXPECT_GT(metres, 0.7F) << radius;
-    EXPECT_LT(metres, 1.5F) << radius;
+    EXPECT_GT(metres, 0.7F / 1.5F) << radius;
+    EXPECT_LT(metres, 1) << radius;
   }
 }
 
