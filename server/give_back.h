@@ -1,5 +1,5 @@
 #pragma once
-/// Returns memory to the system that requests have left free in the arenas of the C library.
+/// Returns memory to the system that requests have left free in the arenas of the allocator.
 #include <condition_variable>
 #include <cstdint>
 #include <functional>
@@ -8,11 +8,11 @@
 
 namespace seedmesh {
 
-/// Configures glibc malloc. Blocks of at least 1 MiB are unmapped when they are freed. More than 4 MiB of
-/// free memory at the end of an arena is returned to the system. There are at most max(4, 2 * workers)
-/// arenas. By default glibc raises these thresholds while it runs, to up to 32 and 64 MiB, and uses up to
-/// eight arenas for each core. Call it before the first thread is started. A variable MALLOC_... of the
-/// environment takes precedence.
+/// Configures glibc malloc, which a program without jemalloc uses. Blocks of at least 1 MiB are unmapped when
+/// they are freed. More than 4 MiB of free memory at the end of an arena is returned to the system. There are
+/// at most max(4, 2 * workers) arenas. By default glibc raises these thresholds while it runs, to up to 32 and
+/// 64 MiB, and uses up to eight arenas for each core. Call it before the first thread is started. A variable
+/// MALLOC_... of the environment takes precedence.
 void keep_little_memory(int workers);
 
 /// While an object exists, its thread reads the resident memory of the process every second. It returns the free

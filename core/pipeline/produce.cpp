@@ -186,19 +186,29 @@ static bool leaves_meshes(const OutputParams& output) {
          !output.impostor;
 }
 
-/// A warning where simplification to the budget takes seconds.
-static void warn_of_simplification(Appraisal& appraisal, std::uint64_t most) {
+/// A warning where the model may not fit the budget of the finest level, which is known only when it is made, or where
+/// simplification takes seconds.
+static void warn_of_budget(Appraisal& appraisal, const OutputParams& output) {
   constexpr double seconds_a_triangle = 2e-6, long_time = 1;
-  const std::uint64_t triangles = appraisal.estimate->triangles;
+  const bool is_listed = !output.max_triangles && has_listed_levels(output) && appraisal.estimate;
+  if (!output.max_triangles && !is_listed) return;
+  const std::uint64_t triangles =
+      appraisal.estimate ? appraisal.estimate->triangles * static_cast<std::uint64_t>(output.variants) : 0;
+  const std::uint64_t most = is_listed ? listed_triangles(output, triangles).front()
+                                       : static_cast<std::uint64_t>(*output.max_triangles);
+  if (appraisal.estimate && triangles <= most) return;
+  std::string message =
+      appraisal.estimate ? "about " + std::to_string(triangles) + " triangles are made and then reduced to "
+                         : "the triangles are counted when the model is made, and then reduced to ";
+  message += std::to_string(most);
   const double seconds = seconds_a_triangle * static_cast<double>(triangles);
-  if (triangles <= most || seconds < long_time) return;
-  appraisal.warnings.push_back({"/output/max_triangles",
-                                "about " + std::to_string(triangles) +
-                                    " triangles are made and then simplified to " + std::to_string(most) +
-                                    ", which takes about " +
-                                    std::to_string(static_cast<std::uint64_t>(seconds)) +
-                                    " s; parameters that make fewer triangles cost less",
-                                0, 0});
+  if (seconds >= long_time) {
+    message += ", which takes about " + std::to_string(static_cast<std::uint64_t>(seconds)) +
+               " s; parameters that make fewer triangles cost less";
+  }
+  message += "; generation refuses the request if the coarsest level has more";
+  const char* const pointer = is_listed ? "/output/lods/0" : "/output/max_triangles";
+  appraisal.warnings.push_back({pointer, std::move(message), 0, 0});
 }
 
 Result<std::string> validate(const Request& request, const Job::Options& options) {
@@ -213,8 +223,7 @@ Result<std::string> validate(const Request& request, const Job::Options& options
       appraisal = generator.appraise(request.body().params, context);
     }
     if (!appraisal) return in_request(std::move(appraisal).error());
-    if (appraisal->estimate && output.max_triangles && !generator.keeps_budget)
-      warn_of_simplification(*appraisal, static_cast<std::uint64_t>(*output.max_triangles));
+    warn_of_budget(*appraisal, output);
     shorten(appraisal->warnings);
     point_into_request(appraisal->warnings);
     Json answer = {{"valid", true}, {"warnings", warning_list(appraisal->warnings)}, {"estimate", nullptr}};

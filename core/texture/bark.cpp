@@ -283,6 +283,12 @@ constexpr auto names = [] {
 
 glm::vec3 of_bytes(const glm::vec3& bytes) { return bytes * (1 / 255.0F); }
 
+const Kind& kind_named(std::string_view name) {
+  const auto* const found = std::ranges::find(kinds, name, &Kind::name);
+  assert(found != std::end(kinds));
+  return *found;
+}
+
 glm::vec3 at_most_white(const glm::vec3& color) { return glm::min(color, glm::vec3(1)); }
 
 }  // namespace
@@ -294,11 +300,8 @@ Ramp ramp_round(glm::vec3 main, float dark, float light, glm::vec3 accent, const
   return {main * dark, main, at_most_white(main * light), accent};
 }
 
-Painting paint_bark(std::string_view kind, int size, std::uint64_t seed, const Tint& tint, const Job& job) {
-  const auto found =
-      std::find_if(std::begin(kinds), std::end(kinds), [&](const Kind& k) { return k.name == kind; });
-  assert(found != std::end(kinds));
-  const Kind& k = *found;
+Finish bark_finish(std::string_view kind, const Tint& tint) {
+  const Kind& k = kind_named(kind);
   Finish finish;
   finish.ramp = ramp_round(of_bytes(k.main), k.dark, k.light, of_bytes(k.accent), tint);
   finish.depth = k.depth;
@@ -306,11 +309,15 @@ Painting paint_bark(std::string_view kind, int size, std::uint64_t seed, const T
   finish.rough_high = k.rough_high;
   finish.rough_accent = k.rough_accent;
   finish.shade = k.shade;
-  Relief relief = k.paint(size, Rng::of_seed(seed).at(kind), job);
+  return finish;
+}
+
+Relief bark_relief(std::string_view kind, int size, std::uint64_t seed, const Job& job) {
+  Relief relief = kind_named(kind).paint(size, Rng::of_seed(seed).at(kind), job);
   repeat_edge(relief.height, job);
   repeat_edge(relief.tone, job);
   if (relief.accent.size() > 1) repeat_edge(relief.accent, job);
-  return {std::move(relief), finish};
+  return relief;
 }
 
 }  // namespace seedmesh::texture

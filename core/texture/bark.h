@@ -29,8 +29,10 @@ struct Painting {
 /// Returns the dark, main and light colours around `main`, or around `tint` if it is given.
 Ramp ramp_round(glm::vec3 main, float dark, float light, glm::vec3 accent, const Tint& tint);
 
-/// Paints a bark texture. `kind` is one of bark_kinds(). Cost: about 20 ns a texel for cracked kinds, 10 ns for
+/// Returns the relief of a bark. `kind` is one of bark_kinds(). Cost: about 20 ns a texel for cracked kinds, 10 ns for
 /// smooth ones.
-Painting paint_bark(std::string_view kind, int size, std::uint64_t seed, const Tint& tint, const Job& job);
+Relief bark_relief(std::string_view kind, int size, std::uint64_t seed, const Job& job);
+/// Returns how it becomes images.
+Finish bark_finish(std::string_view kind, const Tint& tint);
 
 }  // namespace seedmesh::texture

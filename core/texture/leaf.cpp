@@ -313,7 +313,19 @@ void let_light_through(Material& material, LeafShape shape) {
 // Mip levels are means of alpha. Below this, dense textures of fine parts close in the distance.
 float leaf_cutoff(std::string_view kind) { return leaf_picture(kind).count > 1 ? 0.5F : 0.45F; }
 
-Painting paint_leaf(std::string_view kind, int size, std::uint64_t seed, const Tint& tint, const Job& job) {
+Finish leaf_finish(std::string_view kind, const Tint& tint) {
+  const Colors colors = colors_of(leaf_picture(kind).shape);
+  Finish finish;
+  finish.ramp = ramp_round(colors.main * (1 / 255.0F), 0.6F, 1.3F, colors.accent * (1 / 255.0F), tint);
+  finish.depth = 0.05F;
+  finish.rough_low = 0.75F;
+  finish.rough_high = 0.55F;
+  finish.rough_accent = 0.85F;
+  finish.shade = 0.1F;
+  return finish;
+}
+
+Relief leaf_relief(std::string_view kind, int size, std::uint64_t seed, const Job& job) {
   const LeafPicture picture = leaf_picture(kind);
   const Rng rng = Rng::of_seed(seed).at(kind);
   Relief relief{Field(job, size, 0.4F), Field(job, size, 0.45F), Field(job, size, 0), Field(job, size, 0)};
@@ -327,16 +339,7 @@ Painting paint_leaf(std::string_view kind, int size, std::uint64_t seed, const T
   }
   for (std::size_t i = 0; i < drawing.blades.size(); ++i) painter.paint_blade(drawing.blades[i], i);
   add_grain(relief, picture, rng, job);
-
-  const Colors colors = colors_of(picture.shape);
-  Finish finish;
-  finish.ramp = ramp_round(colors.main * (1 / 255.0F), 0.6F, 1.3F, colors.accent * (1 / 255.0F), tint);
-  finish.depth = 0.05F;
-  finish.rough_low = 0.75F;
-  finish.rough_high = 0.55F;
-  finish.rough_accent = 0.85F;
-  finish.shade = 0.1F;
-  return {std::move(relief), finish};
+  return relief;
 }
 
 }  // namespace seedmesh::texture

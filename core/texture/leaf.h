@@ -36,7 +36,9 @@ float leaf_cutoff(std::string_view kind);
 /// for fresh leaves (Jacquemoud and Baret, 1990).
 void let_light_through(Material& material, LeafShape shape);
 
-/// Paints a leaf texture. `kind` is one of leaf_kinds(). Cost: 10 to 30 ns a texel.
-Painting paint_leaf(std::string_view kind, int size, std::uint64_t seed, const Tint& tint, const Job& job);
+/// Returns the relief of a leaf or twig. `kind` is one of leaf_kinds(). Cost: 10 to 30 ns a texel.
+Relief leaf_relief(std::string_view kind, int size, std::uint64_t seed, const Job& job);
+/// Returns how it becomes images.
+Finish leaf_finish(std::string_view kind, const Tint& tint);
 
 }  // namespace seedmesh::texture

@@ -31,10 +31,71 @@ std::string suffix_of(MapParts parts) {
   return std::string(parts.normal ? "" : " no normal") + (parts.surface ? "" : " no surface");
 }
 
-std::shared_ptr<const Maps> make(const TextureRecipe& recipe, int size, MapParts parts, const Job& job) {
-  const Painting painting =
-      paint_kind(recipe.kind, painted_size(recipe.kind, size), recipe.seed, recipe.color, job);
-  return std::make_shared<const Maps>(make_maps(painting.relief, painting.finish, recipe.kind, parts, job));
+/// The recipe of a relief, which is the same in every colour.
+TextureRecipe relief_recipe(const TextureRecipe& recipe) {
+  TextureRecipe plain = recipe;
+  plain.color.reset();
+  return plain;
+}
+
+Relief relief_of(std::string_view kind, int size, std::uint64_t seed, const Job& job) {
+  if (wall_kind(kind) != nullptr) return wall_relief(kind, size, seed, job);
+  return is_bark_kind(kind) ? bark_relief(kind, size, seed, job) : leaf_relief(kind, size, seed, job);
+}
+
+Relief relief_of(const TextureRecipe& recipe, int size, const Job& job) {
+  return relief_of(recipe.kind, painted_size(recipe.kind, size), recipe.seed, job);
+}
+
+Finish finish_of(std::string_view kind, const Tint& tint) {
+  if (wall_kind(kind) != nullptr) return wall_finish(kind, tint);
+  return is_bark_kind(kind) ? bark_finish(kind, tint) : leaf_finish(kind, tint);
+}
+
+/// The reliefs that recipes of a model share, each kept until the last of these recipes.
+class SharedReliefs {
+ public:
+  SharedReliefs(int size, const Job& job) : size_(size), job_(job) {}
+
+  /// Announces a recipe, once for each.
+  void expect(const TextureRecipe& recipe) { ++reliefs_[key_of(relief_recipe(recipe), size_)].uses; }
+  std::shared_ptr<const Relief> take(const TextureRecipe& recipe) {
+    Shared& shared = reliefs_[key_of(relief_recipe(recipe), size_)];
+    if (!shared.relief) shared.relief = std::make_shared<const Relief>(relief_of(recipe, size_, job_));
+    return --shared.uses > 0 ? shared.relief : std::move(shared.relief);
+  }
+
+ private:
+  struct Shared {
+    int uses = 0;  ///< that are still to come
+    std::shared_ptr<const Relief> relief;
+  };
+  int size_;
+  const Job& job_;
+  std::map<std::string, Shared> reliefs_;
+};
+
+/// `reliefs` may be null.
+std::shared_ptr<const Maps> make(const TextureRecipe& recipe, int size, MapParts parts,
+                                 SharedReliefs* reliefs, const Job& job) {
+  const std::shared_ptr<const Relief> relief =
+      reliefs ? reliefs->take(recipe) : std::make_shared<const Relief>(relief_of(recipe, size, job));
+  return std::make_shared<const Maps>(
+      make_maps(*relief, finish_of(recipe.kind, recipe.color), recipe.kind, parts, job));
+}
+
+/// The images of a recipe as PNG, from `store` or made now.
+std::shared_ptr<const Maps> png_maps(const TextureRecipe& recipe, int size, MapParts parts,
+                                     SharedReliefs* reliefs, TextureStore* store, const Job& job) {
+  const std::string all = key_of(recipe, size), key = all + suffix_of(parts);
+  if (store) {
+    std::shared_ptr<const void> kept = store->find(key);
+    if (!kept && key != all) kept = store->find(all);
+    if (kept) return std::static_pointer_cast<const Maps>(kept);
+  }
+  std::shared_ptr<const Maps> maps = make(recipe, size, parts, reliefs, job);
+  if (store) store->keep(key, maps, maps->bytes());
+  return maps;
 }
 
 /// Images that have URLs of generated textures instead of bytes.
@@ -70,15 +131,15 @@ std::shared_ptr<const Image> in_form(const std::shared_ptr<const Image>& image, 
 
 /// The images of a recipe in any form.
 std::shared_ptr<const Maps> formed_maps(const TextureRecipe& recipe, int size, MapParts parts, ImageForm form,
-                                        TextureStore* store, const Job& job) {
-  if (form == ImageForm::png) return maps_of(recipe, size, parts, store, job);
+                                        SharedReliefs& reliefs, TextureStore* store, const Job& job) {
+  if (form == ImageForm::png) return png_maps(recipe, size, parts, &reliefs, store, job);
   const std::string key =
       key_of(recipe, size) + (form == ImageForm::webp ? " webp" : " both") + suffix_of(parts);
   if (store) {
     if (const std::shared_ptr<const void> kept = store->find(key))
       return std::static_pointer_cast<const Maps>(kept);
   }
-  const std::shared_ptr<const Maps> plain = maps_of(recipe, size, parts, store, job);
+  const std::shared_ptr<const Maps> plain = png_maps(recipe, size, parts, &reliefs, store, job);
   auto maps = std::make_shared<Maps>();
   parallel_for(job, 3, 1, [&](std::size_t begin, std::size_t, std::size_t) {
     if (begin == 0) maps->color = in_form(plain->color, form, WebpQuality::usual, job);
@@ -111,14 +172,6 @@ int add_texture(Model& model, const std::shared_ptr<const Image>& image) {
   if (!image) return -1;
   model.textures.push_back(image);
   return static_cast<int>(model.textures.size()) - 1;
-}
-
-/// The recipe without its colour where all colours share normals and the surface: the relief of a wall is the same in
-/// every colour.
-TextureRecipe relief_recipe(const TextureRecipe& recipe) {
-  TextureRecipe plain = recipe;
-  if (wall_kind(recipe.kind) != nullptr) plain.color.reset();
-  return plain;
 }
 
 /// Sets the textures of a material, except those that it has already, for the set of texture coordinates that
@@ -162,22 +215,12 @@ int painted_size(std::string_view kind, int size) {
 bool is_repeating_kind(std::string_view name) { return is_bark_kind(name) || wall_kind(name) != nullptr; }
 
 Painting paint_kind(std::string_view kind, int size, std::uint64_t seed, const Tint& tint, const Job& job) {
-  if (wall_kind(kind) != nullptr) return paint_wall(kind, size, seed, tint, job);
-  return is_bark_kind(kind) ? paint_bark(kind, size, seed, tint, job)
-                            : paint_leaf(kind, size, seed, tint, job);
+  return {relief_of(kind, size, seed, job), finish_of(kind, tint)};
 }
 
 std::shared_ptr<const Maps> maps_of(const TextureRecipe& recipe, int size, MapParts parts,
                                     TextureStore* store, const Job& job) {
-  const std::string all = key_of(recipe, size), key = all + suffix_of(parts);
-  if (store) {
-    std::shared_ptr<const void> kept = store->find(key);
-    if (!kept && key != all) kept = store->find(all);
-    if (kept) return std::static_pointer_cast<const Maps>(kept);
-  }
-  std::shared_ptr<const Maps> maps = make(recipe, size, parts, job);
-  if (store) store->keep(key, maps, maps->bytes());
-  return maps;
+  return png_maps(recipe, size, parts, nullptr, store, job);
 }
 
 void paint(Model& model, int size, const ImageStyle& style, TextureStore* store, const Job& job) {
@@ -185,6 +228,12 @@ void paint(Model& model, int size, const ImageStyle& style, TextureStore* store,
   std::set<std::string> with_normals;  // keys of reliefs whose normals a material shows
   for (const Material& material : model.materials) {
     if (!material.recipe.has_own_sides) with_normals.insert(key_of(relief_recipe(material.recipe), size));
+  }
+  SharedReliefs shared(size, job);
+  std::set<std::string> recipes;
+  for (const Material& material : model.materials) {
+    const TextureRecipe& recipe = material.recipe;
+    if (!recipe.kind.empty() && recipes.insert(key_of(recipe, size)).second) shared.expect(recipe);
   }
   std::map<std::string, Places> made, reliefs;
   for (Material& material : model.materials) {
@@ -196,7 +245,7 @@ void paint(Model& model, int size, const ImageStyle& style, TextureStore* store,
       const MapParts parts{is_first && with_normals.count(relief) > 0, is_first};
       const std::shared_ptr<const Maps> maps =
           style.is_linked ? linked_maps(material.recipe, size, parts, style.prefix)
-                          : formed_maps(material.recipe, size, parts, style.form, store, job);
+                          : formed_maps(material.recipe, size, parts, style.form, shared, store, job);
       place->second.color = add_texture(model, maps->color);
       if (is_first) {
         known->second.normal = parts.normal ? add_texture(model, maps->normal) : -1;

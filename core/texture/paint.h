@@ -23,7 +23,7 @@ bool is_repeating_kind(std::string_view name);
 /// and petals, which cover few pixels, this is half of `size`, but not below 64.
 int painted_size(std::string_view kind, int size);
 
-/// Paints a texture. `kind` is one of texture_kinds().
+/// Paints a texture. `kind` is one of texture_kinds(). Its tint changes nothing but the finish.
 Painting paint_kind(std::string_view kind, int size, std::uint64_t seed, const Tint& tint, const Job& job);
 
 /// Returns the images of a recipe as PNG, from `store` or made now, at least those of `parts`. `store` may be null.

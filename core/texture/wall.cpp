@@ -342,7 +342,7 @@ float grey_of(std::string_view name) {
   return linear_of_srgb(main_grey(*kind));
 }
 
-Painting paint_wall(std::string_view name, int size, std::uint64_t seed, const Tint& tint, const Job& job) {
+Finish wall_finish(std::string_view name, const Tint& tint) {
   const WallKind* const kind = wall_kind(name);
   assert(kind != nullptr);
   const Painter& p = painters[kind - kinds];
@@ -357,7 +357,13 @@ Painting paint_wall(std::string_view name, int size, std::uint64_t seed, const T
   finish.shade = p.shade;
   finish.is_grey = kind->is_grey;
   finish.is_small = true;
-  return {p.paint(size, Rng::of_seed(seed).at(name), job), finish};
+  return finish;
+}
+
+Relief wall_relief(std::string_view name, int size, std::uint64_t seed, const Job& job) {
+  const WallKind* const kind = wall_kind(name);
+  assert(kind != nullptr);
+  return painters[kind - kinds].paint(size, Rng::of_seed(seed).at(name), job);
 }
 
 }  // namespace seedmesh::texture

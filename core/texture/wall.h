@@ -31,7 +31,10 @@ glm::vec3 wall_grey();
 /// Returns the main grey of one kind that is grey, linear.
 float grey_of(std::string_view name);
 
-/// Paints a texture. `name` is the name of one of wall_kinds(). Cost: about 30 ns a texel.
-Painting paint_wall(std::string_view name, int size, std::uint64_t seed, const Tint& tint, const Job& job);
+/// Returns the relief of a wall, a roof or a ground. `name` is the name of one of wall_kinds(). Cost: about 30 ns a
+/// texel.
+Relief wall_relief(std::string_view name, int size, std::uint64_t seed, const Job& job);
+/// Returns how it becomes images.
+Finish wall_finish(std::string_view name, const Tint& tint);
 
 }  // namespace seedmesh::texture

@@ -17,7 +17,9 @@ function models_of(program, views, folder) {
   return new Map(views.map((view) => {
     const file = path.join(folder, `${view.name}.glb`), request = path.join(folder, `${view.name}.json`);
     const preset = JSON.parse(execFileSync(program, ['presets', view.preset], { encoding: 'utf8' }));
-    fs.writeFileSync(request, JSON.stringify({ ...preset, seed: view.seed, ...(view.leaf && { parameters: { ...preset.parameters, leaf: { ...preset.parameters.leaf, ...view.leaf } } }) }));
+    const parameters = { ...preset.parameters, ...view.parameters };
+    if (view.leaf) parameters.leaf = { ...preset.parameters.leaf, ...view.leaf };
+    fs.writeFileSync(request, JSON.stringify({ ...preset, seed: view.seed, parameters }));
     execFileSync(program, ['generate', request, '-o', file]);
     return [view.name, file];
   }));

@@ -149,7 +149,9 @@ window.draw = async (url, view, { size, sun }) => {
     measured = thirds();
     scene.add(model);
   }
-  light_with_sky(scene, box, sun);
+  // On land, shadows are those around the camera, which would be coarse over the whole land.
+  const around = new THREE.Box3().setFromCenterAndSize(camera.position, new THREE.Vector3(100, 100, 100));
+  light_with_sky(scene, view.above_ground ? around : box, sun);
   if (!view.above_ground) {
     const ground = new THREE.Mesh(new THREE.CircleGeometry(400, 64), new THREE.MeshLambertMaterial({ color: 0x8c8f74 }));
     ground.rotation.x = -Math.PI / 2;

@@ -323,11 +323,11 @@ export interface CityParametersMaps {
 
 /** Existing parts of the city as GeoJSON in local metres. They stay as they are, and the rest grows from them. */
 export interface CityParametersGiven {
-  /** Existing streets: LineString, MultiLineString, or a GeometryCollection of them. A FeatureCollection, a Feature or a geometry of GeoJSON in metres, east and north. Foreign members have no effect. The properties `class` (highway, major, minor or lane), `width`, `lanes`, `sidewalk` (one number, or left and right), `level`, `bridge` and `tunnel` count. Where two streets meet or cross on one level, an end or corner of one has to lie within 3 m of the other. */
+  /** Existing streets: LineString, MultiLineString, or a GeometryCollection of them. A FeatureCollection, a Feature or a geometry of GeoJSON in metres, east and north. Foreign members have no effect. The properties `class` (highway, major, minor or lane), `width`, `lanes`, `sidewalk` (one number, or left and right), `level`, `bridge` and `tunnel` count. Without `class`, `highway` of OpenStreetMap decides. Where two streets meet or cross on one level, an end or corner of one has to lie within 3 m of the other. */
   streets?: { [key: string]: unknown };
   /** Existing water: Polygon, MultiPolygon, or a GeometryCollection of them. A FeatureCollection, a Feature or a geometry of GeoJSON in metres, east and north. Foreign members have no effect. */
   water?: { [key: string]: unknown };
-  /** Existing buildings: Polygon, MultiPolygon, or a GeometryCollection of them. A FeatureCollection, a Feature or a geometry of GeoJSON in metres, east and north. Foreign members have no effect. The property `height` is that of the walls in metres; without it, `floors` of 3 m, or 9 m. Streets that grow keep clear of the buildings, and no house is built on them. */
+  /** Existing buildings: Polygon, MultiPolygon, or a GeometryCollection of them. A FeatureCollection, a Feature or a geometry of GeoJSON in metres, east and north. Foreign members have no effect. The property `height` is that of the walls in metres; without it, `floors` or `building:levels` of 3 m, or 9 m. Streets that grow keep clear of the buildings, and no house is built on them. */
   footprints?: { [key: string]: unknown };
 }
 
@@ -1299,6 +1299,8 @@ export interface SceneParametersLayersItemPlace {
   density_image?: string;
   /** Patches by smooth noise. */
   noise?: SceneParametersLayersItemPlaceNoise;
+  /** Classes of the ground of the terrain. The probability rises from 0 where they have 30 % of the ground to 1 where they have 55 %. Default: all classes. */
+  ground?: ("grass" | "soil" | "rock" | "scree" | "sand" | "snow")[];
   /** Limits of the slope of the ground; level ground has 0. */
   slope?: SceneParametersLayersItemPlaceSlope;
   /** Limits of the height of the ground. */
@@ -1531,6 +1533,18 @@ export interface TerrainParametersHydraulic {
   area_exponent?: number;
 }
 
+/** Finer ground around a point, such as a walking camera. Within the radius, the squares of the grid are divided until their sides are at most the step; further out, the step doubles with each radius until it is that of the grid. Small forms by ground are added: rock has ledges and outcrops, scree lumps, grass hummocks, sand and soil ripples, snow low drifts. They end at the rim and at the border of the field. A shape plane with the mesh grid, without texture. */
+export interface TerrainParametersRefine {
+  /** The point, in metres to the east and south of the middle of the field or tile. */
+  center?: [number, number];
+  /** The distance from the point within which the step holds. */
+  radius?: number;
+  /** The greatest side of the squares within the radius. It is less than the side of the squares of the grid. */
+  step?: number;
+  /** Factor of the heights of the small forms. 0: none, the ground is only smoother. */
+  relief?: number;
+}
+
 /** Applies the heights to the surface of another model instead of a plane. They keep their metres and continue mirrored beyond their edges, so that there is no seam. The model keeps its materials. */
 export interface TerrainParametersOnto {
   model: Child;
@@ -1628,6 +1642,8 @@ export interface TerrainParameters {
   skirt?: number;
   /** Makes a closed solid for printing, with a floor at this distance below the lowest height. */
   base?: number;
+  /** Finer ground around a point, such as a walking camera. Within the radius, the squares of the grid are divided until their sides are at most the step; further out, the step doubles with each radius until it is that of the grid. Small forms by ground are added: rock has ledges and outcrops, scree lumps, grass hummocks, sand and soil ripples, snow low drifts. They end at the rim and at the border of the field. A shape plane with the mesh grid, without texture. */
+  refine?: TerrainParametersRefine;
   /** Colours by height, slope and hollows. stone and mossy are those of rocks: light tops, and tops with moss. */
   palette?: "alpine" | "desert" | "tropical" | "arctic" | "volcanic" | "moon" | "stone" | "mossy" | "grey" | "none";
   specular?: Specular;

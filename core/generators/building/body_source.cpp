@@ -32,6 +32,7 @@ void BodySource::fill(const Shape& shape, BodySurface& surface) {
   surface.clear();
   if (shape.geometry == box_geometry) {
     surfaces_.box(shape.size, surface);
+    surface.has_face_normals = true;
   } else {
     surfaces_.solid(shapes_.solid_of(shape.geometry), shape.size, surface);
   }

@@ -12,10 +12,12 @@ namespace seedmesh::building {
 struct BodySurface {
   std::vector<glm::dvec3> position, normal;
   std::vector<std::uint32_t> index;
+  bool has_face_normals = false;  ///< the normals are known to be at right angles to the triangles
   void clear() {
     position.clear();
     normal.clear();
     index.clear();
+    has_face_normals = false;
   }
 };
 

@@ -317,7 +317,7 @@ std::optional<Warning> nothing_drawn(const Shapes& shapes) {
     if (dimension(shape.size) >= 2) return std::nullopt;
     ++count;
   }
-  if (count == 0 && shapes.takes_away) return std::nullopt;
+  if (count == 0 && shapes.has_removed_shape) return std::nullopt;
   return Warning{"/rules",
                  count == 0 ? "nothing is drawn: no shape is left, because no selector or cell matched any"
                             : "nothing is drawn: " + std::to_string(count) +

@@ -1,6 +1,7 @@
 #include "core/generators/building/coplanar_rectangles.h"
 
 #include <algorithm>
+#include <numeric>
 #include <tuple>
 
 namespace seedmesh::building {
@@ -30,15 +31,8 @@ std::uint32_t place_in(const std::vector<double>& values, double value) {
   return static_cast<std::uint32_t>(found - values.begin()) - (found == values.begin() ? 0U : 1U);
 }
 
-using Pair = std::pair<std::uint32_t, std::uint32_t>;
-
-/// The pairs with the first number `line` whose second number lies strictly between two numbers.
-std::span<const Pair> between(const std::vector<Pair>& pairs, std::uint32_t line, std::uint32_t from,
-                              std::uint32_t to) {
-  const auto begin = std::ranges::upper_bound(pairs, Pair{line, from});
-  const auto end = std::lower_bound(begin, pairs.end(), Pair{line, to});
-  return {begin, end};
-}
+/// A corner as one number that sorts by its line first, which is its position in u or in v.
+std::uint64_t corner_key(std::uint32_t line, std::uint32_t at) { return std::uint64_t{line} << 32U | at; }
 
 /// Twice the area of a triangle.
 double area(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c) {
@@ -81,6 +75,7 @@ CoplanarRectangles::CoplanarRectangles(const Shapes& shapes, std::span<const std
                                        double diagonal, Job& job)
     : diagonal_(diagonal), places_(drawn.size(), none) {
   std::vector<std::uint32_t> frames(shapes.axes.size(), none);
+  std::vector<Rect> found;
   for (std::size_t i = 0; i < drawn.size(); ++i) {
     const Shape& shape = shapes.shapes[drawn[i]];
     if (shape.geometry != box_geometry || dimension(shape.size) != 2) continue;
@@ -95,10 +90,17 @@ CoplanarRectangles::CoplanarRectangles(const Shapes& shapes, std::span<const std
     rect.at = origin[rect.axis];
     rect.low = {origin[u], origin[v]};
     rect.high = rect.low + glm::dvec2(shape.size[u], shape.size[v]);
-    rects_.push_back(rect);
+    found.push_back(rect);
     if ((i & 4095U) == 4095) job.check();
   }
-  std::ranges::sort(rects_, {}, [](const Rect& r) { return std::tuple(r.frame, r.axis, r.at, r.drawn); });
+  std::vector<std::uint32_t> order(found.size());
+  std::iota(order.begin(), order.end(), 0U);
+  std::ranges::sort(order, {}, [&found](std::uint32_t k) {
+    const Rect& r = found[k];
+    return std::tuple(r.frame, r.axis, r.at, r.drawn);
+  });
+  rects_.reserve(found.size());
+  for (const std::uint32_t k : order) rects_.push_back(found[k]);
   const double tolerance = same_place * diagonal;
   for (std::size_t begin = 0, end = 0; begin < rects_.size(); begin = end) {
     const Rect& first = rects_[begin];
@@ -133,6 +135,30 @@ std::uint32_t CoplanarRectangles::frame_of(const glm::dmat3& axes) {
   return static_cast<std::uint32_t>(frames_.size()) - 1;
 }
 
+/// Sorts corners into lines; equal ones are kept once.
+CoplanarRectangles::Lines CoplanarRectangles::lines_of(std::vector<std::uint64_t>& corners,
+                                                       std::size_t count) {
+  std::ranges::sort(corners);
+  corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
+  Lines lines;
+  lines.begins.reserve(count + 1);
+  lines.at.reserve(corners.size());
+  for (const std::uint64_t corner : corners) {
+    while (lines.begins.size() <= corner >> 32U)
+      lines.begins.push_back(static_cast<std::uint32_t>(lines.at.size()));
+    lines.at.push_back(static_cast<std::uint32_t>(corner));
+  }
+  lines.begins.resize(count + 1, static_cast<std::uint32_t>(lines.at.size()));
+  return lines;
+}
+
+CoplanarRectangles::Range CoplanarRectangles::Lines::between(std::uint32_t line, std::uint32_t from,
+                                                             std::uint32_t to) const {
+  const auto begin = at.begin() + begins[line], end = at.begin() + begins[line + 1];
+  const auto first = std::upper_bound(begin, end, from), last = std::lower_bound(first, end, to);
+  return {static_cast<std::uint32_t>(first - at.begin()), static_cast<std::uint32_t>(last - first)};
+}
+
 void CoplanarRectangles::add_plane(std::span<Rect> rects, double tolerance) {
   Plane plane;
   plane.at = rects.front().at;
@@ -142,38 +168,34 @@ void CoplanarRectangles::add_plane(std::span<Rect> rects, double tolerance) {
   }
   sort_and_join(plane.u, tolerance);
   sort_and_join(plane.v, tolerance);
+  std::vector<std::uint64_t> by_u, by_v;
   for (Rect& rect : rects) {
     rect.plane = static_cast<std::uint32_t>(planes_.size());
     rect.first = {place_in(plane.u, rect.low.x), place_in(plane.v, rect.low.y)};
     rect.last = {place_in(plane.u, rect.high.x), place_in(plane.v, rect.high.y)};
     for (const std::uint32_t u : {rect.first.first, rect.last.first}) {
       for (const std::uint32_t v : {rect.first.second, rect.last.second}) {
-        plane.by_u.emplace_back(u, v);
-        plane.by_v.emplace_back(v, u);
+        by_u.push_back(corner_key(u, v));
+        by_v.push_back(corner_key(v, u));
       }
     }
   }
-  for (std::vector<Corner>* corners : {&plane.by_u, &plane.by_v}) {
-    std::ranges::sort(*corners);
-    corners->erase(std::unique(corners->begin(), corners->end()), corners->end());
-  }
-  for (Rect& rect : rects) count_more(rect, plane);
+  plane.by_u = lines_of(by_u, plane.u.size());
+  plane.by_v = lines_of(by_v, plane.v.size());
+  for (Rect& rect : rects) find_sides(rect, plane);
   planes_.push_back(std::move(plane));
 }
 
-/// The corners of others on a side (0 bottom, 1 right, 2 top, 3 left), upwards or to the right.
-std::span<const Pair> CoplanarRectangles::on_side(const Rect& rect, const Plane& plane, int side) const {
+/// Finds the corners of others on each side of a rectangle, and counts its triangles.
+void CoplanarRectangles::find_sides(Rect& rect, const Plane& plane) const {
   const auto [u0, v0] = rect.first;
   const auto [u1, v1] = rect.last;
-  if (side % 2 == 0) return between(plane.by_v, side == 0 ? v0 : v1, u0, u1);
-  return between(plane.by_u, side == 1 ? u1 : u0, v0, v1);
-}
-
-void CoplanarRectangles::count_more(Rect& rect, const Plane& plane) const {
-  for (int side = 0; side < 4; ++side) {
-    const std::size_t count = on_side(rect, plane, side).size();
+  rect.sides = {plane.by_v.between(v0, u0, u1), plane.by_u.between(u1, v0, v1),
+                plane.by_v.between(v1, u0, u1), plane.by_u.between(u0, v0, v1)};
+  for (std::size_t side = 0; side < 4; ++side) {
+    const std::uint32_t count = rect.sides[side].count;
     rect.is_backed[side] = count > most_on_side;
-    rect.more += rect.is_backed[side] ? 2U : static_cast<std::uint32_t>(count);
+    rect.more += rect.is_backed[side] ? 2U : count;
   }
 }
 
@@ -183,13 +205,16 @@ void CoplanarRectangles::ring(const Rect& rect, std::vector<Corner>& corners) co
   const auto [u1, v1] = rect.last;
   const Corner begins[4] = {{u0, v0}, {u1, v0}, {u1, v1}, {u0, v1}};
   corners.clear();
-  for (int side = 0; side < 4; ++side) {
+  for (std::size_t side = 0; side < 4; ++side) {
     corners.push_back(begins[side]);
-    const std::span<const Pair> others = on_side(rect, plane, side);
     if (rect.is_backed[side]) continue;
-    for (std::size_t k = 0; k < others.size(); ++k) {
-      const Pair& pair = others[side < 2 ? k : others.size() - 1 - k];
-      corners.push_back(side % 2 == 0 ? Corner{pair.second, pair.first} : pair);
+    const auto [first, count] = rect.sides[side];
+    const std::vector<std::uint32_t>& at = side % 2 == 0 ? plane.by_v.at : plane.by_u.at;
+    for (std::uint32_t k = 0; k < count; ++k) {
+      const std::uint32_t other = at[first + (side < 2 ? k : count - 1 - k)];
+      Corner corner = begins[side];
+      (side % 2 == 0 ? corner.first : corner.second) = other;
+      corners.push_back(corner);
     }
   }
 }
@@ -255,8 +280,9 @@ bool CoplanarRectangles::fill(std::size_t i, BodySurface& surface) const {
     cut_ears(flat, surface.index);
   }
   for (int side = 0; side < 4; ++side) {
-    if (rect.is_backed[side]) add_strip(rect, side, surface);
+    if (rect.is_backed[static_cast<std::size_t>(side)]) add_strip(rect, side, surface);
   }
+  surface.has_face_normals = true;
   return true;
 }
 

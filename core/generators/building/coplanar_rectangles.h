@@ -2,6 +2,7 @@
 /// Removes T-junctions between rectangles in one plane. If the corner of a rectangle lies on an edge of
 /// another, that edge gets a corner, too. Without it, gaps of single pixels would be visible. A side with
 /// many such corners, such as a long sill below windows, gets a narrow strip behind it instead.
+#include <array>
 #include <span>
 #include <vector>
 
@@ -31,25 +32,38 @@ class CoplanarRectangles {
 
  private:
   using Corner = std::pair<std::uint32_t, std::uint32_t>;
+  /// Corners on one line: indices into Lines::at.
+  struct Range {
+    std::uint32_t first = 0, count = 0;
+  };
+  /// All corners of a plane, sorted by one of their coordinates and then by the other.
+  struct Lines {
+    std::vector<std::uint32_t> begins;  ///< of each line, and the end
+    std::vector<std::uint32_t> at;      ///< the other coordinate
+
+    /// The corners on a line strictly between two positions.
+    Range between(std::uint32_t line, std::uint32_t from, std::uint32_t to) const;
+  };
   struct Plane {
     double at = 0;
-    std::vector<double> u, v;        ///< coordinates of corners, rising
-    std::vector<Corner> by_u, by_v;  ///< corners as positions in u and v, sorted by u or by v
+    std::vector<double> u, v;  ///< coordinates of corners, rising
+    Lines by_u, by_v;          ///< corners as positions in u and v
   };
   struct Rect {
     std::uint32_t drawn = 0, frame = 0, plane = 0;
     int axis = 1;  ///< axis of the normal
     double at = 0;
     glm::dvec2 low{0}, high{0};
-    Corner first, last;      ///< lowest and highest corner
-    std::uint32_t more = 0;  ///< triangles besides the two
-    bool is_backed[4] = {};  ///< sides with a strip behind them: bottom, right, top, left
+    Corner first, last;            ///< lowest and highest corner
+    std::uint32_t more = 0;        ///< triangles besides the two
+    std::array<Range, 4> sides{};  ///< corners of others, upwards or to the right: bottom, right, top, left
+    std::array<bool, 4> is_backed{};  ///< sides with a strip behind them
   };
 
   std::uint32_t frame_of(const glm::dmat3& axes);
   void add_plane(std::span<Rect> rects, double tolerance);
-  void count_more(Rect& rect, const Plane& plane) const;
-  std::span<const Corner> on_side(const Rect& rect, const Plane& plane, int side) const;
+  static Lines lines_of(std::vector<std::uint64_t>& corners, std::size_t count);
+  void find_sides(Rect& rect, const Plane& plane) const;
   void ring(const Rect& rect, std::vector<Corner>& corners) const;
   void add_strip(const Rect& rect, int side, BodySurface& surface) const;
   glm::dvec3 place(const Rect& rect, const Corner& corner) const;

@@ -77,7 +77,7 @@ void edit_shape(Derivation& d, std::uint32_t index) {
   if (edit->is_removed) {
     shape.is_active = false;
     shape.is_leaf = true;
-    d.out.takes_away = true;
+    d.out.has_removed_shape = true;
     return;
   }
   if (!edit->attributes.empty()) {

@@ -64,7 +64,7 @@ void call_symbol(Derivation& d, const Step& step, ShapeState& state, const Site&
   shape.parameter_count = static_cast<std::uint8_t>(step.argument_count);
 }
 
-void take_away(Derivation& d, const Step&, ShapeState&, const Site&) { d.out.takes_away = true; }
+void take_away(Derivation& d, const Step&, ShapeState&, const Site&) { d.out.has_removed_shape = true; }
 
 void ignore(Derivation&, const Step&, ShapeState&, const Site&) {}
 

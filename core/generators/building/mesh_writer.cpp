@@ -12,14 +12,16 @@ namespace {
 /// almost lie on a line.
 constexpr double least_facing = 0.05;
 
-/// Texture coordinates in tiles: the horizontal distance along the wall and the height, continuous over
-/// neighbours.
-glm::vec2 texture_at(const glm::dvec3& p, const glm::dvec3& n, const glm::dvec2& tile) {
+/// The directions of texture coordinates of a face: along the wall and down.
+struct Directions {
+  glm::dvec3 along{0}, down{0};
+};
+
+Directions directions_on(const glm::dvec3& n) {
   glm::dvec3 x = glm::cross(glm::dvec3(0, 1, 0), n);
   if (glm::dot(x, x) < 1e-9) x = glm::dvec3(1, 0, 0);
   x = math::unit(x, glm::dvec3(1, 0, 0));
-  const glm::dvec3 y = glm::cross(n, x);
-  return {static_cast<float>(glm::dot(p, x) / tile.x), static_cast<float>(-glm::dot(p, y) / tile.y)};
+  return {x, glm::cross(n, x)};
 }
 
 bool is_facing(const Projection& projection, const glm::dvec3& normal) {
@@ -41,11 +43,39 @@ glm::dvec3 facing_at(const BodySurface& surface, std::size_t first) {
 /// The face normals of all vertices of a surface; each vertex belongs to one face.
 std::vector<glm::dvec3> facings_of(const BodySurface& surface) {
   std::vector<glm::dvec3> facings = surface.normal;
+  if (surface.has_face_normals) return facings;
   for (std::size_t t = 0; t < surface.index.size(); t += 3) {
     const glm::dvec3 facing = facing_at(surface, t);
     for (std::size_t k = 0; k < 3; ++k) facings[surface.index[t + k]] = facing;
   }
   return facings;
+}
+
+/// Appends the texture coordinates in tiles of the last vertices of a mesh: the horizontal distance along the wall and
+/// the height, continuous over neighbours.
+void append_coordinates(const BodySurface& surface, Mesh& mesh, const glm::dmat3& axes,
+                        const glm::dvec3& origin, const Texturing& texturing) {
+  const std::vector<glm::dvec3> facings = facings_of(surface);
+  const Projection* const projection = texturing.projection;
+  glm::vec2* out = mesh.uv[0].extend(facings.size());
+  bool is_projected = false;
+  Directions on_face;
+  for (std::size_t i = 0; i < facings.size(); ++i) {
+    // Most neighbours have one face in common.
+    if (i == 0 || facings[i] != facings[i - 1] || surface.normal[i] != surface.normal[i - 1]) {
+      is_projected = projection != nullptr && is_facing(*projection, axes * surface.normal[i]);
+      on_face = directions_on(axes * facings[i]);
+    }
+    const glm::dvec3 at = origin + axes * surface.position[i];
+    if (is_projected) {
+      // v runs up here and down in glTF.
+      *out++ = {static_cast<float>(glm::dot(projection->u, at) + projection->u_at),
+                static_cast<float>(-glm::dot(projection->v, at) - projection->v_at)};
+    } else {
+      *out++ = {static_cast<float>(glm::dot(at, on_face.along) / texturing.tile->x),
+                static_cast<float>(-glm::dot(at, on_face.down) / texturing.tile->y)};
+    }
+  }
 }
 
 }  // namespace
@@ -65,22 +95,11 @@ void append(const BodySurface& surface, Mesh& mesh, const glm::dmat3& axes, cons
   const std::size_t count = surface.position.size();
   glm::vec3* position = mesh.position.extend(count);
   glm::vec3* normal = mesh.normal.extend(count);
-  const Projection* const projection = texturing.projection;
-  const std::vector<glm::dvec3> facings =
-      texturing.tile == nullptr ? std::vector<glm::dvec3>{} : facings_of(surface);
   for (std::size_t i = 0; i < count; ++i) {
-    const glm::dvec3 at = origin + axes * surface.position[i], n = axes * surface.normal[i];
-    position[i] = glm::vec3(at);
-    normal[i] = glm::vec3(n);
-    if (texturing.tile == nullptr) continue;
-    if (projection != nullptr && is_facing(*projection, n)) {
-      // v runs up here and down in glTF.
-      mesh.uv[0].push_back({static_cast<float>(glm::dot(projection->u, at) + projection->u_at),
-                            static_cast<float>(-glm::dot(projection->v, at) - projection->v_at)});
-    } else {
-      mesh.uv[0].push_back(texture_at(at, axes * facings[i], *texturing.tile));
-    }
+    position[i] = glm::vec3(origin + axes * surface.position[i]);
+    normal[i] = glm::vec3(axes * surface.normal[i]);
   }
+  if (texturing.tile != nullptr) append_coordinates(surface, mesh, axes, origin, texturing);
   std::uint32_t* index = mesh.index.wide.extend(surface.index.size());
   for (std::size_t i = 0; i < surface.index.size(); ++i) index[i] = base + surface.index[i];
 }

@@ -118,8 +118,8 @@ struct Shapes {
   std::vector<std::string_view> asset_names;  ///< of geometry with asset_bit; not owned
   Texts texts;
   std::vector<Warning> warnings;
-  bool takes_away = false;        ///< a rule or an edit has removed a shape (NIL)
-  std::vector<bool> found_edits;  ///< for each edit of Task::edits, whether its shape was made
+  bool has_removed_shape = false;  ///< a rule or an edit has removed a shape (NIL)
+  std::vector<bool> found_edits;   ///< for each edit of Task::edits, whether its shape was made
   std::map<std::uint32_t, std::uint32_t> symbols_before_edits;  ///< of shapes whose rule an edit has changed
   /// For each shape the choice of Grammar::choices that replaced it, or `none`. It may have fewer rows than
   /// `shapes`. Only with Task::keeps_choices.

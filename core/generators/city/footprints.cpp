@@ -19,7 +19,8 @@ constexpr double cell_size = 64;                                                
 
 double height_of(const GeoFeature& building, std::vector<Issue>& issues) {
   const auto height = number_property(building, "height", issues);
-  const auto floors = number_property(building, "floors", issues);
+  auto floors = number_property(building, "floors", issues);
+  if (!floors && !height) floors = number_property(building, "building:levels", issues);
   const double value = height ? *height : floors ? *floors * height_of_floor : usual_height;
   if (value >= least_height && value <= most_height) return value;
   issues.emplace_back(IssueKind::out_of_range,

@@ -233,6 +233,21 @@ class Reader {
   glm::dvec2 low_{0}, high_{0};
 };
 
+/// Reads a number as OpenStreetMap writes lengths: "6", "6.5 m", "20 ft", "20'". Of "3;4" the first counts.
+std::optional<double> metres_of(std::string_view text) {
+  constexpr double foot = 0.3048;
+  text = text.substr(0, text.find(';'));
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc{} || !std::isfinite(value)) return std::nullopt;
+  std::string_view unit(end, static_cast<std::size_t>(text.data() + text.size() - end));
+  while (unit.starts_with(' ')) unit.remove_prefix(1);
+  while (unit.ends_with(' ')) unit.remove_suffix(1);
+  if (unit.empty() || unit == "m") return value;
+  if (unit == "ft" || unit == "'") return value * foot;
+  return std::nullopt;
+}
+
 }  // namespace
 
 std::vector<GeoFeature> features_of(const GeoJson& value, GeoKind kind, const std::string& pointer,
@@ -249,18 +264,23 @@ std::vector<Rings> polygons_of(const GeoJson& value, const std::string& pointer,
   return all;
 }
 
+const Json* first_property(const GeoFeature& feature, const char* name) {
+  const auto at = feature.properties.find(name);
+  if (at == feature.properties.end()) return nullptr;
+  const Json& value = at->is_array() && !at->empty() ? at->front() : *at;
+  return value.is_null() ? nullptr : &value;
+}
+
 std::optional<double> number_property(const GeoFeature& feature, const char* name,
                                       std::vector<Issue>& issues) {
-  const auto at = feature.properties.find(name);
-  if (at == feature.properties.end() || at->is_null()) return std::nullopt;
-  if (at->is_number()) return at->get<double>();
-  if (at->is_string()) {
-    const auto& text = at->get_ref<const std::string&>();
-    double value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error == std::errc{} && end == text.data() + text.size() && std::isfinite(value)) return value;
+  const Json* found = first_property(feature, name);
+  if (!found) return std::nullopt;
+  if (found->is_number()) return found->get<double>();
+  if (found->is_string()) {
+    if (const std::optional<double> value = metres_of(found->get_ref<const std::string&>())) return value;
   }
-  issues.emplace_back(IssueKind::wrong_type, feature.pointer + "/properties/" + name, "expected a number");
+  issues.emplace_back(IssueKind::wrong_type, feature.pointer + "/properties/" + name,
+                      "expected a number, or a text of a number and `m`, `ft` or `'`");
   return std::nullopt;
 }
 

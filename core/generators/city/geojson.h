@@ -41,8 +41,13 @@ std::vector<GeoFeature> features_of(const GeoJson& value, GeoKind kind, const st
 /// Returns the polygons of all features.
 std::vector<Rings> polygons_of(const GeoJson& value, const std::string& pointer, const GeoReport& report);
 
-/// Returns a property that is a number, or a text with a number, as OpenStreetMap has them: "2". Nothing without it
-/// or for null. Issue: another value.
+/// Returns a property; of a list its first value, since merged streets of OpenStreetMap have lists. Null without it
+/// and for null.
+const Json* first_property(const GeoFeature& feature, const char* name);
+
+/// Returns a property that is a number, or a text with a number, as OpenStreetMap has them: "2", "6.5 m", "20 ft",
+/// "20'". Lengths are converted to metres, and the first of "3;4" counts. Nothing without it or for null. Issue:
+/// another value.
 std::optional<double> number_property(const GeoFeature& feature, const char* name,
                                       std::vector<Issue>& issues);
 

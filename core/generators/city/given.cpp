@@ -22,6 +22,22 @@ CrossSection section_of(const char* name, const T& given) {
   return {name, given.width, {given.sidewalk, given.sidewalk}, given.lanes, given.grade, given.trees};
 }
 
+/// The class of a street by the key `highway` of OpenStreetMap. A link has the class of its street.
+std::size_t class_of_highway(std::string_view highway) {
+  constexpr std::string_view link = "_link";
+  if (highway.ends_with(link)) highway.remove_suffix(link.size());
+  const auto is_one_of = [&](std::initializer_list<std::string_view> names) {
+    return std::find(names.begin(), names.end(), highway) != names.end();
+  };
+  EdgeClass found = EdgeClass::minor;
+  if (is_one_of({"motorway", "trunk"})) found = EdgeClass::highway;
+  if (is_one_of({"primary", "secondary"})) found = EdgeClass::major;
+  if (is_one_of({"living_street", "service", "pedestrian", "footway", "path", "track", "cycleway", "steps",
+                 "bridleway", "corridor"}))
+    found = EdgeClass::lane;
+  return static_cast<std::size_t>(found);
+}
+
 /// Reads the properties of a feature that count. Null is as no value.
 class Properties {
  public:
@@ -42,10 +58,18 @@ class Properties {
     return math::to_int32(value);
   }
 
-  /// True, or what OpenStreetMap writes for it.
+  /// True, or a text of OpenStreetMap for it: `yes`, or a kind such as `viaduct`.
   bool is_true(const char* name) const {
-    const Json* value = find(name);
-    return value && (*value == true || *value == "yes" || *value == "true");
+    const Json* value = first_property(street_, name);
+    return value && (*value == true || (value->is_string() && *value != "no" && *value != "false"));
+  }
+
+  /// The height level: `level`, or `layer` of OpenStreetMap for bridges and tunnels.
+  int level() const {
+    const int usual = is_true("bridge") ? 1 : is_true("tunnel") ? -1 : 0;
+    if (find("level") || usual == 0) return whole("level", usual, -5, 5);
+    const int layer = whole("layer", usual, -5, 5);
+    return layer * usual > 0 ? layer : usual;
   }
 
   std::array<double, 2> sidewalk(const std::array<double, 2>& otherwise) const {
@@ -59,16 +83,22 @@ class Properties {
       return {in_range("sidewalk", (*value)[0].get<double>(), 0.5, 20),
               in_range("sidewalk", (*value)[1].get<double>(), 0.5, 20)};
     }
+    // OpenStreetMap says on which sides they are: "both", "left", "no". Every street here has both.
+    if (value->is_string()) return otherwise;
     issues_.emplace_back(IssueKind::wrong_type, pointer_ + "sidewalk",
                          "expected a number, or a list of two numbers");
     return otherwise;
   }
 
-  /// The index of the class; `minor` without one.
+  /// The index of the class: `class`, or that of `highway` of OpenStreetMap, or `minor`.
   std::size_t street_class(const std::vector<CrossSection>& sections) const {
     const Json* name = find("class");
     const auto minor = static_cast<std::size_t>(EdgeClass::minor);
-    if (!name) return minor;
+    if (!name) {
+      const Json* highway = first_property(street_, "highway");
+      return highway && highway->is_string() ? class_of_highway(highway->get_ref<const std::string&>())
+                                             : minor;
+    }
     for (auto k = static_cast<std::size_t>(EdgeClass::highway); k < first_given; ++k) {
       if (*name == sections[k].name) return k;
     }
@@ -230,8 +260,7 @@ std::vector<GivenLine> given_lines(const CityParams& params, std::vector<CrossSe
     section.width = properties.number("width", section.width, 1, 100);
     section.lanes = properties.whole("lanes", section.lanes, 0, 20);
     section.sidewalk = properties.sidewalk(section.sidewalk);
-    const int usual = properties.is_true("bridge") ? 1 : properties.is_true("tunnel") ? -1 : 0;
-    const int level = properties.whole("level", usual, -5, 5);
+    const int level = properties.level();
     auto known = std::find(sections.begin() + first_given, sections.end(), section);
     if (known == sections.end()) known = sections.insert(known, section);
     const auto number = static_cast<std::uint32_t>(known - sections.begin());

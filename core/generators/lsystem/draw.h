@@ -1,6 +1,7 @@
 #pragma once
 /// Draws words: every module moves the turtle, or is first rewritten by the interpretation rules.
 #include <algorithm>
+#include <array>
 #include <vector>
 
 #include "core/generators/api.h"
@@ -69,8 +70,8 @@ class Drawing {
 
  private:
   struct Angle {
-    double degrees;
-    math::SinCos bare;  ///< sine and cosine of `degrees`
+    double degrees = 0;
+    math::SinCos bare{0, 1};  ///< sine and cosine of `degrees`
   };
   /// Random streams of a module. They are separate, so that adding one spread does not change another.
   enum class Spread : std::uint64_t { angle = 11, step = 12, width = 13 };
@@ -118,8 +119,8 @@ class Drawing {
   std::vector<Turtle::Pose> shapes_;  ///< poses at which the open polygons of a growing module started
   std::vector<const LsystemSurface*> surfaces_;  ///< surfaces in the order of their names
   Angle yaw_, pitch_, roll_;
-  double last_degrees_ = 0;  ///< cache: most angles given as arguments repeat
-  math::SinCos last_{0, 1};
+  /// A cache by hash of the degrees: most angles given as arguments repeat.
+  std::array<Angle, 16> known_angles_{};
   std::uint64_t interpreted_ = 0;
   std::uint64_t open_polygons_ = 0, stray_closings_ = 0;
 };

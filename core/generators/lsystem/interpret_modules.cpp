@@ -1,5 +1,6 @@
 /// Executes the turtle command of a module that no interpretation rule rewrites.
 #include <algorithm>
+#include <bit>
 #include <charconv>
 #include <cmath>
 
@@ -84,11 +85,10 @@ math::SinCos Drawing::turn(const Kind& kind, const double* parameters, const Ang
     return angle.bare;
   }
   degrees *= share;
-  if (degrees != last_degrees_) {
-    last_degrees_ = degrees;
-    last_ = math::sincos_degrees(degrees);
-  }
-  return last_;
+  const std::size_t place = (std::bit_cast<std::uint64_t>(degrees) * 0x9E3779B97F4A7C15U) >> 60U;
+  Angle& known = known_angles_[place];
+  if (degrees != known.degrees) known = {degrees, math::sincos_degrees(degrees)};
+  return known.bare;
 }
 
 /// A scale or width that is not finite would cause errors only much later.

@@ -171,7 +171,7 @@ struct OpenSystems::Plant {
 OpenSystems::~OpenSystems() = default;
 
 OpenSystems::OpenSystems(const LsystemParams& params, const GenerateContext& context)
-    : params_(params), context_(context), job_(context.job) {
+    : params_(params), context_(context), job_(context.job), known_(std::make_unique<KnownShares>(job_)) {
   Job& job = context.job;
   Surroundings::Options options;
   const auto environment = params.environment.value_or(LsystemParams::Environment{});
@@ -225,9 +225,8 @@ GenerateContext OpenSystems::context_of(Plant& plant) const {
 }
 
 bool OpenSystems::needed(const Grammar& grammar, const LsystemParams& params) {
-  if (params.environment) return true;
-  return std::any_of(grammar.kinds.begin(), grammar.kinds.end(),
-                     [](const Kind& kind) { return is_query(kind.command); });
+  const auto asks = [](const Kind& kind) { return is_query(kind.command); };
+  return params.environment || std::ranges::any_of(grammar.kinds, asks);
 }
 
 void OpenSystems::grow(const Grammar& grammar, std::uint32_t steps) {
@@ -240,9 +239,8 @@ void OpenSystems::grow(const Grammar& grammar, std::uint32_t steps) {
   }
   answer_queries();
   for (std::uint32_t step = 0; step < most; ++step) {
-    for (auto& plant : plants_) {
+    for (auto& plant : plants_)
       if (step < plant->steps) plant->derivation->step();
-    }
     answer_queries();
   }
   for (auto& plant : plants_) job_.spend(Resource::modules, plant->derivation->word.size());
@@ -299,6 +297,8 @@ void OpenSystems::draw_and_prune(Plant& plant, std::vector<Stretch>& grown) {
     if (prober.limb != Limbs::none) prober.limb = limb[prober.limb];
     if (each.ahead != Limbs::none) prober.limb_ahead = limb[each.ahead];
   }
+  skeleton.outlines.outline.resize(0);  // only the limbs are of interest here
+  skeleton.organs.organ.resize(0);
   limbs.key.resize(limbs.size());  // index of the joint before pruning
   for (std::size_t i = 0; i < limbs.size(); ++i) limbs.key[i] = i;
   cut(skeleton);
@@ -339,8 +339,8 @@ void OpenSystems::write_answers(Plant& plant) {
         fill(0, each.frame.up);
         break;
       default: {
-        const bool remains = prober.joint == Limbs::none ||
-                             std::binary_search(plant.alive.begin(), plant.alive.end(), prober.joint);
+        const bool remains =
+            prober.joint == Limbs::none || std::ranges::binary_search(plant.alive, prober.joint);
         const double length = answer[0];
         set(0, remains && surroundings_->is_free(prober, length) ? 1 : 0);
         if (kind.arity > 1) set(1, surroundings_->signed_distance_at(prober.position));
@@ -366,7 +366,7 @@ void OpenSystems::draw(const Grammar& grammar, Drawing& drawing, double share) c
 void OpenSystems::cut(Skeleton& skeleton) const {
   const auto membership =
       params_.environment ? membership_of(params_.environment->membership) : Membership::centre;
-  prune(skeleton, *surroundings_, membership, job_);
+  prune(skeleton, *surroundings_, membership, known_.get(), job_);
 }
 
 TurtleReport OpenSystems::report(const Turtle& turtle, Skeleton& skeleton) const {

@@ -58,6 +58,7 @@ class OpenSystems {
   std::vector<Host> hosts_;
   std::vector<std::unique_ptr<Plant>> plants_;  ///< the requested plant first, then its companions
   std::unique_ptr<Surroundings> surroundings_;
+  std::unique_ptr<KnownShares> known_;  ///< of `surroundings_`
 };
 
 }  // namespace seedmesh::lsystem

@@ -63,6 +63,13 @@ class Checker {
       add(IssueKind::not_available, "/terrain/parameters/onto",
           "the ground of a scene cannot follow a model");
     }
+    const bool has_foundations = std::ranges::any_of(
+        params_.layers, [](const SceneLayer& layer) { return layer.foundation.has_value(); });
+    if (parameters.contains("refine") &&
+        (has_foundations || !params_.paths.empty() || !params_.buildings.empty())) {
+      add(IssueKind::conflict, "/terrain/parameters/refine",
+          "paths, buildings and foundations lie on the squares of the grid; expected a scene without them");
+    }
   }
 
   /// Refuses a scene inside the request, at any depth.
@@ -222,6 +229,10 @@ class Checker {
       check_near(place.near[i], number, pointer + "/near/" + std::to_string(i));
     if (place.above_water && !params_.terrain)
       add(IssueKind::conflict, pointer + "/above_water", "there is no water; only a terrain has water");
+    if (place.ground && !params_.terrain) {
+      add(IssueKind::conflict, pointer + "/ground",
+          "there are no classes of ground; only a terrain has them");
+    }
   }
 
   void check_positions(const SceneLayer& layer, const std::string& pointer) {
@@ -245,6 +256,7 @@ class Checker {
     refuse(place.density != 1, "density");
     refuse(place.density_image.has_value(), "density_image");
     refuse(place.noise.has_value(), "noise");
+    refuse(place.ground.has_value(), "ground");
     refuse(place.slope.has_value(), "slope");
     refuse(place.altitude.has_value(), "altitude");
     refuse(place.above_water.has_value(), "above_water");

@@ -8,6 +8,9 @@
 #include "core/generators/material_members.h"
 #include "core/generators/scene/buildings.h"
 #include "core/generators/scene/path_bands.h"
+#include "core/generators/terrain/dress.h"
+#include "core/generators/terrain/ease.h"
+#include "core/generators/terrain/ground_cover.h"
 #include "core/generators/terrain/plan.h"
 #include "core/generators/terrain/terrain.h"
 #include "core/model/append.h"
@@ -106,6 +109,10 @@ Result<Ground> Ground::make(const SceneParams& params, const Job& job) {
   if (ground.terrain_->water_level &&
       *ground.terrain_->water_level > static_cast<double>(terrain::range_of(made, job).low))
     ground.water_ = ground.terrain_->water_level;
+  ground.refined_ = terrain::refined_ground(*ground.terrain_, made, own);
+  if (std::ranges::any_of(params.layers,
+                          [](const SceneLayer& layer) { return layer.place.ground.has_value(); }))
+    ground.cover(job);
   return ground;
 }
 
@@ -113,6 +120,38 @@ bool Ground::holds(const glm::dvec2& p, double edge) const {
   if (round_) return glm::length(p) <= extent_.max.x - edge;
   return p.x >= extent_.min.x + edge && p.y >= extent_.min.y + edge && p.x <= extent_.max.x - edge &&
          p.y <= extent_.max.y - edge;
+}
+
+glm::dvec2 Ground::gradient(const glm::dvec2& p) const {
+  constexpr double half = 0.5;
+  if (!refines(p)) return sample(p).gradient;
+  return {(refined_height(p + glm::dvec2(half, 0)) - refined_height(p - glm::dvec2(half, 0))) / (2 * half),
+          (refined_height(p + glm::dvec2(0, half)) - refined_height(p - glm::dvec2(0, half))) / (2 * half)};
+}
+
+void Ground::cover(const Job& job) {
+  if (!terrain_ || cover_) return;
+  const Job own = job.for_child(seed_, terrain_pointer);
+  cover_ = std::make_shared<const terrain::GroundCover>(*terrain_, field_, refined_, own);
+}
+
+double Ground::share_of(const std::vector<SceneGroundClass>& classes, const glm::dvec2& p) const {
+  if (!cover_) return 1;
+  const terrain::GroundShares shares = cover_->at(p.x - extent_.min.x, p.y - extent_.min.y);
+  float sum = 0;
+  for (const SceneGroundClass each : classes) sum += shares.of[static_cast<int>(each)];
+  return static_cast<double>(terrain::ease(0.3F, 0.55F, sum));
+}
+static_assert(static_cast<int>(SceneGroundClass::grass) == terrain::GroundShares::grass &&
+              static_cast<int>(SceneGroundClass::snow) == terrain::GroundShares::snow);
+
+bool Ground::refines(const glm::dvec2& p) const {
+  return refined_ && refined_->holds(p.x - extent_.min.x, p.y - extent_.min.y);
+}
+
+double Ground::refined_height(const glm::dvec2& p) const {
+  terrain::RefinedGround::Sampler sampler(*refined_);
+  return static_cast<double>(sampler.at(p.x - extent_.min.x, p.y - extent_.min.y).height);
 }
 
 /// Squares are split like grid meshes: along the diagonal with the smaller height difference.

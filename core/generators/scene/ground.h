@@ -13,7 +13,12 @@
 namespace seedmesh {
 struct SceneParams;
 struct TerrainParams;
+enum class SceneGroundClass;
 }  // namespace seedmesh
+namespace seedmesh::terrain {
+class GroundCover;
+class RefinedGround;
+}  // namespace seedmesh::terrain
 
 namespace seedmesh::scene {
 
@@ -32,10 +37,17 @@ class Ground {
   /// Returns true where there is ground and its border is at least `edge` metres away.
   bool holds(const glm::dvec2& p, double edge) const;
 
-  /// Returns the height of the grid mesh at a position. A reduced mesh differs by its error.
-  double height(const glm::dvec2& p) const { return sample(p).height; }
-  /// Returns the rise per metre to the east and to the south of the same triangle.
-  glm::dvec2 gradient(const glm::dvec2& p) const { return sample(p).gradient; }
+  /// Returns the height of the grid mesh at a position. A reduced mesh differs by its error. Refined ground has the
+  /// height of its surface, which the corners of its triangles have.
+  double height(const glm::dvec2& p) const { return refines(p) ? refined_height(p) : sample(p).height; }
+  /// Returns the rise per metre to the east and to the south of the same triangle; of refined ground over a metre.
+  glm::dvec2 gradient(const glm::dvec2& p) const;
+
+  /// Returns 0 where classes of ground have at most 30 % of the ground, 1 where they have 55 % of it or more, and a
+  /// smooth step between; 1 where cover() was not called.
+  double share_of(const std::vector<SceneGroundClass>& classes, const glm::dvec2& p) const;
+  /// Finds the classes of ground. Foundations that are made later do not change them.
+  void cover(const Job& job);
 
   /// Returns the height of the water, or nullopt without water.
   const std::optional<double>& water() const { return water_; }
@@ -57,6 +69,8 @@ class Ground {
     glm::dvec2 gradient{0};
   };
   Sample sample(const glm::dvec2& p) const;
+  bool refines(const glm::dvec2& p) const;
+  double refined_height(const glm::dvec2& p) const;
 
   Extent extent_;
   bool round_ = false;
@@ -64,6 +78,8 @@ class Ground {
   std::shared_ptr<const TerrainParams> terrain_;  ///< may be null: level ground
   std::uint64_t seed_ = 0;
   terrain::Field field_;
+  std::shared_ptr<const terrain::RefinedGround> refined_;  ///< may be null
+  std::shared_ptr<const terrain::GroundCover> cover_;      ///< may be null
   Array<std::uint8_t> levelled_;  ///< for each sample 1 under a foundation; empty without foundations
 };
 

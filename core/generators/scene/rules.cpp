@@ -192,6 +192,7 @@ double Rules::share_of_ground(const glm::dvec2& p) const {
     const double steep = math::degrees(math::atan2(glm::length(given_.ground.gradient(p)), 1));
     share *= share_of_limits(*place.slope, steep);
   }
+  if (share > 0 && place.ground) share *= given_.ground.share_of(*place.ground, p);
   const std::optional<double>& water = given_.ground.water();
   if (!place.altitude && !water && !place.above_water) return share;
   const double height = given_.ground.height(p);

@@ -72,8 +72,8 @@ double share_of_path(const ScenePlace& place, const Rules& rules) {
 }  // namespace
 
 bool depends_on_ground(const ScenePlace& place) {
-  return place.slope || place.altitude || place.above_water || place.density_image || place.noise ||
-         place.edge > 0;
+  return place.ground || place.slope || place.altitude || place.above_water || place.density_image ||
+         place.noise || place.edge > 0;
 }
 
 double sampled_share(const SceneLayer& layer, std::size_t number, const Ground& ground, const Job& job) {

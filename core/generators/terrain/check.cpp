@@ -19,8 +19,7 @@ using Algorithm = TerrainAlgorithm;
 // The number of rounds that gives the longest side, and the greatest number of octaves with visible detail in
 // a float.
 constexpr int most_rounds = 14, most_octaves = 16;
-constexpr int longest_sphere = 1025;
-constexpr int least_texture = 16;
+constexpr int longest_sphere = 1025, least_texture = 16;
 
 class Check {
  public:
@@ -222,6 +221,7 @@ class Check {
     refuse(params_.skirt > 0, "/skirt");
     refuse(params_.base.has_value(), "/base");
     refuse(params_.texture > 0, "/texture");
+    refuse(params_.refine.has_value(), "/refine");
     if (params_.shape != TerrainShape::profile) return;
     refuse(params_.detail, "/detail");
     refuse(!params_.layers.empty(), "/layers");
@@ -357,6 +357,7 @@ class Check {
     refuse(params_.base.has_value(), "/base");
     refuse(params_.water_level.has_value(), "/water_level");
     refuse(params_.detail, "/detail");
+    refuse(params_.refine.has_value(), "/refine");
     const bool moves = params_.onto->mapping == TerrainMapping::displacement;
     error_if(moves && params_.texture > 0, IssueKind::conflict, "/texture",
              "a displacement has no texture; expected the mapping normal_map");
@@ -365,24 +366,23 @@ class Check {
   }
 
   void mesh() {
+    error_if(params_.refine && (params_.mesh != TerrainMesh::grid || params_.texture > 0),
+             IssueKind::conflict, "/refine",
+             "divides the squares of a grid; expected the mesh grid and texture 0");
     error_if(params_.max_error && params_.mesh == TerrainMesh::grid, IssueKind::conflict, "/max_error",
              "a grid has every sample and no error; expected the mesh rtin or greedy");
     error_if(params_.base && params_.skirt > 0, IssueKind::conflict, "/skirt", "a closed solid has no skirt");
     error_if(params_.detail && params_.texture > 0, IssueKind::conflict, "/detail",
              "a ground with a texture of the whole field has no details that repeat; expected texture 0");
-    if (params_.texture > 0 && params_.texture < least_texture) {
-      error(IssueKind::out_of_range, "/texture",
-            "found " + std::to_string(params_.texture) + "; expected 0, or " + std::to_string(least_texture) +
-                " to 4096");
-    }
+    error_if(params_.texture > 0 && params_.texture < least_texture, IssueKind::out_of_range, "/texture",
+             "found " + std::to_string(params_.texture) + "; expected 0, or " +
+                 std::to_string(least_texture) + " to 4096");
     if (!issues_.empty() || params_.mesh != TerrainMesh::rtin || params_.algorithm == Algorithm::image)
       return;
     const int side = finished_side(params_);
-    if (!fits_rtin(side, side)) {
-      error(IssueKind::conflict, "/mesh",
-            "this field has " + std::to_string(side) +
-                " samples along a side; rtin needs 2^n + 1; resample the field, or use greedy");
-    }
+    error_if(!fits_rtin(side, side), IssueKind::conflict, "/mesh",
+             "this field has " + std::to_string(side) +
+                 " samples along a side; rtin needs 2^n + 1; resample the field, or use greedy");
   }
 
   const TerrainParams& params_;

@@ -6,6 +6,7 @@
 
 #include "core/base/math.h"
 #include "core/base/parallel.h"
+#include "core/generators/terrain/ease.h"
 #include "core/generators/terrain/noise.h"
 #include "core/model/model.h"
 
@@ -113,11 +114,6 @@ constexpr std::array<Ramp, 8> ramps{{
 
 glm::vec3 linear(const Srgb& color) {
   return {linear_of_srgb(color.r), linear_of_srgb(color.g), linear_of_srgb(color.b)};
-}
-
-float ease(float from, float to, float value) {
-  const float t = std::clamp((value - from) / (to - from), 0.0F, 1.0F);
-  return t * t * (3 - 2 * t);
 }
 
 glm::vec3 blend(const glm::vec3& a, const glm::vec3& b, float share) { return a + (b - a) * share; }

@@ -21,6 +21,11 @@ struct Site {
   float patch = 0;   ///< noise of low frequency, about -1 to 1, that makes borders irregular
 };
 
+inline Site blend(const Site& a, const Site& b, float t) {
+  return {a.height + t * (b.height - a.height), a.slope + t * (b.slope - a.slope),
+          a.hollow + t * (b.hollow - a.hollow), a.patch + t * (b.patch - a.patch)};
+}
+
 /// Colours of one palette for one range of heights.
 class GroundColors {
  public:
@@ -28,6 +33,7 @@ class GroundColors {
   GroundColors(PaletteName palette, const Range& range, float level);
   Cover cover(const Site& site) const;
   glm::vec3 color(const Site& site) const;  ///< linear
+  PaletteName palette() const { return palette_; }
 
  private:
   struct Shares {

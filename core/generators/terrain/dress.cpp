@@ -9,9 +9,11 @@
 #include "core/base/parallel.h"
 #include "core/generators/terrain/decimate.h"
 #include "core/generators/terrain/ground_classes.h"
+#include "core/generators/terrain/ground_cover.h"
 #include "core/generators/terrain/maps.h"
 #include "core/generators/terrain/model_parts.h"
 #include "core/generators/terrain/plan.h"
+#include "core/generators/terrain/refined_mesh.h"
 #include "core/generators/terrain/scan.h"
 #include "core/generators/terrain/surface.h"
 #include "generated/params/terrain.h"
@@ -58,7 +60,7 @@ class Dressing {
         demand_(context.demand),
         range_(range_of(field, job_)),
         level_(static_cast<float>(params.water_level.value_or(static_cast<double>(range_.low)))),
-        ground_colors_(palette_of(params), params.tile ? nominal_range(params) : range_, level_),
+        ground_colors_(colors_of(params, range_)),
         shading_(params.texture > 0 ? Shading::upright : Shading::smooth) {}
 
   Model dress() {
@@ -69,8 +71,7 @@ class Dressing {
     model.nodes.push_back(std::move(root));
     if (has_detail()) {
       sites_.emplace(sites());
-      classes_.emplace(palette_of(params_), field_, window_of(params_), *sites_, ground_colors_,
-                       ground_material(params_), model);
+      classes_.emplace(field_, window_of(params_), *sites_, ground_colors_, ground_material(params_), model);
     }
     const int ground = has_detail() ? -1 : add_material(model, ground_material(params_));
     if (params_.texture > 0) {
@@ -89,9 +90,10 @@ class Dressing {
   bool has_detail() const { return params_.detail && params_.texture == 0 && demand_.textures > 0; }
 
   /// Adds a mesh of the ground, or with details its primitives by class.
-  int add_ground_mesh(Model& model, std::string name, Mesh mesh, int ground) const {
-    if (!classes_) return add_mesh(model, std::move(name), std::move(mesh), ground);
-    return add_mesh(model, {std::move(name), classes_->divide(mesh, *sites_, job_)});
+  int add_ground_mesh(Model& model, std::string name, RefinedMesh mesh, int ground) const {
+    if (!classes_) return add_mesh(model, std::move(name), std::move(mesh.mesh), ground);
+    return add_mesh(model, {std::move(name), mesh.sites.empty() ? classes_->divide(mesh.mesh, *sites_, job_)
+                                                                : classes_->divide(mesh, *sites_, job_)});
   }
 
   Sites sites() const { return {field_, window_of(params_), job_.rng().at("terrain"), job_}; }
@@ -123,7 +125,7 @@ class Dressing {
   void add_ground(Model& model, int ground) {
     const std::size_t samples =
         static_cast<std::size_t>(field_.width) * static_cast<std::size_t>(field_.depth);
-    if (params_.mesh == TerrainMesh::grid && !params_.base && samples > most_narrow) {
+    if (params_.mesh == TerrainMesh::grid && !params_.base && !params_.refine && samples > most_narrow) {
       add_pieces(model, ground);
       if (params_.skirt > 0) {
         add_child(model, "skirt",
@@ -136,9 +138,9 @@ class Dressing {
     int earth = -1;
     for (int level = 0; level < demand_.lods; ++level) {
       Ground made = whole_ground(level, model);
-      if (level > 0 && made.mesh.elements() >= coarsest_) break;
-      coarsest_ = made.mesh.elements();
-      const int mesh = add_ground_mesh(model, level_name("ground", level), std::move(made.mesh), ground);
+      if (level > 0 && made.refined.mesh.elements() >= coarsest_) break;
+      coarsest_ = made.refined.mesh.elements();
+      const int mesh = add_ground_mesh(model, level_name("ground", level), std::move(made.refined), ground);
       if (walled) {
         if (earth < 0) earth = add_material(model, wall_material());
         model.meshes[static_cast<std::size_t>(mesh)].primitives.push_back(
@@ -149,16 +151,17 @@ class Dressing {
     write_levels(model);
   }
 
-  /// A ground that is one mesh, and the samples of its border.
+  /// A ground that is one mesh, with sites where it is refined, and the samples of its border.
   struct Ground {
-    Mesh mesh;
+    RefinedMesh refined;
     Array<std::uint32_t> border;
   };
 
   Ground whole_ground(int level, Model& model) {
     const Window all{0, 0, field_.width, field_.depth};
+    if (params_.refine && level == 0) return {refined(), border_samples(field_, job_)};
     if (params_.mesh == TerrainMesh::grid && level == 0)
-      return {grid_mesh(field_, all, colors_, shading_, job_), border_samples(field_, job_)};
+      return {{grid_mesh(field_, all, colors_, shading_, job_), {}}, border_samples(field_, job_)};
     const Border border = params_.tile ? Border::whole : Border::by_error;
     Triangulation plan = params_.mesh == TerrainMesh::grid ? decimated(field_, all, 1 << level, border, job_)
                                                            : reduced(level, border, model);
@@ -171,7 +174,11 @@ class Dressing {
     }
     const bool is_grid = params_.mesh == TerrainMesh::grid;
     const Coarse coarse{shading_, is_grid ? 1 << level : 1, all, is_grid};
-    return {reduced_mesh(field_, std::move(plan), color_of(), coarse, job_), std::move(rim)};
+    return {{reduced_mesh(field_, std::move(plan), color_of(), coarse, job_), {}}, std::move(rim)};
+  }
+
+  RefinedMesh refined() {
+    return refined_mesh(field_, *refined_ground(params_, field_, job_), ground_colors_, colors_, job_);
   }
 
   void add_pieces(Model& model, int ground) {
@@ -193,7 +200,7 @@ class Dressing {
       const int node = add_child(model, name, -1);
       for (std::size_t k = 0; k < made.meshes.size(); ++k) {
         show(model.nodes[static_cast<std::size_t>(node)],
-             add_ground_mesh(model, level_name(name, k), std::move(made.meshes[k]), ground));
+             add_ground_mesh(model, level_name(name, k), {std::move(made.meshes[k]), {}}, ground));
       }
       for (std::size_t k = 0; k < made.notes.size(); ++k) note(static_cast<int>(k), made.notes[k]);
     }
@@ -305,6 +312,17 @@ class Dressing {
 };
 
 }  // namespace
+
+std::shared_ptr<const RefinedGround> refined_ground(const TerrainParams& params, const Field& field,
+                                                    const Job& job) {
+  if (!params.refine) return nullptr;
+  const Refinement refinement = refinement_of(*params.refine, field.width, field.depth, field.cell);
+  const std::uint64_t squares =
+      static_cast<std::uint64_t>(field.width - 1) * static_cast<std::uint64_t>(field.depth - 1);
+  refuse_refinement(refinement, 2 * squares, job);
+  return std::make_shared<const RefinedGround>(refinement, colors_of(params, range_of(field, job)), field,
+                                               window_of(params), job.rng().at("terrain"), job);
+}
 
 Model dressed_field(const TerrainParams& params, const Field& field, const GenerateContext& context) {
   return Dressing(params, field, context).dress();

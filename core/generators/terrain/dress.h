@@ -1,7 +1,9 @@
 #pragma once
 /// Builds models of fields and planetoids: meshes, levels of detail, textures, walls and water.
+#include <memory>
+
 #include "core/generators/api.h"
-#include "core/generators/terrain/field.h"
+#include "core/generators/terrain/refined_ground.h"
 #include "core/model/model.h"
 
 namespace seedmesh {
@@ -14,6 +16,10 @@ namespace seedmesh::terrain {
 /// have fewer triangles than the one before. Level k of a grid has about every 2^k-th sample; level k of a
 /// reduced mesh has 2^k times the error. Where pieces or tiles are adjacent, all levels have the same border.
 Model dressed_field(const TerrainParams& params, const Field& field, const GenerateContext& context);
+
+/// Returns the refined ground of a field, or null without `refine`. Refuses a refinement that does not fit the field.
+std::shared_ptr<const RefinedGround> refined_ground(const TerrainParams& params, const Field& field,
+                                                    const Job& job);
 
 /// Returns the model of a planetoid. Level k has 2^k times fewer points along an edge of its cube.
 Model dressed_planet(const TerrainParams& params, const GenerateContext& context);

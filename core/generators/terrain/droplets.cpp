@@ -32,9 +32,10 @@ constexpr float greatest_speed = 2.5F;
 // hollow.
 constexpr double most_rounds = 4;
 
-/// Ground that is eroded (negative) or deposited at a position, in units of a sample's width.
+/// Ground that is eroded (negative) or deposited at a sample, in units of a sample's width.
 struct Change {
-  float x, z, amount;
+  std::int32_t sample;  ///< position in Changes
+  float amount;
 };
 
 /// Weights about a sample, in rows from -reach to reach. A row has those of -half .. half.
@@ -80,9 +81,10 @@ struct Drops {
   alignas(64) std::int32_t is_falling[lanes];                  ///< 0 or 1
 };
 
-/// What a step changes: ground that is eroded (negative) or deposited where the drops were.
+/// What a step changes: ground that is eroded (negative) or deposited at the samples next to the drops.
 struct Step {
-  alignas(64) float x[lanes], z[lanes], amount[lanes];
+  alignas(64) std::int32_t sample[lanes];
+  alignas(64) float amount[lanes];
   alignas(64) std::int32_t is_made[lanes];  ///< 0 or 1
 };
 
@@ -93,6 +95,7 @@ struct Basin {
   float wide, deep;  ///< the last column and row
   float scale;       ///< heights in samples by heights in metres
   float inertia, capacity, erosion, deposition, kept_water;
+  std::int32_t change_stride;  ///< of Changes
 };
 
 /// Height and slope between the samples around the positions. Only the loop in the middle, which loads samples, is not
@@ -150,8 +153,10 @@ SEEDMESH_WIDE void fall(const Basin basin, Drops& __restrict drops, Step& __rest
     const float filled = rise < load ? rise : load;
     const float wanted = -surplus * basin.erosion, taken = wanted < -rise ? wanted : -rise;
     const float laid = rise > 0 ? filled : surplus > 0 ? surplus * basin.deposition : -taken;
-    step.x[k] = drops.x[k];
-    step.z[k] = drops.z[k];
+    // The nearest sample is the whole part.
+    const auto column = static_cast<std::int32_t>(drops.x[k] + 0.5F),
+               row = static_cast<std::int32_t>(drops.z[k] + 0.5F);
+    step.sample[k] = row * basin.change_stride + column;
     step.amount[k] = laid;
     step.is_made[k] = drops.is_falling[k];
     drops.load[k] = load - laid;
@@ -171,7 +176,7 @@ SEEDMESH_WIDE void fall(const Basin basin, Drops& __restrict drops, Step& __rest
 
 class Rain {
  public:
-  Rain(const Field& field, const DropletPlan& plan, Rng rng)
+  Rain(const Field& field, const DropletPlan& plan, std::int32_t change_stride, Rng rng)
       : basin_{field.row(0),
                field.stride(),
                static_cast<float>(field.width - 1),
@@ -181,7 +186,8 @@ class Rain {
                static_cast<float>(plan.capacity),
                static_cast<float>(plan.erosion),
                static_cast<float>(plan.deposition),
-               1 - static_cast<float>(plan.evaporation)},
+               1 - static_cast<float>(plan.evaporation),
+               change_stride},
         rng_(rng),
         steps_(static_cast<int>(std::min(plan.lifetime, most_rounds * (field.width + field.depth)))) {}
 
@@ -194,7 +200,7 @@ class Rain {
       std::int32_t made = 0;
       for (std::size_t k = 0; k < lanes; ++k) {
         made |= step.is_made[k];
-        if (step.is_made[k] != 0) changes.push_back({step.x[k], step.z[k], step.amount[k]});
+        if (step.is_made[k] != 0) changes.push_back({step.sample[k], step.amount[k]});
       }
       if (made == 0) return;
     }
@@ -230,13 +236,16 @@ class Changes {
               static_cast<std::size_t>(stride_) * static_cast<std::size_t>(field.depth + 2 * brush.reach),
               0) {}
 
+  /// From one row to the next.
+  std::int32_t stride() const { return stride_; }
   /// Adds those at the rows [begin, end).
   void add(const Array<Change>& list, std::int32_t begin, std::int32_t end) {
+    float* const first = row(begin);
+    const std::int32_t before = begin * stride_;
+    const auto count = static_cast<std::uint32_t>((end - begin) * stride_);
     for (const Change& change : list.span()) {
-      const float east = change.x + 0.5F, south = change.z + 0.5F;  // the nearest sample is the whole part
-      const auto x = static_cast<std::int32_t>(east), z = static_cast<std::int32_t>(south);
-      if (z < begin || z >= end) continue;
-      row(z)[x] += change.amount;
+      const auto at = static_cast<std::uint32_t>(change.sample - before);
+      if (at < count) first[at] += change.amount;
     }
   }
 
@@ -306,7 +315,7 @@ void erode(Field& field, const DropletPlan& plan, Rng rng, const Job& job) {
     job.check();
     const std::size_t count = std::min(batch, total - first);
     for (Array<Change>& list : lists) list.clear();
-    const Rain rain(field, plan, rng.at("drops"));
+    const Rain rain(field, plan, changes.stride(), rng.at("drops"));
     parallel_for(job, count, drops_a_chunk, [&](std::size_t begin, std::size_t end, std::size_t index) {
       for (std::size_t drop = begin; drop < end; drop += lanes) {
         job.check();

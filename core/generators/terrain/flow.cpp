@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/base/math.h"
+#include "core/base/wide.h"
 #include "core/generators/terrain/filters.h"
 
 namespace seedmesh::terrain {
@@ -27,7 +28,7 @@ constexpr std::array<Neighbour, 8> neighbours{{{-1, -1, root2},
                                                {1, 1, root2}}};
 constexpr std::uint32_t none = 0xFFFFFFFFU;
 // Number of samples between two checks of the clock.
-constexpr std::size_t look = 4096;
+constexpr std::size_t look = 4096, rows_a_look = 16;
 
 /// The numbers of all samples in ascending order of height, and of number where heights are equal: a radix sort of three
 /// digits. Heights are finite.
@@ -108,6 +109,37 @@ void each_inner_neighbour(const Field& field, std::uint32_t sample, const Body& 
   }
 }
 
+/// Sets the receivers of a row of samples to their steepest neighbours, except in depressions, where the water is above
+/// the ground, and on flat ground. `number` is that of the first sample.
+SEEDMESH_WIDE void follow_slopes(const float* __restrict heights, const float* filled, std::size_t width,
+                                 std::size_t count, std::uint32_t number,
+                                 std::uint32_t* __restrict receiver) {
+  const float *const above = filled - width, *const below = filled + width;
+  constexpr float across = 1 / root2;
+  for (std::size_t x = 0; x < count; ++x) {
+    const float here = filled[x];
+    const std::uint32_t own = number + static_cast<std::uint32_t>(x),
+                        north = own - static_cast<std::uint32_t>(width),
+                        south = own + static_cast<std::uint32_t>(width);
+    float steepest = 0;
+    std::uint32_t to = receiver[x];
+    const auto compare = [&](float there, float by_distance, std::uint32_t sample) {
+      const float slope = (here - there) * by_distance;
+      to = slope > steepest ? sample : to;
+      steepest = slope > steepest ? slope : steepest;
+    };
+    compare(above[x - 1], across, north - 1);
+    compare(above[x], 1, north);
+    compare(above[x + 1], across, north + 1);
+    compare(filled[x - 1], 1, own - 1);
+    compare(filled[x + 1], 1, own + 1);
+    compare(below[x - 1], across, south - 1);
+    compare(below[x], 1, south);
+    compare(below[x + 1], across, south + 1);
+    receiver[x] = here > heights[x] ? receiver[x] : to;
+  }
+}
+
 }  // namespace
 
 // Priority-Flood (Barnes, Lehman and Mulla, 2014) with ranks of heights instead of heights: a level of the water is
@@ -147,16 +179,11 @@ Drainage drainage_of(const Field& field, const Job& job) {
     }
   }
   // Outside depressions, water follows the steepest slope, which always leads to an earlier sample.
-  for (const std::uint32_t sample : drainage.order) {
-    if (!is_inside(sample) || drainage.filled[sample] > field.heights[sample]) continue;
-    float steepest = 0;
-    std::uint32_t receiver = drainage.receiver[sample];
-    each_inner_neighbour(field, sample, [&](std::uint32_t next, float distance) {
-      const float slope = (drainage.filled[sample] - drainage.filled[next]) * (1 / distance);
-      receiver = slope > steepest ? next : receiver;
-      steepest = slope > steepest ? slope : steepest;
-    });
-    drainage.receiver[sample] = receiver;
+  for (std::size_t z = 1; z + 1 < depth; ++z) {
+    if (z % rows_a_look == 0) job.check();
+    const std::size_t first = z * width + 1;
+    follow_slopes(field.heights.data() + first, drainage.filled.data() + first, width, width - 2,
+                  static_cast<std::uint32_t>(first), drainage.receiver.data() + first);
   }
   return drainage;
 }

@@ -7,7 +7,8 @@
 #include <optional>
 #include <vector>
 
-#include "core/generators/terrain/colors.h"
+#include "core/generators/terrain/ground_shares.h"
+#include "core/generators/terrain/refined_mesh.h"
 #include "core/model/model.h"
 
 namespace seedmesh::terrain {
@@ -18,28 +19,38 @@ class GroundClasses {
   /// with the textures of the class.
   /// `field` and `colors` are borrowed; `world` is the window of the field in its world, whose tiles have equal
   /// colours at common borders. 40 ns for each of at most 65,536 samples.
-  GroundClasses(PaletteName palette, const Field& field, const Window& world, const Sites& sites,
-                const GroundColors& colors, const Material& plain, Model& model);
+  GroundClasses(const Field& field, const Window& world, const Sites& sites, const GroundColors& colors,
+                const Material& plain, Model& model);
 
   /// Returns the mesh in one primitive for each class, with texture coordinates in set 1 and tangents. Vertices between
   /// classes or sides are duplicated. Vertex colours are brightened by what the grey textures darken, and vary more
   /// than those of ground without details. About 100 ns a vertex.
   std::vector<Primitive> divide(const Mesh& mesh, const Sites& sites, const Job& job) const;
+  /// Returns the same of a refined mesh. Its small forms replace the bumps of the normals.
+  std::vector<Primitive> divide(const RefinedMesh& refined, const Sites& sites, const Job& job) const;
 
  private:
-  enum Kind { grass, soil, rock, scree, sand, snow, kind_count };
-  struct Shares {
-    float of[kind_count] = {};
-  };
+  using Kind = GroundShares::Kind;
   struct Used {
     Kind kind;
     int material;
     float lighter;  ///< factor of vertex colours that makes up for the grey of the texture
   };
-  Shares shares(const Site& site) const;
-  std::size_t use_of(const Shares& shares) const;
+  /// The site of a vertex and its position in the world in metres, a random number 0 .. 1 of its own, and the share of
+  /// the bumps that it has.
+  struct Spot {
+    Site site;
+    glm::dvec2 at{0};
+    float own = 0, bumps = 1;
+  };
+  GroundShares shares(const Site& site) const { return ground_shares(colors_, site); }
+  std::size_t use_of(const GroundShares& shares) const;
+  float own_number(std::int32_t x, std::int32_t z) const;
+  Spot spot_of_sample(const Sites& sites, const glm::vec3& position) const;
+  Spot spot_between(const VertexSite& site, const glm::vec3& position) const;
+  template <class SpotOf>
+  std::vector<Primitive> divided(const Mesh& mesh, const SpotOf& spot_of, const Job& job) const;
 
-  PaletteName palette_;
   const Field& field_;
   Window world_;
   const GroundColors& colors_;

@@ -321,6 +321,10 @@ std::vector<Issue> format_errors(const TerrainParams& params, const WantedFormat
         IssueKind::not_available, "/shape",
         "a " + std::string(text_of(params.shape)) + " has no height map; its formats are glb, gltf and zip");
   }
+  if (params.refine) {
+    add_issue(IssueKind::conflict, "/refine",
+              "a height map has the samples of the field alone; expected a request without refine");
+  }
   if (is_picture(given.map) && form.format != "png8") {
     add_issue(IssueKind::conflict, "/heightmap/map",
               std::string(text_of(given.map)) +

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/generators/terrain/field.h"
+#include "core/generators/terrain/octave.h"
 
 namespace seedmesh::terrain {
 
@@ -32,6 +33,18 @@ Field noisy(const NoisePlan& plan, const Window& window, double cell, Rng rng, c
 /// octave and point.
 void noise_in_plane(const NoisePlan& plan, std::span<const double> x, std::span<const double> z, Rng rng,
                     double* out);
+
+/// The same noise for points that follow one another closely, whose last cells are kept. For one thread.
+class PlaneNoise {
+ public:
+  PlaneNoise(const NoisePlan& plan, Rng rng);
+  float at(double x, double z);
+
+ private:
+  NoiseKind kind_;
+  float amplitude_, gain_;
+  std::vector<OctavePath> octaves_;
+};
 
 /// The same noise in space, for spheres. The gradients of the last cells are kept, for points that follow one another.
 class SpaceNoise {

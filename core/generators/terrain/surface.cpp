@@ -93,24 +93,6 @@ glm::vec2 wide_slope(const Field& field, GridPoint at, std::int32_t reach) {
           (field.at(at.x, south) - field.at(at.x, north)) * per_cell / static_cast<float>(south - north)};
 }
 
-/// Applies leaning_back() to the normals of a reduced mesh, for its own triangles.
-void lean_back(Mesh& mesh, const Job& job) {
-  Array<float> least(job, mesh.position.size(), 0.0F);
-  const Array<std::uint32_t>& index = mesh.index.wide;
-  for (std::size_t i = 0; i < index.size(); i += 3) {
-    if (i % 12288 == 0) job.check();
-    const glm::vec3& a = mesh.position[index[i]];
-    const glm::vec2 face =
-        slope_of(glm::cross(mesh.position[index[i + 1]] - a, mesh.position[index[i + 2]] - a));
-    for (std::size_t k = 0; k < 3; ++k) {
-      float& own = least[index[i + k]];
-      own = std::min(own, dot(face, slope_of(mesh.normal[index[i + k]])));
-    }
-  }
-  for (std::size_t i = 0; i < least.size(); ++i)
-    mesh.normal[i] = leaning_back(slope_of(mesh.normal[i]), least[i]);
-}
-
 void make_upright(Mesh& mesh, const Job& job) {
   mesh.normal = Array<glm::vec3>(job, mesh.position.size(), glm::vec3(0, 1, 0));
   mesh.tangent = Array<glm::vec4>(job, mesh.position.size(), glm::vec4(1, 0, 0, 1));
@@ -310,6 +292,23 @@ Mesh grid_mesh(const Field& field, const Window& part, const Array<glm::u8vec4>&
     lean_back_rows(field, part, mesh, job);
   }
   return mesh;
+}
+
+void lean_back(Mesh& mesh, const Job& job) {
+  Array<float> least(job, mesh.position.size(), 0.0F);
+  const Array<std::uint32_t>& index = mesh.index.wide;
+  for (std::size_t i = 0; i < index.size(); i += 3) {
+    if (i % 12288 == 0) job.check();
+    const glm::vec3& a = mesh.position[index[i]];
+    const glm::vec2 face =
+        slope_of(glm::cross(mesh.position[index[i + 1]] - a, mesh.position[index[i + 2]] - a));
+    for (std::size_t k = 0; k < 3; ++k) {
+      float& own = least[index[i + k]];
+      own = std::min(own, dot(face, slope_of(mesh.normal[index[i + k]])));
+    }
+  }
+  for (std::size_t i = 0; i < least.size(); ++i)
+    mesh.normal[i] = leaning_back(slope_of(mesh.normal[i]), least[i]);
 }
 
 Mesh reduced_mesh(const Field& field, Triangulation plan, ColorOf color_of, const Coarse& coarse, Job& job) {

@@ -35,6 +35,9 @@ using ColorOf = std::function<glm::u8vec4(std::uint32_t sample)>;
 /// Returns a reduced mesh. Releases `color_of` after the last colour. Cost: about 50 ns for each triangle.
 Mesh reduced_mesh(const Field& field, Triangulation plan, ColorOf color_of, const Coarse& coarse, Job& job);
 
+/// Turns normals upward until none faces away from a triangle of the mesh. Indices are wide.
+void lean_back(Mesh& mesh, const Job& job);
+
 /// The lower ends of walls(). `closed`: with a floor at the level `floor`.
 struct WallPlan {
   double depth = 0;

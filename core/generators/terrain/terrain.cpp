@@ -13,6 +13,7 @@
 #include "core/generators/terrain/onto.h"
 #include "core/generators/terrain/plan.h"
 #include "core/generators/terrain/profile.h"
+#include "core/generators/terrain/refinement.h"
 #include "core/generators/terrain/triangulation.h"
 #include "core/generators/terrain/voids.h"
 #include "core/model/build.h"
@@ -94,6 +95,12 @@ std::uint64_t grid_triangles(const TerrainParams& params) {
   return triangles;
 }
 
+/// Returns the refinement, with the sides of the field as far as they follow from the parameters.
+Refinement planned_refinement(const TerrainParams& params) {
+  const int side = finished_side(params);
+  return refinement_of(*params.refine, side, side, params.size / (side - 1));
+}
+
 /// True where the number of rounds determines the resolution.
 bool is_subdivided(const TerrainParams& params) {
   return params.algorithm == TerrainAlgorithm::triangular_edge ||
@@ -105,7 +112,10 @@ bool is_subdivided(const TerrainParams& params) {
 void refuse_large_grid(const TerrainParams& params, const Job& job) {
   if (params.algorithm == TerrainAlgorithm::image || params.onto || params.mesh != TerrainMesh::grid) return;
   const std::uint64_t triangles = grid_triangles(params), most = job.limits().triangles;
-  if (triangles <= most) return;
+  if (triangles <= most) {
+    if (params.refine) refuse_refinement(planned_refinement(params), triangles, job);
+    return;
+  }
   job.refuse(limit_issue({Resource::triangles, most, triangles},
                          "needs " + std::to_string(triangles) +
                              " triangles for the whole grid; the limit is " + std::to_string(most) +
@@ -217,7 +227,9 @@ Result<Json> derive(const TerrainParams& params, const GenerateContext& context)
 /// mean of the presets, 2.7, as is the share of vertices that several grounds have.
 static std::uint64_t estimated_bytes(const TerrainParams& params, std::uint64_t triangles,
                                      const Demand& demand) {
-  constexpr std::uint64_t document = 1200, bytes_a_triangle = 6;
+  constexpr std::uint64_t document = 1200;
+  // Refined ground is one mesh, whose indices are wide.
+  const std::uint64_t bytes_a_triangle = params.refine ? 12 : 6;
   constexpr double several = 1.4, bytes_a_texel = 2.7 * 2.5;  // of all images of all grounds
   const auto squares = static_cast<std::uint64_t>(finished_side(params) - 1);
   const std::uint64_t vertices = triangles / 2 + 2 * squares + 1;
@@ -254,6 +266,10 @@ Result<Appraisal> appraise(const TerrainParams& params, const GenerateContext& c
   Estimate estimate;
   estimate.triangles = grid_triangles(params);
   refuse_large_grid(params, job);
+  if (params.refine && !sphere) {
+    const std::uint64_t added = added_triangles(planned_refinement(params), job.limits().triangles);
+    estimate.triangles += added;
+  }
   estimate.exact = !params.water_level;
   estimate.bytes = estimated_bytes(params, estimate.triangles, context.demand);
   appraisal.estimate = estimate;

@@ -103,7 +103,8 @@ void grow_grown(const TreeParams& params, const RandomStreams& random, SkeletonW
   const ShadowOptions shadow = shadow_of(grown);
   ShadowGrid shadows(shadow, job);
   const Surroundings obstacles(obstacles_of(grown), job);
-  const GrownSite site{grown, random, shadows, grown.obstacles.empty() ? nullptr : &obstacles, job};
+  const Surroundings* const given = grown.obstacles.empty() ? nullptr : &obstacles;
+  const GrownSite site{grown, random, shadows, given, job, light_samples(grown.perception_angle)};
   GrownPlant plant(job);
   shade_below_obstacles(grown, obstacles, shadow.cell, site);
   plant_seed(plant, glm::dvec3{0}, 0, site);

@@ -8,8 +8,6 @@ namespace {
 
 // A shoot may have many internodes, each with a shadow of many cells.
 constexpr std::size_t check_every = 1024, check_shoots_every = 16, check_shadows_every = 64;
-// Directions in which a bud samples the light: ahead, and rings at half the perception angle and at all of it.
-constexpr int samples_of_ring = 6;
 constexpr glm::dvec3 up{0, 1, 0};
 
 double unit_at(const Rng& rng, std::string_view name) { return Rng(rng.at(name)).unit(); }
@@ -18,13 +16,12 @@ double unit_at(const Rng& rng, std::string_view name) { return Rng(rng.at(name))
 glm::dvec3 toward_light(const GrownBud& bud, const glm::dvec3& position, const GrownSite& site) {
   const TreeGrown& grown = site.grown;
   const double distance = grown.perception_distance * grown.internode;
-  glm::dvec3 direction[1 + 2 * samples_of_ring];
-  double shade[1 + 2 * samples_of_ring];
+  constexpr std::size_t count = std::tuple_size_v<LightSamples>;
+  glm::dvec3 direction[count];
+  double shade[count];
   double darkest = 0;
-  for (int i = 0; i < 1 + 2 * samples_of_ring; ++i) {
-    const double share = i == 0 ? 0 : i <= samples_of_ring ? 0.5 : 1;
-    const math::SinCos off = math::quick_sincos_degrees(share * grown.perception_angle);
-    const math::SinCos around = math::quick_sincos_degrees(360.0 * i / samples_of_ring);
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto& [off, around] = site.samples[i];
     direction[i] =
         bud.frame.heading * off.cos + (bud.frame.left * around.cos + bud.frame.up * around.sin) * off.sin;
     shade[i] = site.shadows.shade_at(position + direction[i] * distance);
@@ -32,7 +29,7 @@ glm::dvec3 toward_light(const GrownBud& bud, const glm::dvec3& position, const G
   }
   glm::dvec3 sum{0};
   double most = 0;
-  for (int i = 0; i < 1 + 2 * samples_of_ring; ++i) {
+  for (std::size_t i = 0; i < count; ++i) {
     const double gain = std::min(1.0, darkest) - std::min(1.0, shade[i]);
     sum += direction[i] * gain;
     most = std::max(most, gain);
@@ -140,6 +137,16 @@ const TreeAxis& axis_level(const TreeGrown& grown, int order) {
   static const TreeAxis usual;
   if (grown.level.empty()) return usual;
   return grown.level[std::min(static_cast<std::size_t>(order), grown.level.size() - 1)];
+}
+
+LightSamples light_samples(double perception_angle) {
+  LightSamples samples;
+  for (int i = 0; i <= 2 * samples_of_ring; ++i) {
+    const double share = i == 0 ? 0 : i <= samples_of_ring ? 0.5 : 1;
+    samples[static_cast<std::size_t>(i)] = {math::quick_sincos_degrees(share * perception_angle),
+                                            math::quick_sincos_degrees(360.0 * i / samples_of_ring)};
+  }
+  return samples;
 }
 
 void sense_light(GrownPlant& plant, const GrownSite& site) {

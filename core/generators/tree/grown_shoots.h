@@ -1,6 +1,8 @@
 #pragma once
 /// What happens to buds and branches in a year of the model grown: buds sense the light, grow shoots and die, branches
 /// are shed, and wood thickens.
+#include <array>
+
 #include "core/generators/tree/grown_plant.h"
 #include "core/geom/plant/shadow_grid.h"
 #include "core/geom/plant/surroundings.h"
@@ -8,12 +10,23 @@
 namespace seedmesh::tree {
 
 /// The surroundings and parameters of a growing plant. Borrowed.
+/// A direction in which a bud samples the light: its angle off the heading, and around it.
+struct LightSample {
+  math::SinCos off{0, 1}, around{0, 1};
+};
+/// Ahead, and rings at half the perception angle and at all of it.
+constexpr int samples_of_ring = 6;
+using LightSamples = std::array<LightSample, 1 + 2 * samples_of_ring>;
+/// Returns the samples for a perception angle in degrees.
+LightSamples light_samples(double perception_angle);
+
 struct GrownSite {
   const TreeGrown& grown;
   const RandomStreams& random;
   ShadowGrid& shadows;
   const Surroundings* obstacles;  ///< null: none
   Job& job;
+  LightSamples samples;
 };
 
 /// Sets the exposure of each bud to light, 0 .. 1: 1 - shade + the shade of its own internode.

@@ -15,9 +15,8 @@ namespace {
 
 constexpr double highest_lift = 2.5;           ///< metres that rivers lie above their water
 constexpr double widest_measured_works = 512;  ///< metres; wider tiles allow for roads without knowing them
-constexpr double widest_known_rivers = 8192;
-constexpr double works_reach = 56;     ///< metres from a road to untouched ground
-constexpr double plant_spacing = 400;  ///< metres
+constexpr double works_reach = 56;             ///< metres from a road to untouched ground
+constexpr double plant_spacing = 400;          ///< metres
 
 /// Finds the areas of the links of a block.
 class AreaFinder {
@@ -209,10 +208,10 @@ class AreaFinder {
 
   /// Measures how far samples are from triangles through every other of them.
   void add_deviations() {
-    for (int j = 0; j + 1 < grid_.wide; j += 2) {
-      for (int i = 0; i + 1 < grid_.wide; i += 2) {
+    for (int j = 0; j + 1 < grid_.samples; j += 2) {
+      for (int i = 0; i + 1 < grid_.samples; i += 2) {
         Roughness& rough = at(i / cells_, j / cells_).rough;
-        rough.measured = std::max(rough.measured, deviation_from_next(grid_, i, j));
+        rough.measured = std::max(rough.measured, deviation_over_cells(grid_, i, j));
         rough.measured_spacing = 2 * spacing_;
       }
     }
@@ -307,7 +306,7 @@ class AreaFinder {
               floor = std::min(floor, found[static_cast<std::size_t>(j * count_ + i)].low);
           }
         }
-        area.rough.valley = 20 + 0.4 * (area.high - area.low);
+        area.rough.valley = guessed_valley(area.high - area.low);
         area.lowest = std::max(floor - 16, area.low - area.rough.valley);
       }
     }

@@ -130,6 +130,7 @@ TileBounds link_bounds(const World& world, const TileKey& key, const Area& area,
 TileBounds bounds_above(const World& world, const TileKey& key, const Area& area, double spacing,
                         const std::array<const TileBounds*, 4>& below) {
   const TileFrame frame = frame_of(world, key);
+  const WorldRelief& relief = world.params.relief;
   TileBounds box = in_plan(world, key);
   box.low =
       own_skirt(world, frame, area, frame.spacing < spacing ? margins(world, spacing, area.rough).below : 0);
@@ -139,7 +140,9 @@ TileBounds bounds_above(const World& world, const TileKey& key, const Area& area
     box.high = std::max(box.high, child->high);
   }
   const double between = frame.spacing < spacing ? margins(world, spacing, area.rough).above : 0;
-  box.high = std::max(box.high, std::ceil(draped_top(world, frame, area, between) * 4) / 4);
+  double top = draped_top(world, frame, area, between);
+  if (relief.sea && box.low < relief.sea_level) top = std::max(top, relief.sea_level + 2 * frame.step);
+  box.high = std::max(box.high, std::ceil(top * 4) / 4);
   box.low = std::floor(box.low * 4) / 4;
   box.geometric_error = error_of(world, frame, area.rough, area.plant_height);
   for (const TileBounds* child : below)

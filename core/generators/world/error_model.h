@@ -10,6 +10,12 @@
 
 namespace seedmesh::world {
 
+/// Metres of the side of a tile beyond which the depths of its valleys are guessed, because rivers of wide areas take too long.
+constexpr double widest_known_rivers = 8192;
+
+/// A guess of how deep valleys are cut into land whose heights differ by `range` metres.
+constexpr double guessed_valley(double range) { return 20 + 0.4 * range; }
+
 /// The measured distance of samples from the triangles of a tile.
 struct MetDeviation {
   double most = 0;           ///< metres

@@ -33,7 +33,7 @@ double deviation_in_cell(const HeightGrid& grid, int i, int j, int stride) {
 /// Calls `visit` with the samples within `reach` of a rectangle and with their positions.
 template <class Visit>
 void for_samples(const HeightGrid& grid, const Rectangle& r, double reach, const Visit& visit) {
-  const double last = grid.wide - 1;
+  const double last = grid.samples - 1;
   const auto index = [&](double v) {
     return math::to_int32(std::clamp(std::floor(v / grid.spacing), -1.0, last));
   };
@@ -48,7 +48,7 @@ void for_samples(const HeightGrid& grid, const Rectangle& r, double reach, const
 }  // namespace
 
 std::vector<double> deviations_of_tiles(const HeightGrid& grid, int tiles, const Job& job) {
-  const int wide = (grid.wide - 1) / tiles, cells = cells_of(wide * grid.spacing), stride = wide / cells;
+  const int wide = (grid.samples - 1) / tiles, cells = cells_of(wide * grid.spacing), stride = wide / cells;
   std::vector<double> found;
   if (stride < 1 || wide % cells != 0) return found;
   // without samples inside of cells, by those inside of cells twice as wide
@@ -69,7 +69,7 @@ std::vector<double> deviations_of_tiles(const HeightGrid& grid, int tiles, const
   return found;
 }
 
-double deviation_from_next(const HeightGrid& grid, int i, int j) {
+double deviation_over_cells(const HeightGrid& grid, int i, int j) {
   const double sw = grid.at(i, j), se = grid.at(i + 2, j), nw = grid.at(i, j + 2), ne = grid.at(i + 2, j + 2);
   const double off = std::max(
       {std::abs(grid.at(i + 1, j) - (sw + se) / 2), std::abs(grid.at(i, j + 1) - (sw + nw) / 2),
@@ -94,8 +94,8 @@ std::array<std::array<int, 2>, 4> most_bent_cells(const HeightGrid& grid, int co
   std::array<std::array<int, 2>, 4> cells{};
   cells.fill({column, row});
   std::array<double, 4> bends{};
-  const int first_row = std::max(row, 1), end_row = std::min(row + side, grid.wide - 2);
-  const int first = std::max(column, 1), end = std::min(column + side, grid.wide - 2);
+  const int first_row = std::max(row, 1), end_row = std::min(row + side, grid.samples - 2);
+  const int first = std::max(column, 1), end = std::min(column + side, grid.samples - 2);
   for (int j = first_row; j < end_row; ++j) {
     for (int i = first; i < end; ++i) {
       const double here = grid.at(i, j);
@@ -122,7 +122,7 @@ double deviation_of_ground(const HeightGrid& grid, const Ground& ground, int i, 
     const double east = cell.west + k % 3 * cell.spacing, north = cell.south + k / 3 * cell.spacing;
     cell.heights.push_back(ground.height(east, north));
   }
-  return deviation_from_next(cell, 0, 0);
+  return deviation_over_cells(cell, 0, 0);
 }
 
 void carve(HeightGrid& grid, const UncutLand& land, const Reach& reach, double wide) {

@@ -9,12 +9,12 @@ namespace seedmesh::world {
 
 /// Heights at the corners of square cells. Rows run from the south, columns from the west.
 struct HeightGrid {
-  int wide = 0;                ///< number of samples along a side
+  int samples = 0;             ///< number along a side
   double spacing = 0;          ///< metres
   double west = 0, south = 0;  ///< absolute position of sample (0, 0)
   std::vector<double> heights;
 
-  std::size_t index_of(int i, int j) const { return static_cast<std::size_t>(j * wide + i); }
+  std::size_t index_of(int i, int j) const { return static_cast<std::size_t>(j * samples + i); }
   double at(int i, int j) const { return heights[index_of(i, j)]; }
 };
 
@@ -26,7 +26,7 @@ std::vector<double> deviations_of_tiles(const HeightGrid& grid, int tiles, const
 
 /// Returns the greatest distance of five samples in 2 x 2 cells from two triangles over these cells: those in
 /// the middles of the four sides and of the diagonal. (i, j) is the south-west corner of the cells.
-double deviation_from_next(const HeightGrid& grid, int i, int j);
+double deviation_over_cells(const HeightGrid& grid, int i, int j);
 
 /// Returns the greatest slope in a square of `side` x `side` cells.
 double greatest_slope(const HeightGrid& grid, int column, int row, int side);

@@ -184,7 +184,7 @@ class MapWriter {
         {"id", river.id}, {"into", river.into}, {"points", std::move(points)}, {"widths", std::move(widths)}};
   }
   Json lake_json(const Lake& lake) const {
-    constexpr int corners = 96;
+    constexpr int corners = 192;  // chords then lie within half a metre of the shore
     Json outline = Json::array();
     for (int k = 0; k < corners; ++k) {
       const math::SinCos turn = math::sincos_degrees(360.0 * k / corners);

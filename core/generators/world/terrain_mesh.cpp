@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/base/math.h"
+#include "core/generators/world/areas.h"
 #include "core/generators/world/palette.h"
 #include "core/generators/world/terrain_indices.h"
 
@@ -12,7 +13,7 @@ namespace {
 
 constexpr double border_share = 0.9;     ///< the greatest deviation along a line, by that of an area
 constexpr double far_share = 0.9;        ///< the same for tiles three levels coarser
-constexpr double unusual = 1.15;         ///< of the usual skirt: the deepest that was met
+constexpr double unusual = 1.15;         ///< of the usual skirt: the deepest that boxes allow for
 constexpr double widest_fine_rise = 64;  ///< metres
 constexpr double fine_share = 0.7;       ///< of normals that follow the slope of finer levels
 constexpr double rounding_steps = 9;     ///< of heights of tiles three levels coarser
@@ -69,6 +70,33 @@ double usual_skirt(const World& world, const TileFrame& frame, const Roughness& 
          border_share * deviation_of(world, frame.spacing, rough) + rounding_steps * frame.step;
 }
 
+/// The metres between the samples by which the boxes of the tiles of a level are found.
+double area_spacing(const World& world, int level) {
+  const int root = level == 0 ? 0 : (level - 1) / levels_a_block * levels_a_block;
+  const int links = std::min(root + levels_a_block, world.levels - 1);
+  return world.extent / static_cast<double>(std::int64_t{1} << links) / cells_a_link(world, root);
+}
+
+double uncut(const GroundSample& sample) { return sample.land.height.value + sample.cut; }
+
+/// The greatest slope of the land without valleys at the border of a tile, between samples `stride` apart.
+double slope_of_border(const TerrainGrid& grid, double spacing, int stride) {
+  const int last = grid.count - 1 - stride;
+  double most = 0;
+  const auto look_at = [&](int i, int j) {
+    const double here = uncut(grid.at(i, j));
+    const double east = uncut(grid.at(i + stride, j)) - here, north = uncut(grid.at(i, j + stride)) - here;
+    most = std::max(most, east * east + north * north);
+  };
+  for (int k = 0; k <= last; k += stride) {
+    look_at(k, 0);
+    look_at(k, last);
+    look_at(0, k);
+    look_at(last, k);
+  }
+  return std::sqrt(most) / (stride * spacing);
+}
+
 /// Vertices below those of the border.
 void add_skirt(std::vector<TileVertex>& vertices, int count, double skirt, double step) {
   const int depth = math::to_int32(std::ceil(skirt / step));
@@ -81,17 +109,20 @@ void add_skirt(std::vector<TileVertex>& vertices, int count, double skirt, doubl
 
 }  // namespace
 
-double skirt_depth(const World& world, const TileFrame& frame, const TerrainGrid& grid) {
+double skirt_depth(const World& world, int level, const TerrainGrid& grid) {
+  const TileFrame frame = frame_of(world, {level, 0, 0});
   const int last = grid.count - 1;
   const int widest = math::to_int32(far_spacing(frame.side) / frame.spacing);
   Roughness rough;
-  double most = 0;
+  double most = 0, lowest_land = 1e12, highest_land = -1e12;
   for (int side = 0; side < 4; ++side) {
     const auto at = [&](int k) -> const GroundSample& {
       return side < 2 ? grid.at(k, side * last) : grid.at((side - 2) * last, k);
     };
     for (int k = 0; k <= last; ++k) {
       rough.add(at(k));
+      lowest_land = std::min(lowest_land, uncut(at(k)));
+      highest_land = std::max(highest_land, uncut(at(k)));
       for (int stride = 2; stride <= widest; stride *= 2) {
         const int from = k / stride * stride, to = std::min(from + stride, last);
         if (from == k || from == to) continue;
@@ -101,7 +132,16 @@ double skirt_depth(const World& world, const TileFrame& frame, const TerrainGrid
       }
     }
   }
-  return std::max(most + rounding_steps * frame.step, usual_skirt(world, frame, rough));
+  // as areas_below() finds them, so that boxes hold the skirts
+  const double spacing = area_spacing(world, level);
+  if (spacing >= coarse_spacing) {
+    const int stride = std::max(1, math::to_int32(spacing / frame.spacing));
+    rough.slope = slope_of_border(grid, frame.spacing, stride);
+  }
+  if (frame.side > widest_known_rivers)
+    rough.valley = std::min(rough.valley, guessed_valley(highest_land - lowest_land));
+  const double usual = usual_skirt(world, frame, rough);
+  return std::clamp(most + rounding_steps * frame.step, usual, unusual * usual);
 }
 
 double most_skirt(const World& world, const TileFrame& frame, Roughness rough) {

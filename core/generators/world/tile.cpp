@@ -124,7 +124,7 @@ std::string tile_glb(const World& world, const TileKey& key, Job& job, std::stri
   Glb glb({frame.middle_east - static_cast<double>(world.east), 0.0,
            0.0 - (frame.middle_north - static_cast<double>(world.north))});
   const TerrainGrid grid = sample_grid(world, frame, frame.cells, 1, job);
-  const TerrainMesh terrain = terrain_mesh(world, frame, grid, skirt_depth(world, frame, grid));
+  const TerrainMesh terrain = terrain_mesh(world, frame, grid, skirt_depth(world, key.level, grid));
   if (world.has(Layer::terrain)) add_terrain(glb, world, frame, terrain, job, folder);
   if (world.has(Layer::water)) {
     const WaterMesh water = water_of(world, frame, {grid, terrain.height}, job);

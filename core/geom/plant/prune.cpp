@@ -1,6 +1,7 @@
 #include "core/geom/plant/surroundings.h"
 
 #include <algorithm>
+#include <bit>
 #include <vector>
 
 namespace seedmesh {
@@ -12,11 +13,13 @@ constexpr int probes = 8;
 
 class Pruning {
  public:
-  Pruning(Skeleton& skeleton, const Surroundings& surroundings, Membership membership, Job& job)
+  Pruning(Skeleton& skeleton, const Surroundings& surroundings, Membership membership, KnownShares* known,
+          Job& job)
       : skeleton_(skeleton),
         limbs_(skeleton.limbs),
         surroundings_(surroundings),
         membership_(membership),
+        known_(known),
         job_(job),
         place_(job, skeleton.limbs.size()) {}
 
@@ -43,24 +46,35 @@ class Pruning {
       return;
     }
     if (place_[parent] == gone || was_cut_[parent]) return keep(joint, false);
-    const glm::dvec3 from = limbs_.position[parent], step = glm::dvec3(limbs_.position[joint]) - from;
-    double share = 1;
-    switch (membership_) {
-      case Membership::centre:
-        return keep(joint, is_in(from + 0.5 * step));
-      case Membership::whole:
-        return keep(joint, inside_share(from, step) == 1);
-      case Membership::clipped:
-        share = inside_share(from, step);
-        break;
-    }
+    const double share = share_of(limbs_.position[parent], limbs_.position[joint]);
     keep(joint, share > 0.01);
     if (share == 1 || share <= 0.01) return;
+    const glm::dvec3 from = limbs_.position[parent], step = glm::dvec3(limbs_.position[joint]) - from;
     const auto taper = static_cast<float>(share);
     limbs_.position[joint] = glm::vec3(from + share * step) + 0.0F;
     limbs_.radius[joint] =
         limbs_.base_radius[joint] + (limbs_.radius[joint] - limbs_.base_radius[joint]) * taper;
     was_cut_[joint] = true;
+  }
+
+  /// The share of an internode that remains: 0 or 1 unless it is clipped.
+  double share_of(const glm::vec3& from, const glm::vec3& to) {
+    if (const double* known = known_ ? known_->find(from, to) : nullptr) return *known;
+    const glm::dvec3 begin = from, step = glm::dvec3(to) - begin;
+    double share = 0;
+    switch (membership_) {
+      case Membership::centre:
+        share = is_in(begin + 0.5 * step) ? 1 : 0;
+        break;
+      case Membership::whole:
+        share = inside_share(begin, step) == 1 ? 1 : 0;
+        break;
+      case Membership::clipped:
+        share = inside_share(begin, step);
+        break;
+    }
+    if (known_) known_->keep(from, to, share);
+    return share;
   }
 
   /// The share of the step, from its beginning, that is inside.
@@ -158,6 +172,7 @@ class Pruning {
   Limbs& limbs_;
   const Surroundings& surroundings_;
   Membership membership_;
+  KnownShares* known_;
   Job& job_;
   Array<std::uint32_t> place_;  ///< new number of each joint, or gone
   std::vector<bool> was_cut_;
@@ -166,8 +181,44 @@ class Pruning {
 
 }  // namespace
 
-void prune(Skeleton& skeleton, const Surroundings& surroundings, Membership membership, Job& job) {
-  if (surroundings.bounds_growth()) Pruning(skeleton, surroundings, membership, job).run();
+std::size_t KnownShares::place_of(const glm::vec3& from, const glm::vec3& to) const {
+  const auto bits = [](float x) { return std::uint64_t{std::bit_cast<std::uint32_t>(x)}; };
+  std::uint64_t key = mix(bits(from.x) << 32U | bits(from.y)) + (bits(from.z) << 32U | bits(to.x));
+  key = mix(mix(key) + (bits(to.y) << 32U | bits(to.z)));
+  const std::size_t mask = entries_.size() - 1;
+  std::size_t place = key & mask;
+  while (entries_[place].share >= 0 && (entries_[place].from != from || entries_[place].to != to))
+    place = (place + 1) & mask;
+  return place;
+}
+
+const double* KnownShares::find(const glm::vec3& from, const glm::vec3& to) const {
+  if (entries_.empty()) return nullptr;
+  const Entry& entry = entries_[place_of(from, to)];
+  return entry.share >= 0 ? &entry.share : nullptr;
+}
+
+void KnownShares::keep(const glm::vec3& from, const glm::vec3& to, double share) {
+  if (2 * (count_ + 1) > entries_.size()) grow();
+  Entry& entry = entries_[place_of(from, to)];
+  if (entry.share < 0) ++count_;
+  entry = {from, to, share};
+}
+
+void KnownShares::grow() {
+  constexpr std::size_t least = 1024;
+  Array<Entry> before = std::move(entries_);
+  entries_ = before.empty_array_of<Entry>();
+  entries_.resize(before.empty() ? least : 2 * before.size());
+  std::fill(entries_.begin(), entries_.end(), Entry{});
+  for (const Entry& entry : before) {
+    if (entry.share >= 0) entries_[place_of(entry.from, entry.to)] = entry;
+  }
+}
+
+void prune(Skeleton& skeleton, const Surroundings& surroundings, Membership membership, KnownShares* known,
+           Job& job) {
+  if (surroundings.bounds_growth()) Pruning(skeleton, surroundings, membership, known, job).run();
 }
 
 }  // namespace seedmesh

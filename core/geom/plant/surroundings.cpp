@@ -1,7 +1,9 @@
 #include "core/geom/plant/surroundings.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <numeric>
 
 #include "core/base/math.h"
 
@@ -98,7 +100,11 @@ glm::dvec3 Surroundings::toward_surface(const glm::dvec3& point) const {
 
 void Surroundings::set_internodes(std::span<const Stretch> grown) {
   grown_.assign(grown.begin(), grown.end());
-  cells_.clear();
+  has_cells_ = has_shades_ = false;
+}
+
+void Surroundings::fill_cells() {
+  has_cells_ = true;
   double longest = 0, thickest = 0;
   for (const Stretch& each : grown_) {
     longest = std::max(longest, length_of(each.to - each.from));
@@ -109,22 +115,28 @@ void Surroundings::set_internodes(std::span<const Stretch> grown) {
   for (const Stretch& each : grown_) sum += length_of(each.to - each.from);
   const double mean = grown_.empty() ? 1 : sum / static_cast<double>(grown_.size());
   cell_ = std::max({mean, 2 * thickest + options_.clearance, longest / most_cells, 1e-4});
+  Array<Cell> found = cells_.empty_array_of<Cell>();
   for (std::size_t i = 0; i < grown_.size(); ++i) {
     if (i % look_every == 0) job_.check();
     const Stretch& each = grown_[i];
     const double reach = each.radius + options_.clearance;
     visit_cells(glm::min(each.from, each.to) - reach, glm::max(each.from, each.to) + reach, cell_,
                 [&](std::uint64_t key) {
-                  cells_.push_back({key, static_cast<std::uint32_t>(i)});
+                  found.push_back({key, static_cast<std::uint32_t>(i)});
                 });
   }
-  std::sort(cells_.begin(), cells_.end(), [](const Cell& a, const Cell& b) {
-    return a.key != b.key ? a.key < b.key : a.stretch < b.stretch;
-  });
-  cast_shadows();
+  // Sorted by counting: a bucket for each cell on average.
+  starts_ = Array<std::uint32_t>(job_, std::bit_ceil(found.size() + 1) + 1, 0);
+  for (const Cell& each : found) ++starts_[bucket_of(each.key) + 1];
+  std::partial_sum(starts_.begin(), starts_.end(), starts_.begin());
+  cells_.resize(found.size());
+  for (std::size_t i = found.size(); i-- > 0;) cells_[--starts_[bucket_of(found[i].key) + 1]] = found[i];
+  std::move(starts_.begin() + 1, starts_.end(), starts_.begin());
+  starts_.back() = static_cast<std::uint32_t>(found.size());
 }
 
 void Surroundings::cast_shadows() {
+  has_shades_ = true;
   shades_.clear();
   const ShadowOptions& shadow = options_.shadow;
   // Each cell once: many short internodes are no darker than one long twig.
@@ -155,7 +167,8 @@ void Surroundings::cast_shadows() {
   }
 }
 
-double Surroundings::light_at(const glm::dvec3& point) const {
+double Surroundings::light_at(const glm::dvec3& point) {
+  if (!has_shades_) cast_shadows();
   const double size = options_.shadow.cell;
   const std::uint64_t key = cell_key(cell_of(point.x, size), cell_of(point.y, size), cell_of(point.z, size));
   const double amount = shades_.at(key);
@@ -187,9 +200,10 @@ bool Surroundings::collides(const Prober& prober, const glm::dvec3& from, const 
   std::size_t seen = 0;
   visit_cells(glm::min(from, to) - reach, glm::max(from, to) + reach, cell_, [&](std::uint64_t key) {
     if (hit) return;
-    const auto* found = std::lower_bound(cells_.begin(), cells_.end(), key,
-                                         [](const Cell& cell, std::uint64_t k) { return cell.key < k; });
-    for (; found != cells_.end() && found->key == key && !hit; ++found) {
+    const std::size_t bucket = bucket_of(key);
+    for (std::uint32_t i = starts_[bucket]; i < starts_[bucket + 1] && !hit; ++i) {
+      const Cell* found = &cells_[i];
+      if (found->key != key) continue;
       if (++seen % look_every == 0) job_.check();
       const Stretch& each = grown_[found->stretch];
       if (is_kin(each)) continue;
@@ -199,13 +213,14 @@ bool Surroundings::collides(const Prober& prober, const glm::dvec3& from, const 
   return hit;
 }
 
-bool Surroundings::is_free(const Prober& prober, double length) const {
+bool Surroundings::is_free(const Prober& prober, double length) {
   if (bounds_growth()) {
     for (int i = 0; i <= probes; ++i) {
       if (forbids(prober.position + prober.heading * (length * i / probes))) return false;
     }
   }
   if (grown_.empty()) return true;
+  if (!has_cells_) fill_cells();
   job_.check();
   // Piece by piece, so that a long step visits the cells along it and not all cells of its box.
   const double pieces = std::ceil(std::abs(length) / (4 * cell_));

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "core/base/rng.h"
 #include "core/geom/mesh/solid.h"
 #include "core/geom/plant/key_sums.h"
 #include "core/geom/plant/limbs.h"
@@ -64,13 +65,13 @@ class Surroundings {
   /// the surface or where there are neither.
   glm::dvec3 toward_surface(const glm::dvec3& point) const;
 
-  /// Replaces all internodes by copies of `grown`, and computes their shadows.
+  /// Replaces all internodes by copies of `grown`.
   void set_internodes(std::span<const Stretch> grown);
   /// True where the tip may grow by `length` along its heading: inside guides, outside obstacles, and clear of
   /// other limbs.
-  bool is_free(const Prober& prober, double length) const;
+  bool is_free(const Prober& prober, double length);
   /// From 0, dark, to 1, open sky. A tip's own shade is not counted.
-  double light_at(const glm::dvec3& point) const;
+  double light_at(const glm::dvec3& point);
 
   bool bounds_growth() const { return !options_.guides.empty() || !options_.obstacles.empty(); }
 
@@ -79,23 +80,51 @@ class Surroundings {
     std::uint64_t key;
     std::uint32_t stretch;
   };
+  void fill_cells();
   void cast_shadows();
+  std::size_t bucket_of(std::uint64_t key) const { return mix(key) & (starts_.size() - 2); }
   bool collides(const Prober& prober, const glm::dvec3& from, const glm::dvec3& to) const;
 
   Options options_;
   Job& job_;
   double cell_ = 1;  ///< cell size of the grid of internodes
   std::vector<Stretch> grown_;
-  Array<Cell> cells_;  ///< sorted
-  KeySums shades_;     ///< the shade of each cell
+  bool has_cells_ = false,
+       has_shades_ = false;      ///< those of `grown_`, which are made when they are asked for
+  Array<Cell> cells_;            ///< by bucket of their key, then by number of the stretch
+  Array<std::uint32_t> starts_;  ///< of each bucket in `cells_`, and the end
+  KeySums shades_;               ///< the shade of each cell
 };
 
 enum class Membership { centre, whole, clipped };
 
+/// The shares of internodes that lie inside, kept from one call of prune() to the next: a growing plant is pruned after
+/// each step, and most of its internodes do not change.
+class KnownShares {
+ public:
+  explicit KnownShares(const Job& job) : entries_(job) {}
+
+  /// Returns the share of an internode, or null. The pointer is valid until the next call of keep().
+  const double* find(const glm::vec3& from, const glm::vec3& to) const;
+  void keep(const glm::vec3& from, const glm::vec3& to, double share);
+
+ private:
+  struct Entry {
+    glm::vec3 from{0}, to{0};
+    double share = -1;  ///< -1: empty
+  };
+  std::size_t place_of(const glm::vec3& from, const glm::vec3& to) const;
+  void grow();
+
+  Array<Entry> entries_;
+  std::size_t count_ = 0;
+};
+
 /// Removes every internode that is not inside guides and outside obstacles, and all that grows from it.
 /// Membership is decided by its centre, by nine points along it, or the internode is cut at the surface.
 /// Outlines and organs are removed with their joint, and where their own centre is not inside (with whole
-/// membership: any vertex).
-void prune(Skeleton& skeleton, const Surroundings& surroundings, Membership membership, Job& job);
+/// membership: any vertex). `known` may be null; it belongs to these surroundings and this membership.
+void prune(Skeleton& skeleton, const Surroundings& surroundings, Membership membership, KnownShares* known,
+           Job& job);
 
 }  // namespace seedmesh

@@ -160,6 +160,57 @@ TEST(GeoJsonOfCities, ReadsTheTextsOfOpenStreetMap) {
   EXPECT_EQ(sections[lines[0].section].width, 7.5);
 }
 
+/// The key `highway` and lengths as the wiki of OpenStreetMap describes them ("Key:highway", "Key:width"), lists as OSMnx
+/// writes them where it merges ways.
+TEST(GeoJsonOfCities, ReadsTagsOfOpenStreetMap) {
+  struct Case {
+    const char* tags;
+    const char* section;
+    double width;  ///< 0: that of the class
+    int level;
+  };
+  const std::array<Case, 10> cases{{
+      {R"("highway":"motorway")", "highway", 0, 0},
+      {R"("highway":"trunk_link","width":"3;4")", "highway", 3, 0},
+      {R"("highway":["secondary","residential"],"width":["9","7"])", "major", 9, 0},
+      {R"("highway":"residential","width":"6.5 m","sidewalk":"both")", "minor", 6.5, 0},
+      {R"("highway":"footway","width":"2m","sidewalk":"no")", "lane", 2, 0},
+      {R"("highway":"service","width":"20 ft")", "lane", 6.096, 0},
+      {R"("highway":"primary","class":"lane","width":"16'")", "lane", 4.8768, 0},
+      {R"("highway":"tertiary","bridge":"viaduct","layer":"2")", "minor", 0, 2},
+      {R"("highway":"tertiary","tunnel":"building_passage","layer":1)", "minor", 0, -1},
+      {R"("highway":"tertiary","bridge":"no","layer":"1")", "minor", 0, 0},
+  }};
+  for (const Case& each : cases) {
+    IssueList errors;
+    const Json streets =
+        Json::parse(collection(feature(line, std::string("\"properties\":{") + each.tags + "}")));
+    const CityParams params = read_city({{"given", {{"streets", streets}}}}, "", errors);
+    std::vector<CrossSection> sections = classes_of(params);
+    std::vector<Issue> issues;
+    const std::vector<GivenLine> lines = given_lines(params, sections, issues);
+    ASSERT_TRUE(issues.empty()) << each.tags << ": " << issues[0].message;
+    ASSERT_EQ(lines.size(), 1U);
+    const CrossSection& section = sections[lines[0].section];
+    EXPECT_EQ(std::string(section.name), each.section) << each.tags;
+    if (each.width > 0) {
+      EXPECT_NEAR(section.width, each.width, 1e-9) << each.tags;
+    }
+    EXPECT_EQ(lines[0].level, each.level) << each.tags;
+  }
+}
+
+TEST(GeoJsonOfCities, RefusesLengthsInOtherUnits) {
+  IssueList errors;
+  const Json streets = Json::parse(collection(feature(line, R"("properties":{"width":"7 yards"})")));
+  const CityParams params = read_city({{"given", {{"streets", streets}}}}, "", errors);
+  std::vector<CrossSection> sections = classes_of(params);
+  std::vector<Issue> issues;
+  given_lines(params, sections, issues);
+  ASSERT_EQ(issues.size(), 1U);
+  EXPECT_EQ(issues[0].pointer, "/given/streets/features/0/properties/width");
+}
+
 TEST(GeoJsonOfCities, WarnsOfStreetsOutsideOfTheArea) {
   IssueList errors;
   const Json far = Json::parse(R"({"type":"LineString","coordinates":[[5000,10],[5200,10]]})");

@@ -372,6 +372,36 @@ TEST(Output, SpeaksOfVariantsInTheEstimate) {
   EXPECT_EQ(triangles(R"({"max_triangles":77})"), 77U);
 }
 
+TEST(Output, WarnsOfABudgetThatGenerationMayRefuse) {
+  const auto warned_at = [](const Request& request, const std::string& pointer) {
+    const json answer = json::parse(*validate(request, {}));
+    for (const json& warning : answer["warnings"]) {
+      if (warning["pointer"] == pointer) return true;
+    }
+    return false;
+  };
+  struct Case {
+    const char *preset, *output, *pointer;
+    bool is_refused;
+  };
+  for (const Case& each :
+       std::vector<Case>{{"temple", R"({"max_triangles":12})", "/output/max_triangles", true},
+                         {"lava_plain", R"({"max_triangles":12})", "/output/max_triangles", true},
+                         {"given_quarter", R"({"max_triangles":500})", "/output/max_triangles", true},
+                         {"temple", R"({"lods":[50,20],"format":"zip"})", "/output/lods/0", true},
+                         {"temple", R"({"max_triangles":1000000})", "/output/max_triangles", false},
+                         {"temple", R"({"lods":[1,0.5],"format":"zip"})", "/output/lods/0", false}}) {
+    const Result<Request> request = read_request(request_of(each.preset, each.output), Limits{});
+    ASSERT_TRUE(request) << each.preset << each.output;
+    const Result<Product> product = produce(*request, {});
+    EXPECT_EQ(!product, each.is_refused) << each.preset << each.output;
+    if (!product) {
+      EXPECT_EQ(product.error().issues.at(0).pointer, each.pointer);
+    }
+    EXPECT_EQ(warned_at(*request, each.pointer), each.is_refused) << each.preset << each.output;
+  }
+}
+
 TEST(Output, SpeaksOfTrianglesAloneInTheEstimateAndOfExactOnesWhereTheyAre) {
   const auto estimate = [](const std::string& preset, const std::string& output) {
     const Result<Request> request = read_request(request_of(preset, output), Limits{});

@@ -32,8 +32,7 @@ Divided divided(PaletteName palette, Job& job) {
   const GroundColors colors(palette, range_of(field, job), -1000);
   Divided made;
   made.model.nodes.emplace_back();
-  const GroundClasses classes(palette, field, {0, 0, field.width, field.depth}, sites, colors, {},
-                              made.model);
+  const GroundClasses classes(field, {0, 0, field.width, field.depth}, sites, colors, {}, made.model);
   made.whole = grid_mesh(field, {0, 0, field.width, field.depth}, vertex_colors(field, sites, colors, job),
                          Shading::smooth, job);
   made.parts = classes.divide(made.whole, sites, job);

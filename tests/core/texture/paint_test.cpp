@@ -94,7 +94,7 @@ TEST(Bark, AndWallsRepeatWithoutASeam) {
 
 TEST(Bark, TakesTheColourOfTheRequest) {
   const Job job = job_of();
-  const Painting painting = paint_bark("oak_bark", 64, 1, Tint{{10, 20, 200}}, job);
+  const Painting painting = paint_kind("oak_bark", 64, 1, Tint{{10, 20, 200}}, job);
   const Picture color = decoded(*make_maps(painting.relief, painting.finish, "x", {}, job).color);
   double red = 0, blue = 0;
   for (std::size_t y = 0; y < 64; ++y) {
@@ -363,6 +363,32 @@ TEST(Paint, TakesFromTheStoreWhatItHasPutThere) {
   model.materials[0].recipe = {"pine_bark", 4, std::array<std::uint8_t, 3>{1, 2, 3}};
   paint(model, 32, {}, &store, job);
   EXPECT_EQ(store.hits, 1) << "another colour is another picture";
+}
+
+TEST(Paint, SharesTheReliefOfTwoColours) {
+  const Job job = job_of();
+  for (const char* const kind : {"oak_bark", "brick", "willow_twig"}) {
+    const std::array<std::uint8_t, 3> red{180, 60, 40}, grey{90, 90, 90};
+    Model model;
+    model.materials.resize(2);
+    model.materials[0].recipe = {kind, 4, red};
+    model.materials[1].recipe = {kind, 4, grey};
+    paint(model, 32, {}, nullptr, job);
+    ASSERT_EQ(model.textures.size(), 4U) << kind;
+    const Material &first = model.materials[0], &second = model.materials[1];
+    EXPECT_EQ(first.normal_texture.texture, second.normal_texture.texture);
+    EXPECT_EQ(first.occlusion_texture.texture, second.occlusion_texture.texture);
+    EXPECT_NE(first.base_color_texture.texture, second.base_color_texture.texture);
+    // The second colour is what a model with this colour alone has.
+    Model alone;
+    alone.materials.resize(1);
+    alone.materials[0].recipe = {kind, 4, grey};
+    paint(alone, 32, {}, nullptr, job);
+    const auto color = [](const Model& from, const Material& material) {
+      return from.textures[static_cast<std::size_t>(material.base_color_texture.texture)]->bytes;
+    };
+    EXPECT_EQ(color(model, second), color(alone, alone.materials[0]));
+  }
 }
 
 }  // namespace

@@ -33,6 +33,7 @@ WorldParams random_params(std::uint64_t seed) {
     tree.moisture = {rng.uniform(0, 0.6), 1};
     params.plants = {tree};
   }
+  if (rng.unit() < 0.3) params.relief.sea_level = rng.uniform(-500, 500);
   return params;
 }
 
@@ -113,10 +114,12 @@ double median(std::vector<double> values) {
 
 /// Worlds with random parameters, each from the root to a leaf.
 TEST(WorldBounds, HoldContentsAndDeclareErrorsThatTheyHave) {
-  constexpr std::uint64_t worlds = 16;
+  // those from 26 on had skirts or water outside of their boxes
+  constexpr std::array<std::uint64_t, 21> seeds{1,  2,  3,  4,  5,  6,  7,   8,   9,   10, 11,
+                                                12, 13, 14, 15, 16, 26, 129, 256, 417, 0};
   Found found;
   Job job = test_job();
-  for (std::uint64_t seed = 1; seed <= worlds; ++seed) {
+  for (const std::uint64_t seed : seeds) {
     const WorldParams params = random_params(seed);
     WorldParams without = params;
     without.plants.clear();

@@ -840,6 +840,7 @@ class SceneParametersLayersItemPlace(TypedDict, total=False):
     density: float
     density_image: str
     noise: "SceneParametersLayersItemPlaceNoise"
+    ground: List[Literal['grass', 'soil', 'rock', 'scree', 'sand', 'snow']]
     slope: "SceneParametersLayersItemPlaceSlope"
     altitude: "SceneParametersLayersItemPlaceAltitude"
     above_water: "SceneParametersLayersItemPlaceAboveWater"
@@ -981,6 +982,13 @@ class TerrainParametersHydraulic(TypedDict, total=False):
     area_exponent: float
 
 
+class TerrainParametersRefine(TypedDict, total=False):
+    center: List[float]
+    radius: float
+    step: float
+    relief: float
+
+
 class _TerrainParametersOntoRequired(TypedDict):
     model: "Child"
 
@@ -1035,6 +1043,7 @@ class TerrainParameters(TypedDict, total=False):
     max_error: float
     skirt: float
     base: float
+    refine: "TerrainParametersRefine"
     palette: Literal['alpine', 'desert', 'tropical', 'arctic', 'volcanic', 'moon', 'stone', 'mossy', 'grey', 'none']
     specular: "Specular"
     emission: "Emission"
