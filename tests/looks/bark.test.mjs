@@ -9,7 +9,7 @@ let server;
 before(async () => { server = await serve(program); });
 after(async () => { await server.stop(); });
 
-/** Twigs of some trees are so thin and so many that they need more than four times the texels. */
+/** Many twigs of these trees are thinner than the narrowest strip of the texture. */
 const most = { maple: 4.5, poplar: 4.7, quaking_aspen: 4.8, birch: 5 };
 const rough = ['oak', 'pine', 'spruce', 'weeping_willow', 'poplar'], smooth = ['birch', 'quaking_aspen', 'maple', 'cherry'];
 
