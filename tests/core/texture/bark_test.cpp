@@ -25,7 +25,7 @@ TEST(Bark, TilesInStripsOfPowersOfTwoOfItsWidth) {
   const Job job(1, Job::Options{});
   constexpr int size = 256;
   for (const std::string_view kind : bark_kinds()) {
-    const Relief relief = paint_bark(kind, size, 5, {}, job).relief;
+    const Relief relief = bark_relief(kind, size, 5, job);
     for (const Field* field : {&relief.height, &relief.tone}) {
       const double usual = steepest(*field);
       for (float strip = 0.5F; strip >= least_bark_strip; strip *= 0.5F) {
