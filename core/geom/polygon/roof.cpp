@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <map>
+#include <span>
 
 #include "core/base/math.h"
 #include "core/geom/polygon/roof_surface.h"
@@ -17,16 +18,16 @@ using glm::dvec3;
 // The steep part of a two-slope roof takes this share of the way inwards unless its height is given.
 constexpr double steep_share = 0.3;
 constexpr double plain_thickness = 0.12;
-/// Shares of the diagonal: points nearer than the first become one, and points of the plan are moved by up to the
-/// second before the slopes are made.
+/// Shares of the diagonal: nearer points become one, and points of the plan are moved by up to the jitter first.
 struct Attempt {
   double weld = 2e-6, jitter = 0;
 };
 // Until a roof is closed. Near-parallel edges make slopes that are thin or end almost at the same point.
 constexpr Attempt attempts[] = {{2e-6, 0},    {2e-5, 0},    {2e-4, 0},    {2e-7, 0},    {1e-3, 0},
                                 {2e-6, 1e-5}, {2e-5, 1e-4}, {2e-6, 1e-4}, {2e-6, 1e-3}, {2e-5, 1e-3}};
-// The distance of the underside of the cover below the slopes, or above them if it ends at a wall: no two
-// faces of a roof coincide.
+/// The edges of plans in the attempts before the last one. Spikes that need more are too thin for a roof.
+constexpr std::size_t most_edges = 8'000;
+// The distance of the underside of the cover below the slopes, or above them at a wall, so that no faces coincide.
 constexpr double sunk = 0.02;
 constexpr double lifted = 0.002;
 // Angles nearer to the vertical are vertical.
@@ -373,9 +374,13 @@ Roof roof(const Plan& plan, const RoofOptions& options, const Job& job) {
   if (!defects.empty() || options.kind == RoofKind::flat)
     return RoofMaker(plan, options, attempts[0], job).make(defects);
   std::optional<Roof> bare;  // closed except for its cover
-  for (const Attempt& attempt : attempts) {
+  double without_slopes = -1;
+  const std::size_t most = 1 + most_edges / edge_count(plan);
+  for (const Attempt& attempt : std::span(attempts).first(std::min(most, std::size(attempts)))) {
+    if (attempt.jitter == without_slopes) continue;  // slopes do not depend on the weld
     RoofMaker maker(plan, options, attempt, job);
     Roof made = maker.make(defects);
+    if (!maker.has_slopes()) without_slopes = attempt.jitter;
     if (!maker.has_slopes() || !is_closed(made, false, job)) continue;
     if (is_closed(made, true, job)) return made;
     if (!bare) bare = std::move(made);

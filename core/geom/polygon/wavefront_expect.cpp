@@ -16,6 +16,8 @@ constexpr std::size_t few_edges = 512, few_pairs = 4096;
 // The horizon is nearer where the regions up to it need more entries of the grid, or more pairs of an edge and a
 // corner that share a cell, for each edge and corner.
 constexpr std::size_t entries_each = 128;
+// With more, thin spikes of rough stars need far too many pairs once they move.
+constexpr double most_effort = 9;
 constexpr double pairs_each = 32;
 // Comparisons after events, for each edge and corner, after which the grid is made anew with a nearer horizon.
 constexpr std::size_t nearby_each = 512;
@@ -118,7 +120,7 @@ void Wavefront::move_horizon() {
     const double whole = std::min(farthest * scale / fastest_, std::max(end_time_ + 4 * soon_ - from, least));
     ahead_ = ahead_ > 0 ? std::min(8 * ahead_, whole) : whole;
     // Where little has changed up to the last horizon, a farther one is cheaper.
-    effort_ = 4 * changes_ < front_.size() ? 3 * effort_ : 1;
+    effort_ = 4 * changes_ < front_.size() ? std::min(most_effort, 3 * effort_) : 1;
     changes_ = 0;
     const double cheap = effort_ * pairs_each * static_cast<double>(front_.size() + hitting_corners_.size());
     const auto pairs_until = [&](double ahead) {

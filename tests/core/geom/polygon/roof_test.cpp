@@ -3,10 +3,14 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cstdlib>
 #include <glm/geometric.hpp>
 #include <map>
+#include <tuple>
 
+#include "core/base/math.h"
+#include "core/base/rng.h"
 #include "tests/core/geom/plans.h"
 #include "tests/support/mesh_faults.h"
 
@@ -342,6 +346,29 @@ TEST(Roof, OfAPlanWithNearParallelEdgesIsClosed) {
     EXPECT_GT(made.faces.size(), 2U);
     EXPECT_EQ(bad_edges(made, false), 0);
   }
+}
+
+/// Spikes of a few millimetres, whose roofs often do not close. They took more than half a minute each.
+TEST(Roof, OfRoughStarsIsClosedOrFlatWithAWarning) {
+  int closed = 0, flat = 0;
+  for (const auto& [count, inner, noise] :
+       {std::tuple{2000, 10.0, 0.05}, {3000, 2.0, 0.3}, {4200, 10.0, 0.05}, {5000, 10.0, 0.002}}) {
+    Rng rng = Rng::of_seed(static_cast<std::uint64_t>(count)).at("star");
+    PlanRing ring;
+    for (int i = 0; i < count; ++i) {
+      const math::SinCos turn = math::sincos_degrees(360.0 * i / count);
+      ring.push_back((i % 2 == 0 ? 20.0 : inner) * (1 + rng.uniform(-noise, noise)) *
+                     glm::dvec2(turn.cos, turn.sin));
+    }
+    Job::Options limits;
+    limits.deadline = Job::Clock::now() + std::chrono::seconds(60);
+    const Roof made = roof(plan_of(ring), options_of(RoofKind::hip, 35), Job(1, limits));
+    const bool is_flat = !made.warnings.empty();
+    EXPECT_EQ(open_edges(made, false), is_flat ? count : 0) << count << ", where a flat roof is one face";
+    ++(is_flat ? flat : closed);
+  }
+  EXPECT_GT(closed, 0);
+  EXPECT_GT(flat, 0);
 }
 
 }  // namespace
