@@ -41,7 +41,8 @@ std::int64_t resident() {
 void keep_little_memory(int workers) {
 #ifdef __GLIBC__
   const auto unless_set = [](const char* variable, int parameter, int value) {
-    if (!std::getenv(variable)) ::mallopt(parameter, value);
+    if (std::getenv(variable)) return;  // NOLINT(concurrency-mt-unsafe): the only thread
+    ::mallopt(parameter, value);        // NOLINT(concurrency-mt-unsafe)
   };
   unless_set("MALLOC_ARENA_MAX", M_ARENA_MAX, std::max(4, 2 * workers));
   unless_set("MALLOC_MMAP_THRESHOLD_", M_MMAP_THRESHOLD, mapped);

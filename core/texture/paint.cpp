@@ -84,9 +84,16 @@ std::shared_ptr<const Maps> make(const TextureRecipe& recipe, int size, MapParts
       make_maps(*relief, finish_of(recipe.kind, recipe.color), recipe.kind, parts, job));
 }
 
-/// The images of a recipe as PNG, from `store` or made now.
+/// What was made before; either may be null.
+struct Kept {
+  SharedReliefs* reliefs = nullptr;
+  TextureStore* store = nullptr;
+};
+
+/// The images of a recipe as PNG, from the store or made now.
 std::shared_ptr<const Maps> png_maps(const TextureRecipe& recipe, int size, MapParts parts,
-                                     SharedReliefs* reliefs, TextureStore* store, const Job& job) {
+                                     const Kept& before, const Job& job) {
+  const auto [reliefs, store] = before;
   const std::string all = key_of(recipe, size), key = all + suffix_of(parts);
   if (store) {
     std::shared_ptr<const void> kept = store->find(key);
@@ -131,15 +138,16 @@ std::shared_ptr<const Image> in_form(const std::shared_ptr<const Image>& image, 
 
 /// The images of a recipe in any form.
 std::shared_ptr<const Maps> formed_maps(const TextureRecipe& recipe, int size, MapParts parts, ImageForm form,
-                                        SharedReliefs& reliefs, TextureStore* store, const Job& job) {
-  if (form == ImageForm::png) return png_maps(recipe, size, parts, &reliefs, store, job);
+                                        const Kept& before, const Job& job) {
+  TextureStore* store = before.store;
+  if (form == ImageForm::png) return png_maps(recipe, size, parts, before, job);
   const std::string key =
       key_of(recipe, size) + (form == ImageForm::webp ? " webp" : " both") + suffix_of(parts);
   if (store) {
     if (const std::shared_ptr<const void> kept = store->find(key))
       return std::static_pointer_cast<const Maps>(kept);
   }
-  const std::shared_ptr<const Maps> plain = png_maps(recipe, size, parts, &reliefs, store, job);
+  const std::shared_ptr<const Maps> plain = png_maps(recipe, size, parts, before, job);
   auto maps = std::make_shared<Maps>();
   parallel_for(job, 3, 1, [&](std::size_t begin, std::size_t, std::size_t) {
     if (begin == 0) maps->color = in_form(plain->color, form, WebpQuality::usual, job);
@@ -220,7 +228,7 @@ Painting paint_kind(std::string_view kind, int size, std::uint64_t seed, const T
 
 std::shared_ptr<const Maps> maps_of(const TextureRecipe& recipe, int size, MapParts parts,
                                     TextureStore* store, const Job& job) {
-  return png_maps(recipe, size, parts, nullptr, store, job);
+  return png_maps(recipe, size, parts, {nullptr, store}, job);
 }
 
 void paint(Model& model, int size, const ImageStyle& style, TextureStore* store, const Job& job) {
@@ -245,7 +253,7 @@ void paint(Model& model, int size, const ImageStyle& style, TextureStore* store,
       const MapParts parts{is_first && with_normals.count(relief) > 0, is_first};
       const std::shared_ptr<const Maps> maps =
           style.is_linked ? linked_maps(material.recipe, size, parts, style.prefix)
-                          : formed_maps(material.recipe, size, parts, style.form, shared, store, job);
+                          : formed_maps(material.recipe, size, parts, style.form, {&shared, store}, job);
       place->second.color = add_texture(model, maps->color);
       if (is_first) {
         known->second.normal = parts.normal ? add_texture(model, maps->normal) : -1;

@@ -131,9 +131,12 @@ struct Sum {
   }
 };
 
+struct Rows {
+  std::size_t begin = 0, end = 0;
+};
+
 /// Computes heights one by one, because the domain warp moves each position differently.
-void warped_rows(const NoisePlan& plan, const Window& window, double cell, Rng rng, Field& field,
-                 std::size_t begin, std::size_t end) {
+void warped_rows(const NoisePlan& plan, const Window& window, double cell, Rng rng, Field& field, Rows rows) {
   std::vector<OctavePath> octaves = paths_of(octaves_of(plan, plan.octaves, rng));
   std::vector<OctavePath> east = paths_of(octaves_of(plan, warp_octaves, rng.at("east")));
   std::vector<OctavePath> south = paths_of(octaves_of(plan, warp_octaves, rng.at("south")));
@@ -145,7 +148,7 @@ void warped_rows(const NoisePlan& plan, const Window& window, double cell, Rng r
     }
     return sum;
   };
-  for (std::size_t row = begin; row < end; ++row) {
+  for (std::size_t row = rows.begin; row < rows.end; ++row) {
     float* out = field.row(static_cast<std::int32_t>(row));
     const double z = static_cast<double>(window.z + static_cast<std::int64_t>(row)) * cell;
     for (std::int32_t i = 0; i < window.width; ++i) {
@@ -163,8 +166,7 @@ void warped_rows(const NoisePlan& plan, const Window& window, double cell, Rng r
   }
 }
 
-void plain_rows(const NoisePlan& plan, const Window& window, double cell, Rng rng, Field& field,
-                std::size_t begin, std::size_t end) {
+void plain_rows(const NoisePlan& plan, const Window& window, double cell, Rng rng, Field& field, Rows all) {
   const std::vector<Octave> octaves = octaves_of(plan, plan.octaves, rng);
   std::vector<OctaveRow> rows;
   rows.reserve(octaves.size());
@@ -173,7 +175,7 @@ void plain_rows(const NoisePlan& plan, const Window& window, double cell, Rng rn
   }
   const auto width = static_cast<std::size_t>(window.width);
   std::vector<float> noise(width), weight(width);
-  for (std::size_t row = begin; row < end; ++row) {
+  for (std::size_t row = all.begin; row < all.end; ++row) {
     float* out = field.row(static_cast<std::int32_t>(row));
     std::fill(out, out + width, 0.0F);
     std::fill(weight.begin(), weight.end(), 1.0F);
@@ -213,9 +215,9 @@ Field noisy(const NoisePlan& plan, const Window& window, double cell, Rng rng, c
                  for (std::size_t row = begin; row < end; row += 8) {
                    job.check();
                    if (plan.warp > 0)
-                     warped_rows(plan, window, cell, rng, field, row, std::min(end, row + 8));
+                     warped_rows(plan, window, cell, rng, field, {row, std::min(end, row + 8)});
                  }
-                 if (plan.warp <= 0) plain_rows(plan, window, cell, rng, field, begin, end);
+                 if (plan.warp <= 0) plain_rows(plan, window, cell, rng, field, {begin, end});
                });
   return field;
 }

@@ -180,9 +180,10 @@ Model build_model(Skeleton skeleton, const TreeParams& params, const GenerateCon
   model.nodes.push_back(std::move(root));
   Motion motion;
   if (context.demand.growth) {
-    if (context.demand.share_organs)
+    if (context.demand.share_organs) {
       job.refuse({IssueKind::conflict, "/output/instancing",
                   "found leaves as nodes; the growth animation needs them merged"});
+    }
     motion.growth = plan_growth(skeleton.limbs, {.most_bones = context.demand.most_bones}, job);
   }
   if (context.demand.wind) motion.wind.emplace(skeleton.limbs, job);

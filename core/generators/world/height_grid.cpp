@@ -119,8 +119,8 @@ double deviation_of_ground(const HeightGrid& grid, const Ground& ground, int i, 
   HeightGrid cell{3, grid.spacing / 2, grid.west + i * grid.spacing, grid.south + j * grid.spacing, {}};
   cell.heights.reserve(9);
   for (int k = 0; k < 9; ++k) {
-    const double east = cell.west + k % 3 * cell.spacing, north = cell.south + k / 3 * cell.spacing;
-    cell.heights.push_back(ground.height(east, north));
+    const int row = k / 3, column = k % 3;
+    cell.heights.push_back(ground.height(cell.west + column * cell.spacing, cell.south + row * cell.spacing));
   }
   return deviation_over_cells(cell, 0, 0);
 }

@@ -131,9 +131,10 @@ TEST(Output, RefusesLevelsOfWhatCannotBeMadeSimpler) {
 std::uint64_t triangles_below(const json& document, const json& node) {
   std::uint64_t triangles = 0;
   if (node.contains("mesh")) {
-    for (const json& primitive : document["meshes"][node["mesh"].get<std::size_t>()]["primitives"])
+    for (const json& primitive : document["meshes"][node["mesh"].get<std::size_t>()]["primitives"]) {
       triangles +=
           document["accessors"][primitive["indices"].get<std::size_t>()]["count"].get<std::uint64_t>() / 3;
+    }
   }
   for (const json& child : node.value("children", json::array()))
     triangles += triangles_below(document, document["nodes"][child.get<std::size_t>()]);

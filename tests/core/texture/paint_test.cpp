@@ -239,10 +239,11 @@ std::vector<double> coverage_by_level(const Picture& picture, double cutoff) {
     shares.push_back(static_cast<double>(opaque) / static_cast<double>(alpha.size()));
     std::vector<double> next;
     for (std::size_t y = 0; y < size; y += 2) {
-      for (std::size_t x = 0; x < size; x += 2)
+      for (std::size_t x = 0; x < size; x += 2) {
         next.push_back((alpha[y * size + x] + alpha[y * size + x + 1] + alpha[(y + 1) * size + x] +
                         alpha[(y + 1) * size + x + 1]) /
                        4);
+      }
     }
     alpha = std::move(next);
   }

@@ -125,9 +125,10 @@ TEST(BuildModel, BuildsSoundLeavesOfEveryShape) {
          ++build) {
       params.leaf.leaf_shape = static_cast<TreeLeafShape>(shape);
       params.leaf.build = static_cast<TreeBuild>(build);
-      for (const std::string& fault : faults(made(params)))
+      for (const std::string& fault : faults(made(params))) {
         ADD_FAILURE() << text_of(params.leaf.leaf_shape) << ' ' << text_of(params.leaf.build) << ": "
                       << fault;
+      }
     }
   }
 }

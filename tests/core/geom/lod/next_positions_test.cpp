@@ -77,19 +77,19 @@ const Mesh& mesh_of(const Model& model, std::size_t level) { return model.meshes
 
 class NextPositions : public testing::Test {
  protected:
-  Job job_ = Job(1, Job::Options{});
+  Job job = Job(1, Job::Options{});
 };
 
 TEST_F(NextPositions, MovesALeafToTheSameTextureCoordinatesAndShrinksALeafThatGoes) {
   const std::vector<Leaf> leaves = random_leaves(200);
-  Mesh fine = empty_mesh(job_), coarse = empty_mesh(job_);
+  Mesh fine = empty_mesh(job), coarse = empty_mesh(job);
   for (const Leaf& leaf : leaves) add(fine, leaf, 2);
   for (std::size_t i = 0; i < leaves.size(); i += 2) add(coarse, {leaves[i].stalk, leaves[i].turn, 1.1F}, 1);
   std::vector<Mesh> levels;
   levels.push_back(std::move(fine));
   levels.push_back(std::move(coarse));
   Model model = model_of(std::move(levels));
-  add_next_positions(model, job_);
+  add_next_positions(model, job);
 
   const Mesh& mesh = mesh_of(model, 0);
   ASSERT_EQ(mesh.next_position.size(), mesh.position.size());
@@ -107,7 +107,7 @@ TEST_F(NextPositions, MovesALeafToTheSameTextureCoordinatesAndShrinksALeafThatGo
 }
 
 TEST_F(NextPositions, KeepsTheFrontOfALeafApartFromItsBack) {
-  Mesh fine = empty_mesh(job_), coarse = empty_mesh(job_);
+  Mesh fine = empty_mesh(job), coarse = empty_mesh(job);
   for (const Leaf& leaf : random_leaves(40)) {
     for (Mesh* mesh : {&fine, &coarse}) {
       const std::size_t corner = mesh->index.wide.size();
@@ -121,7 +121,7 @@ TEST_F(NextPositions, KeepsTheFrontOfALeafApartFromItsBack) {
   levels.push_back(std::move(fine));
   levels.push_back(std::move(coarse));
   Model model = model_of(std::move(levels));
-  add_next_positions(model, job_);
+  add_next_positions(model, job);
   const Mesh& mesh = mesh_of(model, 0);
   for (std::size_t v = 0; v < mesh.position.size(); ++v)
     EXPECT_LT(glm::distance(mesh.next_position[v], mesh.position[v]), 1e-5F);
@@ -129,7 +129,7 @@ TEST_F(NextPositions, KeepsTheFrontOfALeafApartFromItsBack) {
 
 TEST_F(NextPositions, MovesOtherVerticesToTheNearestPointOfTheSurface) {
   Rng rng(3);
-  Mesh fine = empty_mesh(job_), coarse = empty_mesh(job_);
+  Mesh fine = empty_mesh(job), coarse = empty_mesh(job);
   for (int i = 0; i < 300; ++i) {
     fine.position.push_back(glm::vec3(uniform(rng, 0, 9), uniform(rng, -1, 1), uniform(rng, 0, 9)));
     fine.uv[0].push_back({static_cast<float>(i), 0});
@@ -144,7 +144,7 @@ TEST_F(NextPositions, MovesOtherVerticesToTheNearestPointOfTheSurface) {
   levels.push_back(std::move(fine));
   levels.push_back(std::move(coarse));
   Model model = model_of(std::move(levels));
-  add_next_positions(model, job_);
+  add_next_positions(model, job);
   for (std::size_t v = 0; v < 300; ++v) {
     const glm::vec3 &at = mesh_of(model, 0).position[v], &next = mesh_of(model, 0).next_position[v];
     EXPECT_LT(glm::distance(next, glm::vec3(at.x, 0, at.z)), 1e-5F);
@@ -156,21 +156,21 @@ TEST_F(NextPositions, MovesOtherVerticesToTheNearestPointOfTheSurface) {
 TEST_F(NextPositions, LeavesVerticesBeforeAnImpostorAndModelsOfOneLevelAsTheyAre) {
   std::vector<Mesh> levels;
   for (int i = 0; i < 2; ++i) {
-    levels.push_back(empty_mesh(job_));
+    levels.push_back(empty_mesh(job));
     add(levels.back(), {{0, static_cast<float>(i), 0}}, 1);
   }
   Model model = model_of(std::move(levels));
   model.nodes[0].has_impostor = true;
-  add_next_positions(model, job_);
+  add_next_positions(model, job);
   for (std::size_t v = 0; v < 4; ++v)
     EXPECT_EQ(mesh_of(model, 0).next_position[v], mesh_of(model, 0).position[v]);
   EXPECT_TRUE(mesh_of(model, 1).next_position.empty()) << "the impostor";
 
   std::vector<Mesh> one;
-  one.push_back(empty_mesh(job_));
+  one.push_back(empty_mesh(job));
   add(one.back(), {}, 1);
   Model single = model_of(std::move(one));
-  add_next_positions(single, job_);
+  add_next_positions(single, job);
   EXPECT_TRUE(mesh_of(single, 0).next_position.empty());
 }
 

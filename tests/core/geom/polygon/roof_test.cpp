@@ -304,7 +304,7 @@ int bad_edges(const Roof& roof, bool is_cover) {
 
 TEST(Roof, IsClosedAndManifoldOverTenThousandPlansLikeRealOnes) {
   const Job job = job_of();
-  const char* more = std::getenv("SEEDMESH_ROOFS");
+  const char* more = std::getenv("SEEDMESH_ROOFS");  // NOLINT(concurrency-mt-unsafe): one thread
   const std::uint64_t count = more ? std::strtoull(more, nullptr, 10) : 10'000;
   constexpr std::array kinds{RoofKind::hip,  RoofKind::gable,   RoofKind::pyramid,
                              RoofKind::shed, RoofKind::mansard, RoofKind::gambrel};
