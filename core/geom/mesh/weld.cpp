@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cstddef>
 #include <cstring>
 #include <span>
@@ -20,7 +19,6 @@ void add_stream(std::vector<meshopt_Stream>& streams, Array<T>& values) {
 
 /// Meshes of at most this many vertices compare all pairs, which is faster than a hash table.
 constexpr std::size_t few_vertices = 48;
-constexpr std::uint64_t golden_ratio = 0x9E3779B97F4A7C15U;  // 2^64 divided by it
 
 bool are_equal(const std::vector<meshopt_Stream>& streams, std::size_t a, std::size_t b) {
   return std::all_of(streams.begin(), streams.end(), [a, b](const meshopt_Stream& stream) {
@@ -42,45 +40,15 @@ std::size_t number_pairwise(const std::vector<meshopt_Stream>& streams, std::spa
   return count;
 }
 
-/// The hash of each vertex: of the words of all its attributes.
-Array<std::uint32_t> hashes_of(const std::vector<meshopt_Stream>& streams, std::size_t vertices,
-                               const Job& job) {
-  constexpr std::size_t word = sizeof(std::uint32_t);
-  Array<std::uint32_t> hashes(job, vertices, 0);
-  for (const meshopt_Stream& stream : streams) {
-    const auto* bytes = static_cast<const std::byte*>(stream.data);
-    for (std::size_t i = 0; i < vertices; ++i, bytes += stream.stride) {
-      std::uint64_t hash = hashes[i];
-      for (std::size_t k = 0; k < stream.size; k += word) {
-        std::uint32_t value = 0;
-        std::memcpy(&value, bytes + k, word);
-        hash = (hash + value) * golden_ratio;
-        hash ^= hash >> 32U;
-      }
-      hashes[i] = static_cast<std::uint32_t>(hash);
-    }
-  }
-  return hashes;
-}
-
-/// The same as number_pairwise, with a hash table of open addressing.
 std::size_t number_by_hash(const std::vector<meshopt_Stream>& streams, Array<std::uint32_t>& place,
-                           const Job& job) {
-  constexpr std::uint32_t empty = 0xFFFFFFFFU;
+                           Job& job) {
   const std::size_t vertices = place.size();
-  const Array<std::uint32_t> hashes = hashes_of(streams, vertices, job);
-  Array<std::uint32_t> first(job, std::bit_ceil(vertices + vertices / 2), empty);  // of equal vertices
-  const std::size_t mask = first.size() - 1;
-  std::uint32_t count = 0;
-  for (std::uint32_t i = 0; i < vertices; ++i) {
-    std::size_t slot = hashes[i] & mask;
-    while (first[slot] != empty && (hashes[first[slot]] != hashes[i] || !are_equal(streams, first[slot], i)))
-      slot = (slot + 1) & mask;
-    const bool is_new = first[slot] == empty;
-    if (is_new) first[slot] = i;
-    place[i] = is_new ? count++ : place[first[slot]];
-  }
-  return count;
+  // All vertices in order, padded to whole triangles, which the library requires.
+  Array<std::uint32_t> order(job, (vertices + 2) / 3 * 3);
+  for (std::size_t i = 0; i < order.size(); ++i)
+    order[i] = static_cast<std::uint32_t>(std::min(i, vertices - 1));
+  return meshopt_generateVertexRemapMulti(place.data(), order.data(), order.size(), vertices, streams.data(),
+                                          streams.size());
 }
 
 template <class T>
