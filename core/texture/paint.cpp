@@ -52,7 +52,8 @@ Finish finish_of(std::string_view kind, const Tint& tint) {
   return is_bark_kind(kind) ? bark_finish(kind, tint) : leaf_finish(kind, tint);
 }
 
-/// The reliefs that recipes of a model share, each kept until the last of these recipes.
+/// The reliefs that recipes of a model share. Each is kept until the last of these recipes, or to the end if a store has
+/// the images of one.
 class SharedReliefs {
  public:
   SharedReliefs(int size, const Job& job) : size_(size), job_(job) {}

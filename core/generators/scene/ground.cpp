@@ -12,6 +12,7 @@
 #include "core/generators/terrain/ease.h"
 #include "core/generators/terrain/ground_cover.h"
 #include "core/generators/terrain/plan.h"
+#include "core/generators/terrain/square.h"
 #include "core/generators/terrain/terrain.h"
 #include "core/model/append.h"
 #include "core/model/build.h"
@@ -166,7 +167,7 @@ Ground::Sample Ground::sample(const glm::dvec2& p) const {
     return static_cast<double>(field_.at(i + east, j + south));
   };
   const double nw = at(0, 0), ne = at(1, 0), sw = at(0, 1), se = at(1, 1);
-  const bool falls = std::abs(nw - se) <= std::abs(ne - sw);
+  const bool falls = terrain::falls_to_south_east(nw, ne, sw, se);
   glm::dvec2 rise;
   double corner = nw, east = u, south = v;
   if (falls) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/generators/terrain/scan.h"
+#include "core/generators/terrain/square.h"
 
 namespace seedmesh::terrain {
 namespace {
@@ -97,13 +98,8 @@ class Weave {
 
   void square(GridPoint nw, GridPoint se) {
     const GridPoint ne{se.x, nw.z}, sw{nw.x, se.z};
-    if (std::abs(height(nw) - height(se)) <= std::abs(height(ne) - height(sw))) {
-      triangle(nw, sw, se);
-      triangle(nw, se, ne);
-    } else {
-      triangle(nw, sw, ne);
-      triangle(ne, sw, se);
-    }
+    const bool falls = falls_to_south_east(height(nw), height(ne), height(sw), height(se));
+    for (const auto& [a, b, c] : divided_square(falls, nw, ne, sw, se)) triangle(a, b, c);
   }
 
   void triangle(GridPoint a, GridPoint b, GridPoint c) {

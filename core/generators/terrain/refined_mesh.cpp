@@ -8,6 +8,7 @@
 #include "core/base/math.h"
 #include "core/base/parallel.h"
 #include "core/generators/terrain/ground.h"
+#include "core/generators/terrain/square.h"
 #include "core/generators/terrain/surface.h"
 
 namespace seedmesh::terrain {
@@ -184,13 +185,8 @@ class Divider {
   }
 
   void quad(std::uint32_t nw, std::uint32_t ne, std::uint32_t sw, std::uint32_t se) {
-    if (std::abs(height(nw) - height(se)) <= std::abs(height(ne) - height(sw))) {
-      triangle(nw, sw, se);
-      triangle(nw, se, ne);
-    } else {
-      triangle(nw, sw, ne);
-      triangle(ne, sw, se);
-    }
+    const bool falls = falls_to_south_east(height(nw), height(ne), height(sw), height(se));
+    for (const auto& [a, b, c] : divided_square(falls, nw, ne, sw, se)) triangle(a, b, c);
   }
 
   /// Fills the strip between an edge and the vertices inside that are nearest to it: each step goes along the line whose

@@ -8,6 +8,7 @@
 #include "core/generators/terrain/cache_order.h"
 #include "core/generators/terrain/ground.h"
 #include "core/generators/terrain/scan.h"
+#include "core/generators/terrain/square.h"
 
 namespace seedmesh::terrain {
 namespace {
@@ -158,7 +159,7 @@ void fill_band(const Field& field, const Window& part, std::int32_t first, std::
       const std::uint32_t corner = static_cast<std::uint32_t>(j) * wide + static_cast<std::uint32_t>(i);
       const auto nw = static_cast<Index>(corner), ne = static_cast<Index>(corner + 1),
                  sw = static_cast<Index>(corner + wide), se = static_cast<Index>(corner + wide + 1);
-      const bool falls = std::abs(north[i] - south[i + 1]) <= std::abs(north[i + 1] - south[i]);
+      const bool falls = falls_to_south_east(north[i], north[i + 1], south[i], south[i + 1]);
       out[0] = nw;
       out[1] = sw;
       out[2] = falls ? se : ne;
