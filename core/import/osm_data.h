@@ -17,7 +17,7 @@ enum class OsmRole { outer, inner, outline, unknown };
 /// Returns the role of a member by its name.
 OsmRole osm_role(std::string_view name);
 
-/// Widens `bounds` to a further box: a file of several downloads states one for each.
+/// Extends `bounds` by a further box. A file that joins several downloads states one box for each.
 void add_bounds(std::optional<MapBounds>& bounds, const MapBounds& more);
 
 struct OsmNode {
@@ -31,7 +31,7 @@ struct OsmWay {
   std::int64_t id = 0;
   std::vector<std::int64_t> nodes;
   std::vector<glm::dvec2>
-      inline_points;                 ///< of `out geom`: by node; empty: the nodes are elements of the file
+      inline_points;  ///< positions of its nodes in files of `out geom`; empty: the file has the nodes
   std::optional<glm::dvec2> center;  ///< of `out center`
   MapTags tags;
   MapPosition place;
