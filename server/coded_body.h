@@ -13,9 +13,9 @@ struct CodedBody {
 };
 
 /// Returns the model in the best coding that the client accepts; nothing if the limit of memory in flight
-/// would be exceeded. The model is not encoded if it is small, if compression would save less than 15 %, if
-/// the request has a Range, or if a setting excludes it. Small models are encoded here, large ones while they
-/// are sent. The cache keeps the encoded form of models up to 64 MiB.
+/// would be exceeded. The model is not encoded if it is small, or if compression would save less than 15 %.
+/// It is also not encoded if the request has a Range, or if a setting excludes it. Small models are encoded
+/// here, large ones while they are sent. The cache keeps the encoded form of models up to 64 MiB.
 std::optional<CodedBody> coded_body(const Call& call, const TaggedRequest& wanted, const Cache::Entry& model,
                                     Coding best);
 

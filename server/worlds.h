@@ -26,7 +26,7 @@ struct NamedWorld {
 
 /// Reads the name of a world. The Problem has status 414 for a token that is too long, and 400 for one that
 /// cannot be decoded. It has 404 for an unknown preset, a seed that is no 64-bit number, or a request of
-/// another generator, and 422 for an invalid world.
+/// another generator. It has 422 for an invalid world.
 std::variant<std::shared_ptr<const NamedWorld>, Problem> read_world_name(
     std::string_view name, const Job::Options& options, const std::shared_ptr<WorldMemory>& memory);
 
