@@ -32,9 +32,9 @@ Mesh far_leaf(const TreeParams& params, LeafDetail detail, int level, const Job&
 /// all front triangles come before all back triangles, and triangles share no vertices.
 Mesh outer_sides(const Mesh& mesh, const Mesh& leaf, const glm::vec3& middle, const Job& job);
 
-/// Returns the factor by which the texture of single triangles has to be brighter, so that the crown is as
-/// bright as with leaves of two sides. It is needed because renderers flip the normals of back faces, which
-/// then point away from the sky. The factor is the mean light on `all` divided by that on `outer`, in three
+/// Returns the factor for the brightness of the texture of single triangles. It makes the crown as bright as
+/// with leaves that have two sides. It is needed because renderers flip the normals of back faces, which then
+/// point away from the sky. The factor is the mean light on `all` divided by that on `outer`, in three
 /// horizontal views. The light of the sky is a fifth of that of the sun. `all`: all leaves as `triangle` with
 /// backs; `outer`: those of the level after outer_sides(). Cost: about 0.5 us a triangle.
 float gain_of(const Mesh& all, const Mesh& outer, const Job& job);

@@ -84,9 +84,9 @@ class SkeletonWriter {
   /// Whether end_after() was called, so that the attempt may be abandoned.
   bool may_abandon() const { return end_joints_ != ~std::size_t{0}; }
 
-  /// Limbs whose radius at the base is below `radius`, and everything that grows from them, need not be
-  /// written, because no part of the output needs them. The caller calls pass_over() for their joints, and
-  /// finish() at the end.
+  /// No part of the output needs limbs whose radius at the base is below `radius`, or anything that grows
+  /// from them. They need not be written. The caller calls pass_over() for their joints, and finish() at the
+  /// end.
   void leave_out_below(double radius) { least_radius_ = static_cast<float>(radius); }
   /// Asks for a joint wherever a limb begins, even where the bark needs none, so that limbs can be measured.
   void mark_every_foot() { marks_every_foot_ = true; }

@@ -11,8 +11,8 @@ namespace seedmesh::gltf {
 
 /// Returns the nodes of an object whose root has the levels: children of one root that show meshes, in ascending
 /// order. Returns an empty list if the parts keep their own levels. This is so if there is only one part or
-/// no root, or if a part has copies, children, a transform, a skin, extras or other thresholds. Collision
-/// shapes do not count as parts.
+/// no root. It is also so if a part has copies, children, a transform, a skin, extras or other thresholds.
+/// Collision shapes do not count as parts.
 std::vector<std::size_t> parts_of_object(const Model& model);
 
 }  // namespace seedmesh::gltf
