@@ -111,8 +111,9 @@ class PrunedGraph {
       for (std::uint32_t node = 0; node < nodes_.size(); ++node)
         goes_on |= drop_sharp_at(node, arms, cos_least);
       compact();
-      if (!goes_on) return;
+      if (!goes_on) break;
     }
+    drop_sharp_at_bridges(cos_least);
   }
 
   /// Keeps the network of streets with the greatest length, and those with given streets.
@@ -291,6 +292,25 @@ class PrunedGraph {
       has_dropped = true;
     }
     return has_dropped;
+  }
+  /// Removes streets that grew and leave the end of a bridge or tunnel in nearly its direction.
+  void drop_sharp_at_bridges(double cos_least) {
+    if (bridges_.empty()) return;
+    const PlanarArms arms = arms_of(nodes_, edges_);
+    const auto drop = [&](std::uint32_t node, const CmPoint& next) {
+      const glm::dvec2 along = (in_cm(next) - in_cm(nodes_[node])) / distance(nodes_[node], next);
+      for (const std::uint32_t half : arms.of(node)) {
+        PlanarEdge& edge = edges_[half / 2];
+        if (edge.is_removed() || is_boundary(edge) || is_given(edge)) continue;
+        const glm::dvec2 other = direction(edge, node);
+        if (other.x * along.x + other.y * along.y > cos_least) remove(edge);
+      }
+    };
+    for (const Bridge& each : bridges_) {
+      drop(each.from, each.line[1]);
+      drop(each.to, each.line[each.line.size() - 2]);
+    }
+    compact();
   }
   glm::dvec2 direction(const PlanarEdge& edge, std::uint32_t node) const {
     const glm::dvec2 along = in_cm(nodes_[edge.from == node ? edge.to : edge.from]) - in_cm(nodes_[node]);

@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <set>
 #include <variant>
 
@@ -383,6 +385,32 @@ GeoJson lines(const std::vector<std::vector<std::array<double, 2>>>& list, const
                         {"geometry", {{"type", "LineString"}, {"coordinates", line}}}});
   }
   return {Json({{"type", "FeatureCollection"}, {"features", features}}).dump()};
+}
+
+TEST(City, StreetsLeaveTheEndsOfAGivenBridgeAtClearAngles) {
+  // Least angle between two streets at a node, degrees: the published bound for grown streets.
+  constexpr double least_angle = 22.5;
+  CityParams params = small_town(800, 700);
+  params.maps.water = "abs(x) < 25";
+  params.given.given_streets = lines({{{-120, 20}, {110, -15}}}, {{"level", 1}, {"class", "minor"}});
+  std::size_t streets = 0;
+  for (std::uint64_t seed = 1; seed <= 30; ++seed) {
+    const CityPlan plan = made(params, seed);
+    for (const Bridge& bridge : plan.graph.bridges) {
+      const glm::dvec2 from = in_cm(bridge.line.front()), to = in_cm(bridge.line.back());
+      for (const auto& [node, along] : {std::pair(bridge.from, to - from), std::pair(bridge.to, from - to)}) {
+        for (const std::uint32_t half : plan.graph.arms.of(node)) {
+          if (!plan.graph.is_street(half / 2)) continue;
+          const glm::dvec2 arm =
+              in_cm(plan.graph.nodes[end_of(plan.graph.edges, half)]) - in_cm(plan.graph.nodes[node]);
+          const double angle = std::acos(glm::dot(arm, along) / glm::length(arm) / glm::length(along));
+          EXPECT_GT(angle * 180 / std::numbers::pi, least_angle) << seed;
+          ++streets;
+        }
+      }
+    }
+  }
+  EXPECT_GT(streets, 60U);
 }
 
 TEST(City, KeepsGivenStreetsAndGrowsFromThem) {
