@@ -31,7 +31,7 @@ struct OsmWay {
   std::int64_t id = 0;
   std::vector<std::int64_t> nodes;
   std::vector<glm::dvec2>
-      inline_points;  ///< positions of its nodes in files of `out geom`; empty: the file has the nodes
+      inline_points;                 ///< of `out geom`: by node; empty: the nodes are elements of the file
   std::optional<glm::dvec2> center;  ///< of `out center`
   MapTags tags;
   MapPosition place;

@@ -1,7 +1,6 @@
 #pragma once
-/// Materials for classes of ground (grass, rock, scree, sand, snow, soil), with textures that repeat every
-/// two metres. The textures multiply the vertex colours, which contain the colours of the land at low
-/// resolution.
+/// Grounds by class (grass, rock, scree, sand, snow, soil), each with textures that repeat each two metres. They
+/// multiply the vertex colours, which contain the colours of the land at low resolution.
 ///
 /// Texture coordinates are in set 1. Gentle ground is mapped from above. Ground steeper than 50 degrees is
 /// mapped from the side that it faces (box mapping). No texture is therefore stretched by more than 1.8.
