@@ -280,7 +280,7 @@ void add_shared(Model& model, std::span<SharedPart> parts, const LsystemParams& 
     if (params.style == LsystemParams::Style::tubes) {
       add_bark(model, std::move(limbs), {}, params, material_set, context);
     } else {
-      add_meshes(model, "lines", wires(std::move(limbs), job), Sides::one, material_set);
+      add_meshes(model, "lines", wires(std::move(limbs), job), Sides::none, material_set);
     }
     for (std::size_t node = first; node < model.nodes.size(); ++node) {
       model.nodes[node].name += "_part";
@@ -348,7 +348,7 @@ Model dress(Skeleton skeleton, const LsystemParams& params, const GenerateContex
     const BarkUse use{bones, !skeleton.organs.organ.empty()};
     add_bark(model, std::exchange(skeleton.limbs, Limbs(job)), use, params, material_set, context);
   } else {
-    add_meshes(model, "lines", wires(std::exchange(skeleton.limbs, Limbs(job)), job), Sides::one,
+    add_meshes(model, "lines", wires(std::exchange(skeleton.limbs, Limbs(job)), job), Sides::none,
                material_set);
   }
   add_shared(model, parts, params, material_set, context);

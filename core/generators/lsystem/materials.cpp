@@ -96,6 +96,7 @@ int MaterialSet::material(std::int16_t color, Sides sides, const TextureRecipe& 
   Material material = make(index);
   material.double_sided = material.double_sided || sides == Sides::both;
   if (sides == Sides::both) material.name += "_surface";
+  if (sides == Sides::none) drop_textures(material, index);
   const bool has_own = !material.recipe.kind.empty() || material.base_color_texture.texture >= 0;
   if (!recipe.kind.empty() && !has_own) {
     material.recipe = recipe;
@@ -128,6 +129,18 @@ Material MaterialSet::make(std::size_t index) const {
   }
   set_textures(material, index);
   return material;
+}
+
+void MaterialSet::drop_textures(Material& material, std::size_t index) {
+  if (params_.materials.empty()) return;
+  const Textures& textures = textures_[index];
+  const bool has_images = textures.color >= 0 || textures.normal >= 0 || textures.surface >= 0;
+  if (material.recipe.kind.empty() && !has_images) return;
+  material.recipe = {};
+  material.base_color_texture = material.normal_texture = {};
+  material.metallic_roughness_texture = material.occlusion_texture = {};
+  model_.warnings.push_back(
+      {pointer_to(index) + (has_images ? "/images" : "/texture"), "has no effect on lines", 0, 0});
 }
 
 /// Images of the request have priority over a generated texture.

@@ -8,7 +8,8 @@
 
 namespace seedmesh::lsystem {
 
-enum class Sides { one, both };
+/// The visible sides of faces; `none` is for lines, which have no texture coordinates.
+enum class Sides { one, both, none };
 
 /// Checks what the schema cannot express: a material needs a colour, a texture or a colour image.
 void check_materials(const LsystemParams& params, std::vector<Issue>& issues);
@@ -28,7 +29,8 @@ class MaterialSet {
   std::int16_t index_of(std::int16_t color) const { return std::min(color, last_); }
 
   /// Returns the index of a material in Model::materials. `recipe` may be empty; otherwise it is the texture
-  /// for materials without a texture of their own.
+  /// for materials without a texture of their own. Materials of lines have no textures, with a warning if the request
+  /// has any.
   int material(std::int16_t color, Sides sides, const TextureRecipe& recipe = {});
 
  private:
@@ -44,6 +46,7 @@ class MaterialSet {
 
   Material make(std::size_t index) const;
   void set_textures(Material& material, std::size_t index) const;
+  void drop_textures(Material& material, std::size_t index);
   int load(const std::string& uri, const std::string& name, const std::string& pointer, const Job& job);
 
   Model& model_;

@@ -51,6 +51,20 @@ const Mesh& first_mesh(const Model& model, const Node& node) {
   return model.meshes[static_cast<std::size_t>(node.mesh)].primitives.front().mesh;
 }
 
+TEST(Lines, HaveNoTextures) {
+  // glTF 2.0, section 3.9.3: a texture needs texture coordinates, which lines have not.
+  const Model model = model_of(R"({"axiom":"F{.f+(90)f+(90)f}","style":"lines",
+      "materials":[{"color":"#ff0000","texture":"oak_bark"}]})");
+  ASSERT_THAT(model.materials, SizeIs(2));
+  EXPECT_THAT(model.materials[0].recipe.kind, IsEmpty());
+  EXPECT_FLOAT_EQ(model.materials[0].base_color.x, 1);
+  EXPECT_FLOAT_EQ(model.materials[0].base_color.y, 0);
+  EXPECT_EQ(model.materials[1].recipe.kind, "oak_bark") << "of the polygon";
+  ASSERT_THAT(model.warnings, SizeIs(1));
+  EXPECT_EQ(model.warnings[0].pointer, "/materials/0/texture");
+  EXPECT_EQ(model.warnings[0].message, "has no effect on lines");
+}
+
 TEST(Tubes, WarnOfInternodesThatAreTooThin) {
   const Model koch = model_of(R"({"axiom":"F","productions":["F -> F+F--F+F"],"angle":60,"iterations":9})");
   ASSERT_EQ(koch.warnings.size(), 1U);
