@@ -9,6 +9,7 @@
 #include <span>
 #include <utility>
 
+#include "core/base/parallel.h"
 #include "core/gltf/columns.h"
 
 namespace seedmesh::gltf {
@@ -193,11 +194,12 @@ void name_by_content(Model& model, const ContentNames& names, const Job& job) {
     materials.push_back(hash_of(material, images));
     material.name = with_stem(names.stem, material.name) + '_' + spelled(materials.back());
   }
-  for (MeshGroup& group : model.meshes) {
+  parallel_for(job, model.meshes.size(), 1, [&](std::size_t i, std::size_t, std::size_t) {
     job.check();
+    MeshGroup& group = model.meshes[i];
     const std::uint64_t hash = hash_of(group, materials, names.form);
     group.name = with_stem(names.stem, group.name) + '_' + spelled(hash);
-  }
+  });
   name_roots(model, names.root);
 }
 

@@ -22,7 +22,8 @@ struct Demand {
   bool tangents = true;              ///< tangents are wanted; a generator may write them where that is cheap
   bool impostor = false;             ///< an impostor is the coarsest level of each plant of a scene
   CopyForm copies = CopyForm::any;   ///< form of repeated parts of a scene or a building
-  std::uint64_t most_triangles = 0;  ///< for generators that keep a budget themselves; 0: no budget
+  std::uint64_t most_triangles = 0;  ///< the budget; 0: none
+  bool first_fit = false;            ///< of the levels, only the first one within most_triangles remains
   std::uint32_t most_bones = 240;    ///< largest number of bones of the animation "growth"
   bool packs = false;  ///< no later stage reads finished meshes, so they may be packed (gltf/compress/pack.h)
 };

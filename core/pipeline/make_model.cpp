@@ -195,6 +195,8 @@ Demand demand_of(const OutputParams& output, const Generator& generator) {
       .impostor = output.impostor,
       .copies = static_cast<CopyForm>(output.instancing),
       .most_triangles = static_cast<std::uint64_t>(output.max_triangles.value_or(0)),
+      .first_fit =
+          budget_here && !is_listed && level_count(output) == 1 && output.variants == 1 && !output.impostor,
       // Otherwise fit(), row_of() or merge_copies() read the meshes again.
       .packs = profile_of(output.profile).compressed && !output.max_triangles && !is_listed &&
                output.variants == 1 && output.instancing != OutputInstancing::merge};

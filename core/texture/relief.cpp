@@ -29,6 +29,11 @@ inline float color_of(float tone, float dark, float main, float light) {
   return t < 1 ? dark + (main - dark) * t : main + (light - main) * (t - 1);
 }
 
+/// Stores a word with its lowest byte first.
+inline void store_low_first(std::uint32_t value, std::uint8_t* out) {
+  for (std::size_t i = 0; i < sizeof(value); ++i) out[i] = static_cast<std::uint8_t>(value >> (8 * i));
+}
+
 // The functions that follow write one row of pixels, each with its first channel in the lowest byte.
 
 /// A palette of `tones` colours for each of `accents` shares of the accent.
@@ -113,10 +118,22 @@ SEEDMESH_WIDE void pack_surface(const float* __restrict height, const float* __r
   }
 }
 
-void write_channels(const std::vector<std::uint32_t>& row, std::size_t channels, std::uint8_t* out) {
-  for (const std::uint32_t pixel : row) {
-    for (std::size_t c = 0; c < channels; ++c) *out++ = static_cast<std::uint8_t>(pixel >> (8 * c));
+/// Writes the lowest bytes of each pixel. Whole words are written, the last ones of which the next pixel replaces.
+template <std::size_t channels>
+void write_pixels(const std::vector<std::uint32_t>& row, std::uint8_t* out) {
+  constexpr std::size_t word = sizeof(std::uint32_t);
+  const std::size_t whole = row.size() - word / channels;  // words of the last pixels would exceed the row
+  for (std::size_t x = 0; x < whole; ++x) store_low_first(row[x], out + channels * x);
+  for (std::size_t x = whole; x < row.size(); ++x) {
+    for (std::size_t c = 0; c < channels; ++c)
+      out[channels * x + c] = static_cast<std::uint8_t>(row[x] >> (8 * c));
   }
+}
+
+void write_channels(const std::vector<std::uint32_t>& row, std::size_t channels, std::uint8_t* out) {
+  if (channels == 1) return write_pixels<1>(row, out);
+  if (channels == 3) return write_pixels<3>(row, out);
+  write_pixels<4>(row, out);
 }
 
 /// A row of means of a field, or of its values where `step` is 1.

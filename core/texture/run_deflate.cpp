@@ -14,12 +14,16 @@ namespace seedmesh::texture {
 namespace {
 
 // Four codes and the rest of a byte fit the 64 bits of the writer.
-constexpr int longest_code = 13;
+constexpr int longest_code = 14;
 constexpr int longest_length_code = 7;  ///< of the codes of code lengths (RFC 1951, 3.2.7)
 constexpr std::size_t symbols = 286, end_of_block = 256, first_length = 257;
 constexpr std::size_t longest_run = 258, least_run = 3;
 constexpr std::size_t word = 8;  ///< bytes that are handled at once
 constexpr std::ptrdiff_t bytes_a_look = 1 << 20;
+// Symbols are counted in the first part of each stretch of large data: counts of a quarter give nearly the same codes.
+// The length is prime, so that the parts lie at all columns of an image.
+constexpr std::uint32_t parts = 4;
+constexpr std::size_t stretch = 2039, counted_whole = 1 << 16;
 
 struct Pixels {
   std::span<const std::uint8_t> data;
@@ -86,17 +90,61 @@ LengthCode length_code(std::size_t length) {
 
 using Counts = std::array<std::uint32_t, symbols>;
 
-/// How often each symbol occurs. Four tables, because adding to one number twice in a row makes the processor wait.
-Counts count(const Pixels& pixels) {
-  std::array<std::array<std::uint32_t, 256>, 4> bytes{};
-  Counts counts{};
+/// Counts of bytes in four tables, because adding to one number twice in a row makes the processor wait.
+struct ByteCounts {
+  std::array<std::array<std::uint32_t, 256>, 4> of{};
+};
+
+void add_counts(const Pixels& pixels, ByteCounts& bytes, Counts& counts) {
   walk(
       pixels,
       [&](const std::uint8_t* at, std::size_t size) {
-        for (std::size_t i = 0; i < size; ++i) ++bytes[i % 4][at[i]];
+        for (std::size_t i = 0; i < size; ++i) ++bytes.of[i % 4][at[i]];
       },
       [&](std::size_t length) { ++counts[length_code(length).symbol]; });
-  for (std::size_t i = 0; i < 256; ++i) counts[i] = bytes[0][i] + bytes[1][i] + bytes[2][i] + bytes[3][i];
+}
+
+/// A set that contains all bytes of the data: signed values from the least to the greatest, with the bits that occur.
+struct ByteRange {
+  std::uint8_t low = 255, high = 0;  ///< with the sign reversed, so that they are compared as unsigned
+  std::uint8_t bits = 0;
+  bool holds(std::uint8_t byte) const {
+    const std::uint8_t reversed = byte ^ sign;
+    return reversed >= low && reversed <= high && (byte & ~bits) == 0;
+  }
+  static constexpr std::uint8_t sign = 128;
+};
+
+ByteRange range_of(std::span<const std::uint8_t> data) {
+  ByteRange range;
+  for (const std::uint8_t byte : data) {
+    const std::uint8_t reversed = byte ^ ByteRange::sign;
+    range.low = reversed < range.low ? reversed : range.low;
+    range.high = reversed > range.high ? reversed : range.high;
+    range.bits |= byte;
+  }
+  return range;
+}
+
+/// How often each symbol occurs, or an estimate that is positive for every symbol that may occur.
+Counts count(const Pixels& pixels) {
+  ByteCounts bytes;
+  Counts counts{};
+  const bool is_estimate = pixels.data.size() > counted_whole;
+  const std::size_t step = is_estimate ? stretch : counted_whole;
+  for (std::size_t begin = 0; begin < pixels.data.size(); begin += step) {
+    const std::size_t size = std::min(is_estimate ? stretch / parts : step, pixels.data.size() - begin);
+    add_counts({pixels.data.subspan(begin, size), pixels.period, pixels.job}, bytes, counts);
+  }
+  for (std::size_t i = 0; i < 256; ++i)
+    counts[i] = bytes.of[0][i] + bytes.of[1][i] + bytes.of[2][i] + bytes.of[3][i];
+  if (is_estimate) {
+    const ByteRange range = range_of(pixels.data);
+    for (std::size_t i = 0; i < counts.size(); ++i) {
+      const bool may_occur = i > end_of_block || range.holds(static_cast<std::uint8_t>(i));
+      counts[i] = parts * counts[i] + (may_occur ? 1 : 0);
+    }
+  }
   counts[end_of_block] = 1;
   return counts;
 }

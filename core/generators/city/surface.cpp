@@ -253,16 +253,29 @@ void Surface::collect_border(Ground& ground) const {
 }
 
 double Surface::ground_height(const Ground& ground, const dvec2& metres) const {
-  double low = -1e300, high = 1e300;
+  const double natural = natural_height(metres);
+  double low = natural, high = natural;
   for (const BorderPoint& p : ground.border) {
     const dvec2 off = p.at - metres;
-    const double squared = off.x * off.x + off.y * off.y;
+    const double squared = off.x * off.x + off.y * off.y, above = p.height - natural;
     if (squared == 0) return p.height;
+    if (above * above <= slope * slope * squared) continue;  // most points; without a square root
     const double rise = slope * std::sqrt(squared);
     low = std::max(low, p.height - rise);
     high = std::min(high, p.height + rise);
   }
-  return std::max(std::clamp(natural_height(metres), std::min(low, high), high), tunnels_.cover(metres));
+  // Where the border itself is too steep, the lower points decide.
+  if (low > natural) high = std::min(low, highest_below(ground, metres));
+  return std::max(high, tunnels_.cover(metres));
+}
+
+double Surface::highest_below(const Ground& ground, const dvec2& metres) const {
+  double high = 1e300;
+  for (const BorderPoint& p : ground.border) {
+    const dvec2 off = p.at - metres;
+    high = std::min(high, p.height + slope * std::sqrt(off.x * off.x + off.y * off.y));
+  }
+  return high;
 }
 
 void Surface::limit_natural_ground(const Job& job) {

@@ -73,6 +73,7 @@ class Surface {
   double street_height(const Part& part, const glm::dvec2& metres) const;
   void collect_border(Ground& ground) const;
   double ground_height(const Ground& ground, const glm::dvec2& metres) const;
+  double highest_below(const Ground& ground, const glm::dvec2& metres) const;
   void limit_natural_ground(const Job& job);
   double natural_height(const glm::dvec2& metres) const;
   double level_of_water(const Part& part) const;

@@ -5,6 +5,7 @@
 
 #include "core/base/math.h"
 #include "core/base/parallel.h"
+#include "core/base/wide.h"
 #include "core/generators/terrain/cache_order.h"
 #include "core/generators/terrain/ground.h"
 #include "core/generators/terrain/scan.h"
@@ -101,8 +102,8 @@ void make_upright(Mesh& mesh, const Job& job) {
 
 /// Writes positions, normals, texture coordinates and colours of one row of a part. Returns the steepest step
 /// to a neighbour in the east or south.
-float fill_row(const Ground& ground, const Window& part, std::int32_t j, const Array<glm::u8vec4>& colors,
-               Mesh& mesh) {
+SEEDMESH_WIDE float fill_row(const Ground& ground, const Window& part, std::int32_t j,
+                             const Array<glm::u8vec4>& colors, Mesh& mesh) {
   const Field& field = ground.field;
   const auto left = static_cast<std::int32_t>(part.x);
   const std::int32_t z = static_cast<std::int32_t>(part.z) + j;
@@ -186,8 +187,8 @@ void fill_triangles(const Field& field, const Window& part, Array<Index>& out, c
 /// Applies leaning_back() to normals[i] at columns x + i of row z, with the result of least_around(), except for
 /// several columns at once. Slopes of a square in both directions are independent, so the smallest product is
 /// the sum of the smallest ones of each direction.
-void lean_back_run(const Field& field, std::int32_t x, std::int32_t z, std::size_t count,
-                   glm::vec3* normals) {
+SEEDMESH_WIDE void lean_back_run(const Field& field, std::int32_t x, std::int32_t z, std::size_t count,
+                                 glm::vec3* normals) {
   constexpr std::size_t run = 64;
   float own_x[run], own_z[run], length[run];
   const auto per_cell = static_cast<float>(1 / field.cell);

@@ -126,6 +126,7 @@ void add_bark(Model& model, const Limbs& limbs, const TreeParams& params, const 
   }
   std::uint64_t triangles = 0, before = 0;  // of the finest level and of the previous one
   for (int level = 0; level < context.demand.lods; ++level) {
+    if (!levels.is_needed(level, triangles)) continue;
     const Detail detail(level);
     Mesh mesh;
     if (level == 0) {

@@ -161,6 +161,7 @@ void add_merged(Model& model, const Leaves& leaves, TreeLevels& levels, const Le
   node.parent = 0;
   const std::uint64_t bark = levels.bark.empty() ? 0 : levels.bark.front();
   for (int level = 0; level < context.demand.lods; ++level) {
+    if (!levels.is_needed(level, bark)) continue;
     MeshGroup group{level_name("leaves", level), {}};
     std::vector<Foliage> parts;
     LeafMaterials far;

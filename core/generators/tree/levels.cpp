@@ -21,6 +21,8 @@ constexpr std::array<double, most_levels> bark_shares{1, 0.3, 0.3, 0.2, 0.2};
 constexpr double fullest = 0.7;
 // The brightest linear colour of leaves that can become brighter by the factors of single triangles.
 constexpr float most_to_brighten = 0.65F;
+// The triangles of a level by those of its plan. Forks add some to the bark, but few limbs may need less.
+constexpr double most_of_plan = 1.1, least_of_plan = 0.7;
 // The least share of the leaves that remains.
 constexpr double least_leaves = 0.2;
 
@@ -34,6 +36,8 @@ bool is_too_bright(const TreeParams& params) {
 
 TreeLevels::TreeLevels(const Skeleton& skeleton, const TreeParams& params, const GenerateContext& context) {
   Job& job = context.job;
+  coarsest_ = context.demand.lods - 1;
+  if (context.demand.first_fit && !context.demand.share_organs) budget_ = context.demand.most_triangles;
   if (context.demand.lods < 2 || skeleton.organs.organ.empty() || !has_leaves(params)) return;
   count_ = skeleton.organs.organ.size();
   of_leaf_ = drawn_leaf(params, 0, context).elements();
@@ -96,6 +100,27 @@ TreeLevels::Plan TreeLevels::plan(int level, std::uint64_t finest) const {
   }
   plan.bark = std::min(plan.bark, static_cast<std::uint64_t>(std::max(all - used, bark_share * all)));
   return plan;
+}
+
+double TreeLevels::planned(int level, std::uint64_t finest) const {
+  const auto count = static_cast<double>(count_);
+  if (level == 0) return static_cast<double>(finest) + count * static_cast<double>(of_leaf_);
+  const Plan own = plan(level, finest);
+  if (!foliage) return static_cast<double>(own.bark);
+  std::uint64_t of_leaf = bent_[static_cast<std::size_t>(level)];
+  for (const Build& build : builds_) {
+    if (has_far_leaves_ && build.detail == own.leaves) of_leaf = build.triangles;
+  }
+  return static_cast<double>(own.bark) + own.share * count * static_cast<double>(of_leaf);
+}
+
+bool TreeLevels::is_needed(int level, std::uint64_t finest) const {
+  if (budget_ == 0 || level == 0) return true;
+  const auto budget = static_cast<double>(budget_);
+  for (int finer = 0; finer < level; ++finer) {
+    if (planned(finer, finest) * most_of_plan <= budget) return false;
+  }
+  return level == coarsest_ || planned(level, finest) * least_of_plan <= budget;
 }
 
 }  // namespace seedmesh::tree

@@ -29,17 +29,25 @@ struct TreeLevels {
   /// The plan of a coarser level. `finest` is the number of triangles of the bark at the finest level.
   Plan plan(int level, std::uint64_t finest) const;
 
+  /// False for levels that no output shows: those that exceed the budget, and those after one that is within it.
+  bool is_needed(int level, std::uint64_t finest) const;
+
   std::optional<FoliageLevels> foliage;  ///< if there are leaves
   Array<float> shown;                    ///< visible share of the bark of each joint; empty: all of it
   double seen = 1;                       ///< visible share of the area of the whole bark
   std::vector<std::uint64_t> bark;       ///< triangles of the bark of each level so far
 
  private:
+  /// The planned triangles of a level.
+  double planned(int level, std::uint64_t finest) const;
+
   /// Triangles of a leaf that is built in one way.
   struct Build {
     LeafDetail detail;
     std::uint64_t triangles;
   };
+  int coarsest_ = 0;           ///< level
+  std::uint64_t budget_ = 0;   ///< triangles of the only level that remains; 0: all levels remain
   std::uint64_t count_ = 0;    ///< of leaves
   std::uint64_t of_leaf_ = 0;  ///< triangles of a leaf at the finest level
   bool has_far_leaves_ = false;

@@ -17,6 +17,34 @@ namespace {
 constexpr std::size_t vertices_a_chunk = 512;
 // Texture coordinates of leaves are 0 to 1; those of single triangles extend into the transparent margin.
 constexpr float least_uv = -1, most_uv = 2;
+constexpr float least_span = 0.5F;            ///< of the texture coordinates of a leaf, along one axis
+constexpr std::size_t most_triangles = 1024;  ///< of a leaf: each vertex is compared with all of them
+
+/// The larger side of the box of a sheet's texture coordinates.
+float span_of(const Mesh& mesh, std::span<const std::uint32_t> triangles) {
+  glm::vec2 low(most_uv), high(least_uv);
+  for (const std::uint32_t t : triangles) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const glm::vec2& uv = mesh.uv[0][mesh.index.at(3 * std::size_t{t} + k)];
+      low = glm::min(low, uv);
+      high = glm::max(high, uv);
+    }
+  }
+  return std::max(high.x - low.x, high.y - low.y);
+}
+
+/// True where no sheet is larger than a leaf, and nine tenths of the triangles are of sheets that span the texture. The
+/// ground of a terrain, which is divided by its materials, has large sheets and fragments instead.
+bool spans_leaves(const Mesh& mesh, const Job& job) {
+  const Sheets sheets(mesh, job);
+  std::size_t spanning = 0;
+  for (std::size_t i = 0; i < sheets.size(); ++i) {
+    const std::span<const std::uint32_t> triangles = sheets.triangles(i);
+    if (triangles.size() > most_triangles) return false;
+    if (span_of(mesh, triangles) >= least_span) spanning += triangles.size();
+  }
+  return spanning * 10 >= mesh.index.size() / 3 * 9;
+}
 
 /// True for a mesh of leaves whose texture coordinates span each leaf.
 bool has_sheets(const Mesh& mesh, const Job& job) {
@@ -24,7 +52,7 @@ bool has_sheets(const Mesh& mesh, const Job& job) {
   const bool spans = std::ranges::all_of(mesh.uv[0], [](const glm::vec2& uv) {
     return std::min(uv.x, uv.y) >= least_uv && std::max(uv.x, uv.y) <= most_uv;
   });
-  return spans && is_foliage(mesh, job);
+  return spans && spans_leaves(mesh, job) && is_foliage(mesh, job);
 }
 
 /// Shrinks a leaf to its vertex that is nearest to its stalk.

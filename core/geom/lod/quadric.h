@@ -43,6 +43,14 @@ inline double collapse_cost(const Quadric& from, const Quadric& to, const glm::d
 inline std::size_t after(std::size_t corner) { return corner % 3 == 2 ? corner - 2 : corner + 1; }
 inline std::size_t before(std::size_t corner) { return corner % 3 == 0 ? corner + 2 : corner - 1; }
 
+/// A collapse onto a neighbour, allowed or not. Nearly always one of the two cheapest is allowed, so that a search of the
+/// least is quicker than sorting. There are no initial values, because most of an array of them is not used.
+struct CollapsePath {
+  double cost;
+  std::uint32_t to;
+  bool operator<(const CollapsePath& o) const { return cost != o.cost ? cost < o.cost : to < o.to; }
+};
+
 /// The cheapest allowed collapse of a point onto a neighbour, with its exact cost. If it is not yet known which
 /// collapse is allowed, `to` is no_point and the cost is a lower bound.
 struct CollapseCandidate {

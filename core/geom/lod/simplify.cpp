@@ -245,13 +245,14 @@ class Net {
     Ring ring;
     const std::uint32_t count = neighbours(from, ring);
     const std::uint32_t mark = mark_;
-    std::array<std::pair<double, std::uint32_t>, 2 * most_faces> paths;
+    std::array<CollapsePath, 2 * most_faces> paths;
     for (std::uint32_t i = 0; i < count; ++i) paths[i] = {cost_of(from, ring[i]), ring[i]};
-    std::sort(paths.begin(), paths.begin() + count);
-    points_[from].bound = count > 0 ? paths[0].first : infinite;
+    points_[from].bound = infinite;
     for (std::uint32_t i = 0; i < count; ++i) {
-      if (may_collapse(from, paths[i].second, mark))
-        return {paths[i].first, from, paths[i].second, points_[from].stamp};
+      std::swap(paths[i], *std::min_element(paths.begin() + i, paths.begin() + count));
+      if (i == 0) points_[from].bound = paths[0].cost;
+      if (may_collapse(from, paths[i].to, mark))
+        return {paths[i].cost, from, paths[i].to, points_[from].stamp};
     }
     return {infinite, from, none, 0};
   }
@@ -274,8 +275,7 @@ class Net {
     return common == faces && keeps_faces(from, to);
   }
 
-  /// The vertex of the point `to` that replaces a vertex of the point `from`, or `none` where it is not
-  /// unique.
+  /// The vertex of the point `to` that replaces one of the point `from`, or `none` where it is not unique.
   std::uint32_t heir(std::uint32_t vertex, std::uint32_t from, std::uint32_t to) const {
     std::uint32_t found = none;
     for (std::uint32_t c = points_[from].head; c != none; c = next(c)) {

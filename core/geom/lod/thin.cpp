@@ -126,6 +126,24 @@ void keep_pieces(Mesh& mesh, const Pieces& pieces, const std::vector<bool>& stay
   mesh.cache_ordered = false;
 }
 
+/// True where at least `fewest_pieces` sets of triangles share no vertices. Pieces are unions of such sets, so that a
+/// mesh with fewer needs no search for equal positions.
+bool has_many_parts(const Mesh& mesh, const Job& job) {
+  DisjointSets sets(mesh.position.size());
+  for (std::size_t i = 0; i < mesh.index.size(); ++i) {
+    if (i % look_every == 0) job.check();
+    sets.join(mesh.index.at(i / 3 * 3), mesh.index.at(i));
+  }
+  std::uint32_t parts = 0;
+  std::vector<bool> is_known(mesh.position.size(), false);
+  for (std::size_t i = 0; i < mesh.index.size() && parts < fewest_pieces; i += 3) {
+    const std::uint32_t set = sets.of(mesh.index.at(i));
+    if (!is_known[set]) ++parts;
+    is_known[set] = true;
+  }
+  return parts >= fewest_pieces;
+}
+
 std::uint64_t place_key(const glm::vec3& p) {
   Rng rng(0);
   for (int axis = 0; axis < 3; ++axis) rng = rng.at(std::bit_cast<std::uint32_t>(p[axis] + 0.0F));
@@ -136,6 +154,7 @@ std::uint64_t place_key(const glm::vec3& p) {
 
 bool is_foliage(const Mesh& mesh, const Job& job) {
   if (mesh.topology != Topology::triangles || mesh.position.empty()) return false;
+  if (!has_many_parts(mesh, job)) return false;
   const Pieces pieces = pieces_of(mesh, job);
   const auto all = static_cast<std::size_t>(
       std::count_if(pieces.triangles.begin(), pieces.triangles.end(), [](std::uint32_t n) { return n > 0; }));

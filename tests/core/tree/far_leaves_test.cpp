@@ -5,6 +5,8 @@
 #include "core/generators/tree/leaves.h"
 #include "core/generators/tree/tree.h"
 #include "core/geom/mesh/finish.h"
+#include "core/model/levels.h"
+#include "tests/core/tree/support.h"
 #include "tests/support/mesh_faults.h"
 
 namespace seedmesh::tree {
@@ -65,6 +67,30 @@ TEST(FarLeaves, ShowTheTextureOfASquareAtItsPosition) {
     EXPECT_NEAR(measure({&triangles}).area / measure({&squares}).area, 1.2, 0.001);
   }
   EXPECT_EQ(far_leaf(twigs(TreeBuild::cross), LeafDetail::one_card, 1, job).elements(), 1U);
+}
+
+/// The triangles of the first level within the budget, or of the coarsest one.
+std::uint64_t first_within(const Model& model, std::uint64_t budget) {
+  std::size_t level = 0;
+  while (level + 1 < levels_of(model) && triangles_at(model, level) > budget) ++level;
+  return triangles_at(model, level);
+}
+
+TEST(FarLeaves, LeaveOutTheLevelsThatABudgetDoesNotShow) {
+  for (const char* preset : {"oak", "weeping_willow", "black_oak", "pine"}) {
+    const TreeParams params = parameters_of_preset(preset);
+    const Demand all{.lods = 5, .textures = 0};
+    const Model whole = made(params, all);
+    const std::uint64_t finest = triangles_at(whole, 0);
+    for (const std::uint64_t budget : {2 * finest, finest / 2, finest / 4, finest / 10, finest / 100}) {
+      Demand one = all;
+      one.most_triangles = budget;
+      one.first_fit = true;
+      const Model fewer = made(params, one);
+      EXPECT_EQ(first_within(fewer, budget), first_within(whole, budget)) << preset << ' ' << budget;
+      EXPECT_LT(fewer.meshes.size(), whole.meshes.size()) << preset << ' ' << budget;
+    }
+  }
 }
 
 TEST(FarLeaves, FaceAwayFromTheTrunkWhereOneFaceShowsBothSides) {

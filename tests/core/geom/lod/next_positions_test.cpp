@@ -153,6 +153,37 @@ TEST_F(NextPositions, MovesOtherVerticesToTheNearestPointOfTheSurface) {
     EXPECT_EQ(mesh_of(model, 1).next_position[v], mesh_of(model, 1).position[v]) << "the last level";
 }
 
+/// A square of this side in the plane of x and z, in `cells` by `cells` squares without common vertices, whose texture
+/// coordinates span the whole. Heights are random up to `rise`.
+Mesh fragments(std::uint32_t cells, float side, float rise, const Job& job) {
+  Rng rng(5);
+  Mesh mesh = empty_mesh(job);
+  for (std::uint32_t i = 0; i < cells * cells; ++i) {
+    const auto first = static_cast<std::uint32_t>(mesh.position.size());
+    for (const std::uint32_t corner : {0U, 1U, 2U, 3U}) {
+      const glm::vec2 uv =
+          glm::vec2(i % cells + corner % 2, i / cells + corner / 2) / static_cast<float>(cells);
+      mesh.uv[0].push_back(uv);
+      mesh.position.push_back({side * uv.x, uniform(rng, 0, 1) * rise, side * uv.y});
+    }
+    for (const std::uint32_t k : {0U, 2U, 3U, 0U, 3U, 1U}) mesh.index.wide.push_back(first + k);
+  }
+  return mesh;
+}
+
+TEST_F(NextPositions, MovesTheFragmentsOfAGroundToItsSurface) {
+  std::vector<Mesh> levels;
+  levels.push_back(fragments(20, 9, 0.5F, job));
+  levels.push_back(fragments(6, 9, 1e-6F, job));  // heights differ, so that no two squares have a common edge
+  Model model = model_of(std::move(levels));
+  add_next_positions(model, job);
+  const Mesh& mesh = mesh_of(model, 0);
+  for (std::size_t v = 0; v < mesh.position.size(); ++v) {
+    const glm::vec3& at = mesh.position[v];
+    EXPECT_LT(glm::distance(mesh.next_position[v], glm::vec3(at.x, 0, at.z)), 1e-5F);
+  }
+}
+
 TEST_F(NextPositions, LeavesVerticesBeforeAnImpostorAndModelsOfOneLevelAsTheyAre) {
   std::vector<Mesh> levels;
   for (int i = 0; i < 2; ++i) {
