@@ -160,7 +160,6 @@ class AreaFinder {
       for (int i = 0; j % plant_stride_ == 0 && i <= last; i += plant_stride_) {
         GroundSample sample;
         sample.height = grid_.at(i, j);
-        sample.shore = 0;  // not known, and the ground beside water is moist
         add_plants(sample, i, j);
       }
     }
@@ -239,7 +238,8 @@ class AreaFinder {
       Area& area = at(k % count_, k / count_);
       // between samples, the ground differs by less than their distance
       const Growth growth{std::min(area.low, area.lowest) - spacing_,
-                          std::max(area.high, area.highest) + spacing_, area.plant_height};
+                          std::max(area.high, area.highest) + spacing_, area.plant_height,
+                          spacing_ >= coarse_spacing && area.rough.river > 0};
       area.plant_height = tallest_present(world_, growth, {west, south, west + side_, south + side_});
     }
   }
@@ -333,7 +333,7 @@ class AreaFinder {
     for (const House& house : houses_near(world_, box(), 0, job_)) {
       for_areas({house.east, house.north, house.east, house.north}, 0, [&](Area& area) {
         area.lowest = std::min(area.lowest, house.low);
-        if (world_.has(Layer::buildings)) area.highest = std::max(area.highest, house.top);
+        area.highest = std::max(area.highest, house.top);
       });
     }
   }
@@ -341,7 +341,7 @@ class AreaFinder {
   /// Roads follow the ground, so their works are small where the ground is level.
   void guess_works() {
     const bool knows_sites = side_ <= widest_known_rivers;
-    const HouseExtent houses = world_.has(Layer::buildings) ? house_extent(world_) : HouseExtent{};
+    const HouseExtent houses = house_extent(world_);  // also covers the ground of streets and yards
     if (knows_sites) {
       for (const auto& site : sites_near(world_, box(), farm_reach * greatest_radius(world_), job_)) {
         const double reach = farm_reach * site->radius;

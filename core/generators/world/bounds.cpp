@@ -116,6 +116,18 @@ Margins margins(const World& world, double spacing, Roughness rough) {
   return {spacing >= coarse_spacing ? land : all, land};
 }
 
+/// How far the samples of a tile can be from those of the land alone, which lack detail.
+Margins detail_margins(const World& world, double spacing, Roughness rough) {
+  if (spacing < coarse_spacing) return {};
+  constexpr double known = 1;  ///< metres between samples that leave out nothing of the land
+  rough.valley = 0;
+  rough.works = 0;
+  rough.measured = 0;
+  rough.met = {0, spacing, known, true, false, false};
+  const double detail = deviation_of(world, spacing, rough);
+  return {detail, detail};
+}
+
 /// The highest that rivers on the terrain of a tile lie.
 double draped_top(const World& world, const TileFrame& frame, const Area& area, double between) {
   return world.has(Layer::water) ? area.high + between + drape_lift(frame.spacing) + 2 * frame.step
@@ -161,9 +173,9 @@ TileBounds bounds_above(const World& world, const TileKey& key, const Area& area
   const TileFrame frame = frame_of(world, key);
   const WorldRelief& relief = world.params.relief;
   TileBounds box = in_plan(world, key);
-  // samples of the land alone lack detail, which samples of the tile have
-  const bool is_unknown = frame.spacing < spacing || spacing >= coarse_spacing;
-  const auto [below_samples, above_samples] = is_unknown ? margins(world, spacing, area.rough) : Margins{};
+  const auto [below_samples, above_samples] = frame.spacing < spacing
+                                                  ? margins(world, spacing, area.rough)
+                                                  : detail_margins(world, spacing, area.rough);
   box.low = own_skirt(world, frame, area, below_samples);
   box.high = -1e12;
   for (const TileBounds* child : below) {

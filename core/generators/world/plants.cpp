@@ -304,11 +304,20 @@ double tallest_growing(const World& world, const GroundSample& sample, double ea
 
 double tallest_present(const World& world, const Growth& growth, const Rectangle& box) {
   constexpr double widest_counted = 256;  ///< metres; of squares in which candidates are looked for
+  if (!world.has(Layer::plants)) return 0;
+  double most = growth.tallest;
+  if (growth.has_river) {
+    GroundSample bank;
+    bank.height = (growth.low + growth.high) / 2;
+    bank.shore = 0;
+    const double east = (box.west + box.east) / 2, north = (box.south + box.north) / 2;
+    most = std::max(most, tallest_growing(world, bank, east, north, box.east - box.west));
+  }
   double tallest = 0;
   for (std::size_t k = 0; k < world.params.plants.size(); ++k) {
     const WorldClass& plant = world.params.plants[k];
     const double zero = world.params.relief.sea_level;
-    const bool may_be = plant.height > tallest && plant.height <= growth.tallest &&
+    const bool may_be = plant.height > tallest && plant.height <= most &&
                         growth.high - zero >= plant.heights[0] && growth.low - zero <= plant.heights[1];
     if (!may_be) continue;
     if (box.east - box.west > widest_counted || has_candidate(world, static_cast<int>(k), box))
