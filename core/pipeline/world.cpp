@@ -54,6 +54,17 @@ Error bad_box(std::string message) {
   return {Code::invalid, {{IssueKind::invalid_value, "/box", std::move(message)}}};
 }
 
+/// The start of a message about a text, of which it shows the beginning.
+std::string found(std::string_view text) {
+  constexpr std::size_t longest = 60;
+  std::string shown(text.substr(0, longest));
+  std::replace_if(
+      shown.begin(), shown.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
+  return "found \"" + shown + (text.size() > longest ? "..." : "") + "\", ";
+}
+
+std::string whole(double number) { return std::to_string(static_cast<std::int64_t>(number)); }
+
 }  // namespace
 
 std::shared_ptr<WorldMemory> make_world_memory(std::uint64_t bytes) {
@@ -152,18 +163,18 @@ Result<WorldBox> read_world_box(const OpenWorld& world, std::string_view text, d
     const bool is_last = i + 1 == sides;
     if (error != std::errc() || !std::isfinite(side[i]) ||
         (is_last ? next != end : next == end || *next != ','))
-      return bad_box("expected four numbers of metres: west,south,east,north");
+      return bad_box(found(text) + "expected four numbers of metres: west,south,east,north");
     at = is_last ? next : next + 1;
   }
   const WorldBox box{side[0], side[1], side[2], side[3]};
   if (!(box.west < box.east) || !(box.south < box.north))
-    return bad_box("expected west below east, and south below north");
+    return bad_box(found(text) + "expected west below east, and south below north");
   if (box.east - box.west > longest || box.north - box.south > longest)
-    return bad_box("expected sides of at most " + std::to_string(static_cast<std::int64_t>(longest)) + " m");
+    return bad_box(found(text) + "expected sides of at most " + whole(longest) + " m");
   const double half = world.body().world.extent / 2;
   if (box.west < -half || box.south < -half || box.east > half || box.north > half) {
-    return bad_box("expected a box inside the world, whose sides are " +
-                   std::to_string(static_cast<std::int64_t>(half)) + " m from its middle");
+    return bad_box(found(text) + "expected a box inside the world, from -" + whole(half) + " to " +
+                   whole(half) + " m");
   }
   return box;
 }

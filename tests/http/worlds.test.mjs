@@ -156,6 +156,8 @@ test('names of worlds and queries are refused for what is wrong with them', asyn
   assert.deepEqual(invalid.json.errors.map(({ pointer }) => pointer).sort(), ['/parameters/extent', '/seed']);
   for (const query of ['', '?box=1,2,3', '?box=a,b,c,d', '?box=10,0,0,10', '?box=0,0,1e300,1', '?box=nan,0,1,1', '?bux=0,0,1,1', '?box=0,0,1,1&box=0,0,2,2', '?box=0,0,99999,1'])
     is_problem(await server.get(`${home}world.json${query}`), 422, 'invalid-request');
+  const wide = await server.get(`${home}world.json?box=0,0,99999,1`);
+  assert.equal(wide.json.errors[0].message, 'found "0,0,99999,1", expected sides of at most 65536 m');
   is_problem(await server.get(`${home}c/0/0/0.glb?x=1`), 422, 'invalid-request');
   const posted = await server.post(`${home}c/0/0/0.glb`, {});
   is_problem(posted, 405, 'method-not-allowed');

@@ -37,12 +37,10 @@ class AreaFinder {
   }
 
   Areas areas() {
-    if (spacing_ < coarse_spacing) {
-      add_samples();
-      add_deviations();
-    } else {
-      add_land();
-    }
+    const bool is_coarse = spacing_ >= coarse_spacing;
+    if (is_coarse) add_land();
+    if (!is_coarse) add_samples();
+    if (!is_coarse) add_deviations();
     if (side_ <= widest_known_rivers) {
       add_water();
     } else {
@@ -56,7 +54,7 @@ class AreaFinder {
     } else if (has_sites) {
       guess_works();
     }
-    const bool is_coarse = spacing_ >= coarse_spacing;
+    leave_out_absent_plants();
     Areas found{std::move(areas_), spacing_, {}, !is_coarse || side_ <= widest_known_rivers, !is_coarse};
     for (int d = 0; (1 << d) <= count_; ++d)
       found.deviations.push_back(deviations_of_tiles(grid_, 1 << d, job_));
@@ -138,7 +136,8 @@ class AreaFinder {
     for_areas_of(i, j, [&](Area& area, int, int) {
       if (area.plant_height >= tallest_class_) return;
       if (tallest < 0)
-        tallest = tallest_growing(sample, frame_.west + i * spacing_, frame_.south + j * spacing_);
+        tallest = tallest_growing(world_, sample, frame_.west + i * spacing_, frame_.south + j * spacing_,
+                                  plant_stride_ * spacing_);
       area.plant_height = std::max(area.plant_height, tallest);
     });
   }
@@ -219,26 +218,30 @@ class AreaFinder {
 
   /// Compares the ground itself with triangles, in the cells of each area where the land bends most.
   void look_at_bends() {
-    for (int row = 0; row < count_; ++row) {
+    for (int k = 0; k < count_ * count_; ++k) {
       job_.check();
-      for (int column = 0; column < count_; ++column) {
-        const double west = frame_.west + column * side_, south = frame_.south + row * side_;
-        const Ground ground(world_, {west, south, west + side_, south + side_}, job_);
-        Roughness& rough = at(column, row).rough;
-        rough.measured_spacing = spacing_;
-        for (const auto& [i, j] : most_bent_cells(grid_, column * cells_, row * cells_, cells_))
-          rough.measured = std::max(rough.measured, deviation_of_ground(grid_, ground, i, j));
-      }
+      const int row = k / count_, column = k % count_;
+      const double west = frame_.west + column * side_, south = frame_.south + row * side_;
+      const Ground ground(world_, {west, south, west + side_, south + side_}, job_);
+      Roughness& rough = at(column, row).rough;
+      rough.measured_spacing = spacing_;
+      for (const auto& [i, j] : most_bent_cells(grid_, column * cells_, row * cells_, cells_))
+        rough.measured = std::max(rough.measured, deviation_of_ground(grid_, ground, i, j));
     }
   }
 
-  double tallest_growing(const GroundSample& sample, double east, double north) const {
-    double tallest = 0;
-    for (const WorldClass& plant : world_.params.plants) {
-      if (plant.height > tallest && may_grow(world_, plant, sample, east, north, plant_stride_ * spacing_))
-        tallest = plant.height;
+  /// Of the classes that may grow by climate, others exclude heights, and small tiles often have no plant of rare ones.
+  void leave_out_absent_plants() {
+    job_.check();
+    for (int k = 0; k < count_ * count_; ++k) {
+      const double west = frame_.west + k % count_ * side_, south = frame_.south + k / count_ * side_;
+      Area& area = at(k % count_, k / count_);
+      // between samples, the ground differs by less than their distance
+      const Growth growth{std::min(area.low, area.lowest) - spacing_,
+                          std::max(area.high, area.highest) + spacing_, area.plant_height,
+                          spacing_ >= coarse_spacing && area.rough.river > 0};
+      area.plant_height = tallest_present(world_, growth, {west, south, west + side_, south + side_});
     }
-    return tallest;
   }
 
   /// How deep valleys are cut into the land of each area.
@@ -274,6 +277,7 @@ class AreaFinder {
       for_areas(around, b.width, [&](Area& area) {
         area.highest = std::max(area.highest, a.water + highest_lift);
         area.rough.valley = std::max(area.rough.valley, std::max(a.cut, b.cut) + 3);
+        area.rough.river = std::max(area.rough.river, std::max(a.width, b.width) / 2);
       });
     }
     for (const Lake& lake : water.lakes()) {
@@ -320,10 +324,7 @@ class AreaFinder {
       for_areas(around, works_reach, [&](Area& area) {
         area.lowest = std::min({area.lowest, p.from_height - 0.5, p.to_height - 0.5});
         area.highest = std::max({area.highest, p.from_height + 1, p.to_height + 1});
-      });
-      for_areas(around, works_reach, [&](Area& area) {
-        const double works = 1.3 * std::max(p.from_works, p.to_works) + 0.5;
-        area.rough.works = std::max(area.rough.works, works);
+        area.rough.works = std::max(area.rough.works, 1.3 * std::max(p.from_works, p.to_works) + 0.5);
       });
     }
   }
@@ -340,7 +341,7 @@ class AreaFinder {
   /// Roads follow the ground, so their works are small where the ground is level.
   void guess_works() {
     const bool knows_sites = side_ <= widest_known_rivers;
-    const HouseExtent houses = house_extent(world_);
+    const HouseExtent houses = house_extent(world_);  // also covers the ground of streets and yards
     if (knows_sites) {
       for (const auto& site : sites_near(world_, box(), farm_reach * greatest_radius(world_), job_)) {
         const double reach = farm_reach * site->radius;

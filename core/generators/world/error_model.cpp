@@ -95,6 +95,7 @@ void Roughness::add(const Roughness& other) {
   slope = std::max(slope, other.slope);
   has_sea_floor |= other.has_sea_floor;
   valley = std::max(valley, other.valley);
+  river = std::max(river, other.river);
   works = std::max(works, other.works);
   measured = std::max(measured, other.measured);
   measured_spacing = std::max(measured_spacing, other.measured_spacing);

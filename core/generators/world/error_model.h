@@ -34,6 +34,7 @@ struct Roughness {
   double slope = 0;                            ///< slope of the land
   bool has_sea_floor = false;
   double valley = 0;  ///< metres that rivers and lakes cut into the land; 0 without water nearby
+  double river = 0;   ///< half of the width of the widest river, metres
   double works = 0;   ///< metres that roads are above or below the ground
 
   double measured = 0, measured_spacing = 1;  ///< measured deviation from triangles with this spacing

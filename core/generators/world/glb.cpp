@@ -168,14 +168,14 @@ void Glb::add_mesh(std::string_view name, const TileMesh& mesh, int material, do
   add_mesh(name, mesh.vertices, parts, material, step, height);
 }
 
-int Glb::add_shared_indices(std::string uri, std::size_t count) {
-  const int view = add_view(add_shared_buffer(std::move(uri), 2 * count), 0, 2 * count, 0, element_buffer);
+int Glb::add_shared_indices(int buffer, std::size_t offset, std::size_t count) {
+  const int view = add_view(buffer, offset, 2 * count, 0, element_buffer);
   return add_accessor(
       {{"bufferView", view}, {"componentType", type_unsigned_short}, {"count", count}, {"type", "SCALAR"}});
 }
 
-int Glb::add_shared_coordinates(std::string uri, std::size_t count) {
-  const int view = add_view(add_shared_buffer(std::move(uri), 8 * count), 0, 8 * count, 0, array_buffer);
+int Glb::add_shared_coordinates(int buffer, std::size_t offset, std::size_t count) {
+  const int view = add_view(buffer, offset, 8 * count, 0, array_buffer);
   return add_accessor(
       {{"bufferView", view}, {"componentType", type_float}, {"count", count}, {"type", "VEC2"}});
 }

@@ -56,10 +56,10 @@ class Glb {
                 int material, double step, double height);
   /// Adds the corners of triangles among `vertices` vertices and returns the index of their accessor.
   int add_indices(const std::vector<std::uint32_t>& indices, std::size_t vertices);
-  /// Like add_indices(), with corners of 16 bits in a file of their own.
-  int add_shared_indices(std::string uri, std::size_t count);
-  /// Adds texture coordinates in a file of their own and returns the index of their accessor.
-  int add_shared_coordinates(std::string uri, std::size_t count);
+  /// Like add_indices(), with corners of 16 bits at a part of another buffer.
+  int add_shared_indices(int buffer, std::size_t offset, std::size_t count);
+  /// Adds texture coordinates at a part of another buffer and returns the index of their accessor.
+  int add_shared_coordinates(int buffer, std::size_t offset, std::size_t count);
   /// Adds a buffer in a file of its own, which tiles share, and returns its index.
   int add_shared_buffer(std::string uri, std::size_t bytes);
   /// Adds a shared model, whose file is in the directory "a" of `folder`, and returns the indices of its meshes.

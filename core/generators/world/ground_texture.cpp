@@ -2,20 +2,17 @@
 #include "core/generators/world/ground_texture.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
 #include "core/base/math.h"
 #include "core/generators/world/asset.h"
 #include "core/generators/world/noise.h"
-#include "core/generators/world/terrain_indices.h"
 #include "core/texture/png.h"
 
 namespace seedmesh::world {
 namespace {
 
 constexpr int texels = 256;
-constexpr float repeats = 8;  ///< along the side of a tile
 constexpr std::uint64_t key = 0x47524F554E44U;
 
 /// Gradient noise that repeats after `period` cells.
@@ -67,32 +64,13 @@ std::string image_of(const Job& job) {
   return {png.begin(), png.end()};
 }
 
-void append_float(std::string& out, float value) {
-  const auto word = std::bit_cast<std::uint32_t>(value);
-  for (unsigned shift = 0; shift < 32; shift += 8) out += static_cast<char>((word >> shift) & 255U);
-}
-
-std::string coordinates_of(int count) {
-  std::string file;
-  const auto add = [&](int vertex) {
-    const float by = repeats / static_cast<float>(count - 1);
-    append_float(file, by * static_cast<float>(vertex % count));
-    append_float(file, by * static_cast<float>(vertex / count));
-  };
-  for (int k = 0; k < count * count; ++k) add(k);
-  for (const std::uint16_t top : border_of_grid(count)) add(top);
-  return file;
-}
-
 }  // namespace
 
 std::shared_ptr<const GroundTexture> ground_texture(const World& world, const Job& job) {
   return world.store->get<GroundTexture>({0, Store::Layer::file, -1, 1, 0}, job, [&job] {
     GroundTexture made;
-    made.coordinates = coordinates_of(tile_cells + 1);
-    made.coordinates_hash = hash_of(made.coordinates);
     made.image = image_of(job);
-    made.image_hash = hash_of(made.image);
+    made.hash = hash_of(made.image);
     return std::make_shared<const GroundTexture>(std::move(made));
   });
 }

@@ -1,6 +1,6 @@
 #pragma once
-/// The texture of the ground of tiles of up to 2 km: a grey square that repeats, and the coordinates of the vertices in
-/// it, which are the same in all tiles. Both are files that tiles share.
+/// The texture of the ground of tiles of up to 2 km: a grey square that repeats. It is a file that tiles share;
+/// terrain_file() has the coordinates of the vertices in it.
 #include <memory>
 #include <string>
 
@@ -12,11 +12,11 @@ namespace seedmesh::world {
 constexpr double widest_textured_spacing = 64;  ///< metres between samples of tiles with the texture
 constexpr double ground_texture_mean = 0.84;    ///< linear; vertex colours are divided by it
 
+constexpr float texture_repeats = 8;  ///< along the side of a tile
+
 struct GroundTexture {
-  std::string coordinates_hash,
-      coordinates;                ///< pairs of floats, little-endian, for each vertex with the skirt
-  std::string image_hash, image;  ///< a PNG file
-  std::uint64_t bytes() const { return sizeof(GroundTexture) + coordinates.size() + image.size(); }
+  std::string hash, image;  ///< 16 hexadecimal digits of the image, and a PNG file
+  std::uint64_t bytes() const { return sizeof(GroundTexture) + image.size(); }
 };
 
 /// Returns the texture, which is the same for all worlds, from the store; makes it if the store has none.

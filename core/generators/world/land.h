@@ -44,6 +44,9 @@ struct Climate {
 };
 /// In the order of the schema.
 enum class Biome { ice, tundra, taiga, steppe, grassland, forest, desert, savanna, rainforest };
+/// The climates at which biome_of() changes.
+constexpr std::array<double, 4> temperature_limits{-8, -1, 5, 20};
+constexpr std::array<double, 5> moisture_limits{0.2, 0.25, 0.35, 0.48, 0.6};
 /// Returns the biome for a temperature and a moisture, roughly as in Whittaker 1975 ("Communities and Ecosystems").
 Biome biome_of(const Climate& climate);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 
 #include "core/base/math.h"
 #include "core/generators/world/plant_mesh.h"
@@ -69,8 +70,25 @@ struct Field {
   }
 };
 
+/// The side of the cells of candidates.
+double cell_of(const WorldClass& plant) { return plant.spacing / 1.4142135623730951; }
+
+/// Candidate `n` of the cell (x, y); its generator goes on to whether the candidate competes.
+Candidate candidate_at(std::uint64_t key, double cell, std::int64_t x, std::int64_t y, int n, Rng& rng) {
+  rng = Rng(key_at(cell_key(key, x, y), static_cast<std::uint64_t>(n)));
+  Candidate c;
+  const auto along = [&](std::int64_t of) {
+    return std::floor((static_cast<double>(of) + rng.unit()) * cell * 64) / 64;
+  };
+  c.east = along(x);
+  c.north = along(y);
+  c.mark = rng.next();
+  c.key = rng.key();
+  return c;
+}
+
 Field field_of(std::uint64_t key, const WorldClass& plant, const Rectangle& box, double share, double reach) {
-  const double cell = plant.spacing / 1.4142135623730951, around = reach * plant.spacing;
+  const double cell = cell_of(plant), around = reach * plant.spacing;
   const auto index = [&](double v) { return math::to_int64(std::floor(v / cell)); };
   // 2^63 is exact in a double
   const std::uint64_t below = share >= 1 ? ~std::uint64_t{0} : static_cast<std::uint64_t>(share * 0x1p63) * 2;
@@ -84,15 +102,8 @@ Field field_of(std::uint64_t key, const WorldClass& plant, const Rectangle& box,
     for (int column = 0; column < field.columns; ++column) {
       const std::int64_t x = field.first_x + column, y = field.first_y + row;
       for (int n = 0; n < candidates_a_cell; ++n) {
-        Rng rng(key_at(cell_key(key, x, y), static_cast<std::uint64_t>(n)));
-        Candidate c;
-        const auto along = [&](std::int64_t of) {
-          return std::floor((static_cast<double>(of) + rng.unit()) * cell * 64) / 64;
-        };
-        c.east = along(x);
-        c.north = along(y);
-        c.mark = rng.next();
-        c.key = rng.key();
+        Rng rng(0);
+        const Candidate c = candidate_at(key, cell, x, y, n, rng);
         if (c.mark >= below) continue;
         if (rng.unit() < cover_at(key, plant.density, c.east, c.north)) field.candidates.push_back(c);
       }
@@ -217,17 +228,102 @@ double wood_cover(const World& world, int plant_class, const GroundSample& sampl
          (1 - cleared_share(plant, sample));
 }
 
+namespace {
+
+/// Whether there is a candidate of a class in a rectangle.
+bool has_candidate(const World& world, int plant_class, const Rectangle& box) {
+  const WorldClass& plant = world.params.plants[static_cast<std::size_t>(plant_class)];
+  const std::uint64_t key = key_of(world, plant_class);
+  const double cell = cell_of(plant);
+  const auto index = [&](double v) { return math::to_int64(std::floor(v / cell)); };
+  // positions are rounded down to multiples of 1/64 m, so the cell before may have one
+  for (std::int64_t y = index(box.south) - 1; y <= index(box.north); ++y) {
+    for (std::int64_t x = index(box.west) - 1; x <= index(box.east); ++x) {
+      for (int n = 0; n < candidates_a_cell; ++n) {
+        Rng rng(0);
+        const Candidate c = candidate_at(key, cell, x, y, n, rng);
+        const bool is_inside =
+            c.east >= box.west && c.east < box.east && c.north >= box.south && c.north < box.north;
+        if (is_inside && rng.unit() < cover_at(key, plant.density, c.east, c.north)) return true;
+      }
+    }
+  }
+  return false;
+}
+
+/// A range of climates.
+struct Climates {
+  std::array<double, 2> moisture{}, temperature{};
+};
+
+/// Whether one of the biomes of a class has a climate of the range. A biome has the climates between two temperatures and
+/// two moistures, the lower included, so the lower ends and the limits inside of the range meet all biomes of it.
+bool has_biome(const WorldClass& plant, const Climates& range) {
+  if (plant.biomes.empty()) return true;
+  std::vector<double> moistures{range.moisture[0]}, temperatures{range.temperature[0]};
+  const auto add = [](std::vector<double>& list, const auto& limits, const std::array<double, 2>& within) {
+    std::copy_if(limits.begin(), limits.end(), std::back_inserter(list),
+                 [&](double limit) { return limit > within[0] && limit <= within[1]; });
+  };
+  add(moistures, moisture_limits, range.moisture);
+  add(temperatures, temperature_limits, range.temperature);
+  return std::any_of(temperatures.begin(), temperatures.end(), [&](double temperature) {
+    return std::any_of(moistures.begin(), moistures.end(), [&](double moisture) {
+      return is_in_biome(plant, {moisture, temperature});
+    });
+  });
+}
+
+/// Returns false only if the class is excluded within `spacing` metres of a sample.
 bool may_grow(const World& world, const WorldClass& plant, const GroundSample& sample, double east,
               double north, double spacing) {
+  const WorldRelief& relief = world.params.relief;
+  if (plant.density <= 0) return false;
   const Climate climate = climate_at(world, east, north, sample.height);
   const double far = std::min(1.0, spacing / 400);
   const double wetter = sample.shore < 130 + spacing || spacing > 400 ? 0.3 : 0;
   const double moister = 0.05 + 0.1 * far + wetter, warmer = 0.7 + 3 * far;
-  return climate.moisture + moister >= plant.moisture[0] &&
-         climate.moisture - 0.05 - 0.1 * far <= plant.moisture[1] &&
-         climate.temperature + warmer >= plant.temperature[0] &&
-         climate.temperature - warmer <= plant.temperature[1] &&
-         (!world.params.relief.sea || sample.height > world.params.relief.sea_level - 2 - 40 * far);
+  const Climates range{{climate.moisture - 0.05 - 0.1 * far, climate.moisture + moister},
+                       {climate.temperature - warmer, climate.temperature + warmer}};
+  return range.moisture[1] >= plant.moisture[0] && range.moisture[0] <= plant.moisture[1] &&
+         range.temperature[1] >= plant.temperature[0] && range.temperature[0] <= plant.temperature[1] &&
+         (!relief.sea || sample.height > relief.sea_level - 2 - 40 * far) && has_biome(plant, range);
+}
+
+}  // namespace
+
+double tallest_growing(const World& world, const GroundSample& sample, double east, double north,
+                       double spacing) {
+  double tallest = 0;
+  for (const WorldClass& plant : world.params.plants) {
+    if (plant.height > tallest && may_grow(world, plant, sample, east, north, spacing))
+      tallest = plant.height;
+  }
+  return tallest;
+}
+
+double tallest_present(const World& world, const Growth& growth, const Rectangle& box) {
+  constexpr double widest_counted = 256;  ///< metres; of squares in which candidates are looked for
+  if (!world.has(Layer::plants)) return 0;
+  double most = growth.tallest;
+  if (growth.has_river) {
+    GroundSample bank;
+    bank.height = (growth.low + growth.high) / 2;
+    bank.shore = 0;
+    const double east = (box.west + box.east) / 2, north = (box.south + box.north) / 2;
+    most = std::max(most, tallest_growing(world, bank, east, north, box.east - box.west));
+  }
+  double tallest = 0;
+  for (std::size_t k = 0; k < world.params.plants.size(); ++k) {
+    const WorldClass& plant = world.params.plants[k];
+    const double zero = world.params.relief.sea_level;
+    const bool may_be = plant.height > tallest && plant.height <= most &&
+                        growth.high - zero >= plant.heights[0] && growth.low - zero <= plant.heights[1];
+    if (!may_be) continue;
+    if (box.east - box.west > widest_counted || has_candidate(world, static_cast<int>(k), box))
+      tallest = plant.height;
+  }
+  return tallest;
 }
 
 }  // namespace seedmesh::world

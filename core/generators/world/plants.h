@@ -34,8 +34,18 @@ std::vector<Plant> plants_in(const World& world, int plant_class, const Rectangl
 double wood_cover(const World& world, int plant_class, const GroundSample& sample, const Climate& climate,
                   double east, double north, double spacing);
 
-/// Returns false only if moisture, temperature or the sea exclude the class within `spacing` metres of a sample.
-bool may_grow(const World& world, const WorldClass& plant, const GroundSample& sample, double east,
-              double north, double spacing);
+/// Returns the height of the tallest class that density, moisture, temperature, biomes and the sea do not exclude within
+/// `spacing` metres of a sample; 0 if they exclude all classes.
+double tallest_growing(const World& world, const GroundSample& sample, double east, double north,
+                       double spacing);
+
+/// What is known of a square: bounds of its heights, and of the heights of its plants.
+struct Growth {
+  double low = 0, high = 0, tallest = 0;
+  bool has_river = false;  ///< a river beside which `tallest` does not know of the moist ground
+};
+/// Returns the height of the tallest class, among those of at most `growth.tallest` metres, that grows at such heights and,
+/// in squares of up to 256 m, has a candidate in [west, east) x [south, north); 0 without one.
+double tallest_present(const World& world, const Growth& growth, const Rectangle& box);
 
 }  // namespace seedmesh::world

@@ -1,8 +1,46 @@
 #include "core/generators/world/terrain_indices.h"
 
+#include <bit>
+
 #include "core/generators/world/asset.h"
+#include "core/generators/world/ground_texture.h"
+#include "core/generators/world/tile_frame.h"
 
 namespace seedmesh::world {
+namespace {
+
+void append_float(std::string& out, float value) {
+  const auto word = std::bit_cast<std::uint32_t>(value);
+  for (unsigned shift = 0; shift < 32; shift += 8) out += static_cast<char>((word >> shift) & 255U);
+}
+
+/// Appends the triangles of tiles with `cells` cells along a side, to a multiple of 4 bytes.
+FilePart append_indices(std::string& file, int cells) {
+  const std::vector<std::uint16_t> corners = terrain_indices(cells + 1);
+  const FilePart part{file.size(), corners.size()};
+  for (const std::uint16_t corner : corners) {
+    file += static_cast<char>(corner & 255U);
+    file += static_cast<char>(corner >> 8U);
+  }
+  file.resize((file.size() + 3) & ~std::size_t{3});
+  return part;
+}
+
+/// Appends the coordinates of a grid of `count` x `count` vertices with a skirt.
+FilePart append_coordinates(std::string& file, int count) {
+  FilePart part{file.size(), 0};
+  const auto add = [&](int vertex) {
+    const float by = texture_repeats / static_cast<float>(count - 1);
+    append_float(file, by * static_cast<float>(vertex % count));
+    append_float(file, by * static_cast<float>(vertex / count));
+    ++part.count;
+  };
+  for (int k = 0; k < count * count; ++k) add(k);
+  for (const std::uint16_t top : border_of_grid(count)) add(top);
+  return part;
+}
+
+}  // namespace
 
 std::vector<std::uint16_t> border_of_grid(int count) {
   std::vector<std::uint16_t> border;
@@ -16,10 +54,10 @@ std::vector<std::uint16_t> border_of_grid(int count) {
   return border;
 }
 
-TerrainIndices terrain_indices(int count) {
-  TerrainIndices made;
+std::vector<std::uint16_t> terrain_indices(int count) {
+  std::vector<std::uint16_t> corners;
   const auto add = [&](int a, int b, int c) {
-    for (const int corner : {a, b, c}) made.corners.push_back(static_cast<std::uint16_t>(corner));
+    for (const int corner : {a, b, c}) corners.push_back(static_cast<std::uint16_t>(corner));
   };
   for (int row = 0; row + 1 < count; ++row) {
     for (int column = 0; column + 1 < count; ++column) {
@@ -36,17 +74,17 @@ TerrainIndices terrain_indices(int count) {
     add(top, first + k, first + next);
     add(top, first + next, top_next);
   }
-  for (const std::uint16_t corner : made.corners) {
-    made.file += static_cast<char>(corner & 255U);
-    made.file += static_cast<char>(corner >> 8U);
-  }
-  made.hash = hash_of(made.file);
-  return made;
+  return corners;
 }
 
-std::shared_ptr<const TerrainIndices> terrain_indices_of(const World& world, int cells, const Job& job) {
-  return world.store->get<TerrainIndices>({0, Store::Layer::file, -1, 0, cells}, job, [cells] {
-    return std::make_shared<const TerrainIndices>(terrain_indices(cells + 1));
+std::shared_ptr<const TerrainFile> terrain_file(const World& world, const Job& job) {
+  return world.store->get<TerrainFile>({0, Store::Layer::file, -1, 0, 0}, job, [] {
+    TerrainFile made;
+    made.indices = append_indices(made.file, tile_cells);
+    made.dense_indices = append_indices(made.file, dense_cells);
+    made.coordinates = append_coordinates(made.file, tile_cells + 1);
+    made.hash = hash_of(made.file);
+    return std::make_shared<const TerrainFile>(std::move(made));
   });
 }
 

@@ -34,16 +34,18 @@ void add_terrain(Glb& glb, const World& world, const TileFrame& frame, const Ter
                  std::string_view folder) {
   const std::string files = std::string(folder) + "a/";
   const auto [name, roughness] = ground_surface;
-  const auto indices = terrain_indices_of(world, frame.cells, job);
-  job.spend(Resource::triangles, indices->corners.size() / 3);
+  const auto shared = terrain_file(world, job);
+  const int buffer = glb.add_shared_buffer(files + shared->hash + ".bin", shared->file.size());
+  const FilePart& indices = frame.cells == dense_cells ? shared->dense_indices : shared->indices;
+  job.spend(Resource::triangles, indices.count / 3);
   Glb::SharedParts parts;
-  parts.order = glb.add_shared_indices(files + indices->hash + ".bin", indices->corners.size());
+  parts.order = glb.add_shared_indices(buffer, indices.offset, indices.count);
   int material = -1;
   if (frame.spacing <= widest_textured_spacing) {
     const auto texture = ground_texture(world, job);
     parts.coordinates =
-        glb.add_shared_coordinates(files + texture->coordinates_hash + ".bin", terrain.vertices.size());
-    material = glb.add_material(name, roughness, files + texture->image_hash + ".png");
+        glb.add_shared_coordinates(buffer, shared->coordinates.offset, shared->coordinates.count);
+    material = glb.add_material(name, roughness, files + texture->hash + ".png");
   } else {
     material = glb.add_material(name, roughness);
   }
@@ -143,13 +145,10 @@ SharedFile binary(std::string bytes) { return {std::move(bytes), "application/oc
 
 std::optional<SharedFile> shared_file(const World& world, std::string_view hash, Job& job) {
   if (world.has(Layer::terrain)) {
-    for (const int cells : {tile_cells, dense_cells}) {
-      const auto indices = terrain_indices_of(world, cells, job);
-      if (indices->hash == hash) return binary(indices->file);
-    }
+    const auto terrain = terrain_file(world, job);
+    if (terrain->hash == hash) return binary(terrain->file);
     const auto texture = ground_texture(world, job);
-    if (texture->coordinates_hash == hash) return binary(texture->coordinates);
-    if (texture->image_hash == hash) return SharedFile{texture->image, "image/png", "png"};
+    if (texture->hash == hash) return SharedFile{texture->image, "image/png", "png"};
   }
   for (std::size_t k = 0; world.has(Layer::plants) && k < world.params.plants.size(); ++k) {
     const int number = static_cast<int>(k);

@@ -77,10 +77,10 @@ Result<Model> generate(const WorldParams& params, const GenerateContext& context
   if (world->has(Layer::terrain)) {
     job.spend(Resource::triangles, terrain_triangles);
     constexpr std::size_t vertices = (tile_cells + 1) * (tile_cells + 1);
-    const auto indices = terrain_indices_of(*world, tile_cells, job);
+    const std::vector<std::uint16_t> indices = terrain_indices(tile_cells + 1);
     add_part(model, ground_surface, "terrain",
-             mesh_of({terrain.vertices, vertices, terrain.height}, indices->corners, 3 * terrain_triangles,
-                     frame.step, job));
+             mesh_of({terrain.vertices, vertices, terrain.height}, indices, 3 * terrain_triangles, frame.step,
+                     job));
   }
   if (world->has(Layer::water)) {
     const WaterMesh water = water_of(*world, frame, {grid, terrain.height}, job);

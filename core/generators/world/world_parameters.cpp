@@ -4,6 +4,7 @@
 #include <set>
 
 #include "core/generators/world/town.h"
+#include "core/schema/json.h"
 #include "generated/params/city.h"
 
 namespace seedmesh::world {
@@ -42,7 +43,9 @@ std::vector<Issue> issues_of(const WorldParams& params) {
                                       {"/temperature", plant.temperature},
                                       {"/heights", plant.heights}}) {
       if (range[0] <= range[1]) continue;
-      issues.emplace_back(IssueKind::conflict, at + name, "the first number is above the second");
+      issues.emplace_back(IssueKind::conflict, at + name,
+                          "found " + number_text(range[0]) + " before " + number_text(range[1]) +
+                              ", expected the lower number first");
     }
     if (plant.model && !plant.model->generator.empty() && plant.model->generator != "tree" &&
         plant.model->generator != "lsystem") {

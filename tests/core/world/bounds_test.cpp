@@ -131,5 +131,82 @@ TEST(WorldBounds, HoldContentsAndDeclareErrorsThatTheyHave) {
   EXPECT_LE(median(found.ratios), 2.6) << "declared errors by deviations from the next level";
 }
 
+World world_of_text(const char* parameters, std::uint64_t seed) {
+  IssueList issues;
+  const WorldParams params = seedmesh::read_world(Json::parse(parameters), "/parameters", issues);
+  EXPECT_TRUE(issues.empty());
+  return world_of(params, seed);
+}
+
+/// Samples of wide tiles are of the land alone. The skirt of this tile, on a level sea floor with gullies, was below its
+/// box.
+TEST(WorldBounds, HoldSkirtsWhereGulliesAreTheOnlyRelief) {
+  const World world = world_of_text(
+      R"({"extent":32768,"origin":[167894,466369],"relief":{"mountains":1,"hills":1,"gullies":1,"sea_level":250,)"
+      R"("ridges":0,"land":0},"settlements":{"density":0}})",
+      375798);
+  Job job = test_job();
+  for (std::int64_t k = 0; k < 64; ++k) {
+    const TileKey key{3, k % 8, k / 8};
+    const ContentBox content = content_of(tile_glb(world, key, job));
+    EXPECT_GE(content.low[2], tile_bounds(world, key, job).low) << key.x << " " << key.y;
+  }
+}
+
+TEST(WorldBounds, LeaveOutTheSeaWhereTilesDoNotShowIt) {
+  const char* deep =
+      R"({"extent":32768,"relief":{"sea_level":250,"land":0,"mountains":0},"layers":["terrain"]})";
+  const char* wet =
+      R"({"extent":32768,"relief":{"sea_level":250,"land":0,"mountains":0},"layers":["terrain","water"]})";
+  Job job = test_job();
+  const TileKey leaf{9, 200, 300};
+  const World dry = world_of_text(deep, 7);
+  const TileBounds box = tile_bounds(dry, leaf, job),
+                   with_sea = tile_bounds(world_of_text(wet, 7), leaf, job);
+  EXPECT_NEAR(with_sea.high, 250, 0.25);
+  EXPECT_LT(box.high, 150);
+  EXPECT_GE(box.high, content_of(tile_glb(dry, leaf, job)).high[2]);
+}
+
+/// Trees of 40 m that are rare, in level country. Boxes of leaves without one allow for no tree.
+TEST(WorldBounds, AreLowWhereARareClassHasNoPlant) {
+  const World world = world_of_text(
+      R"({"extent":32768,"relief":{"land":1,"mountains":0,"hills":20},"settlements":{"density":0},"plants":)"
+      R"([{"class":"giant","height":40,"spacing":60,"density":0.02,"moisture":[0,1],"temperature":[-60,60]}]})",
+      7);
+  Job job = test_job();
+  int low = 0, tall = 0;
+  for (std::int64_t k = 0; k < 400; ++k) {
+    const TileKey leaf{9, 100 + k % 20, 300 + k / 20};
+    const ContentBox content = content_of(tile_glb(world, leaf, job));
+    const TileBounds box = tile_bounds(world, leaf, job);
+    EXPECT_GE(box.high, content.high[2]);
+    tall += content.high[2] - content.low[2] > 25 ? 1 : 0;
+    low += box.high - box.low < 25 ? 1 : 0;
+  }
+  EXPECT_GT(tall, 0);
+  EXPECT_GT(low, 250);
+}
+
+/// A class that grows in some heights or biomes alone.
+TEST(WorldBounds, AllowForPlantsByHeightsAndBiomes) {
+  const auto tallest_box = [](const char* rule) {
+    const World world = world_of_text(
+        (std::string(R"({"extent":32768,"relief":{"land":1,"mountains":0,"hills":20},"climate":)") +
+         R"({"temperature":15,"moisture":0.6,"variation":0},"settlements":{"density":0},"plants":)" +
+         R"([{"class":"tree","height":40,"spacing":4,"density":1,)" + rule + "}]}")
+            .c_str(),
+        7);
+    Job job = test_job();
+    const TileBounds box = tile_bounds(world, {9, 100, 300}, job);
+    return box.high - box.low;
+  };
+  EXPECT_GT(tallest_box(R"("biomes":["forest"])"), 50);
+  EXPECT_LT(tallest_box(R"("biomes":["desert","taiga"])"), 25);
+  EXPECT_GT(tallest_box(R"("heights":[0,1000])"), 50);
+  EXPECT_LT(tallest_box(R"("heights":[1500,2000])"), 25);
+  EXPECT_LT(tallest_box(R"("heights":[-1000,-500])"), 25);
+}
+
 }  // namespace
 }  // namespace seedmesh::world

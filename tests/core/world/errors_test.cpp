@@ -97,5 +97,34 @@ TEST(WorldErrors, AreNotBelowThoseOfTheGroundInAnyPreset) {
   EXPECT_LE(low, tiles / 1000);
 }
 
+/// Beds of rivers of 60 m and more are the greatest deviations of plains.
+TEST(WorldErrors, AllowForTheBedsOfWideRivers) {
+  WorldParams params;
+  params.relief.mountains = 0;
+  params.relief.hills = 10;
+  params.relief.gullies = 0;
+  params.relief.land = 0.8;
+  params.water.width = 60;
+  params.water.rivers = 0.8;
+  params.settlements.density = 0;
+  const World world = world_of(params);
+  Job job = test_job();
+  int tiles = 0, low = 0;
+  for (std::int64_t k = 0; k < 256; ++k) {
+    const TileKey key{8, 128 + k % 16, 128 + k / 16};
+    const TileFrame frame = frame_of(world, key);
+    const Rectangle box{frame.west, frame.south, frame.west + frame.side, frame.south + frame.side};
+    const Ground water(world, box, job, 0);
+    const bool is_wide = std::any_of(water.reaches().begin(), water.reaches().end(),
+                                     [](const Reach& reach) { return reach.from.width > 60; });
+    if (!is_wide || tiles == 24) continue;
+    const double found = measured(world, key, job);
+    ++tiles;
+    low += tile_bounds(world, key, job).geometric_error < found ? 1 : 0;
+  }
+  EXPECT_EQ(tiles, 24);
+  EXPECT_EQ(low, 0);
+}
+
 }  // namespace
 }  // namespace seedmesh::world

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <set>
 
 #include "tests/core/world/world_support.h"
 
@@ -129,6 +130,31 @@ TEST(WorldTiles, DifferByTheSeed) {
   Job job = test_job();
   EXPECT_NE(parts_of(tile_glb(seven, {8, 100, 120}, job)).bytes,
             parts_of(tile_glb(eight, {8, 100, 120}, job)).bytes);
+}
+
+/// The triangles of all tiles and the texture coordinates of small ones are one file, which clients load once.
+TEST(WorldTiles, ShareOneFileOfTriangles) {
+  const World world = world_of(mountains_with_woods());
+  Job job = test_job();
+  std::set<std::string> files;
+  for (const TileKey& key : {TileKey{0, 0, 0}, TileKey{7, 60, 60}, TileKey{14, 8000, 8000}}) {
+    const Json json = parts_of(tile_glb(world, key, job)).json;
+    const Json& mesh = json["meshes"][json["nodes"][1]["mesh"].get<int>()]["primitives"][0];
+    std::vector<Json> shared{mesh["indices"]};
+    if (mesh["attributes"].contains("TEXCOORD_0")) shared.push_back(mesh["attributes"]["TEXCOORD_0"]);
+    EXPECT_EQ(shared.size(), key.level == 14 ? 2U : 1U);
+    for (const Json& accessor : shared) {
+      const Json& view = json["bufferViews"][json["accessors"][accessor.get<int>()]["bufferView"].get<int>()];
+      const Json& buffer = json["buffers"][view["buffer"].get<int>()];
+      const std::string uri = buffer["uri"];
+      files.insert(uri);
+      const auto file = shared_file(world, uri.substr(uri.rfind('/') + 1, 16), job);
+      ASSERT_TRUE(file);
+      EXPECT_EQ(file->bytes.size(), buffer["byteLength"].get<std::size_t>());
+      EXPECT_LE(view.value("byteOffset", 0U) + view["byteLength"].get<std::size_t>(), file->bytes.size());
+    }
+  }
+  EXPECT_EQ(files.size(), 1U);
 }
 
 TEST(WorldTiles, ContainOnlyTheLayersThatAreAskedFor) {

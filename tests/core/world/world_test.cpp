@@ -66,6 +66,18 @@ TEST(World, IsAModelWithTheRiversOfASmallWorld) {
   EXPECT_TRUE(vertices_of(model_of(params), "terrain").empty());
 }
 
+TEST(World, SaysWhichNumbersOfARangeAreInTheWrongOrder) {
+  WorldParams params;
+  WorldClass tree;
+  tree.class_name = "tree";
+  tree.moisture = {0.75, 0.25};
+  params.plants = {tree};
+  const Result<World> world = read_world(params, 1);
+  ASSERT_FALSE(world);
+  EXPECT_EQ(world.error().issues.front().pointer, "/plants/0/moisture");
+  EXPECT_EQ(world.error().issues.front().message, "found 0.75 before 0.25, expected the lower number first");
+}
+
 TEST(World, RefusesAnExtentThatIsNoPowerOfTwo) {
   WorldParams params;
   params.extent = 1000000;
