@@ -274,6 +274,15 @@ void CpfgReader::production(Line line) {
 Result<Imported> import_cpfg(std::string_view text, const ImportOptions& options) {
   if (std::optional<Error> error = entry_error(options, "a file of cpfg contains one L-system"))
     return *std::move(error);
+  if (const std::optional<OtherLanguage> other = other_language_of(text)) {
+    ForeignText source(text);
+    source.report(
+        other->at,
+        "this file is written in " + other->name +
+            ", which is not supported; expected an L-system of cpfg, whose rules have the arrow `-->`",
+        IssueKind::not_available);
+    return source.finish({});
+  }
   const JoinedText joined = with_cpfg_includes(text, options.files);
   ImportOptions rest = options;
   for (const std::string& name : joined.included) rest.files.erase(name);

@@ -74,6 +74,22 @@ bool has_cpfg_arrow(std::string_view line) {
   return line.find("-->") != std::string_view::npos || line.find("-o>") != std::string_view::npos;
 }
 
+std::optional<OtherLanguage> other_language_of(std::string_view text) {
+  const bool is_of_lpfg = text.find("lpfgall.h") != std::string_view::npos;
+  for (const Line& each : lines_of(text)) {
+    const Line line = trimmed(text, each);
+    const std::string_view words = text.substr(line.from, line.to - line.from);
+    const bool is_module = words.starts_with("module ") && words.find("--") == std::string_view::npos;
+    if (!is_module && !words.starts_with("production:") && !words.starts_with("produce ") &&
+        !words.starts_with("nproduce ") && words.find("lpfgall.h") == std::string_view::npos) {
+      continue;
+    }
+    const bool is_lpfg = is_of_lpfg || (is_module && words.ends_with(';'));
+    return OtherLanguage{line.from, is_lpfg ? "L+C, the language of lpfg" : "L-Py"};
+  }
+  return std::nullopt;
+}
+
 int marks_of_cpfg(std::string_view text) {
   int marks = 0;
   for (const Line& each : lines_of(text)) {

@@ -1,5 +1,6 @@
 #pragma once
 /// The part of cpfg's preprocessor that runs before macro expansion.
+#include <optional>
 #include <string>
 
 #include "core/import/foreign_text.h"
@@ -15,6 +16,15 @@ std::string cpfg_without_comments(ForeignText& source);
 /// Whether the trimmed line is a directive. It is one if it is `#` and a known word, or if it has `#`
 /// directly before another word and has no arrow. In other lines, # is a module.
 bool is_cpfg_directive(std::string_view text, Line line);
+
+/// A language whose files have the keywords of cpfg, too, but other rules.
+struct OtherLanguage {
+  std::size_t at = 0;  ///< offset of the line that shows it
+  std::string name;
+};
+
+/// Returns L+C or L-Py if a line of the text is a declaration or a rule of these (`module A(float);`, `produce F`).
+std::optional<OtherLanguage> other_language_of(std::string_view text);
 
 /// Whether the line has the arrow of a production.
 bool has_cpfg_arrow(std::string_view line);

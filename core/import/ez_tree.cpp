@@ -2,6 +2,7 @@
 /// the model ez_tree, which has the same limbs and leaves. An option without a counterpart becomes a warning.
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <map>
 #include <set>
 
@@ -116,9 +117,22 @@ std::array<Level, levels_known> levels_of(Reader& reader, const Json* branch) {
   return levels;
 }
 
+/// The number of a colour that is a text, as presets before 1.0 and pages have it: "0xfcffdc" or "#fcffdc".
+std::optional<std::uint32_t> written_color(std::string_view text) {
+  if (!text.starts_with("#") && !text.starts_with("0x")) return std::nullopt;
+  text.remove_prefix(text[0] == '#' ? 1 : 2);
+  std::uint32_t bits = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), bits, 16);
+  const bool is_whole = text.size() == 6 && error == std::errc() && end == text.data() + text.size();
+  return is_whole ? std::optional(bits) : std::nullopt;
+}
+
 /// "#rrggbb" for the number of ez-tree; empty for white, which has no effect.
 std::string color_of(Reader& reader, const Json* from, const std::string& at) {
-  const double tint = reader.number(from, at, "tint", 0xFFFFFF, {0, 0xFFFFFF});
+  const Json given = from ? from->value("tint", Json()) : Json();
+  const std::optional<std::uint32_t> written =
+      given.is_string() ? written_color(given.get_ref<const std::string&>()) : std::nullopt;
+  const double tint = written ? *written : reader.number(from, at, "tint", 0xFFFFFF, {0, 0xFFFFFF});
   const auto bits = math::to_uint32(tint);
   if (bits == 0xFFFFFF) return "";
   std::string text = "#";
@@ -281,6 +295,13 @@ Result<Imported> import_ez_tree(std::string_view text, const ImportOptions& opti
   if (!file) return std::move(file).error();
   if (!file->is_object())
     return Error{Code::invalid, {{IssueKind::wrong_type, "", "expected an object of ez-tree's options"}}};
+  if (file->contains("trunk")) {
+    return Error{
+        Code::invalid,
+        {{IssueKind::not_available, "/trunk",
+          "found \"trunk\", as versions of ez-tree before 0.1 have it; expected the options of version "
+          "0.1 or later, in which the trunk is level 0 of \"branch\""}}};
+  }
   Reader reader;
   reader.known(&*file, "", {"seed", "type", "bark", "branch", "leaves", "trellis"});
   if (!file->contains("branch"))

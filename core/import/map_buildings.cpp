@@ -177,7 +177,7 @@ class BuildingWriter {
 
   Heights heights_of(const MassOptions& options) {
     Heights heights;
-    const auto top = length({"height", "building:height"});
+    const auto top = length({"height", "building:height", "est_height"});
     const auto levels = number({"building:levels"});
     const auto base_levels = number({"building:min_level", "min_level"});
     heights.base = std::max(

@@ -2,6 +2,7 @@
 #include "core/import/map_footprints.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 
@@ -17,18 +18,37 @@ using Role = MapBody::Role;
 
 // A building is hidden by its parts where these cover at least this share of it.
 constexpr double mostly_covered = 0.9;
-constexpr double cell = 128;  ///< of the search for parts
+constexpr double cell = 128;           ///< of the search for parts
+constexpr double largest_plain = 1e6;  ///< square metres of a building without a tag
 // Buildings that are tried around a part.
 constexpr std::size_t most_tried = 256;
 
+/// Whether the object does not exist yet or any more, by its kind (building=proposed) or by a prefix of a name
+/// (demolished:building), after the page "Lifecycle prefix" of the OpenStreetMap wiki.
+bool is_absent(const MapTags& tags) {
+  constexpr std::array<std::string_view, 7> states{"demolished", "razed",    "removed", "destroyed",
+                                                   "dismantled", "proposed", "planned"};
+  return std::any_of(states.begin(), states.end(), [&](std::string_view state) {
+    return tags.is("building", state) || tags.is("building:part", state) ||
+           tags.has(std::string(state) + ":building") || tags.has(std::string(state) + ":building:part");
+  });
+}
+
 Role role_of(const MapFeature& feature, const MapData& data) {
-  if (feature.polygons.empty()) return Role::none;
+  if (feature.polygons.empty() || is_absent(feature.tags)) return Role::none;
   const MapTags& tags = feature.tags;
   if (tags.has("building:part")) return Role::part;
   if (tags.has("building")) return Role::outline;
   if (tags.get("building") == "no" || !data.plain_polygons_are_buildings || has_ground_tag(tags))
     return Role::none;
   return Role::outline;
+}
+
+/// Whether a plan is too large for a building of which no tag says that it is one: it is a district or a country.
+bool is_district(const MapTags& tags, const Plan& plan) {
+  const bool is_described = tags.has("building") || tags.has("building:part") || tags.has("height") ||
+                            tags.has("building:levels") || tags.has("roof:shape");
+  return !is_described && area(plan) > largest_plain;
 }
 
 /// The footprints of all buildings and parts.
@@ -59,7 +79,16 @@ std::vector<MapBody> bodies_of(MapConversion& map, const MapData& data, std::vec
       } else if (sound.plans.empty()) {
         map.warnings.add("a footprint has no area; it is left out", feature.position);
       }
-      for (Plan& plan : sound.plans) bodies.push_back({&feature, nullptr, std::move(plan), role, false});
+      for (Plan& plan : sound.plans) {
+        if (is_district(feature.tags, plan)) {
+          map.warnings.add(
+              "a polygon of more than a square kilometre is left out, because no tag says that it is a "
+              "building",
+              feature.position);
+          continue;
+        }
+        bodies.push_back({&feature, nullptr, std::move(plan), role, false});
+      }
     }
   }
   return bodies;

@@ -144,11 +144,11 @@ const LineRule* line_rule(const MapTags& tags) {
 
 /// The key that says what a feature is, for the list of those that are left out.
 std::string kind_of(const MapTags& tags) {
-  constexpr std::array<std::string_view, 22> keys{
-      "highway",          "railway",   "waterway", "natural",         "landuse",  "leisure",
-      "amenity",          "barrier",   "power",    "man_made",        "shop",     "tourism",
-      "historic",         "place",     "boundary", "aeroway",         "entrance", "office",
-      "public_transport", "emergency", "route",    "addr:housenumber"};
+  constexpr std::array<std::string_view, 23> keys{
+      "building", "highway",          "railway",   "waterway", "natural",         "landuse",
+      "leisure",  "amenity",          "barrier",   "power",    "man_made",        "shop",
+      "tourism",  "historic",         "place",     "boundary", "aeroway",         "entrance",
+      "office",   "public_transport", "emergency", "route",    "addr:housenumber"};
   for (const std::string_view key : keys) {
     const std::string_view value = tags.get(key);
     if (value.empty()) continue;
@@ -202,6 +202,13 @@ class GroundWriter {
     if (tags.has("bridge")) map_.warnings.add("a bridge lies on the ground", feature.position);
     double width = rule->width;
     const auto stated = map_length(tags.get("width")), lanes = map_number(tags.get("lanes"));
+    for (const std::string_view name : {"width", "lanes"}) {
+      const bool is_read = name == "width" ? stated.has_value() : lanes.has_value();
+      if (tags.get(name).empty() || is_read) continue;
+      map_.warnings.add("\"" + shortened(tags.get(name), 40) + "\" is no value of " + std::string(name) +
+                            "; it is left out",
+                        feature.position);
+    }
     if (stated && *stated >= 0.1 && *stated <= 500) {
       width = *stated;
     } else if (lanes && *lanes >= 1 && *lanes <= 20 && std::string_view(rule->key) == "highway") {

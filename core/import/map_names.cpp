@@ -17,7 +17,7 @@ struct Row {
 };
 
 // The roof heights of New York are in feet.
-constexpr std::array<Row, 68> rows{{
+constexpr std::array<Row, 79> rows{{
     {"building", {"building", ""}},
     {"color", {"building:colour", ""}},
     {"colour", {"building:colour", ""}},
@@ -41,6 +41,13 @@ constexpr std::array<Row, 68> rows{{
     {"numstories", {"building:levels", ""}},
     {"storeysaboveground", {"building:levels", ""}},
     {"floorsaboveground", {"building:levels", ""}},
+    {"floor", {"building:levels", ""}},
+    {"floornum", {"building:levels", ""}},
+    {"floorsnum", {"building:levels", ""}},
+    {"storey", {"building:levels", ""}},
+    {"story", {"building:levels", ""}},
+    {"geschosse", {"building:levels", ""}},
+    {"anzahlgeschosse", {"building:levels", ""}},
     {"nbetages", {"building:levels", ""}},
     {"nombredetages", {"building:levels", ""}},
     {"buildingl", {"building:levels", ""}},
@@ -66,6 +73,10 @@ constexpr std::array<Row, 68> rows{{
     {"bldght", {"height", ""}},
     {"buildinghe", {"height", ""}},
     {"hauteur", {"height", ""}},
+    {"hoehe", {"height", ""}},
+    {"altura", {"height", ""}},
+    {"altezza", {"height", ""}},
+    {"estheight", {"height", ""}},
     {"heightroof", {"height", " ft"}},
     {"leaftype", {"leaf_type", ""}},
     {"minheight", {"min_height", ""}},

@@ -202,4 +202,40 @@ SoundPlans sound_plans(const std::vector<PlanRing>& rings, const Job* job) {
   return made;
 }
 
+std::vector<std::vector<dvec2>> joined_rings(std::vector<std::vector<dvec2>> lines, std::size_t& open) {
+  const auto key = [](const dvec2& p) { return std::pair{p.x, p.y}; };
+  std::multimap<std::pair<double, double>, std::size_t> ends;
+  std::vector<bool> is_used(lines.size(), false);
+  std::vector<std::vector<dvec2>> rings;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    if (lines[i].size() > 2 && lines[i].front() == lines[i].back()) continue;
+    if (lines[i].size() < 2) continue;
+    ends.emplace(key(lines[i].front()), i);
+    ends.emplace(key(lines[i].back()), i);
+  }
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    if (is_used[i] || lines[i].size() < 2) continue;
+    is_used[i] = true;
+    std::vector<dvec2> ring = lines[i];
+    while (ring.front() != ring.back() || ring.size() < 3) {
+      auto [next, last] = ends.equal_range(key(ring.back()));
+      while (next != last && is_used[next->second]) next = ends.erase(next);
+      if (next == last) break;
+      const std::size_t number = next->second;
+      ends.erase(next);
+      is_used[number] = true;
+      std::vector<dvec2> more = lines[number];
+      if (more.front() != ring.back()) std::reverse(more.begin(), more.end());
+      ring.insert(ring.end(), more.begin() + 1, more.end());
+    }
+    if (ring.front() != ring.back()) {
+      ++open;
+      continue;
+    }
+    ring.pop_back();
+    if (ring.size() >= 3) rings.push_back(std::move(ring));
+  }
+  return rings;
+}
+
 }  // namespace seedmesh

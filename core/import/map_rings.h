@@ -21,4 +21,8 @@ struct SoundPlans {
 /// defects_of(). Checks stop and deadline if `job` is not null.
 SoundPlans sound_plans(const std::vector<PlanRing>& rings, const Job* job = nullptr);
 
+/// Joins lines end to end to rings, without repeated first points. Adds the number of the lines that are left to `open`.
+std::vector<std::vector<glm::dvec2>> joined_rings(std::vector<std::vector<glm::dvec2>> lines,
+                                                  std::size_t& open);
+
 }  // namespace seedmesh

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/geom/polygon/plan.h"
+#include "core/import/map_rings.h"
 
 namespace seedmesh {
 namespace {
@@ -75,64 +76,15 @@ bool is_area(const MapTags& tags) {
          tags.is("waterway", "riverbank") || tags.is("waterway", "dock");
 }
 
-/// The points of a way, with the number of those that the file lacks.
-struct WayPoints {
-  MapRing points;
-  std::size_t missing = 0;
-};
-
 WayPoints points_of(const OsmWay& way, const std::vector<OsmNode>& nodes) {
-  WayPoints made;
-  if (!way.inline_points.empty()) {
-    made.points = way.inline_points;
-    return made;
-  }
-  made.points.reserve(way.nodes.size());
+  if (!way.inline_points.empty()) return runs_of(way.inline_points);
+  std::vector<dvec2> points;
+  points.reserve(way.nodes.size());
   for (const std::int64_t id : way.nodes) {
-    if (const OsmNode* node = find(nodes, id)) {
-      made.points.push_back(node->position);
-    } else {
-      ++made.missing;
-    }
+    const OsmNode* node = find(nodes, id);
+    points.push_back(node ? node->position : osm_unknown_point);
   }
-  return made;
-}
-
-/// Joins lines end to end to rings. `open` counts the lines that are left.
-std::vector<MapRing> rings_of(std::vector<MapRing> lines, std::size_t& open) {
-  const auto key = [](const dvec2& p) { return std::pair{p.x, p.y}; };
-  std::multimap<std::pair<double, double>, std::size_t> ends;
-  std::vector<bool> is_used(lines.size(), false);
-  std::vector<MapRing> rings;
-  for (std::size_t i = 0; i < lines.size(); ++i) {
-    if (lines[i].size() > 2 && lines[i].front() == lines[i].back()) continue;
-    if (lines[i].size() < 2) continue;
-    ends.emplace(key(lines[i].front()), i);
-    ends.emplace(key(lines[i].back()), i);
-  }
-  for (std::size_t i = 0; i < lines.size(); ++i) {
-    if (is_used[i] || lines[i].size() < 2) continue;
-    is_used[i] = true;
-    MapRing ring = lines[i];
-    while (ring.front() != ring.back() || ring.size() < 3) {
-      auto [next, last] = ends.equal_range(key(ring.back()));
-      while (next != last && is_used[next->second]) next = ends.erase(next);
-      if (next == last) break;
-      const std::size_t number = next->second;
-      ends.erase(next);
-      is_used[number] = true;
-      MapRing more = lines[number];
-      if (more.front() != ring.back()) std::reverse(more.begin(), more.end());
-      ring.insert(ring.end(), more.begin() + 1, more.end());
-    }
-    if (ring.front() != ring.back()) {
-      ++open;
-      continue;
-    }
-    ring.pop_back();
-    if (ring.size() >= 3) rings.push_back(std::move(ring));
-  }
-  return rings;
+  return runs_of(points);
 }
 
 class Assembler {
@@ -192,8 +144,9 @@ class Assembler {
     count();
     if (way.tags.all().empty()) return;
     WayPoints read = points_of(way, file_.nodes);
-    if (way.center && read.points.empty()) return add_center(way, "way/");
-    const bool is_closed = read.points.size() > 3 && read.points.front() == read.points.back();
+    if (way.center && read.runs.empty()) return add_center(way, "way/");
+    const bool is_closed =
+        read.runs.size() == 1 && read.runs[0].size() > 3 && read.runs[0].front() == read.runs[0].back();
     const bool wants_area = is_area(way.tags);
     MapFeature feature;
     feature.name = "way/" + std::to_string(way.id);
@@ -201,14 +154,17 @@ class Assembler {
     feature.tags = way.tags;
     if (read.missing > 0) {
       warn(wants_area ? "an area refers to nodes that the file lacks; it is left out"
-                      : "a line refers to nodes that the file lacks; it is shorter",
+                      : "a line refers to nodes that the file lacks; it ends there",
            way.place);
     }
     if (wants_area && is_closed && read.missing == 0) {
-      read.points.pop_back();
-      feature.polygons.push_back({std::move(read.points)});
-    } else if (!wants_area && read.points.size() > 1) {
-      feature.lines.push_back(std::move(read.points));
+      read.runs[0].pop_back();
+      feature.polygons.push_back({std::move(read.runs[0])});
+    } else if (!wants_area) {
+      for (MapRing& run : read.runs) {
+        if (run.size() > 1) feature.lines.push_back(std::move(run));
+      }
+      if (feature.lines.empty()) return;
     } else if (wants_area && read.missing == 0) {
       warn("an area is not closed; it is left out", way.place);
       return;
@@ -244,7 +200,7 @@ class Assembler {
       const OsmWay* way = find(file_.ways, member.way);
       WayPoints read;
       if (!member.inline_points.empty()) {
-        read.points = member.inline_points;
+        read = runs_of(member.inline_points);
       } else if (way) {
         read = points_of(*way, file_.nodes);
       } else {
@@ -253,7 +209,7 @@ class Assembler {
       lines.missing += read.missing;
       const bool is_inner = member.role == OsmRole::inner;
       if (member.role == OsmRole::unknown) lines.has_unknown = true;
-      (is_inner ? lines.inner : lines.outer).push_back(std::move(read.points));
+      (is_inner ? lines.inner : lines.outer).push_back(read.joined());
       if (way && !is_inner) consume(*way, tags, outer_ways == 1);
     }
     return lines;
@@ -280,8 +236,8 @@ class Assembler {
     feature.position = relation.place;
     feature.tags = std::move(tags);
     std::size_t open = 0;
-    std::vector<MapRing> outer = rings_of(std::move(lines.outer), open),
-                         inner = rings_of(std::move(lines.inner), open);
+    std::vector<MapRing> outer = joined_rings(std::move(lines.outer), open),
+                         inner = joined_rings(std::move(lines.inner), open);
     if (lines.has_unknown) take_inner(outer, inner);
     for (MapRing& ring : outer) feature.polygons.push_back({std::move(ring)});
     for (MapRing& ring : inner) add_hole(feature, std::move(ring));
@@ -289,14 +245,31 @@ class Assembler {
     if (!feature.polygons.empty()) features_.push_back(std::move(feature));
   }
 
-  /// A relation `building` can hold the tags of its outline.
+  /// A relation `building` can hold the tags of its outline, and with `out geom` also its geometry.
   void add_outline(const OsmRelation& relation) {
     if (!relation.tags.has("building")) return;
+    std::vector<MapRing> lines;
     for (const OsmMember& member : relation.members) {
+      if (member.role != OsmRole::outline) continue;
       const OsmWay* way = find(file_.ways, member.way);
-      if (!way || member.role != OsmRole::outline || way->tags.has("building:part")) continue;
-      add_tags(file_.ways[static_cast<std::size_t>(way - file_.ways.data())].tags, relation.tags);
+      if (!way) {
+        lines.push_back(runs_of(member.inline_points).joined());
+      } else if (!way->tags.has("building:part")) {
+        add_tags(file_.ways[static_cast<std::size_t>(way - file_.ways.data())].tags, relation.tags);
+      }
     }
+    if (lines.empty()) return;
+    std::size_t open = 0;
+    MapFeature feature;
+    for (MapRing& ring : joined_rings(std::move(lines), open)) feature.polygons.push_back({std::move(ring)});
+    if (feature.polygons.empty()) {
+      return warn("a relation `building` refers to an outline that the file lacks; it is left out",
+                  relation.place);
+    }
+    feature.name = "relation/" + std::to_string(relation.id);
+    feature.position = relation.place;
+    feature.tags = relation.tags;
+    features_.push_back(std::move(feature));
   }
 
   /// An outer way that is the same thing as its multipolygon counts once: buildings are, whatever their kinds. The only
@@ -372,6 +345,21 @@ OsmRole osm_role(std::string_view name) {
   if (name == "inner" || name == "enclave") return OsmRole::inner;
   if (name == "outline") return OsmRole::outline;
   return name == "outer" ? OsmRole::outer : OsmRole::unknown;
+}
+
+std::optional<Error> stopped_query(OsmFile& file, std::string_view remark, const MapPosition& place,
+                                   std::string_view text) {
+  const std::size_t first = remark.find_first_not_of(" \t\r\n"), last = remark.find_last_not_of(" \t\r\n");
+  if (first == std::string_view::npos) return std::nullopt;
+  const std::string reason = shortened(remark.substr(first, last - first + 1), 200);
+  if (!file.nodes.empty() || !file.ways.empty() || !file.relations.empty()) {
+    file.warnings.add("the server stopped the query, and this map is not complete: " + reason, place);
+    return std::nullopt;
+  }
+  std::string message = "the server stopped the query before it found anything: " + reason;
+  Issue issue(IssueKind::invalid_value, place.pointer, std::move(message));
+  if (!text.empty()) issue = issue_at(issue.kind, "", text, place.offset, issue.message);
+  return Error{Code::invalid, {std::move(issue)}};
 }
 
 void add_bounds(std::optional<MapBounds>& bounds, const MapBounds& more) {

@@ -7,6 +7,7 @@
 
 #include "core/import/import.h"
 #include "core/import/map_data.h"
+#include "core/import/osm_points.h"
 
 namespace seedmesh {
 
@@ -31,7 +32,7 @@ struct OsmWay {
   std::int64_t id = 0;
   std::vector<std::int64_t> nodes;
   std::vector<glm::dvec2>
-      inline_points;                 ///< of `out geom`: by node; empty: the nodes are elements of the file
+      inline_points;                 ///< of `out geom`: by node, or unknown; empty: the nodes are elements
   std::optional<glm::dvec2> center;  ///< of `out center`
   MapTags tags;
   MapPosition place;
@@ -58,6 +59,12 @@ struct OsmFile {
   std::optional<MapBounds> bounds;
   MapWarnings warnings;
 };
+
+/// The text `remark` of Overpass at `place` says that its server stopped the query. Returns an error if `file` has no
+/// elements; otherwise adds a warning, because the map is incomplete, and returns nullopt. `text`: the file; empty for
+/// JSON.
+std::optional<Error> stopped_query(OsmFile& file, std::string_view remark, const MapPosition& place,
+                                   std::string_view text);
 
 /// Joins ways and multipolygons to features. Elements that occur twice count once, with the tags and nodes of
 /// both. If the only outer way of a multipolygon describes the same object, the multipolygon also gets the tags

@@ -106,6 +106,7 @@ constexpr ShapemlName names[] = {
 };
 
 constexpr ShapemlFunction functions[] = {
+    {"clamp_between", "clamp_between(low, high, x) = max(low, min(high, x))"},
     {"rand_int", "rand_int(low, high) = floor(rand(low, high + 1))"},
     {"rand_uniform", "rand_uniform(low, high) = rand(low, high)"},
     {"fract", "fract(x) = x - floor(x)"},
@@ -113,6 +114,20 @@ constexpr ShapemlFunction functions[] = {
     {"smooth_step",
      "smooth_step(a, b, x) = clamp((x - a) / (b - a), 0, 1) ^ 2 * (3 - 2 * clamp((x - a) / (b - a), 0, 1))"},
     {"int", "int(x) = trunc(x)"},
+    {"pattern_fit", "pattern_fit(sum, length) = case sum < length + 0.00001: 1 else: 0"},
+    {"pattern_count",
+     "pattern_count(length, outer, outer_fixed, inner, inner_fixed, inner_alone) ="
+     " case outer >= length - 0.00001 || inner <= 0: 0"
+     " case inner_alone == 1 && (length - outer) / inner < 0.5 && length - outer_fixed >= inner_fixed - "
+     "0.00001: 1"
+     " case inner_fixed > 0: min(floor((length - outer) / inner + 0.5),"
+     " floor((length - outer_fixed) / inner_fixed + 0.000001))"
+     " else: floor((length - outer) / inner + 0.5)"},
+    {"pattern_stretch",
+     "pattern_stretch(length, outer_fixed, outer, inner_fixed, inner, count) ="
+     " case outer + count * inner > 0: max(0, (length - outer_fixed - count * inner_fixed) / (outer + count "
+     "* inner))"
+     " else: 0"},
 };
 
 }  // namespace

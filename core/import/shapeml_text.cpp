@@ -104,8 +104,7 @@ void ShapemlText::expression(std::size_t from, std::size_t to, TracedText& out) 
       out.write("own_" + std::string(token.text), offset);
     } else if (token.text == "clamp" && is_call) {
       // It has its bounds first in ShapeML.
-      if (!has_clamp_) declarations_.write("clamp_between(low, high, x) = max(low, min(high, x))\n", offset);
-      has_clamp_ = true;
+      needed_.insert("clamp_between");
       out.write("clamp_between", offset);
     } else {
       const auto names = shapeml_names();

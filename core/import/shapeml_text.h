@@ -36,7 +36,6 @@ class ShapemlText {
   std::set<std::string, std::less<>> needed_, attributes_;  ///< functions and attributes that expressions use
   std::set<std::string, std::less<>> set_names_,
       declared_;  ///< attributes that set() makes; params and constants
-  bool has_clamp_ = false;
 };
 
 }  // namespace seedmesh

@@ -87,6 +87,7 @@ bool is_keyword(std::string_view word) {
                                            "alignPosition",
                                            "keepPosition",
                                            "scope.y",
+                                           "alignSizeAndPosition",
                                            "keepSizeAndPosition",
                                            "keepSizeAlignPosition",
                                            "adjustSizeAndPosition",

@@ -131,20 +131,31 @@ std::uint32_t options_of(Derivation& d, const Step& step) {
   return found->second;
 }
 
-/// Whether i() has words of CityEngine: the axis that is up, and how the asset is placed.
-bool insert_words(Derivation& d, const Step& step) {
-  bool has_words = false;
+/// The words of i() in CityEngine: how the asset is placed.
+struct InsertWords {
+  bool are_given = false;
+  bool keep_size = false;
+  bool keep_position = false;
+};
+
+InsertWords insert_words(Derivation& d, const Step& step) {
+  InsertWords words;
   for (std::uint32_t i = 1; i < step.argument_count; ++i) {
     if (!is_word(d, step, i)) continue;
-    has_words = true;
+    words.are_given = true;
     const std::string& word = word_at(d, step, i);
-    if (word == "zUp" || word == "keepSizeAndPosition" || word == "keepSizeAlignPosition") {
-      warn(d, step.offset, lang::in_quotes(word) + " has no effect: assets have y up and fill their scope");
-    } else if (word != "yUp" && word != "adjustSizeAndPosition") {
-      reject(d, step.offset, "found " + lang::in_quotes(word) + ", expected yUp or adjustSizeAndPosition");
+    if (word == "zUp") {
+      warn(d, step.offset, "`zUp` has no effect: assets have y up");
+    } else if (word == "keepSizeAndPosition" || word == "keepSizeAlignPosition") {
+      words.keep_size = true;
+      words.keep_position = word == "keepSizeAndPosition";
+    } else if (word != "yUp" && word != "alignSizeAndPosition" && word != "adjustSizeAndPosition") {
+      reject(d, step.offset,
+             "found " + lang::in_quotes(word) +
+                 ", expected yUp, zUp, alignSizeAndPosition, keepSizeAndPosition or keepSizeAlignPosition");
     }
   }
-  return has_words;
+  return words;
 }
 
 /// Sizes of 0 follow from the others, by the formulas of the CGA reference (insert).
@@ -152,16 +163,16 @@ void insert_geometry(Derivation& d, const Step& step, ShapeState& state, const s
   const Insert found = insert_named(d, step, name);
   const auto& [geometry, low, own] = found;
   const bool is_part = (geometry & asset_bit) != 0 && (geometry & ~asset_bit) >= d.task.own_assets;
-  const bool has_words = step.op != Op::insert_along_uv && insert_words(d, step);
-  if (step.argument_count > 1 && !is_part && !has_words && step.op != Op::insert_along_uv) {
+  const InsertWords words = step.op != Op::insert_along_uv ? insert_words(d, step) : InsertWords{};
+  if (step.argument_count > 1 && !is_part && !words.are_given && step.op != Op::insert_along_uv) {
     warn(d, step.offset,
          "the numbers after " + lang::in_quotes(name) + " have no effect: only built-in parts have options");
   }
   const int given = dimension(state.size);
   glm::dvec3 size = state.size;
-  if (given == 0) {
+  if (given == 0 || words.keep_size) {
     size = own;
-    state.origin += d.out.axes[state.axes] * low;
+    if (!words.keep_size || words.keep_position) state.origin += d.out.axes[state.axes] * low;
   } else if (given < 3) {
     double scale = 0;
     for (int axis = 0; axis < 3; ++axis)

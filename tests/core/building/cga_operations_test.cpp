@@ -337,6 +337,24 @@ TEST(Insert, PutsABoxInThePlaceOfAFileThatIsNotThere) {
   EXPECT_THAT(refusal(with("A --> i(\"builtin:cube\") B.")), testing::StrEq("none"));
 }
 
+TEST(Insert, KeepsTheSizeOrThePositionOfAnAsset) {
+  // The asset is 2 by 4 by 3 m. The middle of its depth is its origin; it begins 0.5 m above it.
+  const Child model{"building", std::nullopt,
+                    R"({"size": [2, 0, 3], "rules": "L --> extrude(4) t(1, 0.5, 0) X."})"};
+  const auto scope_of = [&](const std::string& words) {
+    BuildingParams params = with("Lot --> s(6, 1, 1) t(2, 1, 2) i(\"box.obj\"" + words + ") B.", {10, 0, 8});
+    params.assets["box"].model = model;
+    const Json scope = derived(params)["shapes"].back()["scope"];
+    return Json{scope["origin"], scope["size"]};
+  };
+  // The corner of the lot is (-5, 0, -4).
+  EXPECT_EQ(scope_of(""), Json::parse("[[-3, 1, -2], [6, 1, 1]]"));
+  EXPECT_EQ(scope_of(", yUp, alignSizeAndPosition"), Json::parse("[[-3, 1, -2], [6, 1, 1]]"));
+  EXPECT_EQ(scope_of(", yUp, keepSizeAlignPosition"), Json::parse("[[-3, 1, -2], [2, 4, 3]]"));
+  EXPECT_EQ(scope_of(", yUp, keepSizeAndPosition"), Json::parse("[[-3, 1.5, -3.5], [2, 4, 3]]"));
+  EXPECT_THAT(refusal(with("Lot --> i(\"box.obj\", yUp, hard) B.")), HasSubstr("keepSizeAndPosition"));
+}
+
 TEST(InsertAlongUv, PutsACopyInEveryTile) {
   const Json answer =
       derived(with("A --> normalizeUV(0, uv, separatePerFace) scaleUV(0, 5, 2) insertAlongUV(0, \"cube\", 1)",

@@ -6,6 +6,7 @@ namespace seedmesh {
 namespace {
 
 using nlohmann::json;
+using testing::AllOf;
 using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -43,6 +44,17 @@ TEST(Cpfg, ReportsTheBeginningOfACommentWithoutAnEnd) {
   EXPECT_THAT(
       reports(imported("cpfg", "Lsystem: 1\nderivation length: 1\nAxiom: F\n  /* F --> FF\nendlsystem\n")),
       ElementsAre("4:3 found a comment without its end; expected `*/`"));
+}
+
+TEST(Cpfg, RefusesProgramsOfLpfgAndLPy) {
+  EXPECT_THAT(reports(imported("cpfg",
+                               "#include <lpfgall.h>\nderivation length: 3;\nmodule A(int);\nAxiom: A(0);\n"
+                               "production:\nA(n): { produce F(1) A(n+1); }\n")),
+              ElementsAre(AllOf(StartsWith("1:1 "), HasSubstr("L+C, the language of lpfg"))));
+  EXPECT_THAT(reports(imported("cpfg",
+                               "Axiom: A(1)\nderivation length: 3\nproduction:\nA(x) :\n  produce F(x)A(x)\n"
+                               "homomorphism:\nendlsystem\n")),
+              ElementsAre(AllOf(StartsWith("3:1 "), HasSubstr("L-Py"))));
 }
 
 TEST(Cpfg, ReadsMacrosProductionsDecompositionAndHomomorphism) {

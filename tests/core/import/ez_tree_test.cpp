@@ -46,6 +46,25 @@ constexpr const char* hedge = R"({
   "trellis": {"enabled": true, "position": {"x": 0.5, "y": 0.2, "z": 1.5}, "width": 16, "height": 20, "spacing": 3,
               "force": {"strength": 0.012, "maxDistance": 9, "falloff": 1.4}}})";
 
+TEST(EzTreeFile, ReadsColoursThatAreTexts) {
+  nlohmann::json file = nlohmann::json::parse(oak);
+  for (const char* text : {"0xfcffdc", "#fcffdc"}) {
+    file["leaves"]["tint"] = text;
+    const auto result = imported("ez_tree", file.dump());
+    ASSERT_TRUE(result) << reports(result)[0];
+    EXPECT_EQ(parameters_of(result)["leaf"]["color"], "#fcffdc");
+  }
+  file["leaves"]["tint"] = "0xfcff";
+  EXPECT_FALSE(imported("ez_tree", file.dump()));
+}
+
+TEST(EzTreeFile, NamesTheVersionOfFilesWithATrunk) {
+  const auto result = imported(
+      "ez_tree",
+      R"({"trunk": {"length": 47}, "branch": {"levels": 2, "children": 40}, "leaves": {"count": 29}})");
+  EXPECT_THAT(reports(result), testing::ElementsAre(testing::HasSubstr("versions of ez-tree before 0.1")));
+}
+
 TEST(EzTreeFile, BecomesATreeOfItsLevelsAndLengths) {
   const auto result = imported("ez_tree", oak);
   const nlohmann::json parameters = parameters_of(result);

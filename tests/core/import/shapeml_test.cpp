@@ -101,6 +101,81 @@ TEST(Shapeml, GivesOperationsToRulesAndSplits) {
   EXPECT_NEAR(heights["Own_"], 5, 1e-9);
 }
 
+/// Offsets and sizes along x of the active shapes, in order.
+std::vector<std::pair<double, double>> parts_along_x(const std::string& split) {
+  std::vector<std::pair<double, double>> parts;
+  const auto result = imported("shapeml", "rule Axiom = { size(10, 1, 1) cube " + split + " };");
+  if (!result) return parts;
+  const json derived = json::parse(*derive(result->request, {}));
+  for (const json& shape : derived.at("shapes")) {
+    if (shape.at("active"))
+      parts.emplace_back(double{shape.at("scope").at("origin")[0]} + 0.5, shape.at("scope").at("size")[0]);
+  }
+  std::sort(parts.begin(), parts.end());
+  return parts;
+}
+
+TEST(Shapeml, CountsTheRepetitionsOfPatternsAsItsInterpreterDoes) {
+  // The number of repetitions is the rounded (length - outside) / inside, at most what the fixed sizes allow.
+  struct Case {
+    std::string split;
+    std::size_t count;
+    double first, end;
+  };
+  const Case cases[] = {
+      {"splitX(\"fff\", 2, { A_ }, 4, { B_ }, 5, { C_ })", 2, 2, 6},
+      {"splitX(\"(f)\", 0.95, { A_ })", 10, 0.95, 9.5},
+      {"splitX(\"(ff)\", 0.9, { A_ }, 2.1, { B_ })", 6, 0.9, 9},
+      {"splitX(\"(ff)f\", 0.7, { A_ }, 2, { B_ }, 0.7, { C_ })", 7, 0.7, 8.8},
+      {"splitX(\"(s)(s)\", 0.7, { A_ }, 2, { B_ })", 8, 10 * 0.7 / (4 * 2.7), 10},
+      {"splitX(\"(f)(s)\", 0.7, { A_ }, 2, { B_ })", 8, 0.7, 10},
+      {"splitX(\"(s)(f)\", 0.7, { A_ }, 2, { B_ })", 8, 0.5, 10},
+      {"splitX(\"(f)(f)\", 0.7, { A_ }, 2, { B_ })", 6, 0.7, 8.1},
+  };
+  for (const Case& each : cases) {
+    const auto parts = parts_along_x(each.split);
+    ASSERT_EQ(parts.size(), each.count) << each.split;
+    EXPECT_NEAR(parts[0].second, each.first, 1e-6) << each.split;
+    EXPECT_NEAR(parts.back().first + parts.back().second, each.end, 1e-6) << each.split;
+  }
+}
+
+TEST(Shapeml, MakesNothingOfShapesWithoutAName) {
+  const auto result =
+      imported("shapeml",
+               "rule Axiom = { quad [ A_ ] translateX(3) Low Bare splitX(\"ff\", 0.5, { B_ }, 0.5, "
+               "{ color(1, 0, 0) }) translateX(2) };\n"
+               "rule Low :: size_x > 5 = { C_ };\nrule Low :: !(size_x > 5) = {};\n"
+               "rule Bare = { extrude(2) };\n");
+  const std::map<std::string, int> expected = {{"A_", 1}, {"B_", 1}};
+  EXPECT_EQ(leaves_of(result), expected);
+}
+
+TEST(Shapeml, RepeatsOperations) {
+  const auto result =
+      imported("shapeml",
+               "rule Axiom = { Row(3) Row(0) };\n"
+               "rule Row(width) = { repeat(7, { translateX(rand_uniform(0, 9)) sizeX(width) quad A_ }) };\n");
+  ASSERT_TRUE(result) << reports(result)[0];
+  const std::map<std::string, int> expected = {{"A_", 14}};
+  EXPECT_EQ(leaves_of(result), expected);
+}
+
+TEST(Shapeml, ReadsIncludedFiles) {
+  const json files = {{"files",
+                       {{"house.shp",
+                         "#include \"colours.shp\"\nfunc half(x) = clamp(0, 1, x / 2);\n"
+                         "rule Axiom = { sizeX(half(1)) quad color(red) extrudeWorld(0, 1, 0, 2) A_ };"},
+                        {"colours.shp", "const red = \"#ff0000\";\n"}}}};
+  const auto result = imported("shapeml", files.dump());
+  ASSERT_TRUE(result) << reports(result)[0];
+  EXPECT_EQ(leaves_of(result), (std::map<std::string, int>{{"A_", 1}}));
+  EXPECT_THAT(reports(imported("shapeml", "#include \"colours.shp\"\nrule Axiom = { color(red) A_ };")),
+              Contains(HasSubstr("1:1 the file of this `#include` is not given")));
+  EXPECT_THAT(reports(imported("shapeml", "rule Axiom = { quad extrudeWorld(1, 0, 0, 2) A_ };")),
+              Contains(HasSubstr("the direction 0, 1, 0 only")));
+}
+
 TEST(Shapeml, ReportsWhatHasNoCounterpart) {
   EXPECT_THAT(reports(imported("shapeml", "rule Axiom = { torus(1, 2, 3, 4) A_ };")),
               Contains(HasSubstr("no rule, and no operation")));
