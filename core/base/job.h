@@ -109,6 +109,10 @@ class Job {
   /// on one thread and reports no progress.
   Job for_estimate() const;
 
+  /// The same with smaller limits. Where one is exceeded, the work ends by abandon_attempt() (core/base/attempt.h)
+  /// instead of a Stop.
+  Job for_small_estimate(const Limits& limits) const;
+
   /// While the scope lives, a limit of this job or of its children that has no pointer of its own is reported at
   /// `pointer`. Do not create or destroy a scope while other threads use this job.
   class PointerScope {
@@ -164,6 +168,7 @@ class Job {
     std::shared_ptr<MemoryBudget> budget;
     std::atomic<std::uint64_t> spent[4] = {};
     std::vector<Stage> stages;
+    bool is_attempt = false;  ///< exceeded limits abandon the work
   };
   Job(std::uint64_t seed, std::shared_ptr<State> state)
       : seed_(seed), is_child_(true), state_(std::move(state)) {}
