@@ -146,21 +146,21 @@ Relief rock_ground(int size, Rng rng, const Job& job) {
 Relief litter_ground(int size, Rng rng, const Job& job) {
   Relief relief = grained(size, {28, 28}, 0.16F, 0.16F, rng.at("earth"), job);
   const Field even(job, size, 0);
-  const Pieces needles{.count = 9'000,
+  const Pieces needles{.count = 12'000,
                        .shortest = 0.008F,
-                       .longest = 0.02F,
+                       .longest = 0.022F,
                        .width = 0.06F,
-                       .low = 0.28F,
-                       .high = 0.62F,
-                       .differ = 0.6F};
+                       .low = 0.3F,
+                       .high = 0.95F,
+                       .differ = 0.7F};
   add_blades(relief, needles, even, rng.at("needles"), job);
-  const Pieces leaves{.count = 2'400,
-                      .shortest = 0.018F,
-                      .longest = 0.045F,
-                      .width = 0.55F,
-                      .low = 0.25F,
+  const Pieces leaves{.count = 1'700,
+                      .shortest = 0.012F,
+                      .longest = 0.04F,
+                      .width = 0.5F,
+                      .low = 0.22F,
                       .high = 0.85F,
-                      .differ = 0.5F};
+                      .differ = 0.62F};
   add_leaves(relief, leaves, rng.at("leaves"), job);
   const Pieces twigs{.count = 130,
                      .shortest = 0.04F,

@@ -123,7 +123,7 @@ constexpr std::array<Ramp, 9> ramps{{
 }};
 
 /// Fallen leaves and needles.
-constexpr Srgb litter_color{112, 92, 70};
+constexpr Srgb litter_color{106, 91, 70};
 
 glm::vec3 linear(const Srgb& color) {
   return {linear_of_srgb(color.r), linear_of_srgb(color.g), linear_of_srgb(color.b)};
@@ -133,7 +133,7 @@ glm::vec3 blend(const glm::vec3& a, const glm::vec3& b, float share) { return a 
 
 }  // namespace
 
-float litter_share(const Site& site) { return ease(-0.4F, 0.15F, site.patch); }
+float litter_share(const Site& site) { return ease(-0.3F, 0.2F, site.patch); }
 
 GroundColors::GroundColors(PaletteName palette, const Range& range, float level)
     : palette_(palette), range_(range), level_(level) {
