@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/base/attempt.h"
+
 namespace seedmesh {
 namespace {
 
@@ -76,6 +78,13 @@ Job Job::for_estimate() const {
   return estimate;
 }
 
+Job Job::for_small_estimate(const Limits& limits) const {
+  Job estimate = for_estimate();
+  estimate.state_->options.limits = limits;
+  estimate.state_->is_attempt = true;
+  return estimate;
+}
+
 void Job::check() const {
   const Options& options = state_->options;
   if (options.stop.stop_requested()) {
@@ -112,6 +121,7 @@ void Job::progress(std::string_view stage, double share) const {
 
 void Job::refuse(Issue issue) const {
   const bool is_limit = issue.kind == IssueKind::limit;
+  if (is_limit && state_->is_attempt) abandon_attempt();
   if (!issue.pointer.empty()) {
     issue.pointer.insert(0, prefix_);
   } else {

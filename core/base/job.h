@@ -113,6 +113,10 @@ class Job {
   /// up the limits of the request. It works on one thread and reports no progress.
   Job for_estimate() const;
 
+  /// Returns a Job like for_estimate(), with smaller limits. Where one is exceeded, the work ends by
+  /// abandon_attempt() (core/base/attempt.h) instead of a Stop.
+  Job for_small_estimate(const Limits& limits) const;
+
   /// While the scope exists, issues of IssueKind::limit that have no pointer get `pointer`. This applies to
   /// this job and to its children. Do not create or destroy a scope while other threads use this job.
   class PointerScope {
@@ -168,6 +172,7 @@ class Job {
     std::shared_ptr<MemoryBudget> budget;
     std::atomic<std::uint64_t> spent[4] = {};
     std::vector<Stage> stages;
+    bool is_attempt = false;  ///< exceeded limits abandon the work
   };
   Job(std::uint64_t seed, std::shared_ptr<State> state)
       : seed_(seed), is_child_(true), state_(std::move(state)) {}

@@ -34,7 +34,8 @@ Relief plated(const Plates& plates, int size, Rng rng, const Job& job) {
     CellRows cell_rows(cells, wobble, plates.strength);
     NoiseRows grain_rows(grain_noise), patch_rows(patch_noise);
     for (int y = begin; y < end; ++y) {
-      const auto [border, shade] = cell_rows.row(y);
+      const CellRows::Row cell = cell_rows.row(y);
+      const float *border = cell.border, *shade = cell.shade;
       const float *fine = grain_rows.row(y), *large = patch_rows.row(y);
       const ReliefRow out = row_at(y);
       for (int x = 0; x < size; ++x) {

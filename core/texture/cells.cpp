@@ -22,10 +22,16 @@ struct Near {
   float x[9], y[9], shade[9];
 };
 
+/// What is found for a texel, in arrays by texel.
+struct Found {
+  float *border, *shade, *right, *down;
+};
+
 /// The cells of `lanes` texels in one square: the distance to the border between the nearest and the second nearest
 /// point.
 inline void find_cells(const Near& near, const float* __restrict at_x, const float* __restrict at_y,
-                       float* __restrict border, float* __restrict shade) {
+                       float (&border)[lanes], float (&shade)[lanes], float (&right)[lanes],
+                       float (&down)[lanes]) {
   for (int k = 0; k < lanes; ++k) {
     const float x = at_x[k], y = at_y[k];
     // Without branches, which the processor could not predict.
@@ -45,6 +51,8 @@ inline void find_cells(const Near& near, const float* __restrict at_x, const flo
     const float across_x = second_x - near_x, across_y = second_y - near_y;
     border[k] = (second - nearest) / (2 * std::sqrt(across_x * across_x + across_y * across_y));
     shade[k] = own_shade;
+    right[k] = x - near_x;
+    down[k] = y - near_y;
   }
 }
 
@@ -57,7 +65,9 @@ struct RowInput {
 
 /// All texels of a row. Lanes of several squares are computed for each of these squares.
 SEEDMESH_WIDE void find_row(const RowInput& in, const float* __restrict x, const float* __restrict y,
-                            float* __restrict border, float* __restrict shade) {
+                            const Found& found) {
+  float* __restrict border = found.border, * __restrict shade = found.shade;
+  float* __restrict right = found.right, * __restrict down = found.down;
   const auto last_column = static_cast<float>(in.lattice.columns + 2 * margin - 2);
   const auto last_row = static_cast<float>(in.lattice.rows + 2 * margin - 2);
   for (int begin = 0; begin < in.size; begin += lanes) {
@@ -79,12 +89,14 @@ SEEDMESH_WIDE void find_row(const RowInput& in, const float* __restrict x, const
         near.y[i] = point.y;
         near.shade[i] = point.shade;
       }
-      float borders[lanes], shades[lanes];
-      find_cells(near, x + begin, y + begin, borders, shades);
+      float borders[lanes], shades[lanes], rights[lanes], downs[lanes];
+      find_cells(near, x + begin, y + begin, borders, shades, rights, downs);
       for (int k = 0; k < lanes; ++k) {
         const bool is_own = square[k] == own;
         border[begin + k] = is_own ? borders[k] : border[begin + k];
         shade[begin + k] = is_own ? shades[k] : shade[begin + k];
+        right[begin + k] = is_own ? rights[k] : right[begin + k];
+        down[begin + k] = is_own ? downs[k] : down[begin + k];
         done |= static_cast<int>(is_own) << k;
       }
     }
@@ -109,7 +121,7 @@ Cells::Cells(int size, Lattice lattice, Rng rng)
 CellRows::CellRows(const Cells& cells, const Field& wobble, float strength)
     : cells_(cells), wobble_(wobble), strength_(strength) {
   const auto size = static_cast<std::size_t>(cells.size_);
-  for (std::vector<float>* each : {&x_, &y_, &border_, &shade_}) each->resize(size);
+  for (std::vector<float>* each : {&x_, &y_, &border_, &shade_, &right_, &down_}) each->resize(size);
 }
 
 CellRows::Row CellRows::row(int y) {
@@ -126,8 +138,8 @@ CellRows::Row CellRows::row(int y) {
     y_[static_cast<std::size_t>(x + half)] = at_y + down[x] * strength_;
   }
   find_row({cells_.points_.data(), cells_.pitch_, cells_.lattice_, size}, x_.data(), y_.data(),
-           border_.data(), shade_.data());
-  return {border_.data(), shade_.data()};
+           {border_.data(), shade_.data(), right_.data(), down_.data()});
+  return {border_.data(), shade_.data(), right_.data(), down_.data()};
 }
 
 }  // namespace seedmesh::texture

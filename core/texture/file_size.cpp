@@ -69,7 +69,8 @@ constexpr KindSize kind_sizes[] = {KindSize{"oak_bark", 0.54F, 1.91F, 0.29F},
                                    {"rock_ground", 0.38F, 1.97F, 0.20F},
                                    {"scree_ground", 0.38F, 1.87F, 0.16F},
                                    {"sand_ground", 0.30F, 1.14F, 0.11F},
-                                   {"snow_ground", 0.23F, 1.49F, 0.11F}};
+                                   {"snow_ground", 0.23F, 1.49F, 0.11F},
+                                   {"litter_ground", 0.45F, 2.0F, 0.2F}};
 constexpr double measured_size = 512;
 constexpr double fall = 0.4;  ///< larger images need fewer bytes a texel: their exponent
 

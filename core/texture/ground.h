@@ -13,7 +13,7 @@ constexpr double ground_tile = 2;
 Relief grass_ground(int size, Rng rng, const Job& job);
 /// Clods with pebbles and dry stalks.
 Relief soil_ground(int size, Rng rng, const Job& job);
-/// Bare rock: plates between cracks, chipped and pitted.
+/// Bare rock: tilted facets of 5 to 25 cm between thin cracks, with grain, weathered crests and lichen.
 Relief rock_ground(int size, Rng rng, const Job& job);
 /// Angular stones of 2 to 20 cm.
 Relief scree_ground(int size, Rng rng, const Job& job);
@@ -21,5 +21,7 @@ Relief scree_ground(int size, Rng rng, const Job& job);
 Relief sand_ground(int size, Rng rng, const Job& job);
 /// Snow with low drifts.
 Relief snow_ground(int size, Rng rng, const Job& job);
+/// The floor of a forest: needles, fallen leaves of 4 to 9 cm and dead twigs.
+Relief litter_ground(int size, Rng rng, const Job& job);
 
 }  // namespace seedmesh::texture

@@ -287,6 +287,7 @@ constexpr WallKind kinds[] = {
     {"scree_ground", {ground_tile, ground_tile}, true},
     {"sand_ground", {ground_tile, ground_tile}, true},
     {"snow_ground", {ground_tile, ground_tile}, true},
+    {"litter_ground", {ground_tile, ground_tile}, true},
 };
 
 constexpr Painter painters[] = {
@@ -314,6 +315,7 @@ constexpr Painter painters[] = {
     {scree_ground, {}, 0.32F, 1.3F, {}, 0.08F, 0.98F, 0.78F, 0.9F, 0.6F},
     {sand_ground, {232, 232, 232}, 0.8F, 1.1F, {}, 0.02F, 0.95F, 0.78F, 0.9F, 0.25F},
     {snow_ground, {240, 240, 240}, 0.91F, 1.08F, {}, 0.035F, 0.8F, 0.5F, 0.7F, 0.15F},
+    {litter_ground, {}, 0.4F, 1.3F, {}, 0.03F, 0.98F, 0.78F, 0.9F, 0.6F},
 };
 static_assert(std::size(kinds) == std::size(painters));
 

@@ -1300,7 +1300,7 @@ export interface SceneParametersLayersItemPlace {
   /** Patches by smooth noise. */
   noise?: SceneParametersLayersItemPlaceNoise;
   /** Classes of the ground of the terrain. The probability rises from 0 where they have 30 % of the ground to 1 where they have 55 %. Default: all classes. */
-  ground?: ("grass" | "soil" | "rock" | "scree" | "sand" | "snow")[];
+  ground?: ("grass" | "soil" | "rock" | "scree" | "sand" | "snow" | "litter")[];
   /** Limits of the slope of the ground; level ground has 0. */
   slope?: SceneParametersLayersItemPlaceSlope;
   /** Limits of the height of the ground. */
@@ -1644,15 +1644,15 @@ export interface TerrainParameters {
   base?: number;
   /** Finer ground around a point, such as a walking camera. Within the radius, the squares of the grid are divided until their sides are at most the step; further out, the step doubles with each radius until it is that of the grid. Small forms by ground are added: rock has ledges and outcrops, scree lumps, grass hummocks, sand and soil ripples, snow low drifts. They end at the rim and at the border of the field. A shape plane with the mesh grid, without texture. */
   refine?: TerrainParametersRefine;
-  /** Colours by height, slope and hollows. stone and mossy are those of rocks: light tops, and tops with moss. */
-  palette?: "alpine" | "desert" | "tropical" | "arctic" | "volcanic" | "moon" | "stone" | "mossy" | "grey" | "none";
+  /** Colours by height, slope and hollows. stone and mossy are those of rocks: light tops, and tops with moss. forest is the floor of a forest: fallen leaves and needles with patches of herbs. */
+  palette?: "alpine" | "desert" | "tropical" | "arctic" | "volcanic" | "moon" | "stone" | "mossy" | "forest" | "grey" | "none";
   specular?: Specular;
   emission?: Emission;
   /** A sheet of water at this height; on a sphere above its mean radius. */
   water_level?: number;
   /** Pixels a side of a colour texture and a normal map of the whole field, instead of vertex colours. 0: none. Not on a sphere. */
   texture?: number;
-  /** Textures that repeat each two metres on the ground: grass, soil, rock, scree, sand or snow by palette, height and slope, each with colour, normals and roughness. They multiply the vertex colours. Steep ground is mapped from its side. A sphere is rock. Not with texture, and not on a model. */
+  /** Textures that repeat each two metres on the ground: grass, soil, rock, scree, sand, snow or litter by palette, height and slope, each with colour, normals and roughness. They multiply the vertex colours. Steep ground is mapped from its side. A sphere is rock. Not with texture, and not on a model. */
   detail?: boolean;
   /** Applies the heights to the surface of another model instead of a plane. They keep their metres and continue mirrored beyond their edges, so that there is no seam. The model keeps its materials. */
   onto?: TerrainParametersOnto;

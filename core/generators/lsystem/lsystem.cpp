@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "core/base/attempt.h"
 #include "core/generators/lsystem/contours.h"
 #include "core/generators/lsystem/draw.h"
 #include "core/generators/lsystem/drawing_cache.h"
@@ -25,6 +26,7 @@
 #include "core/generators/lsystem/word.h"
 #include "core/generators/lsystem/word_warnings.h"
 #include "core/schema/warning_list.h"
+#include "core/texture/file_size.h"
 
 namespace seedmesh::lsystem {
 namespace {
@@ -32,6 +34,8 @@ namespace {
 // largest word in the response of derive, in bytes
 constexpr std::size_t longest_text = std::size_t{16} << 20U;
 constexpr std::uint64_t most_appraised = 50'000;  // segments; drawing them takes milliseconds
+// Models of this size are made in about ten milliseconds.
+constexpr std::uint64_t most_made_modules = 50'000, most_made_triangles = 200'000;
 
 Result<Grammar> compiled(const LsystemParams& params, const Job& job) {
   std::vector<Issue> issues;
@@ -323,6 +327,26 @@ static Estimate estimate_of_drawn(const Grammar& grammar, const LsystemParams& p
   return estimate_of(skeleton, params, own);
 }
 
+/// Generates a small model and counts it, because random choices, conditions or organs determine its size. Returns
+/// nullopt for a model that takes longer than an estimate may.
+static std::optional<Estimate> estimate_of_made(const LsystemParams& params, const GenerateContext& context) {
+  Limits limits = context.job.limits();
+  limits.modules = std::min(limits.modules, most_made_modules);
+  limits.triangles = std::min(limits.triangles, most_made_triangles);
+  Job own = context.job.for_small_estimate(limits);
+  std::optional<Estimate> estimate;
+  const bool is_small = attempt([&] {
+    const Result<Model> model =
+        generate(params, {own, {.textures = context.demand.textures}, context.generators});
+    if (!model) return;
+    const ModelCounts counts = count(*model);
+    texture::TextureSizes textures;
+    for (const Material& material : model->materials) textures.add(material);
+    estimate = {counts.triangles, counts.bytes + textures.bytes(context.demand.textures), false};
+  });
+  return is_small ? estimate : std::nullopt;
+}
+
 Result<Appraisal> appraise(const LsystemParams& params, const GenerateContext& context) {
   Job& job = context.job;
   Result<Grammar> grammar = compiled(params, job);
@@ -334,8 +358,10 @@ Result<Appraisal> appraise(const LsystemParams& params, const GenerateContext& c
   refuse_explosion(*grammar, steps_of(params), job);
   if (OpenSystems::needed(*grammar, params)) return appraisal;
   const std::vector<std::uint64_t> counts = exact_counts(*grammar, steps_of(params));
-  if (!counts.empty() && grammar->interpretation.productions.empty()) {
-    if (share_of(params) == 1) warn_of_word(*grammar, counts, appraisal.warnings);
+  const bool is_counted = !counts.empty() && grammar->interpretation.productions.empty();
+  if (is_counted && share_of(params) == 1) warn_of_word(*grammar, counts, appraisal.warnings);
+  if (!is_counted || !params.surfaces.empty()) appraisal.estimate = estimate_of_made(params, context);
+  if (is_counted && !appraisal.estimate) {
     const std::uint64_t segments = drawn(*grammar, counts);
     const bool is_tubes = params.style != LsystemParams::Style::lines;
     if (is_tubes && segments <= most_appraised) {

@@ -27,8 +27,9 @@ Result<Model> generate(const LsystemParams& params, const GenerateContext& conte
 /// its drawing, without geometry.
 Result<Json> derive(const LsystemParams& params, const GenerateContext& context);
 
-/// Returns the estimated size and the warnings without generating. The estimate is empty where random choices
-/// or conditions decide the size.
+/// Returns the estimated size and the warnings. Where random choices, conditions or organs determine the size, a model
+/// of up to 50,000 modules and 200,000 triangles is made and counted, in about ten milliseconds. The estimate of a
+/// larger one is empty, and so is that of open systems and of shared parts.
 Result<Appraisal> appraise(const LsystemParams& params, const GenerateContext& context);
 
 /// Returns {"turtle": [...]}: the rows of the command table (commands.h).

@@ -144,7 +144,7 @@ double Ground::share_of(const std::vector<SceneGroundClass>& classes, const glm:
   return static_cast<double>(terrain::ease(0.3F, 0.55F, sum));
 }
 static_assert(static_cast<int>(SceneGroundClass::grass) == terrain::GroundShares::grass &&
-              static_cast<int>(SceneGroundClass::snow) == terrain::GroundShares::snow);
+              static_cast<int>(SceneGroundClass::litter) == terrain::GroundShares::litter);
 
 bool Ground::refines(const glm::dvec2& p) const {
   return refined_ && refined_->holds(p.x - extent_.min.x, p.y - extent_.min.y);

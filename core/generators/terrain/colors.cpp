@@ -29,7 +29,7 @@ struct Ramp {
 };
 
 // In the order of PaletteName; `grey` and `none` have no ramp.
-constexpr std::array<Ramp, 8> ramps{{
+constexpr std::array<Ramp, 9> ramps{{
     {{70, 84, 84},
      {178, 166, 132},
      {90, 103, 60},
@@ -110,7 +110,20 @@ constexpr std::array<Ramp, 8> ramps{{
      1.6F,
      0.45F,
      1.15F},
+    {{70, 72, 62},
+     {128, 116, 92},
+     {84, 96, 52},
+     {100, 98, 66},
+     {112, 108, 100},
+     {120, 118, 108},
+     0.8F,
+     1.6F,
+     0.5F,
+     1.05F},
 }};
+
+/// Fallen leaves and needles.
+constexpr Srgb litter_color{106, 91, 70};
 
 glm::vec3 linear(const Srgb& color) {
   return {linear_of_srgb(color.r), linear_of_srgb(color.g), linear_of_srgb(color.b)};
@@ -119,6 +132,8 @@ glm::vec3 linear(const Srgb& color) {
 glm::vec3 blend(const glm::vec3& a, const glm::vec3& b, float share) { return a + (b - a) * share; }
 
 }  // namespace
+
+float litter_share(const Site& site) { return ease(-0.3F, 0.2F, site.patch); }
 
 GroundColors::GroundColors(PaletteName palette, const Range& range, float level)
     : palette_(palette), range_(range), level_(level) {
@@ -169,7 +184,9 @@ glm::vec3 GroundColors::color(const Site& site) const {
     return glm::vec3(0.05F + 0.85F * std::clamp(share, 0.0F, 1.0F));
   }
   const Shares all = shares(site);
-  glm::vec3 color = blend(linear_.low, linear_.high, all.high);
+  glm::vec3 color = linear_.low;
+  if (palette_ == PaletteName::forest) color = blend(color, linear(litter_color), litter_share(site));
+  color = blend(color, linear_.high, all.high);
   color = blend(color, linear_.cliff, all.cliff);
   color = blend(color, linear_.peak, all.peak);
   color = blend(color, linear_.shore, all.shore);

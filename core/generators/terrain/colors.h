@@ -6,7 +6,7 @@
 
 namespace seedmesh::terrain {
 
-enum class PaletteName { alpine, desert, tropical, arctic, volcanic, moon, stone, mossy, grey, none };
+enum class PaletteName { alpine, desert, tropical, arctic, volcanic, moon, stone, mossy, forest, grey, none };
 
 /// Shares of four ground types, which sum to 1: the weights of a splat map.
 struct Cover {
@@ -26,13 +26,17 @@ inline Site blend(const Site& a, const Site& b, float t) {
           a.hollow + t * (b.hollow - a.hollow), a.patch + t * (b.patch - a.patch)};
 }
 
+/// Returns the share of fallen leaves and needles among the plants on the floor of a forest, by patches.
+float litter_share(const Site& site);
+
 /// Colours of one palette for one range of heights.
 class GroundColors {
  public:
   /// `level`: height of the water; there is none at or below range.low.
   GroundColors(PaletteName palette, const Range& range, float level);
   Cover cover(const Site& site) const;
-  glm::vec3 color(const Site& site) const;  ///< linear
+  glm::vec3 color(const Site& site) const;                                ///< linear
+  float high_share(const Site& site) const { return shares(site).high; }  ///< of high ground
   PaletteName palette() const { return palette_; }
 
  private:

@@ -21,7 +21,7 @@ namespace seedmesh::terrain {
 namespace {
 
 // In the order of GroundShares::Kind.
-constexpr std::array<const char*, 6> names{"grass", "soil", "rock", "scree", "sand", "snow"};
+constexpr std::array<const char*, 7> names{"grass", "soil", "rock", "scree", "sand", "snow", "litter"};
 // Classes of a smaller share of the field are left to the others, since each has textures of its own.
 constexpr float least_share = 0.01F;
 constexpr std::int32_t most_rows = 256;
@@ -34,7 +34,7 @@ constexpr std::uint64_t shrub_key = 0x5348'5255;
 // Tussocks and boulders that are smaller than the squares of the mesh tilt its normals, in cells and by class.
 constexpr double bump_cells = 2.3;
 constexpr std::uint64_t bump_keys[] = {0x4255'4D58, 0x4255'4D5A};
-constexpr float bumps[] = {0.28F, 0.24F, 0.38F, 0.3F, 0.06F, 0.08F};
+constexpr float bumps[] = {0.28F, 0.24F, 0.38F, 0.3F, 0.06F, 0.08F, 0.2F};
 constexpr glm::vec3 shrub_color{0.55F, 0.53F, 0.5F};
 
 /// The factor of a vertex colour by shrubs, for a noise value and the share of grass.

@@ -1,5 +1,5 @@
 #pragma once
-/// Grounds by class (grass, rock, scree, sand, snow, soil), each with textures that repeat each two metres. They
+/// Grounds by class (grass, rock, scree, sand, snow, soil, litter), each with textures that repeat each two metres. They
 /// multiply the vertex colours, which contain the colours of the land at low resolution.
 ///
 /// Texture coordinates are in set 1. Gentle ground is mapped from above. Ground steeper than 50 degrees is

@@ -42,6 +42,15 @@ GroundShares ground_shares(const GroundColors& colors, const Site& site) {
       lay_stone(cover.rock + cover.snow);
       break;
     }
+    case PaletteName::forest: {
+      // High ground is above the tree line and has no litter.
+      const float litter = litter_share(site) * (1 - colors.high_share(site));
+      lay(GroundShares::grass, cover.grass * (1 - litter));
+      lay(GroundShares::litter, cover.grass * litter);
+      lay(GroundShares::soil, cover.sand);
+      lay_stone(cover.rock + cover.snow);
+      break;
+    }
     case PaletteName::tropical:
       lay(GroundShares::grass, cover.grass);
       lay(GroundShares::sand, cover.sand);

@@ -6,7 +6,7 @@ namespace seedmesh::terrain {
 
 /// Shares that sum to 1.
 struct GroundShares {
-  enum Kind { grass, soil, rock, scree, sand, snow, kind_count };
+  enum Kind { grass, soil, rock, scree, sand, snow, litter, kind_count };
   float of[kind_count] = {};
 };
 

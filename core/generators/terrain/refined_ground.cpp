@@ -259,6 +259,9 @@ RefinedGround::Sampler::Form RefinedGround::Sampler::form(const GroundShares& sh
       0.42F * lump(n2) + 0.24F * lump(n1) + 0.07F * n05);
   add(shares.of[GroundShares::soil], 0.2F * n9 + 0.13F * n4 + 0.5F * waves.wide,
       0.08F * n2 + 0.08F * lump(n1) + 0.04F * lump(n05));
+  // Mounds of moss and roots below the litter.
+  add(shares.of[GroundShares::litter], 0.35F * n9 + 0.3F * lump(n4) + 0.5F * waves.wide,
+      0.14F * lump(n2) + 0.1F * lump(n1) + 0.05F * n05);
   add(shares.of[GroundShares::sand], 0.2F * n9 + 0.06F * n4 + 0.4F * waves.wide, 0.07F * waves.ripples);
   add(shares.of[GroundShares::snow], 0.24F * n9 + 0.12F * n4 + 0.4F * waves.wide, 0.03F * n2);
   const auto& [huge, large, middle] = waves.blocks;

@@ -206,6 +206,11 @@ TEST(Welded, EveryPresetIsClosedAndEstimatedWithinAQuarter) {
     Job other = job_of(seed);
     const Result<Appraisal> appraisal = appraise(params, context_of(other));
     ASSERT_TRUE(appraisal);
+    // Random systems, and those with organs, are made and counted as a whole.
+    if (appraisal->estimate && appraisal->estimate->triangles == count(model).triangles) {
+      ++estimated;
+      continue;
+    }
     const auto triangles = static_cast<double>(triangles_of(bark_of(model)));
     // Curves that overlap themselves are not plants.
     const bool is_curve = entry.path().stem() == "levy_curve" || entry.path().stem() == "penrose_tiling";

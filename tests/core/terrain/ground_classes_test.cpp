@@ -71,7 +71,11 @@ TEST(GroundClasses, HaveMaterialsOfTheirPalette) {
   EXPECT_TRUE(kinds(PaletteName::desert).contains("sand_ground"));
   EXPECT_TRUE(kinds(PaletteName::arctic).contains("snow_ground"));
   EXPECT_TRUE(kinds(PaletteName::moon).contains("soil_ground"));
-  for (const PaletteName palette : {PaletteName::alpine, PaletteName::desert, PaletteName::arctic})
+  EXPECT_TRUE(kinds(PaletteName::forest).contains("litter_ground"));
+  EXPECT_TRUE(kinds(PaletteName::forest).contains("grass_ground"));
+  EXPECT_FALSE(kinds(PaletteName::alpine).contains("litter_ground"));
+  for (const PaletteName palette :
+       {PaletteName::alpine, PaletteName::desert, PaletteName::arctic, PaletteName::forest})
     EXPECT_TRUE(kinds(palette).contains("rock_ground"));
 }
 

@@ -115,7 +115,7 @@ TEST_P(Grounds, DifferInRoughness) {
 
 INSTANTIATE_TEST_SUITE_P(All, Grounds,
                          testing::Values("grass_ground", "soil_ground", "rock_ground", "scree_ground",
-                                         "sand_ground", "snow_ground"),
+                                         "sand_ground", "snow_ground", "litter_ground"),
                          [](const auto& each) { return std::string(each.param); });
 
 }  // namespace

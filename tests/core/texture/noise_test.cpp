@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -63,9 +64,9 @@ TEST(Noise, RidgesHaveTheirCrestsWhereTheNoiseIsZero) {
 /// The definition, by all points of the image and of its eight copies: half the difference of the squared distances
 /// to the two nearest, divided by their distance.
 CellRows::Row defined_row(const std::vector<Cells::Point>& points, Lattice lattice, int y,
-                          std::vector<float>& border, std::vector<float>& shade) {
-  border.clear();
-  shade.clear();
+                          std::array<std::vector<float>, 4>& values) {
+  auto& [border, shade, right, down] = values;
+  for (std::vector<float>& each : values) each.clear();
   for (int x = 0; x < size; ++x) {
     const float at_x = static_cast<float>(x * lattice.columns) / size,
                 at_y = static_cast<float>(y * lattice.rows) / size;
@@ -79,8 +80,10 @@ CellRows::Row defined_row(const std::vector<Cells::Point>& points, Lattice latti
     const Cells::Point &a = found[0].second, &b = found[1].second;
     border.push_back((found[1].first - found[0].first) / (2 * std::hypot(a.x - b.x, a.y - b.y)));
     shade.push_back(a.shade);
+    right.push_back(at_x - a.x);
+    down.push_back(at_y - a.y);
   }
-  return {border.data(), shade.data()};
+  return {border.data(), shade.data(), right.data(), down.data()};
 }
 
 TEST(Cells, AreThoseOfTheNearestPoints) {
@@ -88,15 +91,17 @@ TEST(Cells, AreThoseOfTheNearestPoints) {
   const Cells cells(size, lattice, Rng::of_seed(2));
   const Field still(job_of(), size, 0.0F);
   CellRows rows(cells, still, 1);
-  std::vector<float> border, shade;
+  std::array<std::vector<float>, 4> values;
   int differ = 0;
   for (int y = 0; y < size; y += 3) {
     const CellRows::Row found = rows.row(y);
-    const CellRows::Row wanted = defined_row(cells.points(), lattice, y, border, shade);
+    const CellRows::Row wanted = defined_row(cells.points(), lattice, y, values);
     for (int x = 0; x < size; ++x) {
       // The second nearest point may lie outside of the nine squares.
-      const bool is_same =
-          std::abs(found.border[x] - wanted.border[x]) < 1e-4F && found.shade[x] == wanted.shade[x];
+      const bool is_same = std::abs(found.border[x] - wanted.border[x]) < 1e-4F &&
+                           found.shade[x] == wanted.shade[x] &&
+                           std::abs(found.right[x] - wanted.right[x]) < 1e-4F &&
+                           std::abs(found.down[x] - wanted.down[x]) < 1e-4F;
       differ += is_same ? 0 : 1;
     }
   }

@@ -840,7 +840,7 @@ class SceneParametersLayersItemPlace(TypedDict, total=False):
     density: float
     density_image: str
     noise: "SceneParametersLayersItemPlaceNoise"
-    ground: List[Literal['grass', 'soil', 'rock', 'scree', 'sand', 'snow']]
+    ground: List[Literal['grass', 'soil', 'rock', 'scree', 'sand', 'snow', 'litter']]
     slope: "SceneParametersLayersItemPlaceSlope"
     altitude: "SceneParametersLayersItemPlaceAltitude"
     above_water: "SceneParametersLayersItemPlaceAboveWater"
@@ -1044,7 +1044,7 @@ class TerrainParameters(TypedDict, total=False):
     skirt: float
     base: float
     refine: "TerrainParametersRefine"
-    palette: Literal['alpine', 'desert', 'tropical', 'arctic', 'volcanic', 'moon', 'stone', 'mossy', 'grey', 'none']
+    palette: Literal['alpine', 'desert', 'tropical', 'arctic', 'volcanic', 'moon', 'stone', 'mossy', 'forest', 'grey', 'none']
     specular: "Specular"
     emission: "Emission"
     water_level: float

@@ -1,0 +1,248 @@
+#include "core/texture/ground_pieces.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <vector>
+
+#include "core/base/math.h"
+
+namespace seedmesh::texture {
+namespace {
+
+constexpr int pieces_a_look = 256;
+
+/// A piece that lies on the ground: an ellipse about `at`, in shares of the image.
+struct Patch {
+  glm::vec2 at{0}, along{1, 0};  ///< `along`: unit direction of the long axis
+  float half_length = 0.01F, half_width = 0.01F;
+};
+
+/// The texels of the rows of a long narrow patch: those within `half` of a middle that moves with the row.
+class Strip {
+ public:
+  /// |slope * x + across * y| <= most. Texels beyond the strip may be included.
+  Strip(float slope, float across, float most) {
+    constexpr float level = 1e-3F;  // smaller slopes would lose the digits
+    if (std::abs(slope) < level) return;
+    shift_ = -across / slope;
+    half_ = std::abs(most / slope);
+  }
+  float low(float y) const { return shift_ * y - half_; }
+  float high(float y) const { return shift_ * y + half_; }
+
+ private:
+  float shift_ = 0, half_ = 1e9F;
+};
+
+/// The floor of a coordinate in texels. std::floor is a call where the processor may lack the instruction.
+int floor_of(float v) {
+  constexpr float below = 8192;  // patches begin less than an image before it
+  return static_cast<int>(v + below) - static_cast<int>(below);
+}
+
+/// Calls body(x, y, a, b) for the texels of a patch, with their coordinates -1 .. 1 along both axes. x and y may lie
+/// beyond the image, which repeats.
+template <class Body>
+void each_texel(const Patch& patch, int size, Body&& body) {
+  const auto scale = static_cast<float>(size);
+  const float length = std::max(patch.half_length * scale, 0.5F),
+              width = std::max(patch.half_width * scale, 0.5F);
+  const glm::vec2 middle = patch.at * scale, along = patch.along * (1 / length),
+                  across = glm::vec2(-patch.along.y, patch.along.x) * (1 / width);
+  const float reach_x = std::abs(patch.along.x) * length + std::abs(patch.along.y) * width,
+              reach_y = std::abs(patch.along.y) * length + std::abs(patch.along.x) * width;
+  const Strip lengthwise(patch.along.x, patch.along.y, length),
+      crosswise(-patch.along.y, patch.along.x, width);
+  const int last_y = floor_of(middle.y + reach_y);
+  for (int y = floor_of(middle.y - reach_y); y <= last_y; ++y) {
+    const float off_y = static_cast<float>(y) + 0.5F - middle.y;
+    // The middles of texels are half a texel after their numbers; the rest is for rounding.
+    const float low = std::max({-reach_x, lengthwise.low(off_y), crosswise.low(off_y)}) - 0.6F,
+                high = std::min({reach_x, lengthwise.high(off_y), crosswise.high(off_y)}) - 0.4F;
+    const int last_x = floor_of(middle.x + high);
+    for (int x = floor_of(middle.x + low); x <= last_x; ++x) {
+      const float off_x = static_cast<float>(x) + 0.5F - middle.x;
+      const float a = off_x * along.x + off_y * along.y, b = off_x * across.x + off_y * across.y;
+      if (std::abs(a) <= 1 && std::abs(b) <= 1) body(x, y, a, b);
+    }
+  }
+}
+
+glm::vec2 direction(float turns) {
+  const math::SinCos turn = math::sincos(2 * math::pi * static_cast<double>(turns));
+  return {static_cast<float>(turn.cos), static_cast<float>(turn.sin)};
+}
+
+/// Returns the numbers of the pieces from the highest to the lowest. Each texel shows its highest piece, so the order
+/// changes nothing but the time: most texels of the lower pieces are hidden already.
+template <class Piece>
+std::vector<std::uint32_t> from_the_highest(const std::vector<Piece>& pieces) {
+  std::vector<std::uint32_t> order(pieces.size());
+  for (std::uint32_t i = 0; i < order.size(); ++i) order[i] = i;
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::uint32_t a, std::uint32_t b) { return pieces[a].high > pieces[b].high; });
+  return order;
+}
+
+float draw(Rng& rng, float low, float high) {
+  return static_cast<float>(rng.uniform(static_cast<double>(low), static_cast<double>(high)));
+}
+
+struct Blade {
+  Patch patch;
+  float high, tone;
+};
+
+Blade blade_of(const Pieces& pieces, const Field& clumps, Rng own) {
+  Blade blade;
+  Patch& patch = blade.patch;
+  const float x = draw(own, 0, 1);
+  patch.at = {x, draw(own, 0, 1)};
+  patch.along = direction(draw(own, 0, 1));
+  patch.half_length = 0.5F * draw(own, pieces.shortest, pieces.longest);
+  patch.half_width = patch.half_length * pieces.width;
+  blade.high = draw(own, pieces.low, pieces.high);
+  const glm::vec2 there = patch.at * static_cast<float>(clumps.size());
+  blade.tone = 0.5F + pieces.differ * draw(own, -0.5F, 0.5F) +
+               clumps.at(static_cast<int>(there.x), static_cast<int>(there.y));
+  return blade;
+}
+
+struct Stone {
+  Patch patch;
+  std::array<glm::vec3, 5> planes;  ///< that cut the dome: direction and distance
+  float high, tone;
+};
+
+Stone stone_of(const Pieces& pieces, Rng own) {
+  Stone stone;
+  Patch& patch = stone.patch;
+  const float x = draw(own, 0, 1);
+  patch.at = {x, draw(own, 0, 1)};
+  patch.along = direction(draw(own, 0, 1));
+  const float random = draw(own, 0, 1);  // small ones are more frequent
+  patch.half_length =
+      0.5F * (pieces.shortest + (pieces.longest - pieces.shortest) * random * random * random);
+  patch.half_width = patch.half_length * draw(own, pieces.width, 1);
+  for (glm::vec3& plane : stone.planes) {
+    const glm::vec2 side = direction(draw(own, 0, 1));
+    plane = {side.x, side.y, draw(own, 0.35F, 0.75F)};
+  }
+  const float size_share = patch.half_length / (0.5F * pieces.longest);
+  stone.high = pieces.low + (pieces.high - pieces.low) * (0.35F + 0.65F * size_share);
+  stone.tone = 0.5F + pieces.differ * draw(own, -0.5F, 0.5F);
+  return stone;
+}
+
+struct Leaf {
+  Patch patch;
+  glm::vec2 tilt{0};  ///< rise along both axes
+  float curl = 0;     ///< rise of the sides
+  float high, tone;
+};
+
+Leaf leaf_of(const Pieces& pieces, Rng own) {
+  Leaf leaf;
+  Patch& patch = leaf.patch;
+  const float x = draw(own, 0, 1);
+  patch.at = {x, draw(own, 0, 1)};
+  patch.along = direction(draw(own, 0, 1));
+  patch.half_length = 0.5F * draw(own, pieces.shortest, pieces.longest);
+  patch.half_width = patch.half_length * pieces.width * draw(own, 0.75F, 1.25F);
+  const float tilt_along = draw(own, -0.09F, 0.09F);
+  leaf.tilt = {tilt_along, draw(own, -0.09F, 0.09F)};
+  leaf.curl = draw(own, -0.04F, 0.12F);
+  leaf.high = draw(own, pieces.low, pieces.high);
+  leaf.tone = 0.5F + pieces.differ * draw(own, -0.5F, 0.5F);
+  return leaf;
+}
+
+}  // namespace
+
+void add_blades(Relief& relief, const Pieces& pieces, const Field& clumps, Rng rng, const Job& job) {
+  const int size = relief.height.size();
+  std::vector<Blade> blades;
+  blades.reserve(static_cast<std::size_t>(pieces.count));
+  for (int i = 0; i < pieces.count; ++i)
+    blades.push_back(blade_of(pieces, clumps, rng.at(static_cast<std::uint64_t>(i))));
+  int drawn = 0;
+  for (const std::uint32_t i : from_the_highest(blades)) {
+    if (drawn++ % pieces_a_look == 0) job.check();
+    const float middle = blades[i].high, tone = blades[i].tone;
+    each_texel(blades[i].patch, size, [&](int x, int y, float a, float b) {
+      float& there = relief.height.at(x, y);
+      if (middle <= there) return;
+      const float across = std::abs(b) / std::max(0.25F, 1 - 0.7F * std::max(a, 0.0F));
+      if (across > 1) return;
+      const float height =
+          middle * (0.55F + 0.45F * (1 - 0.5F * (1 - a) * (1 - a) * 0.5F)) * (1 - 0.3F * across);
+      if (height <= there) return;
+      there = height;
+      relief.tone.at(x, y) = tone + 0.12F * a - 0.08F * across - 0.42F * (1 - middle);
+    });
+  }
+}
+
+void add_stones(Relief& relief, const Pieces& pieces, Rng rng, const Job& job) {
+  const int size = relief.height.size();
+  std::vector<Stone> stones;
+  stones.reserve(static_cast<std::size_t>(pieces.count));
+  for (int i = 0; i < pieces.count; ++i)
+    stones.push_back(stone_of(pieces, rng.at(static_cast<std::uint64_t>(i))));
+  int drawn = 0;
+  for (const std::uint32_t i : from_the_highest(stones)) {
+    if (drawn++ % pieces_a_look == 0) job.check();
+    const Stone& stone = stones[i];
+    const float rise = stone.high - pieces.low;
+    each_texel(stone.patch, size, [&](int x, int y, float a, float b) {
+      float& there = relief.height.at(x, y);
+      if (stone.high <= there) return;
+      float up = std::sqrt(std::max(0.0F, 1 - a * a - b * b));
+      // Cuts only make a stone lower.
+      if (up <= 0 || pieces.low + rise * up <= there) return;
+      float facet = 0;
+      for (const glm::vec3& plane : stone.planes) {
+        const float bound = (plane.z * 1.25F - a * plane.x - b * plane.y) * 1.6F;
+        if (bound < up) {
+          up = bound;
+          facet = plane.x;
+        }
+      }
+      const float height = pieces.low + rise * up;
+      if (up <= 0 || height <= there) return;
+      there = height;
+      relief.tone.at(x, y) = stone.tone + 0.1F * facet - 0.25F * (1 - std::min(1.0F, 2 * up));
+    });
+  }
+}
+
+void add_leaves(Relief& relief, const Pieces& pieces, Rng rng, const Job& job) {
+  const int size = relief.height.size();
+  std::vector<Leaf> leaves;
+  leaves.reserve(static_cast<std::size_t>(pieces.count));
+  for (int i = 0; i < pieces.count; ++i)
+    leaves.push_back(leaf_of(pieces, rng.at(static_cast<std::uint64_t>(i))));
+  int drawn = 0;
+  for (const std::uint32_t i : from_the_highest(leaves)) {
+    if (drawn++ % pieces_a_look == 0) job.check();
+    const Leaf& leaf = leaves[i];
+    each_texel(leaf.patch, size, [&](int x, int y, float a, float b) {
+      // The widest part is nearer to the base than to the tip.
+      const float half_width = (1 - a * a) * (1 - 0.35F * a), off = std::abs(b);
+      if (off > half_width) return;
+      float& there = relief.height.at(x, y);
+      const float rib = off < 0.07F ? 0.05F : 0;
+      const float height =
+          clamp_share(leaf.high + leaf.tilt.x * a + leaf.tilt.y * b + leaf.curl * b * b - rib);
+      if (height <= there) return;
+      there = height;
+      relief.tone.at(x, y) = leaf.tone + 0.9F * (leaf.tilt.x * a + leaf.tilt.y * b) + (rib > 0 ? 0.1F : 0) -
+                             0.35F * (1 - leaf.high);
+    });
+  }
+}
+
+}  // namespace seedmesh::texture
