@@ -31,7 +31,7 @@ struct GivenLine {
 std::vector<GivenLine> given_lines(const CityParams& params, std::vector<CrossSection>& sections,
                                    std::vector<Issue>& issues);
 
-/// Returns the given water.
+/// Returns the polygons of the given water, in centimetres. Adds issues for geometries that cannot be read.
 std::vector<Rings> given_water(const CityParams& params, std::vector<Issue>& issues);
 
 }  // namespace seedmesh::city

@@ -12,7 +12,7 @@ namespace seedmesh::city {
 
 class GroundMesh {
  public:
-  /// With textures, pedestrian crossings and lane lines have the coordinates of the textures of their stripes.
+  /// With textures, pedestrian crossings and lane lines get coordinates for the textures of their stripes.
   GroundMesh(const CityPlan& plan, const Surface& surface, bool has_textures, const Job& job);
 
   /// Adds the surface of a part, with texture coordinates in metres east and north.
@@ -41,7 +41,8 @@ class GroundMesh {
   Mesh take(Job& job);
 
  private:
-  /// A strip of a carriageway: the lines across it at both ends, and the vertices on each as shares of its length.
+  /// A strip of a carriageway: the lines across it at both ends, and the vertices on each line as shares of the
+  /// length of that line.
   struct StripSides {
     CrossLine start, end;
     std::vector<double> start_shares, end_shares;
@@ -76,8 +77,8 @@ class GroundMesh {
   const Surface& surface_;
   bool has_textures_;
   const Job& job_;
-  /// Twice the area seen from above, in square metres, up to which a triangle is left out. Corners on a straight border
-  /// make triangles without area, which cover nothing.
+  /// Twice the least area of a triangle seen from above, in square metres. Triangles of at most this area are left
+  /// out, because corners on a straight border make triangles that cover nothing.
   float least_ = 0;
   Mesh welded_, mesh_;  ///< triangles added first, with shared vertices; triangles added last
   Triangulator triangulator_;

@@ -29,7 +29,7 @@ struct EdgeBox {
   std::int32_t low_x = 0, low_y = 0, high_x = 0, high_y = 0;
 };
 
-/// All distances in centimetres.
+/// Limits of the local constraints. All distances are centimetres.
 struct ConstraintLimits {
   double snap = 2500;
   double clearance = 3000;

@@ -1,6 +1,6 @@
 #pragma once
 /// The plan of a city: the street graph and the partition of the area that is cut along it. Points are whole
-/// centimetres, x east and y north; lengths and areas are metres unless a name says otherwise.
+/// centimetres, x east and y north; lengths are metres and areas square metres, unless a name says otherwise.
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -40,7 +40,7 @@ struct StreetPiece {
   std::uint32_t kind = 0;
 };
 
-/// A street above or below the others, before its ends are nodes.
+/// A street above or below the others, before its ends have become nodes.
 struct BridgeLine {
   CmRing line;
   std::uint32_t kind = 0;
@@ -105,7 +105,7 @@ struct Part {
   bool is_wall = false;  ///< a verge that a town wall fills
 };
 
-/// Whether a part is a carriageway, a junction or a sidewalk, or a town wall in its position.
+/// Whether a part is a carriageway, a junction, a sidewalk, or a town wall in place of a sidewalk.
 inline bool is_street_space(const Part& part) {
   return part.kind == PartKind::carriageway || part.kind == PartKind::junction ||
          part.kind == PartKind::sidewalk || part.is_wall;
@@ -119,7 +119,7 @@ struct Ward {
 /// Zones without minor streets. The square has no lots, and the citadel is one lot.
 constexpr const char *zone_square = "square", *zone_citadel = "citadel";
 
-/// A zone of the request: where its map is 0.5 or more.
+/// A zone of the request: the area where its map is 0.5 or more.
 struct NamedZone {
   std::string name;
   FieldMap map;
@@ -141,9 +141,10 @@ struct Landmark {
   double turn = 0;         ///< degrees, counter-clockwise from above
   double radius = 15;      ///< metres around `position` in which no tree of a park stands
   bool is_block_whole = false, replaces_house = true;
-  bool is_given = false;                          ///< a footprint of the request
-  bool is_too_large = false;                      ///< for its lot, which then has no building in the plan
-  std::uint32_t lot = no_index, part = no_index;  ///< on which it stands; no_index: none
+  bool is_given = false;      ///< a footprint of the request
+  bool is_too_large = false;  ///< for its lot, which then has no building in the plan
+  /// Indices of the lot and of the part below it; no_index: none.
+  std::uint32_t lot = no_index, part = no_index;
 };
 
 /// A house that stands on a lot.
@@ -180,8 +181,8 @@ struct Block {
   std::vector<std::uint32_t> streets;  ///< edges around it, rising
 };
 
-/// Charges the estimated memory of a plan, which consists of many small lists, to the budget of the request while it
-/// exists.
+/// Charges the estimated memory of a plan, which consists of many small lists, to the budget of the request, as long
+/// as this object exists.
 class MemoryCharge {
  public:
   MemoryCharge(const Job& job, std::uint64_t bytes) : budget_(job.budget()), bytes_(bytes) {
@@ -214,10 +215,11 @@ struct CityPlan {
   std::vector<NamedZone> zones;
   std::vector<Landmark> landmarks;
   StreetGraph graph;
-  /// By edge: the start and end of the straight kerbs, left and then right; equal points without them.
+  /// For each edge, the start and end of its straight kerbs, first the left and then the right one. Both points are
+  /// equal where there is no straight kerb.
   std::vector<std::array<CmPoint, 4>> kerbs;
-  std::vector<double>
-      corner_reaches;  ///< by half-edge: how far the corners at its start reach along it, metres
+  /// For each half-edge, the distance in metres that the corners at its start reach along it.
+  std::vector<double> corner_reaches;
   std::shared_ptr<const Landform> landform;  ///< never null after plan_of()
   StreetHeights heights;
   std::vector<Part> parts;

@@ -1,6 +1,6 @@
 #pragma once
-/// Tunnels under a terrain. A tunnel begins where its line enters the ground behind the street at its end: the ground
-/// there ends in an upright wall with an opening. Around the tube the ground is high enough to cover it.
+/// Tunnels under a terrain. A tunnel begins where its line enters the ground, behind the street at its end. There,
+/// the ground ends in an upright wall with an opening. Around the tube the ground is high enough to cover it.
 #include <array>
 #include <optional>
 #include <span>
@@ -45,8 +45,8 @@ class Tunnels {
   /// those that are not deep enough below a street.
   std::size_t left_out() const { return left_out_; }
 
-  /// Returns the least height that the ground must have at a position in metres to cover the tunnels; a very low
-  /// value far from tunnels.
+  /// Returns the least height that the ground must have at a position in metres to cover the tunnels; far from
+  /// tunnels, a value far below the ground.
   double cover(const glm::dvec2& metres) const;
 
   /// Returns the height of the top of an opening at a position on its border; nothing elsewhere.
