@@ -47,16 +47,16 @@ class Glb {
   /// the texture, two for each vertex, or none.
   void add_mesh(std::string_view name, const TileMesh& mesh, int material, double step, double height,
                 const std::vector<float>& coordinates = {});
-  /// Accessors of the corners of triangles and of texture coordinates; -1: none.
+  /// Numbers of the accessors of triangle indices (`order`) and of texture coordinates; -1: none.
   struct SharedParts {
     int order = -1, coordinates = -1;
   };
-  /// Like add_mesh() above, with corners and texture coordinates from accessors.
+  /// Like add_mesh() above, with triangle indices and texture coordinates from accessors.
   void add_mesh(std::string_view name, const std::vector<TileVertex>& vertices, const SharedParts& parts,
                 int material, double step, double height);
-  /// Adds the corners of triangles among `vertices` vertices and returns the index of their accessor.
+  /// Adds the indices of triangles over `vertices` vertices, and returns the index of their accessor.
   int add_indices(const std::vector<std::uint32_t>& indices, std::size_t vertices);
-  /// Like add_indices(), with corners of 16 bits in a file of their own.
+  /// Like add_indices(), with indices of 16 bits in a file of their own.
   int add_shared_indices(std::string uri, std::size_t count);
   /// Adds texture coordinates in a file of their own and returns the index of their accessor.
   int add_shared_coordinates(std::string uri, std::size_t count);

@@ -13,8 +13,8 @@ constexpr double widest_textured_spacing = 64;  ///< metres between samples of t
 constexpr double ground_texture_mean = 0.84;    ///< linear; vertex colours are divided by it
 
 struct GroundTexture {
-  std::string coordinates_hash,
-      coordinates;                ///< pairs of floats, little-endian, for each vertex with the skirt
+  /// Pairs of floats, little-endian, for each vertex with the skirt.
+  std::string coordinates_hash, coordinates;
   std::string image_hash, image;  ///< a PNG file
   std::uint64_t bytes() const { return sizeof(GroundTexture) + coordinates.size() + image.size(); }
 };

@@ -1,11 +1,11 @@
 #pragma once
 /// Settlements and the roads between them.
 ///
-/// Two settlements are joined if none is nearer to both than they are to each other (relative neighbourhood graph,
-/// Toussaint 1980) and they are at most WorldRoads::longest apart. A road is the cheapest path on a grid of 128 m
-/// within an ellipse around its ends, with costs by grade as in Galin et al. 2010 ("Procedural generation of roads").
-/// Its height follows the ground with a grade of at most 10 %: the mean of the highest road below the ground and the
-/// lowest above it.
+/// Two settlements are joined if no third one is nearer to both than they are to each other (relative neighbourhood
+/// graph, Toussaint 1980). They must also be at most WorldRoads::longest apart. A road is the cheapest path on a grid
+/// of 128 m within an ellipse around its ends. Costs depend on the grade, as in Galin et al. 2010 ("Procedural
+/// generation of roads"). Its height follows the ground with a grade of at most 10 %: the mean of the highest road
+/// below the ground and the lowest above it.
 ///
 /// The nodes of the grid keep 64 m away from positions whose coordinates are multiples of 512 m, and so do earthworks:
 /// coarse tiles, whose samples have such coordinates, need no roads.

@@ -71,8 +71,8 @@ struct World {
   std::array<double, reaches> reach_factor{1, 1, 1, 1, 1, 1, 1}, reach_more{};
 };
 
-/// Errors that the schema cannot express: /extent where it is no power of two, /layers where one is named twice,
-/// /plants where two classes have one name.
+/// Returns the errors that the schema cannot express: /extent is no power of two, /layers names one twice, or two
+/// classes of /plants have one name.
 std::vector<Issue> issues_of(const WorldParams& params);
 
 /// Checks the parameters and returns the world. `store` keeps values that tiles share; without one, the world
