@@ -16,7 +16,7 @@ struct Asset {
   const PartRow* row = nullptr;       ///< of a built-in part: it has no primitives and is made for each size
 };
 
-/// What one body adds to a file.
+/// The amount that one body adds to a file.
 struct BodyCost {
   std::uint64_t triangles = 0, vertices = 0, primitives = 1;
 

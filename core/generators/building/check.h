@@ -57,7 +57,7 @@ void check_attribute_value(const Grammar& grammar, Texts& texts,
 /// Returns a warning if nothing is drawn and no NIL removed shapes.
 std::optional<Warning> nothing_drawn(const Shapes& shapes);
 
-/// The limits of the request and the job in whose time check_all() works.
+/// The limits of the request, and the job whose deadline check_all() keeps.
 struct Bounds {
   const Limits& limits;
   const Job* job = nullptr;  ///< checked for stop and deadline; may be null

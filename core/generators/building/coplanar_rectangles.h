@@ -22,7 +22,8 @@ class CoplanarRectangles {
     return places_[i] == none ? 0 : rects_[places_[i]].more;
   }
 
-  /// The corners around a rectangle, counter-clockwise, in the world; empty if the shape is no rectangle.
+  /// Sets `points` to the corners of a rectangle in the world, counter-clockwise; to none if the shape is no
+  /// rectangle.
   void outline(std::size_t i, std::vector<glm::dvec3>& points) const;
 
   /// Sets `surface` to the rectangle with all its corners, in the frame of axes(i). Returns false if the

@@ -86,7 +86,7 @@ void add_unexpected(Parser& p, std::string_view expected);
 void add_wrong_word(Parser& p, std::string_view word, std::string_view expected);
 void add_warning(Parser& p, std::uint32_t offset, std::string message);
 
-/// Counts an opened bracket. False, with an error: brackets are nested too deep.
+/// Counts an opened bracket. Returns false and adds an error if brackets are nested too deep.
 bool enter_bracket(Parser& p, const lang::Token& token);
 
 /// Returns the token behind the head of a rule or function: its name at `i`, its parameters, and `with (name :=

@@ -38,7 +38,7 @@ struct ShapeState {
   bool has_solid() const { return geometry != box_geometry && !has_asset(); }
 };
 
-/// A shape of the derivation. 112 bytes.
+/// A shape of the derivation. It takes 112 bytes.
 struct Shape : ShapeState {
   std::uint64_t key = 0;  ///< hash of the path in the derivation; it keys the random numbers of the shape
   std::uint32_t parent = none, symbol = none;

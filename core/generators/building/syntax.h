@@ -367,8 +367,8 @@ struct Grammar {
   std::vector<ComponentValue> component_values;
   bool uses_selectors = false;  ///< comp.sel is read somewhere
   bool uses_tags = false;       ///< tags are read somewhere, so that operations tag what they make
-  bool turns_scopes =
-      false;  ///< scopes behave as in CityEngine; see stand_up and lift_face. Not after @KeepScopes
+  /// Whether scopes behave as in CityEngine (see stand_up and lift_face); false after @KeepScopes.
+  bool turns_scopes = false;
   bool is_cityengine = false;  ///< has `version`, `import`, `@StartRule`: errors of steps are warnings
   std::vector<Warning> warnings;
 

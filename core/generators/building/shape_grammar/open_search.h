@@ -25,8 +25,9 @@ struct PicturePoints {
 };
 
 /// Calls `found` with a point of the picture for each anchor in this order. Kinds agree, points of one marker or
-/// solid belong to one, and crossings that a line of the left shape joins lie on one line. Where another anchor follows
-/// from these points, as a centroid does, the picture has it, or lines to it. Calls `look` for each point that it tries.
+/// solid belong to one, and crossings that a line of the left shape joins lie on one line. If these points determine
+/// the position of another anchor, as they determine a centroid, the picture has a point there, or lines to it. Calls
+/// `look` for each point that it tries.
 void search_points(const std::vector<OpenAnchor>& anchors, std::span<const std::uint32_t> order,
                    const PicturePoints& points, const std::function<void()>& look,
                    const std::function<void(const std::vector<glm::dvec3>&)>& found);

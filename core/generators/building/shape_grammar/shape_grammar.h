@@ -79,10 +79,10 @@ struct DerivedPicture {
   bool fits_nowhere = false;  ///< no rule applies to the initial shape
 };
 
-/// Runs the rules: one match in each step, or in parallel all matches that share no marker and no solid.
-/// Without `steps` it runs until no rule applies, at most 100,000 steps. Spends Resource::shapes for added
-/// elements. Throws Stop if the picture grows beyond 1,000 km. Cost of a step: linear in markers and solids
-/// if markers determine the similarity, else the square of the lines.
+/// Runs the rules: one match in each step, or in parallel all matches that share no marker and no solid. Without
+/// `steps` it runs until no rule applies. Spends Resource::shapes for added elements. Throws Stop after 100,000
+/// steps, or if the picture grows beyond 1,000 km. Cost of a step: linear in markers and solids if markers determine
+/// the similarity, else the square of the lines.
 DerivedPicture derive_picture(const BuildingShapeGrammar& given, const PictureGrammar& grammar,
                               std::optional<int> steps, bool is_parallel, Job& job);
 
