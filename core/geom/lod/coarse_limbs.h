@@ -1,6 +1,6 @@
 #pragma once
-/// Simplification of limbs for the coarser levels of detail of a plant. It removes the joints and twigs that
-/// change the outline least for the triangles that they cost.
+/// Simplification of limbs for the coarser levels of detail of a plant. It removes the joints and twigs whose removal
+/// changes the outline least in proportion to the triangles that it saves.
 ///
 /// Joints of a limb are selected after Douglas and Peucker, "Algorithms for the reduction of the number of
 /// points required to represent a digitized line or its caricature", 1973; the error is the area by which the
@@ -23,7 +23,7 @@ struct CoarseOptions {
   const SkinOptions* skin = nullptr;
   bool was_grafted = false;  ///< graft() makes the finest level, skin() the coarser ones
   int sides = 8;             ///< for graft(): corners of the thickest limb at this level
-  int finest_sides = 8;      ///< the same at the finest level; limbs with fewer corners get as much thicker
+  int finest_sides = 8;      ///< the same at the finest level; limbs with fewer corners become thicker
   bool pointed = false;      ///< thin ends have no ring (GraftOptions::pointed)
   std::span<const float> shown = {};          ///< for each joint the visible share 0..1; empty: all visible
   std::span<const glm::vec3> drawn = {};      ///< positions of joints in the finest level; empty: unchanged
@@ -38,7 +38,8 @@ struct CoarseLimbs {
   std::vector<LimbCorners> corners;
 };
 
-/// Returns the simplified limbs, parents before children, limb by limb. Time: n log of the longest limb.
+/// Returns the simplified limbs, parents before children, limb by limb. Time: n log m for n joints, of which the
+/// longest limb has m.
 CoarseLimbs coarsen(const Limbs& limbs, const CoarseOptions& options, Job& job);
 
 }  // namespace seedmesh

@@ -28,14 +28,14 @@ class FoliageLevels {
   };
   FoliageLevels(const Plant& plant, Job& job);
 
-  /// Keeps the share `share`, and at least 0.2, of the organs, in the same order. `organs` must be those of
+  /// Returns the share `share` of the organs, but at least 0.2 of them, in the same order. `organs` must be those of
   /// the plant.
   Organs keep(const Organs& organs, double share, Job& job);
 
-  /// The least share to keep so that at most the share `loss` of the covered texels becomes uncovered.
+  /// Returns the least share to keep so that at most the share `loss` of the covered texels becomes uncovered.
   double share_for(double loss) const;
 
-  /// For each joint the share 0..1 of its internode that no organ and no other thick limb hides, averaged
+  /// Returns, for each joint, the share 0..1 of its internode that no organ and no other thick limb hides, averaged
   /// over all views.
   Array<float> shown(const Limbs& limbs, Job& job) const;
 

@@ -1,7 +1,7 @@
 #pragma once
-/// Light by shadow propagation on a dense grid (Palubicki et al., "Self-organizing tree models for image synthesis",
-/// SIGGRAPH 2009, section 4.1.2), for plants that add and lose internodes one by one. Shades are whole numbers, so
-/// that removing a shadow restores the grid exactly.
+/// Light by shadow propagation on a dense grid, for plants that add and lose internodes one by one. Source: Palubicki
+/// et al., "Self-organizing tree models for image synthesis", SIGGRAPH 2009, section 4.1.2. Shades are whole numbers,
+/// so that removing a shadow restores the grid exactly.
 ///
 ///   layer 0:        [x]            shade
 ///   layer 1:     [ ][ ][ ]         shade / falloff

@@ -1,9 +1,8 @@
 #pragma once
 /// A sink of walk_limb() that writes vertices and triangles to the arrays of the meshes.
 ///
-/// Frames turn by the least rotation from one internode to the next, which for straight pieces is the
-/// rotation-minimising frame (Wang, Juettler, Zheng and Liu, "Computation of Rotation Minimizing Frames",
-/// 2008).
+/// Frames turn by the least rotation from one internode to the next. For straight pieces, this is the
+/// rotation-minimising frame (Wang, Juettler, Zheng and Liu, "Computation of Rotation Minimizing Frames", 2008).
 #include <vector>
 
 #include "core/geom/plant/tube_count.h"

@@ -70,8 +70,8 @@ struct Roof {
 };
 
 /// Makes a roof. A plan with errors gets one horizontal face and a warning. Every roof is checked
-/// (straight_skeleton.h). If the check fails, the roof is made again with other tolerances for merging points,
-/// then from a plan whose points are moved by up to a thousandth of its diagonal. If all attempts fail, it is
+/// (straight_skeleton.h). If the check fails, the roof is made again with other tolerances for merging points. Then
+/// it is made from a plan whose points are moved by up to a thousandth of its diagonal. If all attempts fail, it is
 /// flat with a warning. A flat roof without thickness is one face that faces up, and no solid.
 Roof roof(const Plan& plan, const RoofOptions& options, const Job& job);
 

@@ -78,9 +78,9 @@ struct ChildLimb {
   LoopAngles* angles = nullptr;
 };
 
-/// Returns a collar at point `at_point` of the parent, on the piece after it, or on the piece before it for a limb
-/// that points backward. Appends its points to `points`. Returns nullopt where the limb leaves at too flat an
-/// angle, or is too thick or too short.
+/// Returns a collar at point `at_point` of the parent. It lies on the piece after the point, or on the piece before
+/// it if the limb points backward. Appends its points to `points`. Returns nullopt where the limb leaves at too flat
+/// an angle, or is too thick or too short.
 std::optional<Junction> collar_at(const LimbAxis& parent, std::size_t at_point, const ChildLimb& child,
                                   std::vector<LoopPoint>& points);
 
