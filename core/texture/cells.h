@@ -30,9 +30,9 @@ class Cells {
   std::vector<Point> points_;
 };
 
-/// Rows of cells, made one at a time: for each texel the distance to the border of its cell in lattice squares (0 on
-/// the border, about 0.5 in the middle), and the random number of its cell in 0 .. 1. `wobble` displaces the lookup by
-/// `strength` lattice squares. Keeps references. Cost: about 3 ns a texel.
+/// Rows of cells, made one at a time: for each texel the distance to the border of its cell and the random number of
+/// its cell, from 0 to 1. The distance is in lattice squares: 0 on the border, about 0.5 in the middle. `wobble`
+/// displaces the lookup by `strength` lattice squares. Keeps references. Cost: about 3 ns a texel.
 class CellRows {
  public:
   CellRows(const Cells& cells, const Field& wobble, float strength);

@@ -30,8 +30,8 @@ struct Link {
 /// Returns the name of a texture; 100 characters at most.
 std::string name_of(const Link& link);
 
-/// Reads a name. Nothing for a text that name_of() cannot have made: an unknown kind or channel, a size that is no
-/// power of two from 16 to 4096, a number with leading zeros.
+/// Reads a name. Returns nullopt for a text that name_of() cannot have made: an unknown kind or channel, a size that
+/// is no power of two from 16 to 4096, a number with leading zeros.
 std::optional<Link> read_link(std::string_view name);
 
 /// Returns the image of a link, from `store` or made now. `store` may be null. Cost: about 60 ns a texel,

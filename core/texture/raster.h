@@ -1,7 +1,7 @@
 #pragma once
-/// A rasteriser with parallel projection, for images of models. Coordinates are fixed-point numbers, and an
-/// edge belongs to one of its two triangles, so that the same triangles give the same image on every machine.
-/// At equal depth the first triangle wins.
+/// A rasteriser with parallel projection, for images of models. Coordinates are fixed-point numbers, and an edge
+/// belongs to one of its two triangles. The same triangles therefore give the same image on every machine. At equal
+/// depth the first triangle wins.
 #include <glm/glm.hpp>
 
 #include "core/base/array.h"
