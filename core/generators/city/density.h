@@ -1,5 +1,6 @@
 #pragma once
-/// FieldMap: a scalar field over the area, given as an expression over x and y, the brightness of an image, or polygons.
+/// FieldMap: a scalar field over the area, given by an expression over x and y, by the brightness of an image, or by
+/// polygons.
 #include <glm/vec2.hpp>
 #include <optional>
 #include <string>

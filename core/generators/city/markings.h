@@ -1,5 +1,6 @@
 #pragma once
-/// Carriageways in strips across the street, so that lane lines, stop lines and zebra crossings are pieces of its surface.
+/// Carriageways in strips across the street, so that lane lines, stop lines and zebra crossings are pieces of its
+/// surface.
 #include <vector>
 
 #include "core/generators/city/plan.h"

@@ -21,8 +21,8 @@ CmRing hull_of(std::span<const CmPoint> ring);
 /// Returns the cosine of the sharpest inner corner of a counter-clockwise ring; -1 if there is none.
 double sharpest_cosine(std::span<const CmPoint> ring);
 
-/// Returns a ring without the corners that are less than `least`, in centimetres, from the line between their neighbours.
-/// At least three corners stay.
+/// Returns a ring without the corners that are less than `least`, in centimetres, from the line between their
+/// neighbours. At least three corners stay.
 CmRing without_bends(std::span<const CmPoint> ring, double least);
 
 /// Whether a counter-clockwise ring has a part narrower than `least` (cm), measured between a corner and an opposite

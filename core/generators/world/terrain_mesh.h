@@ -16,8 +16,8 @@ struct TerrainMesh {
 /// normals follow from samples of the level. Neighbours of one level therefore have equal borders.
 TerrainMesh terrain_mesh(const World& world, const TileFrame& frame, const TerrainGrid& grid, double skirt);
 
-/// Returns the depth in metres of the skirt of a tile of a level. It hides gaps beside tiles of up to three levels coarser
-/// or finer. `grid` is that of the tile.
+/// Returns the depth in metres of the skirt of a tile of a level. It hides gaps beside tiles of up to three levels
+/// coarser or finer. `grid` is that of the tile.
 double skirt_depth(const World& world, int level, const TerrainGrid& grid);
 /// Returns a bound of the depths of skirts in an area.
 double most_skirt(const World& world, const TileFrame& frame, Roughness roughness);
