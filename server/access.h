@@ -44,7 +44,7 @@ struct Grant {
   std::string key;                      ///< name of the API key
   std::optional<std::int64_t> expires;  ///< Unix time at which the signature expires; none: never
   std::size_t target_size = 0;          ///< characters of the undecoded target without the signature
-  std::shared_ptr<const void> slot;  ///< counts as one concurrent request of the key until the last copy ends
+  std::shared_ptr<const void> slot;  ///< one concurrent request of the key, until its last copy is destroyed
 };
 
 /// Why a request was not admitted.
@@ -64,9 +64,9 @@ class Access {
   /// Denies with 401 without a credential, 403 with one that is not valid, 429 beyond a limit of the key.
   std::variant<Grant, Denial> admit(const http::Request& request);
 
-  /// Like admit(), for a file of a world. `segment` is the path segment after the name of the world. It has the
-  /// text of a query (`expires=...&key=...&signature=...`) that signs "/v1/worlds/<world>", and gives access to
-  /// all files of that world. Empty: no signature.
+  /// Like admit(), for a file of a world. `segment` is the path segment after the name of the world. It is
+  /// the text of a signed query (`expires=...&key=...&signature=...`) for "/v1/worlds/<world>", and gives
+  /// access to all files of that world. An empty segment has no signature.
   std::variant<Grant, Denial> admit_world(const http::Request& request, std::string_view world,
                                           std::string_view segment);
 
@@ -74,8 +74,9 @@ class Access {
   /// without signing keys. It expires with the signature of the grant, or else after the lifetime of links.
   std::string world_segment(const Grant& grant, std::string_view world) const;
 
-  /// Denies with 403 if the request, or one nested in it, uses a generator that is not allowed. Also denies if only
-  /// presets are allowed and the request is not a preset with any seed and output.
+  /// Denies with 403 if the request, or one nested in it, uses a generator that is not allowed. If only
+  /// presets are allowed, it also denies a request that differs from all presets in more than seed and
+  /// output.
   std::optional<Denial> forbid(const Request& request) const;
 
   /// Whether requests may use the generator of this name.

@@ -4,9 +4,10 @@
 /// As in imgproxy, the queue is bounded. A request that finds it full is refused at once, so that an
 /// overload does not slow down the requests that are accepted.
 ///
-/// Tiles of worlds have a class of their own: clients never ask again for a tile that failed, so a tile is not refused.
-/// Their number is bounded by that of the connections. Coarser levels go first, as clients need them first; while
-/// requests of both classes wait, each class gets every second worker that becomes free.
+/// Tiles of worlds have a class of their own. A tile is never refused, because clients do not ask again for a
+/// tile that failed. The number of waiting tiles is bounded by that of the connections. Tiles of coarser
+/// levels are served first, because clients need them first. While requests of both classes wait, free
+/// workers serve the classes alternately.
 #include <chrono>
 #include <condition_variable>
 #include <cstddef>
@@ -49,11 +50,12 @@ class Admission {
   /// Waits for a worker until `deadline` or until `gone` is set, which means that the client has left.
   std::variant<Ticket, Refused> enter(Clock::time_point deadline, const std::stop_token& gone);
 
-  /// The same for a tile of a level. It is not refused for a full queue or while the service drains.
+  /// The same for a tile of this level of a world. It is not refused for a full queue or while the service
+  /// drains.
   std::variant<Ticket, Refused> enter_tile(int level, Clock::time_point deadline,
                                            const std::stop_token& gone);
 
-  /// Refuses all further requests but tiles. Requests that wait already are served.
+  /// Refuses all further requests except tiles. Requests that already wait are served.
   void drain();
 
   int workers() const { return workers_; }

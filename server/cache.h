@@ -1,7 +1,7 @@
 #pragma once
 /// Finished models in memory, bounded in bytes. Equal requests at the same time cost one generation.
-/// The key is the canonical request and not its hash: with two requests of one hash, a client could otherwise
-/// replace the model of another client.
+/// The key is the canonical request and not its hash. Otherwise a client that finds two requests with the
+/// same hash could replace the model of another client.
 #include <condition_variable>
 #include <cstdint>
 #include <functional>

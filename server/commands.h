@@ -21,12 +21,12 @@ struct ImportFiles {
   std::vector<std::string> with = {};  ///< further files beside it
   std::string to = {};  ///< the program for which the request is written; empty: the request itself
 };
-/// Writes the request that a file of another program becomes, or a file of the program `to`, for which `in` can also be
-/// a request; prints warnings on standard error.
+/// Converts a file of another program to a request and writes it. With `to`, it writes a file of that program
+/// instead, and `in` can also be a request. Prints warnings on standard error.
 int import_command(const Config& config, const ImportFiles& files);
 
-/// Prints the target with a signature that is valid for some seconds, or without end for 0. Returns 2 without
-/// signing keys.
+/// Prints the target with a signature that is valid for `valid_for` seconds; 0: it does not expire. Returns 2
+/// without signing keys.
 int sign_command(const Config& config, const std::string& target, double valid_for);
 
 /// Prints a new API key, and the lines for the settings `api-keys` and `signing-keys`.

@@ -13,9 +13,10 @@
 
 namespace seedmesh {
 
-/// How much work a coding may cost. `fast` is for what is made for a request. It takes 1 to 2 ms per MB: Zstandard
-/// level 1, Brotli quality 0, gzip by ISA-L. Gzip of at most 64 KiB is made by libdeflate, in 5 to 8 ms per MB. `once`
-/// is the highest level of each coding, for texts that are encoded once; it takes up to a second per MB.
+/// How much work a coding may cost. `fast` is for responses that are made for one request. It takes 1 to 2 ms
+/// per MB: Zstandard level 1, Brotli quality 0, gzip by ISA-L. For at most 64 KiB, gzip is made by
+/// libdeflate, in 5 to 8 ms per MB. `once` is the highest level of each coding, for texts that are encoded
+/// once; it takes up to a second per MB.
 enum class Effort { fast, once };
 
 /// Encodes bytes that arrive in parts as one stream. Not for use from several threads.

@@ -25,9 +25,9 @@ struct Config {
   double head_timeout = 10;    ///< seconds in which a head has to arrive
   double body_timeout = 30;    ///< seconds in which a body has to arrive
   double idle_timeout = 75;    ///< seconds that a connection may be idle
-  double write_timeout = 30;   ///< seconds in which a client has to read 64 KiB more
+  double write_timeout = 30;   ///< seconds in which a client has to read the next 64 KiB
   double min_rate = 8'192;     ///< bytes per second that a client has to read
-  double min_rate_grace = 10;  ///< seconds of waiting for a client before min_rate holds
+  double min_rate_grace = 10;  ///< seconds of waiting for a client before min_rate applies
   double drain_delay = 0;      ///< seconds between SIGTERM and the end of listening
   std::uint64_t body_limit = 16U << 20U;
   std::uint64_t body_memory = 256U << 20U;

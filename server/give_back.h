@@ -1,5 +1,5 @@
 #pragma once
-/// Returns memory to the system that requests have left free in the arenas of the allocator.
+/// Returns to the system the memory that requests have left free in the arenas of the allocator.
 #include <condition_variable>
 #include <cstdint>
 #include <functional>
@@ -15,10 +15,11 @@ namespace seedmesh {
 /// MALLOC_... of the environment takes precedence.
 void keep_little_memory(int workers);
 
-/// While an object exists, its thread reads the resident memory of the process every second. It returns the free
-/// memory of the arenas to the system if the resident memory has grown by 4 MiB since the last time. It also
-/// does so if requests have been answered and the memory is 4 MiB above its minimum. For this, either no
-/// request is in flight, or ten seconds have passed.
+/// While an object exists, its thread reads the resident memory of the process every second. It returns the
+/// free memory of the arenas to the system in two cases:
+/// - The resident memory has grown by 4 MiB since the last return.
+/// - Requests have been answered since then, the resident memory is 4 MiB above its minimum, and either no
+///   request is in flight or ten seconds have passed.
 class GiveBack {
  public:
   struct Activity {

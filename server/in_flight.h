@@ -1,6 +1,6 @@
 #pragma once
 /// The memory of responses that are being sent. A client that reads slowly keeps its response in memory, so
-/// that many of them could use all memory of the process.
+/// many slow clients could use all memory of the process.
 #include <chrono>
 #include <condition_variable>
 #include <cstdint>
@@ -27,8 +27,9 @@ class InFlight {
   /// a waiting request holds no memory.
   bool wait(Clock::time_point deadline);
 
-  /// Returns the payload, counted with `extra` bytes until the result and its copies are gone. Null where it does not
-  /// fit; a payload larger than the limit fits alone. Several holders of one payload count `extra` each.
+  /// Returns the payload, counted with `extra` bytes until the result and its copies are gone. Null if the
+  /// limit would be exceeded. A payload larger than the limit is accepted if no other payload is counted.
+  /// Several holders of one payload count `extra` each.
   std::shared_ptr<const Payload> hold(std::shared_ptr<const Payload> payload, std::uint64_t extra = 0);
 
   std::uint64_t bytes() const;

@@ -33,7 +33,7 @@ struct ManifestJob {
   std::string request;  ///< JSON
 };
 
-/// A part contains the lines whose number minus one is `index` modulo `count`.
+/// A part contains each line n, counted from 1, with (n - 1) % count == index.
 struct ManifestPart {
   std::size_t index = 0, count = 1;
 };

@@ -28,7 +28,7 @@ constexpr std::string_view capabilities_key = "io.modelcontextprotocol/clientCap
 
 enum class Era { handshake, stateless };
 
-/// Codes of JSON-RPC and of the protocol.
+/// Error codes of JSON-RPC and of the Model Context Protocol.
 enum class Code : int {
   syntax = -32700,
   no_request = -32600,
@@ -82,7 +82,7 @@ Answer read_resource(Context& context, const Json& parameters);
 Answer list_prompts(Context& context, const Json& parameters);  // mcp_prompts.cpp
 Answer get_prompt(Context& context, const Json& parameters);
 
-/// The refusal of a name that no generator has (mcp_describe.cpp).
+/// Returns the failure for a name that no generator has, or nothing for a known name (mcp_describe.cpp).
 std::optional<Failure> unknown_generator_of(const std::string& generator);
 
 /// Part of the schema of a generator in at most about 8,000 characters, or the reason why there is none

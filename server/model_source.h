@@ -14,7 +14,7 @@ namespace seedmesh {
 struct SourceAnswer {
   enum class Kind {
     made,         ///< `payload` and `etag`
-    same,         ///< the model still has the validator that was given
+    same,         ///< the model is unchanged: it has the validator `etag`
     refused,      ///< `issues`, at least one
     stopped,      ///< stopped by the stop token
     unreachable,  ///< `reason`; other requests would fail, too
@@ -37,8 +37,8 @@ class ModelSource {
  public:
   virtual ~ModelSource() = default;
   virtual SourceEngine engine() = 0;
-  /// Returns the model of a request (JSON). `etag`: the validator of the bytes that are there; "" where there are none.
-  /// `threads`: how many may be used here for this model.
+  /// Returns the model of a request (JSON). `etag` is the validator of the file that already exists, or "".
+  /// `threads` is the number of threads that this program may use for the model.
   virtual SourceAnswer make(const std::string& request, const std::string& etag, int threads,
                             const std::stop_token& stop) = 0;
 };
@@ -46,9 +46,9 @@ class ModelSource {
 /// Makes models here. `config` has to outlive the source.
 std::unique_ptr<ModelSource> local_source(const Config& config);
 
-/// Asks a server: "http://127.0.0.1:8080", or https, with or without a path. Waits while it is busy, as long as
-/// its Retry-After says and at most a minute. Returns null where the address is not valid. `key`: an API key; ""
-/// for none.
+/// Asks a server: "http://127.0.0.1:8080", or https, with or without a path. While the server is busy, it
+/// waits for the time of Retry-After and asks again, for at most a minute. Returns null where the address is
+/// not valid. `key`: an API key; "" for none.
 std::unique_ptr<ModelSource> remote_source(const std::string& url, const std::string& key);
 
 }  // namespace seedmesh

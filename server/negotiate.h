@@ -13,8 +13,9 @@ enum class Coding { identity, gzip, br, zstd };
 /// "identity", "gzip", "br" or "zstd".
 std::string_view name_of(Coding coding);
 
-/// Codings in order of preference: for responses that are encoded for each request, and for texts that are
-/// encoded once. With Effort::fast, gzip is both faster and smaller than Brotli.
+/// Codings in order of preference. quick_codings is for responses that are encoded for each request, and
+/// small_codings for texts that are encoded once. With Effort::fast, gzip is both faster and smaller than
+/// Brotli.
 inline constexpr Coding quick_codings[] = {Coding::zstd, Coding::gzip, Coding::br};
 inline constexpr Coding small_codings[] = {Coding::br, Coding::zstd, Coding::gzip};
 

@@ -15,7 +15,7 @@ struct Problem {
   std::string word;  ///< the end of the problem type, such as "invalid-request"; part of the public contract
   std::string detail;         ///< one sentence
   std::vector<Issue> errors;  ///< every error, with its pointer
-  std::string format;         ///< of an import: the format that the file was read as; empty: none
+  std::string format;         ///< for an import, the format as which the file was read; else empty
   int retry_after = 0;        ///< seconds; 0: no Retry-After
   std::string log_text;       ///< for the operator only
 };

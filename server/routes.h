@@ -12,10 +12,12 @@ http::Response route(Service& service, const http::Request& request);
 http::Response post_generate(Call& call);  // routes_models.cpp
 http::Response get_model(Call& call);
 http::Response get_preset(Call& call);
-/// Returns the Server-Timing field of a response whose head is about to be sent. The parts sum up to the total:
-/// `parse` until the model was looked for, the parts of its generation, `wait` for a worker, a cache or another
-/// request, and `compress`. A model from a cache has no generation. Large models are compressed later, while they are
-/// sent.
+/// Returns the Server-Timing field of a response whose head is about to be sent. `asked` is when the model
+/// was requested from the caches, and `found` when it was available. The parts, whose sum is the total, are:
+/// - `parse`: from the arrival of the request to `asked`;
+/// - the parts of the generation, unless the model is from a cache;
+/// - `wait`: the rest up to `found`, for a worker, a cache or another request;
+/// - `compress`. Large models are compressed later, while they are sent.
 std::string server_timing(const Call& call, std::string_view cache_use, const CachedModel& made,
                           Clock::time_point asked, Clock::time_point found);
 
@@ -35,7 +37,7 @@ http::Response get_texture(Call& call);  // routes_textures.cpp
 http::Response get_world(Call& call);  // routes_worlds.cpp
 /// Returns the tileset of a posted world.
 http::Response post_world(Call& call, const Request& request);
-/// Returns the map of a posted world and the box of the query; 422 for another generator.
+/// Returns the map of a posted world inside the box that the query names; 422 for another generator.
 http::Response derive_world(Call& call, const Request& request);
 /// Lets pages of all origins read a response, unless the settings name some origins.
 void open_to_pages(const Service& service, http::Response& response);
@@ -66,7 +68,8 @@ std::optional<Overrides> read_query(std::string_view query);
 /// Returns the query of a call; the response (400) where an escape is malformed.
 std::variant<Overrides, http::Response> parse_query(const Call& call);
 
-/// Parses a text as an allowed request, with a worker if the text is large. Returns the response on an error.
+/// Parses the text of a request and checks that it is allowed. A large text waits for a worker. Returns the
+/// response on an error.
 std::variant<Request, http::Response> read_text(Call& call, const std::string& text);
 
 /// Parses the body of a POST as a request. Returns the response on an error (415, 400, 422).

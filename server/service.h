@@ -62,8 +62,8 @@ struct StaticText {
   std::string encoded;  ///< body in the requested coding; "" for identity and small texts
 };
 
-/// Static texts by path and coding, made at the first request: compressing the OpenAPI document for each client
-/// would cost more than many models.
+/// Static texts by path and coding, made at the first request: compressing the OpenAPI document for each
+/// client would cost more than to generate many models.
 class StaticTexts {
  public:
   std::shared_ptr<const StaticText> get(const std::string& path, Coding coding,
@@ -133,7 +133,7 @@ Job::Options options_without_worker(const Call& call);
 std::optional<Problem> with_worker(const Call& call, const std::stop_token& stop,
                                    const std::function<void(Job::Options)>& work);
 
-/// The same for a file of a world, whose level decides the order: waits as tiles do (admission.h), on one thread.
+/// The same for a file of a world. It waits as tiles do, by level (admission.h), and `work` gets one thread.
 std::optional<Problem> with_tile_worker(const Call& call, int level, const std::stop_token& stop,
                                         const std::function<void(Job::Options)>& work);
 

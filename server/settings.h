@@ -1,5 +1,6 @@
 #pragma once
-/// The table of settings, which flags, environment, configuration file and help share. For config.cpp.
+/// The table of settings. Flags, environment variables, the configuration file and the help are all read from
+/// it. Only config.cpp uses it.
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <optional>

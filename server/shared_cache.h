@@ -1,9 +1,10 @@
 #pragma once
 /// Models that replicas share through Redis, so that most models are generated only once. Uses hiredis.
 ///
-/// The shared cache never makes a request fail, and delays it by at most the time limit of one command. A thread in the
-/// background opens connections and writes. A request continues without the cache if no connection is ready.
-/// A model that is found is verified (form, length, hash of all bytes); an invalid one counts as not found.
+/// The shared cache never makes a request fail. It delays a request by at most the time limit of one command.
+/// A thread in the background opens connections and writes models. A request continues without the cache if
+/// no connection is ready. A model that is found is verified (form, length, hash of all bytes); an invalid
+/// one counts as not found.
 ///
 /// Keys are "seedmesh:" + engine version + ":" + SHA-256 of the canonical request. Anyone who can write into the
 /// database can replace models, but no client of the service can make two requests with the same key.

@@ -1,8 +1,8 @@
 #pragma once
-/// Signed URLs: the holder of a signing key can give single models, for a limited time, to clients without a
-/// key. Uses OpenSSL's libcrypto.
+/// Signed URLs: the holder of a signing key can allow clients without an API key to request single models for
+/// a limited time. Uses OpenSSL's libcrypto.
 ///
-/// A signature covers the whole undecoded target with its query and stands at its end:
+/// A signature covers the whole undecoded target with its query, and is the end of the target:
 ///   /v1/models/<token>.glb?expires=1798761600&key=2026a&signature=<base64url of HMAC-SHA256>
 /// The signed text is everything before "&signature=". `expires` (seconds since 1970) is optional. Several keys
 /// are valid at the same time: the first signs and all verify, so that a key can be replaced while its links
@@ -27,14 +27,16 @@ enum class SignatureState { absent, good, wrong, expired };
 struct SignatureCheck {
   SignatureState state = SignatureState::absent;
   std::size_t target_size = 0;          ///< characters of the target without expires, key and signature
-  std::optional<std::int64_t> expires;  ///< end of a good or expired signature
+  std::optional<std::int64_t> expires;  ///< Unix time at which a good or expired signature ends; none: never
 };
 
-/// Verifies a signature in constant time. `expired` is reported only for a genuine signature.
+/// Verifies a signature in constant time. `now` is Unix time in seconds. `expired` is reported only for a
+/// genuine signature.
 SignatureCheck check_signature(std::string_view target, const std::vector<SigningKey>& keys,
                                std::int64_t now);
 
-/// Appends a signature to the target.
+/// Appends a signature to the target. `expires` is Unix time in seconds; without it, the signature does not
+/// expire.
 std::string sign_target(std::string_view target, const SigningKey& key, std::optional<std::int64_t> expires);
 
 /// Digests of 32 bytes.

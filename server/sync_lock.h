@@ -1,7 +1,6 @@
 #pragma once
-/// The lock file of `seedmesh sync`. `seedmesh.lock` has the hash of each request file. For each file made
-/// from it, it has the engine, size, ETag and hash. The Python client reads and writes the same file, byte
-/// for byte.
+/// The lock file of `seedmesh sync`. `seedmesh.lock` has the hash of each request file, and the engine, size,
+/// ETag and hash of each file made from it. The Python client reads and writes the same file, byte for byte.
 #include <cstdint>
 #include <map>
 #include <optional>

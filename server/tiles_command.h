@@ -16,9 +16,10 @@ struct TilesOptions {
   bool quiet = false;  ///< no progress
 };
 
-/// Writes tileset.json, nested tilesets, tiles and the files that they share, on all cores. The folder may already
-/// have files of the same world and engine: those are kept, so that an interrupted run is resumed by the same
-/// command. Returns the exit status: 0; 1 for a refused request; 2 for wrong options, or a file that cannot be written.
+/// Writes tileset.json, nested tilesets, tiles and the files that they share, on all cores. Files of the same
+/// world and engine that the folder already has are kept. The same command therefore resumes an interrupted
+/// run. Returns the exit status: 0; 1 for a refused request; 2 for wrong options, or a file that cannot be
+/// written.
 int tiles_command(const Config& config, const TilesOptions& options);
 
 }  // namespace seedmesh

@@ -24,8 +24,9 @@ struct NamedWorld {
   std::string token;  ///< token with this engine version; "" where it is too long
 };
 
-/// Reads the name of a world. 414 for a token that is too long; 400 for one that cannot be decoded; 404 for an unknown
-/// preset, a seed that is no 64-bit number, and a request of another generator; 422 for an invalid world.
+/// Reads the name of a world. The Problem has status 414 for a token that is too long, and 400 for one that
+/// cannot be decoded. It has 404 for an unknown preset, a seed that is no 64-bit number, or a request of
+/// another generator. It has 422 for an invalid world.
 std::variant<std::shared_ptr<const NamedWorld>, Problem> read_world_name(
     std::string_view name, const Job::Options& options, const std::shared_ptr<WorldMemory>& memory);
 

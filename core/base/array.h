@@ -15,7 +15,7 @@
 
 namespace seedmesh {
 
-/// Raw storage charged to a memory budget. Grows in place where the kernel can (mremap).
+/// Raw storage charged to a memory budget. It grows in place where the kernel supports that (mremap).
 class Block {
  public:
   Block() = default;
@@ -35,8 +35,8 @@ class Block {
   const std::shared_ptr<MemoryBudget>& budget() const { return budget_; }
 
  private:
-  /// Where the bytes are: on the heap, in whole huge pages, in huge pages shared with other blocks, or in
-  /// exactly as many pages as they need.
+  /// Where the bytes are: on the heap, in whole huge pages, in huge pages shared with other blocks, or in the
+  /// smallest number of base pages that holds them.
   enum class Backing : unsigned char { heap, huge_pages, shared, pages };
   static std::size_t mapped_size(std::size_t bytes, Backing backing);
   Backing backing_for(std::size_t bytes) const;

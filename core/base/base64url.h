@@ -1,5 +1,5 @@
 #pragma once
-/// base64url without padding (RFC 4648 section 5), for URLs, and base64.
+/// Two encodings of bytes (RFC 4648): base64url without padding, for URLs, and base64 with padding.
 #include <optional>
 #include <string>
 #include <string_view>

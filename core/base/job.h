@@ -16,7 +16,8 @@
 
 namespace seedmesh {
 
-/// The greatest amounts that one request may use. Flags and environment variables of the server change them.
+/// The greatest amounts that one request may use: numbers of items, or bytes where the name says so. Flags
+/// and environment variables of the server change them.
 struct Limits {
   std::uint64_t modules = 64'000'000;
   std::uint64_t shapes = 4'000'000;
@@ -28,13 +29,15 @@ struct Limits {
   std::uint32_t expression_depth = 200;
 };
 
-/// Returns the issue of a request with `found` iterations, more than limits.iterations. Its pointer is "/iterations".
+/// Returns the issue of a request that has `found` iterations, where limits.iterations allows fewer. Its
+/// pointer is "/iterations".
 Issue iterations_issue(std::uint64_t found, const Limits& limits);
 
 /// The exception that ends a request: a limit is exceeded, the deadline has passed, the request is cancelled,
 /// or a value turns out to be unusable while the work runs. Only Job and MemoryBudget throw it. core/pipeline
-/// catches it for all requests. The import of cpfg catches it for the statements that it runs, and the writer
-/// of WebP to end its encoder. Its pointer is relative to the parameters of the outermost request.
+/// catches it for all requests. The import of cpfg catches it around the statements that it runs. The writer
+/// of WebP catches it to end its encoder. The pointer of its issue is relative to the parameters of the
+/// outermost request.
 class Stop : public std::exception {
  public:
   Stop(Code code, Issue issue) : code_(code), issue_(std::move(issue)) {}
@@ -55,7 +58,7 @@ class MemoryBudget {
  public:
   explicit MemoryBudget(std::uint64_t limit, std::shared_ptr<Reserve> reserve = nullptr)
       : limit_(limit), reserve_(std::move(reserve)) {}
-  /// Keeps the memory of big arrays for later requests; may be null.
+  /// Returns the store that keeps the memory of big arrays for later requests; may be null.
   Reserve* reserve() const { return reserve_.get(); }
   void take(std::uint64_t bytes);  ///< throws Stop before the limit is exceeded
   void give_back(std::uint64_t bytes) { used_.fetch_sub(bytes, std::memory_order_relaxed); }
@@ -99,18 +102,19 @@ class Job {
 
   Job(std::uint64_t seed, Options options);
 
-  /// The same budget, limits, stop and deadline with another seed, for a request inside this one. `pointer`
-  /// leads from the parameters of this request to those of the inner one; every Stop of the child's Job starts
-  /// with it. The child reports no progress: its stages are part of a stage of this request.
+  /// Returns the Job of a request inside this one. It has another seed and the same budget, limits, stop
+  /// token and deadline. `pointer` leads from the parameters of this request to those of the inner one; the
+  /// pointer of every Stop of the child starts with it. The child reports no progress: its stages are part of
+  /// a stage of this request.
   Job for_child(std::uint64_t seed, std::string_view pointer = {}) const;
 
-  /// For an estimate inside this request: the same seed, limits, stop, deadline and memory budget. It counts
-  /// modules, shapes, triangles and bytes from 0, so that an estimate spends nothing of the request. It works
-  /// on one thread and reports no progress.
+  /// Returns a Job for an estimate inside this request, with the same seed, limits, stop token, deadline and
+  /// memory budget. It counts modules, shapes, triangles and bytes from 0, so that an estimate does not use
+  /// up the limits of the request. It works on one thread and reports no progress.
   Job for_estimate() const;
 
-  /// While the scope lives, a limit of this job or of its children that has no pointer of its own is reported at
-  /// `pointer`. Do not create or destroy a scope while other threads use this job.
+  /// While the scope exists, issues of IssueKind::limit that have no pointer get `pointer`. This applies to
+  /// this job and to its children. Do not create or destroy a scope while other threads use this job.
   class PointerScope {
    public:
     PointerScope(Job& job, std::string_view pointer)
@@ -171,14 +175,14 @@ class Job {
   std::uint64_t seed_;
   bool is_child_ = false;
   std::string prefix_;    ///< path from the parameters of the outermost request to those of this one
-  std::string fallback_;  ///< pointer of limits that have none
+  std::string fallback_;  ///< pointer for issues about limits that have no pointer
   std::shared_ptr<State> state_;
 };
 
 /// Counts single units in an inner loop. It takes them from the Job in portions of 4,096 and calls
 /// Job::check() with each portion. Each thread needs its own Meter. The rest of the last portion is not
-/// returned, so a count may be too high by 4,095 for each thread. The limit may therefore be reported too
-/// early, but never too late.
+/// returned, so a count may be too high by up to 4,095 for each Meter. Several Meters may therefore report
+/// the limit too early, but never too late. A single Meter reports it exactly.
 class Meter {
  public:
   Meter(Job& job, Resource resource) : job_(&job), resource_(resource) {}

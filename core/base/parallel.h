@@ -10,8 +10,8 @@
 
 namespace seedmesh {
 
-/// Calls body(begin, end, index) once for every chunk [index * chunk, min((index + 1) * chunk, count)), on at
-/// most job.threads() threads and no more than there are cores. The order of the calls is not defined.
+/// Calls body(begin, end, index) once for every chunk [index * chunk, min((index + 1) * chunk, count)). It
+/// uses at most job.threads() threads, and at most one for each core. The order of the calls is not defined.
 /// The first exception of a body (Stop) ends the loop and is rethrown to the caller; chunks that have not
 /// begun are left out. Runs on the caller alone where has_threads(job) is false.
 /// Cost: about 10 microseconds, and 0.1 ms until a sleeping thread helps.

@@ -36,8 +36,8 @@ inline SinCos kernel(double r) {
   return {sine, cosine};
 }
 
-/// Returns the kernel's result turned by `quarters` right angles. Selects instead of branching, because branches on
-/// the quarter cannot be predicted and would prevent vectorisation.
+/// Returns the kernel's result turned by `quarters` quarter turns. Selects instead of branching, because
+/// branches on the quarter cannot be predicted and would prevent vectorisation.
 inline SinCos turned(const SinCos& a, double quarters) {
   const double rest = quarters - 4 * std::floor(0.25 * quarters);
   const bool is_odd = (rest > 0.5) & ((rest < 1.5) | (rest > 2.5));

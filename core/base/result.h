@@ -12,7 +12,8 @@
 
 namespace seedmesh {
 
-/// Why a request was refused as a whole. Append only: their names are part of the public contract.
+/// Why a request was refused as a whole. The names of the enumerators are part of the public contract, so new
+/// ones are only appended.
 enum class Code {
   malformed,  ///< not JSON, duplicate key, bad UTF-8, nested too deep
   invalid,    ///< the schema, the grammar or the generator does not accept the request
@@ -22,8 +23,9 @@ enum class Code {
   internal,   ///< a defect of this program
 };
 
-/// What is wrong with one value of a request. Programs branch on the kind, never on the message. Append only:
-/// word_of(kind) is the member `code` of a problem body, which is part of the public contract.
+/// What is wrong with one value of a request. Programs branch on the kind, never on the message.
+/// word_of(kind) is the member `code` of a problem body, which is part of the public contract. New
+/// enumerators are therefore only appended.
 enum class IssueKind : std::uint8_t {
   syntax,          ///< a text that cannot be read: JSON, grammar, expression, percent escape, foreign file
   duplicate_key,   ///< a key or a name that is given twice
@@ -62,7 +64,7 @@ enum class Resource : std::uint8_t {
   iterations,
   depth,  ///< depth of nested brackets, lists, expressions or requests
   json_values,
-  steps,  ///< of a loop that rules run: rule applications, matches, cells
+  steps,  ///< steps of loops that rules control: rule applications, matches, cells
 };
 
 /// "memory_bytes" and so on: the name of the enumerator.
@@ -106,7 +108,8 @@ struct Error {
   std::vector<Issue> issues;
 };
 
-/// Returns an Issue of IssueKind::limit. `message` says what needs how much, and the limit.
+/// Returns an Issue of IssueKind::limit. `message` states what exceeds the limit, the amount that it needs,
+/// and the limit.
 Issue limit_issue(const Limit& limit, std::string message, std::string pointer = "");
 
 /// Returns the last entry of a list that was cut: "and 12 more errors".

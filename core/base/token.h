@@ -1,6 +1,6 @@
 #pragma once
 /// Permalinks: URLs that contain a whole request. token = base64url(raw deflate(canonical JSON with `engine`)).
-/// Any replica can answer a permalink, because it needs no stored state.
+/// Any replica can answer a permalink, because a permalink refers to no stored state.
 #include <cstddef>
 #include <string>
 #include <string_view>

@@ -28,13 +28,14 @@ enum class Pool {
   image
 };
 
-/// Returns the bytes of one element; 0 for pools of neither vertices nor indices.
+/// Returns the bytes of one element; 0 for pools of other data than vertices and indices.
 std::uint32_t stride_of(Pool pool);
 
-/// Returns the bufferView target (a number of OpenGL); 0 for neither vertices nor indices.
+/// Returns the target of a bufferView (an OpenGL constant), or 0 for other data than vertices and indices.
 int target_of(Pool pool);
 
-/// Returns the pool of a vertex attribute or of indices, which follows from stride and filter.
+/// Returns the pool of a vertex attribute, or of indices. The stride and the filter of the column determine
+/// it.
 Pool vertex_pool(const Column& column);
 Pool index_pool(const Column& column);
 

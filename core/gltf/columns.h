@@ -16,7 +16,7 @@ namespace seedmesh::gltf {
 struct Slice {
   std::shared_ptr<const void> owner;
   std::span<const std::byte> bytes;
-  std::uint64_t plain = 0;  ///< their number before encoding (compress.h); 0: they are not encoded
+  std::uint64_t plain = 0;  ///< number of bytes before encoding (compress.h); 0: not encoded
 
   std::uint64_t size() const { return plain > 0 ? plain : bytes.size(); }
 };
@@ -34,7 +34,7 @@ struct Column {
   Component component = Component::f32;
   Lanes lanes = Lanes::scalar;
   std::size_t count = 0;    ///< elements with `lanes` components each; never 0 in a document
-  bool normalized = false;  ///< integers represent 0..1, signed ones -1..1
+  bool normalized = false;  ///< unsigned integers represent 0..1, and signed integers -1..1
   Filter filter = Filter::none;
   std::optional<Box> range = {};  ///< for positions, and for key times (in x)
 
@@ -68,7 +68,7 @@ struct Tracks {
 
 /// All arrays of a model. The vectors are parallel to those of the model.
 struct Columns {
-  std::vector<std::vector<Part>> meshes;  ///< for each mesh its primitives that are not empty
+  std::vector<std::vector<Part>> meshes;  ///< for each mesh, those of its primitives that are not empty
   std::vector<Column> inverse_binds;      ///< parallel to Model::skins
   std::vector<Tracks> animations;         ///< parallel to Model::animations
 };

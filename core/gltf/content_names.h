@@ -1,6 +1,6 @@
 #pragma once
-/// Names that follow from content: in all files, equal names of meshes, materials and images mean equal
-/// content. An engine that keeps one file for each name therefore shows every model correctly.
+/// Names that follow from content. Meshes, materials and images of equal names have equal content, in all
+/// files. An engine that keeps one file for each name therefore shows every model correctly.
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -21,13 +21,13 @@ std::string long_hash(std::string_view bytes);
 struct ContentNames {
   std::string stem = {};  ///< the first part of all names but that of the root
   std::string root = {};  ///< the new Model::name, and the name of the root node
-  /// What else the stored form of a mesh depends on, such as a grid that meshes share.
+  /// Further input of the stored form of a mesh, such as a grid that several meshes share.
   std::string_view form = {};
 };
 
 /// Stores equal images once. Names meshes and materials `<stem>_<name>_<hash of the content>`, and root nodes
 /// after `root`. The stem is not repeated where a name begins with it. Collision shapes keep their names.
-/// To be called after finish(). Reads each array once (about 10 GB/s).
+/// Call it after finish(). It reads each array once (about 10 GB/s).
 void name_by_content(Model& model, const ContentNames& names, const Job& job);
 
 /// Returns the names of Model::textures in a file: `<stem>_<name>_<hash of the content>`.

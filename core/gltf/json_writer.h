@@ -16,8 +16,8 @@ void append_number(std::string& out, float value);
 /// The same for a double: 22.521484375 and not 22.521484.
 void append_number(std::string& out, double value);
 
-/// The same with at least one digit after a point, and without an exponent from 0.0001 to 1e15: the form in
-/// which nlohmann/json prints a double.
+/// The same, with at least one digit after the point. Numbers from 0.0001 to 1e15 have no exponent. This is
+/// the form in which nlohmann/json prints a double.
 void append_decimal(std::string& out, float value);
 
 void append_integer(std::string& out, long long value);
@@ -28,8 +28,8 @@ void append_string(std::string& out, std::string_view text);
 /// Returns the double whose shortest decimal is that of `value`, for libraries that print only doubles.
 double shortest(float value);
 
-/// Appends JSON without spaces to a text and sets the commas. It has no state beside the text: a text may be
-/// continued with another writer or by hand. An empty text is the start of a list without brackets.
+/// Appends JSON without spaces to a text, with commas where they are needed. The text is its only state, so
+/// another writer or other code may continue the text. An empty text is the start of a list without brackets.
 class JsonWriter {
  public:
   explicit JsonWriter(std::string& out) : out_(out) {}
@@ -125,7 +125,7 @@ class JsonWriter {
 class TextMeter {
  public:
   TextMeter(const std::string& text, Job& job) : text_(text), job_(job), counted_(text.size()) {}
-  /// To be called after each small part.
+  /// Call it after each small part.
   void step() {
     if (text_.size() - counted_ >= step_bytes) finish();
   }

@@ -8,8 +8,9 @@
 
 namespace seedmesh {
 
-/// The bytes of a file or a response as a list of pieces, so that vertex and index data go from the arrays of a
-/// mesh to the socket without a copy. The pieces are valid as long as the payload exists. No piece is empty.
+/// The bytes of a file or a response as a list of pieces. Vertex and index data therefore go from the arrays
+/// of a mesh to the socket without a copy. The pieces are valid as long as the payload exists. No piece is
+/// empty.
 class Payload {
  public:
   Payload() = default;

@@ -29,7 +29,7 @@ class CpfgMacros {
   TracedText expanded(const TracedText& text);
 
   struct Expression {
-    std::string name, text;  ///< for a function, the whole definition
+    std::string name, text;  ///< for a function: its whole definition
     std::size_t at = 0;
   };
   std::vector<Expression> constants();

@@ -1,6 +1,6 @@
 #pragma once
-/// The lines of a cpfg file that begin with `#`, as the preprocessor of C reads them: #define, #undef, and the choices
-/// #if, #ifdef, #ifndef, #elif, #else, #endif.
+/// The lines of a cpfg file that begin with `#`, as the preprocessor of C reads them: #define, #undef, and
+/// the conditional directives #if, #ifdef, #ifndef, #elif, #else, #endif.
 #include <string>
 
 #include "core/import/cpfg_macros.h"
@@ -8,8 +8,8 @@
 
 namespace seedmesh {
 
-/// Defines the macros of `text` and replaces the lines that a choice leaves out by blanks. Reports an error for
-/// an #include whose file is not given, and for a choice that is not closed.
+/// Defines the macros of `text`, and replaces lines that a condition excludes by blanks. Reports an error for
+/// an #include whose file is not given, and for a condition without #endif.
 void preprocess_cpfg(ForeignText& source, std::string& text, CpfgMacros& macros);
 
 }  // namespace seedmesh

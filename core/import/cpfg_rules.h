@@ -32,8 +32,8 @@ enum class CpfgContexts { used, ignored };
 std::optional<CpfgRule> read_cpfg_rule(const TracedText& text, CpfgContexts contexts, ForeignText& source,
                                        CpfgWords& words, CpfgStatements& statements);
 
-/// In cpfg a rule for `l` also rewrites the `l` of `~l`. Adds rules for `~l` that do the same, and rules for the
-/// surfaces that those write.
+/// In cpfg a rule for `l` also rewrites the `l` of `~l`. Adds rules for `~l` that do the same, and rules for
+/// the surfaces that these new rules write.
 void add_cpfg_rules_for_surfaces(std::span<std::vector<CpfgRule>> lists, CpfgWords& words);
 
 }  // namespace seedmesh

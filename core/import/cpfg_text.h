@@ -12,8 +12,8 @@ namespace seedmesh {
 /// has no such comments.
 std::string cpfg_without_comments(ForeignText& source);
 
-/// Whether the trimmed line is a directive: `#` and a known word, or `#` directly before any word that has no
-/// arrow. Elsewhere # is a module.
+/// Whether the trimmed line is a directive. It is one if it is `#` and a known word, or if it has `#`
+/// directly before another word and has no arrow. In other lines, # is a module.
 bool is_cpfg_directive(std::string_view text, Line line);
 
 /// Whether the line has the arrow of a production.

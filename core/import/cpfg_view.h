@@ -8,8 +8,9 @@
 
 namespace seedmesh {
 
-/// Puts the contents of the files into the parameters of the request. Without a view file, a warning lists what
-/// it would define. `files`: their texts by name. Errors and warnings name the file.
+/// Puts the contents of the files into the parameters of the request. Without a view file, a warning lists
+/// the values that such a file would set. `files` are texts by the name of the file. Errors and warnings name
+/// the file.
 void put_cpfg_files(const std::map<std::string, std::string>& files, Json& parameters, ForeignText& source);
 
 }  // namespace seedmesh

@@ -41,11 +41,11 @@ class CpfgWords {
   /// Returns the symbols of more than one character that occur, such as `@v` and `~l`.
   const std::set<std::string>& longer() const { return longer_; }
 
-  /// Returns the symbols to ignore or consider for a list of characters. cpfg compares single characters, so
-  /// a longer symbol belongs to the list if its first character does.
+  /// Returns the symbols for the parameters `ignore` and `consider`, from a list of characters. cpfg compares
+  /// single characters, so a longer symbol belongs to the list if its first character does.
   std::string listed(std::string_view characters) const;
 
-  /// Returns the further characters of symbols with more than one character, each with its symbol.
+  /// Returns the characters after the first one in symbols of more than one character, each with its symbol.
   const std::map<char, std::string>& inside() const { return inside_; }
 
   void warn_once(std::size_t at, const std::string& symbol, const std::string& text);

@@ -9,8 +9,8 @@
 
 namespace seedmesh {
 
-/// The bytes of a joined text from `from` on. They come from byte `origin` of the foreign text. With a file name,
-/// all of them map to the line at `origin` that includes that file.
+/// The bytes of a joined text from `from` on, up to the next part. They come from byte `origin` of the
+/// foreign text. If `file` is not empty, all of them map to the line at `origin`, which includes that file.
 struct TextPart {
   std::size_t from = 0, origin = 0;
   std::string file;
@@ -52,8 +52,8 @@ struct Line {
 };
 std::vector<Line> lines_of(std::string_view text);
 
-/// Greatest size in bytes of a JSON text that is detected as a tree; the request has to name the format of a
-/// longer one. Detection therefore does not parse whole maps.
+/// Greatest size in bytes of a JSON text whose format can be detected as that of a tree. For a longer text,
+/// the request has to name the format. Detection therefore does not parse whole maps.
 constexpr std::size_t largest_tree_file = 256 * 1024;
 
 /// Returns an error if `options` name an entry, for formats whose files have no entries; else nullopt. `what` begins

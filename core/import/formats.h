@@ -1,5 +1,7 @@
 #pragma once
-/// The readers of the formats, one in each file. import.cpp lists them.
+/// The members of ImportFormat for each format, one format in each file: its reader, and for some formats a
+/// function that removes comments. A function marks_of_... is the member `score`. import.cpp lists all of
+/// them.
 #include "core/import/import.h"
 
 namespace seedmesh {

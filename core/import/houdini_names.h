@@ -26,7 +26,8 @@ class HoudiniNames {
   /// Returns the arguments with `i`, the index of a module in its successor, replaced by its value.
   std::string with_index(const std::string& arguments, std::size_t index) const;
 
-  /// Puts variables of the node into the parameters: t counts generations, T is `gravity`. Others are 0, with a warning.
+  /// Adds the variables of the node to the parameters: t counts generations, and T is `gravity`. Other
+  /// variables become 0, with a warning.
   void put(double gravity, Json& parameters, ForeignText& source) const;
 
  private:

@@ -27,7 +27,7 @@ HoudiniRule houdini_rule(std::string_view text, Line line);
 ///
 ///   A : y > 2 = B    becomes    ?P(x,y,z) < A : y > 2 -> B    with ?P(0,0,0)A where A is written
 ///
-/// Queries stand between neighbours, so a node with contexts keeps x, y and z as constants.
+/// Queries would separate neighbouring modules, so in an L-System with contexts x, y and z stay constants.
 class HoudiniPositions {
  public:
   HoudiniPositions() = default;
@@ -37,7 +37,8 @@ class HoudiniPositions {
   bool has(char symbol) const { return counts_.contains(symbol); }
   /// Whether a rule reads the position.
   bool reads(std::string_view text, const HoudiniRule& rule) const;
-  /// Adds rules that renew the queries before modules that stay, and remove those of the step before.
+  /// Adds rules that write a new query before each module that is not rewritten, and remove the query of the
+  /// previous step.
   void put(Json& parameters) const;
 
  private:

@@ -24,8 +24,8 @@ struct TextRun {
   bool verbatim = false;
 };
 
-/// The source of a value of the request, so that an error of the generator is reported at the line and column of the
-/// foreign text.
+/// The source of a value of the request. With it, an error of the generator is reported at the line and
+/// column of the foreign text.
 struct Origin {
   std::string pointer;        ///< pointer into the request, such as "/parameters/productions/2"
   std::vector<TextRun> runs;  ///< the first begins at byte 0; a number has one run

@@ -1,7 +1,7 @@
 #pragma once
 /// Splits the list in a large JSON file (features of GeoJSON, elements of Overpass) into the texts of its
-/// objects, which are then parsed one after the other. A whole map as JSON values takes many times the memory of
-/// its text.
+/// objects. They are then parsed one after the other, because a whole map as JSON values takes many times the
+/// memory of its text.
 #include <optional>
 #include <string>
 #include <string_view>
@@ -16,9 +16,9 @@ namespace seedmesh {
 constexpr std::size_t largest_whole_file = 1024 * 1024;
 
 struct ListedObjects {
-  std::string_view name;                ///< of the member with the list
+  std::string_view name;                ///< name of the member with the list
   std::string shell;                    ///< the file with an empty list
-  std::vector<std::string_view> texts;  ///< of the objects, in the file
+  std::vector<std::string_view> texts;  ///< texts of the objects; parts of the text of the file
 };
 
 /// Divides the text of an object with one member `name`, a list of objects. Returns nullopt if the text is

@@ -13,7 +13,7 @@ struct MapConversion;
 struct MapBody {
   enum class Role { none, outline, part };
   const MapFeature* feature = nullptr;
-  const MapFeature* outline = nullptr;  ///< of a part: the building around it
+  const MapFeature* outline = nullptr;  ///< for a part: the building around it
   Plan plan;
   Role role = Role::none;
   bool is_hidden = false;  ///< its parts replace it

@@ -6,8 +6,9 @@
 namespace seedmesh {
 
 /// The transverse Mercator projection of the ellipsoid of WGS 84 about an origin, with scale 1 along its meridian: east
-/// and north in metres. True to angle; lengths 50 km from the meridian are 0.003 % too long. Source: Krüger, "Konforme
-/// Abbildung des Erdellipsoids in der Ebene", 1912, to the fourth order (0.001 mm within 1,000 km).
+/// and north in metres. It preserves angles; lengths at 50 km from the meridian are 0.003 % too long. Source:
+/// Krüger, "Konforme Abbildung des Erdellipsoids in der Ebene", 1912, to the fourth order (0.001 mm within
+/// 1,000 km).
 class TransverseMercator {
  public:
   /// Makes the projection about an origin in degrees.

@@ -1,6 +1,6 @@
 #pragma once
-/// Converts outlines of maps to plans without errors (see defects_of()). Real outlines repeat points, have points on
-/// straight edges, spikes, and touch themselves.
+/// Converts outlines of maps to plans without errors (see defects_of()). Real outlines repeat points, have
+/// spikes and points on straight edges, and touch themselves.
 #include <vector>
 
 #include "core/geom/polygon/plan.h"
@@ -15,10 +15,10 @@ struct SoundPlans {
 };
 
 /// Returns plans without errors for an outer ring and holes in metres. The rings may run in either direction. Points
-/// are rounded to millimetres. Those that repeat another, lie on a straight edge (to 2 mm) or end a spike are left
-/// out. An outer ring that touches or crosses itself is divided there, by the nonzero winding rule. Holes that touch
-/// another ring become smaller by a centimetre. Cost: that of defects_of(). Checks stop and deadline if `job` is not
-/// null.
+/// are rounded to millimetres. Points that repeat another point, lie on a straight edge (within 2 mm) or are
+/// the tip of a spike are left out. An outer ring that touches or crosses itself is divided there, by the
+/// nonzero winding rule. Holes that touch another ring become smaller by a centimetre. Cost: that of
+/// defects_of(). Checks stop and deadline if `job` is not null.
 SoundPlans sound_plans(const std::vector<PlanRing>& rings, const Job* job = nullptr);
 
 }  // namespace seedmesh

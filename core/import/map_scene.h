@@ -50,8 +50,8 @@ constexpr double map_tree_height(bool is_needle) { return is_needle ? 12 : 10; }
 
 /// Whether the tags are those of an area or a line of the ground.
 bool has_ground_tag(const MapTags& tags);
-/// Returns the key to which a value without a key belongs, such as "leisure" for "park". Empty if no kind of line or
-/// area has the value, or if it can also be a kind of building.
+/// Returns the key to which a value without a key belongs, such as "leisure" for "park". The result is empty
+/// if no kind of line or area has the value, or if the value can also be a kind of building.
 std::string_view map_key_of(std::string_view value, bool is_line);
 
 /// Adds buildings and parts of buildings (map_buildings.cpp). Returns for each feature whether it is one.

@@ -17,7 +17,7 @@ enum class OsmRole { outer, inner, outline, unknown };
 /// Returns the role of a member by its name.
 OsmRole osm_role(std::string_view name);
 
-/// Widens `bounds` to a further box: a file of several downloads states one for each.
+/// Extends `bounds` by a further box. A file that joins several downloads states one box for each.
 void add_bounds(std::optional<MapBounds>& bounds, const MapBounds& more);
 
 struct OsmNode {

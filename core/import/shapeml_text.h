@@ -31,7 +31,7 @@ class ShapemlText {
   std::string text_;                  ///< without comments
   std::set<std::string> made_names_;  ///< to which tokens point
   std::vector<lang::Token> tokens_;
-  std::vector<std::size_t> partner_;  ///< of brackets: the closing one
+  std::vector<std::size_t> partner_;  ///< for an opening bracket: the index of its closing bracket
   TracedText declarations_;
   std::set<std::string, std::less<>> needed_, attributes_;  ///< functions and attributes that expressions use
   std::set<std::string, std::less<>> set_names_,

@@ -1,6 +1,6 @@
 #pragma once
-/// Parameters of a tree of Weber and Penn, as files of other programs have them: by the name that the paper uses, with
-/// the offset of each value in the file.
+/// Parameters of a tree of Weber and Penn from a file of another program, by the names of the paper. Each
+/// value has its offset in the file.
 #include <array>
 #include <map>
 #include <string>

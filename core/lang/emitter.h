@@ -11,11 +11,11 @@
 
 namespace seedmesh::lang {
 
-/// Registers that one level of depth keeps while the next one is computed: the left sides of a comparison, a sum, a
-/// product and a power, and all arguments of a call except the last.
+/// Number of registers that one nesting level keeps while the next level is computed. They hold the left
+/// operands of a comparison, a sum, a product and a power, and all arguments of a call except the last.
 constexpr std::size_t registers_per_level = 4 + (max_arity - 1);
 
-/// Registers of one evaluation, 12 KiB of stack.
+/// Number of registers of one evaluation. They take 12 KiB of the stack.
 constexpr std::size_t register_count = registers_per_level * (Program::greatest_depth + 1);
 
 class Program::Emitter {
@@ -25,7 +25,7 @@ class Program::Emitter {
     Storage storage = Storage::numbers;
     std::uint32_t index = 0;  ///< slot or register
     double value = 0;         ///< value of a constant
-    bool is_truth = false;    ///< is 0 or 1
+    bool is_truth = false;    ///< the value is known to be 0 or 1
     std::uint32_t text = 0;   ///< not 0: the constant is this text, and `value` is NaN
 
     bool is_constant() const { return storage == Storage::numbers; }
@@ -66,7 +66,8 @@ class Program::Emitter {
   Position begin_logic(Operation stop, const Operand& left, std::uint32_t mark);
   Operand end_logic(Position begun, const Operand& right, std::uint32_t mark);
 
-  /// Whether there were more than Program::max_operations; those beyond were not emitted.
+  /// Whether the expression has more than Program::max_operations operations. The operations beyond this
+  /// number were not emitted.
   bool is_too_long() const { return is_too_long_; }
 
   Expression expression_of(const Operand& result);

@@ -32,7 +32,7 @@
 
 namespace seedmesh::lang {
 
-/// A number, or a reference to a text in a table of the caller: the number of the text, from 1.
+/// A number or a text. A text is represented by its number, from 1, in a table of the caller.
 struct TaggedValue {
   double number = 0;
   std::uint32_t text = 0;  ///< 0: the value is a number
@@ -75,7 +75,7 @@ class Names {
   const Defined* find_function(std::string_view name) const;
   /// The bound name most similar to `name`, for a hint, or an empty text. Compares the latest 256 bindings.
   std::string_view nearest(std::string_view name) const;
-  /// Call it before each hint, which is expensive. False after most_hints calls.
+  /// Returns false after most_hints calls. Call it before each nearest(), because nearest() is expensive.
   bool may_hint() const { return hints_ < most_hints && ++hints_ > 0; }
   static constexpr std::uint32_t most_hints = 20;
 
@@ -148,7 +148,7 @@ struct Expression {
   std::uint32_t first = 0, count = 0;  ///< instructions
   bool is_constant = false;            ///< its value is always `value`
   Form form = Form::constant;
-  Operation operation = Operation::copy;  ///< operation of the two middle forms
+  Operation operation = Operation::copy;  ///< operation of slot_and_value and slot_and_slot
   double value = 0;
   std::uint32_t text = 0;             ///< not 0: the constant is this text, and `value` is NaN
   std::uint32_t left = 0, right = 0;  ///< slots
@@ -161,16 +161,17 @@ class Program {
  public:
   /// The most operations of an expression after folding, which bounds the time of one evaluation.
   static constexpr std::uint32_t max_operations = 1'000;
-  /// The most tokens of expanded functions in one program, which bounds the cost of a long function that is called
-  /// often.
+  /// The most tokens that calls of defined functions may add to one program. This bounds the cost of a long
+  /// function that is called often.
   static constexpr std::uint64_t max_expanded = 4'000'000;
   /// The greatest useful value of max_depth; a larger one counts as this.
   static constexpr std::uint32_t greatest_depth = 256;
 
   /// Parses and compiles the expression that begins at token `at`, and moves `at` to the first token behind it.
-  /// After errors it adds all of them in the order of the text, at most max_errors, and returns the constant 0. `at`
-  /// is then the next token that is one of , ; : ) ] } { or an arrow outside of brackets opened here, or the end.
-  /// Brackets, calls, signs and powers deeper than `max_depth` are an error. Recurses at most max_depth deep.
+  /// If there are errors, it adds them in the order of the text, at most max_errors, and returns the constant
+  /// 0. It then moves `at` to the first of these that is outside of brackets opened in the expression: one of
+  /// , ; : ) ] } { or an arrow, or the end. Brackets, calls, signs and powers deeper than `max_depth` are an
+  /// error. Recurses at most max_depth deep.
   Expression parse(std::span<const Token> tokens, std::size_t& at, const Names& names,
                    std::vector<TextError>& errors, std::uint32_t max_depth = 200);
 
@@ -194,7 +195,8 @@ class Program {
   class Emitter;
   friend class RowEvaluator;  // rows.h
 
-  /// The array of an operand: the numbers of the program, the slots of the caller, the registers of the evaluation.
+  /// Where an operand is stored: in the numbers of the program, in the slots of the caller, or in the
+  /// registers of the evaluation.
   enum class Storage : std::uint8_t { numbers, slots, registers };
 
   /// registers[into] = left operation right. A call has its first argument at `left`, the others behind it, and its row
@@ -211,7 +213,7 @@ class Program {
 
   std::vector<Instruction> code_;
   std::vector<double> numbers_;
-  std::vector<std::uint32_t> texts_;  ///< of numbers_: those that are texts, else 0
+  std::vector<std::uint32_t> texts_;  ///< for each of numbers_, its text, or 0 if it is a number
   std::uint64_t expanded_ = 0;        ///< tokens of functions so far
 };
 

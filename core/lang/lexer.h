@@ -21,7 +21,7 @@ enum class TokenKind { number, name, string, symbol, end };
 /// A token. The arrows → and ⟶ become "->"; --> and ~> stay as they are.
 struct Token {
   TokenKind kind = TokenKind::end;
-  std::string_view text;   ///< inside the source, except for arrows; of a string the text between its quotes
+  std::string_view text;   ///< part of the source, except for arrows; of a string, without its quotes
   std::size_t offset = 0;  ///< byte in the source
   std::size_t length = 0;  ///< bytes in the source
   /// Of TokenKind::number: the correctly rounded value. Of TokenKind::string: 0, or its number in a table of

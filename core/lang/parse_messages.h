@@ -9,12 +9,13 @@
 
 namespace seedmesh::lang {
 
-/// Returns the rows of a function, one for each number of arguments; empty without such a function.
+/// Returns the rows of a function, one for each number of arguments. Returns an empty span if there is no
+/// such function.
 std::span<const Function> rows_of(std::string_view name);
 
 std::string unknown_name(const Names& names, std::string_view name);
 std::string unknown_function(const Names& names, std::string_view name);
-/// `rows`: at least one.
+/// `rows` has at least one row.
 std::string wrong_number_of_arguments(std::span<const Function> rows, std::size_t found);
 std::string wrong_number_of_arguments(std::string_view name, const Names::Defined& function,
                                       std::size_t found);

@@ -39,18 +39,21 @@ class Reader {
   bool is_sound() const { return panic_ == Panic::none; }
   bool has_errors() const { return !errors_.empty(); }
 
-  /// Enters one level of nesting, for leave() to leave. False: it would be too deep, and the expression is abandoned.
+  /// Enters one level of nesting, which leave() leaves. Returns false if it would be too deep; the expression
+  /// is then abandoned.
   bool enter();
   void leave() { --depth_; }
   std::uint32_t remaining_depth() const { return max_depth_ - depth_; }
 
   enum class Until { bracket, bracket_or_comma };
-  /// In Panic::bracket: skips to the `)` (or comma) of the open brackets, and goes on normally if there is one.
+  /// In Panic::bracket, skips to the `)` (or comma) that belongs to the innermost open bracket, and leaves
+  /// the panic if it is found.
   void recover(Until until);
   /// After an error: skips to the first token that does not belong to the expression; see Program::parse.
   void skip_expression();
 
-  /// "an expression", or "a value after `x`" behind its first token, for "expected ...".
+  /// Returns what a message "expected ..." names here: "an expression" before the first token, else "a value
+  /// after `x`".
   std::string expected_value() const;
 
   /// Moves the errors out, in the order of the text.

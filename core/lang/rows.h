@@ -19,11 +19,11 @@ class RowEvaluator {
   RowEvaluator(const Program& program, const Expression& expression);
 
   /// Writes the values of `count` cells, at most `width`, to `out`, which has the capacity of a row. `slots` has a row
-  /// for each slot that the expression reads. `rngs` has a generator for each cell if the expression draws random
-  /// numbers, which it does in the order of Program::evaluate(); else it may be empty. The results have the same bits
-  /// as those of Program::evaluate(), except that both sides of && and || are always evaluated. Cost: about 0.5 ns for
-  /// an arithmetic operation and cell; functions other than abs, sqrt, min, max, clamp, lerp and select cost as much as
-  /// in Program::evaluate().
+  /// for each slot that the expression reads. If the expression draws random numbers, `rngs` has a generator
+  /// for each cell, and the order of draws is that of Program::evaluate(). Otherwise `rngs` may be empty. The
+  /// results have the same bits as those of Program::evaluate(), except that both sides of && and || are
+  /// always evaluated. Cost: about 0.5 ns for an arithmetic operation and cell; functions other than abs,
+  /// sqrt, min, max, clamp, lerp and select cost as much as in Program::evaluate().
   void run(std::span<const double* const> slots, std::size_t count, std::span<Rng> rngs, double* out);
 
  private:
@@ -41,7 +41,7 @@ class RowEvaluator {
   const Program& program_;
   const Expression& expression_;
   std::vector<double> registers_, constants_;
-  std::vector<std::uint32_t> constant_rows_;  ///< rows of Program::numbers_, from the first one in use on
+  std::vector<std::uint32_t> constant_rows_;  ///< rows of numbers_, from the first used number on
   std::uint32_t first_number_ = 0;
 };
 

@@ -23,10 +23,11 @@ int move_materials(Model& model, Model& other);
 /// Adds a node with this parent and mesh (-1: none). The reference is valid until the next node is added.
 Node& add_node(Model& model, std::string name, int parent, int mesh = -1);
 
-/// Shows a mesh at the next level of a node: at the finest level of a node that shows none.
+/// Adds a mesh to a node as its next coarser level, or as its finest level if the node shows no mesh yet.
 void add_level(Node& node, int mesh);
 
-/// Adds a convex collision shape for each mesh below the root, with a common material.
+/// Adds each of `shapes`, which are convex meshes, as a collision node below node 0. The nodes are named by
+/// collision_name(names, of, number from 1). All meshes get one new material.
 void add_collision_shapes(Model& model, CollisionNames names, const std::string& of,
                           std::vector<Mesh> shapes);
 

@@ -13,13 +13,13 @@ enum class CopyForm { any, nodes, gpu, merge };
 /// A generator is only asked for what its row in the registry offers: the pipeline refuses other requests.
 struct Demand {
   int lods = 1;                   ///< levels of detail, 1 to 5
-  bool two_sided_leaves = false;  ///< the engine of the profile turns the normals of back sides itself
+  bool two_sided_leaves = false;  ///< the engine of the profile flips the normals of back faces itself
   bool share_organs = false;  ///< leaves and other organs are nodes that share a mesh, not one merged mesh
   bool growth = false;        ///< the animation "growth"
   bool wind = false;          ///< wind weights in TEXCOORD_2 and TEXCOORD_3
   CollisionNames collision = CollisionNames::none;
   int textures = 512;                ///< width and height in texels; 0: no textures
-  bool tangents = true;              ///< the generator writes tangents where it makes them cheaply itself
+  bool tangents = true;              ///< tangents are wanted; a generator may write them where that is cheap
   bool impostor = false;             ///< an impostor is the coarsest level of each plant of a scene
   CopyForm copies = CopyForm::any;   ///< form of repeated parts of a scene or a building
   std::uint64_t most_triangles = 0;  ///< for generators that keep a budget themselves; 0: no budget

@@ -4,8 +4,8 @@
 
 namespace seedmesh {
 
-/// Converts all 16-bit indices to 32 bits, which mesh operations expect until finish() narrows them again.
-/// Generators of many small meshes may make 16-bit indices directly.
+/// Converts all 16-bit indices to 32-bit ones. Mesh operations expect these until finish() narrows them
+/// again. Generators of many small meshes may make 16-bit indices directly.
 void widen(Model& model, const Job& job);
 
 /// Returns a deep copy of all arrays, charged to the same memory budgets.

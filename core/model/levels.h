@@ -16,9 +16,10 @@ std::size_t levels_of(const Model& model);
 /// levels shows its coarsest.
 int mesh_at(const Node& node, std::size_t level);
 
-/// Shares of the screen's height below which each of the `coarser` levels of a node is shown, falling; the
-/// coarsest is shown from 0 on. An impostor is shown from 12 % of the screen's height at the earliest, because
-/// its texture is not sharp enough for larger sizes.
+/// Returns one share of the screen's height for each of the `coarser` coarser levels of a node, in descending
+/// order. A level is shown below its share, and the coarsest one at any smaller size. An impostor is shown
+/// from 12 % of the screen's height at the earliest, because its texture is not sharp enough for larger
+/// sizes.
 std::vector<float> screen_shares(const Node& node, std::size_t coarser);
 
 /// Returns the name of a mesh at a level: "bark", "bark_LOD1", ...

@@ -17,8 +17,8 @@ struct Box {
 enum class Topology { triangles, lines, points };
 
 /// Indices of a mesh: 32 bits while it is built. finish() (core/geom/mesh/finish.h) narrows them to 16 bits
-/// where the number of vertices allows. At most one of the two arrays is in use. Both are empty for points
-/// only, which are not indexed.
+/// where the number of vertices allows. At most one of the two arrays is in use. Both are empty only if the
+/// mesh has points, which have no indices.
 struct Indices {
   Array<std::uint32_t> wide;
   Array<std::uint16_t> small;
@@ -30,7 +30,7 @@ struct Indices {
 /// (core/gltf/compress/pack.h). The packed data are in a derived class.
 struct PackedMesh {
   std::size_t elements = 0, vertices = 0;
-  std::uint64_t bytes = 0;  ///< of the arrays before they were packed
+  std::uint64_t bytes = 0;  ///< bytes of the arrays before they were packed
   Box bounds;
 
   PackedMesh() = default;
@@ -49,18 +49,18 @@ struct Mesh {
   Array<glm::vec4> tangent;            ///< w = handedness; only where a normal map is
   Array<glm::u16vec4> joints;          ///< up to four joints of the node's skin, with `weights`
   Array<glm::vec4> weights;
-  Array<std::uint16_t> bone;  ///< instead of joints and weights: the only joint that moves the vertex
+  Array<std::uint16_t> bone;  ///< the only joint of the vertex; joints and weights are then empty
   Array<glm::vec3>
-      next_position;           ///< on the next coarser level (core/geom/lod/next_positions.h); mostly empty
-  Indices index;               ///< 3 for each triangle, 2 for each line
-  Box bounds;                  ///< bounds of `position`; set by finish()
-  bool cache_ordered = false;  ///< the triangles are in vertex cache order already
-  bool no_minus_zero = false;  ///< positions, normals, uv[0] and tangents have no -0
+      next_position;  ///< positions on the next coarser level (core/geom/lod/next_positions.h); usually empty
+  Indices index;      ///< 3 for each triangle, 2 for each line
+  Box bounds;         ///< bounds of `position`; set by finish()
+  bool cache_ordered = false;                ///< the triangles are in vertex cache order already
+  bool no_minus_zero = false;                ///< positions, normals, uv[0] and tangents have no -0
   std::shared_ptr<const PackedMesh> packed;  ///< replaces all arrays; null where the arrays are in use
 
   std::size_t elements() const;  ///< triangles, lines or points
   std::size_t vertices() const { return packed ? packed->vertices : position.size(); }
-  std::uint64_t bytes() const;  ///< of all arrays
+  std::uint64_t bytes() const;  ///< bytes of all arrays
 };
 
 /// Returns the bounding box of `position`; {0, 0} where it is empty.

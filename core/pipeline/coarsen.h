@@ -17,10 +17,11 @@ MeshGroup copy_of(const MeshGroup& group);
 
 /// What simplification may remove.
 struct SimplifyLimits {
-  /// Separate sheets are leaves: some may be removed and the others grow.
+  /// True: separate sheets count as leaves. Some of them may be removed, and the others are
+  /// enlarged.
   bool leaves = true;
   /// How far a surface may move, as a share of the model's diagonal. Infinite: no limit, and pieces of any
-  /// size may be removed. Otherwise only pieces may be removed whose area is at most (diagonal / 100)^2.
+  /// size may be removed. Otherwise, pieces with an area above (diagonal / 100)^2 are kept.
   double detail = std::numeric_limits<double>::infinity();
 };
 
@@ -30,9 +31,9 @@ struct SimplifyLimits {
 void coarsen_all(Model& model, std::size_t level, std::uint64_t most, std::uint64_t least,
                  const SimplifyLimits& limits, Job& job);
 
-/// The same where the level then draws at most `most` triangles. Otherwise returns false with the meshes as
-/// they were, as soon as an attempt removes less than half of the excess. Needs the memory of the level a second
-/// time.
+/// The same, but keeps the result only if the level then draws at most `most` triangles. Otherwise it
+/// restores the meshes and returns false, as soon as an attempt removes less than half of the excess. It
+/// needs the memory of the level a second time.
 bool coarsen_if_it_fits(Model& model, std::size_t level, std::uint64_t most, const SimplifyLimits& limits,
                         Job& job);
 

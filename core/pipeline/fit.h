@@ -24,11 +24,11 @@ std::optional<Issue> fit(Model& model, std::uint64_t most, int lods, const Simpl
 /// where there is still only one. Call it after fit() and before finish().
 std::optional<Issue> add_levels(Model& model, int lods, const SimplifyLimits& limits, Job& job);
 
-/// Gives a model levels with about these numbers of triangles, falling. A level of the model that has up to a
-/// tenth fewer is used; otherwise the next finer one is simplified. Adds a warning for each level that cannot
-/// lose enough, and leaves out those that would keep more than nine tenths of the level before. Sets
-/// Node::screen. Returns an Issue where the finest level exceeds the first number, or where only one of several
-/// levels remains. Call it before finish().
+/// Gives a model levels with about these numbers of triangles, which are in descending order. A level of the
+/// model with up to a tenth fewer triangles is used as it is. Otherwise the next finer level is simplified.
+/// Adds a warning for each level that cannot lose enough, and leaves out those that would keep more than nine
+/// tenths of the level before. Sets Node::screen. Returns an Issue where the finest level exceeds the first
+/// number, or where only one of several levels remains. Call it before finish().
 std::optional<Issue> fit_levels(Model& model, const std::vector<std::uint64_t>& triangles,
                                 const SimplifyLimits& limits, Job& job);
 

@@ -37,7 +37,7 @@ constexpr const FormatInfo& format_named(std::string_view name) {
   return *std::ranges::find(output_formats, name, &FormatInfo::name);
 }
 
-/// Null: no format has this extension.
+/// Returns the first format with this extension, or null if there is none.
 constexpr const FormatInfo* format_with_extension(std::string_view extension) {
   const auto* const found = std::ranges::find(output_formats, extension, &FormatInfo::extension);
   return found == std::end(output_formats) ? nullptr : found;

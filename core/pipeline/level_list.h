@@ -14,11 +14,12 @@ int level_count(const OutputParams& output);
 /// Whether output.lods gives numbers of triangles: a list of several levels, or of one level smaller than the model.
 bool has_listed_levels(const OutputParams& output);
 
-/// Returns the list as numbers of triangles, for a model with `whole` triangles: shares up to 1 of it, and numbers
-/// above 1.
+/// Returns the list as numbers of triangles. An entry of at most 1 is a share of `whole`, the number of
+/// triangles of the model. A larger entry is a number of triangles.
 std::vector<std::uint64_t> listed_triangles(const OutputParams& output, std::uint64_t whole);
 
-/// Errors of a list: numbers of triangles that are not whole, and entries that do not fall.
+/// Adds the errors of a list: numbers of triangles that are not whole, and entries that are not smaller than
+/// the one before.
 void check_level_list(const OutputParams& output, IssueList& errors);
 
 }  // namespace seedmesh

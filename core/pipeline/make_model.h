@@ -10,10 +10,10 @@ namespace seedmesh {
 /// Beyond this number of copies, the parts of one object are merged by material.
 constexpr std::uint64_t most_parts = 400;
 
-/// Whether generated textures are named by URLs.
+/// Whether the output refers to generated textures by URLs instead of containing them.
 bool has_links(const OutputParams& output);
 
-/// Texels of a side; 0: no textures.
+/// Returns the texels of a side of a texture; 0: no textures.
 int texture_size(const OutputParams& output);
 
 /// Returns a seed as a number, or as text where JavaScript would round it.

@@ -1,5 +1,5 @@
 #pragma once
-/// The name of a request's model, and what a model says of its origin.
+/// The name of a request's model, and the description of its origin that a model contains.
 #include <string>
 #include <vector>
 
@@ -11,7 +11,7 @@ namespace seedmesh {
 /// The name of the model, of its root node and of its files. Two requests with different canonical JSON have
 /// different names, whatever the format, unless both give the same `output.name`:
 /// - `output.name`, unless it is the name of a preset of the same generator;
-/// - the name of a preset, with the seed where only that differs, or with a hash where more differs;
+/// - the name of a preset; with the seed if only the seed differs, or with a hash if more differs;
 /// - the generator and a hash, where there is no `output.name`.
 std::string model_name(const Request::Body& body);
 
@@ -22,8 +22,8 @@ std::string name_stem(const Request::Body& body);
 constexpr std::size_t longest_written_request = 16'384;
 
 /// Returns the origin of the model: engine, generator, seed as text, preset where `output.name` names it, request
-/// (canonical JSON) and permalink (a path). Where the request is too long, request_hash stands for it: 64 bits
-/// of XXH3 as 16 hexadecimal digits. A permalink that is too long for a URL is left out.
+/// (canonical JSON) and permalink (a path). If the request is too long, request_hash replaces it: 64 bits of
+/// XXH3 as 16 hexadecimal digits. A permalink that is too long for a URL is left out.
 std::vector<Extra> provenance(const Request& request);
 
 /// Appends `origin` to the extras of the first root node, without members that the node has already.

@@ -13,12 +13,12 @@ namespace seedmesh {
 struct Profile {
   OutputProfile name;
   bool quantized;      ///< files use KHR_mesh_quantization
-  bool compressed;     ///< and EXT_meshopt_compression
+  bool compressed;     ///< files also use EXT_meshopt_compression
   bool gpu_instances;  ///< reads EXT_mesh_gpu_instancing
-  bool prefers_gpu;    ///< gets it where output.instancing is auto
+  bool prefers_gpu;    ///< files use it if output.instancing is auto
   bool lods_inside;    ///< reads MSFT_lod
   bool reads_webp;     ///< reads EXT_texture_webp
-  bool prefers_webp;   ///< gets it where output.image_format is auto
+  bool prefers_webp;   ///< files use it if output.image_format is auto
   bool morphs;         ///< levels of detail have _NEXT_POSITION
 };
 

@@ -21,7 +21,7 @@ struct Bounds {
   double west = 0, south = 0, low = 0, east = 0, north = 0, high = 0, geometric_error = 0;
 };
 
-/// The bounds of a tile. Boxes lie inside their parent's; errors fall from level to level.
+/// Returns the bounds of a tile. A box lies inside that of its parent, and its error is smaller.
 using BoundsOf = std::function<Bounds(const Address&)>;
 
 /// Levels of an explicit tileset and of a subtree. Clients make all tiles of a file at once, in one frame.
@@ -33,11 +33,11 @@ struct Naming {
   std::string_view prefix;  ///< relative to the address of the file; ends with "/" or is empty
   int levels = 0;           ///< levels of the tree; its last level has no children
   int first_content = 0;    ///< tiles above this level have no content
-  std::function<bool(const Address&)> holds = {};  ///< tiles that the tree has; empty: all
+  std::function<bool(const Address&)> holds = {};  ///< whether the tree has a tile; empty: it has all tiles
 };
 
-/// Returns an explicit tileset of at most four levels from `root` down. The tiles below the last of them point to
-/// tilesets of their own, whose roots have the same box and error.
+/// Returns an explicit tileset of at most four levels from `root` down. Tiles below the last of these levels
+/// refer to further tilesets, whose roots have the same box and error.
 std::string explicit_tileset(const Address& root, const Naming& naming, const BoundsOf& bounds_of);
 
 /// Returns an implicit tileset. Most clients ignore the metadata and halve the box and error of the root for

@@ -65,8 +65,8 @@ struct TileRange {
 };
 TileRange tiles_in(const OpenWorld& world, int level, const WorldBox& box);
 
-/// Returns the explicit tileset of four levels below a tile whose level is a multiple of four. With a part, it has the
-/// tiles above and inside the part alone, and those above have no content.
+/// Returns the explicit tileset of four levels below a tile whose level is a multiple of four. With `part`,
+/// it contains only the tiles inside the part, and those above them, which have no content.
 Result<std::string> world_tileset(const OpenWorld& world, const TileAddress& root, std::string_view prefix,
                                   const Job::Options& options, const WorldPart* part = nullptr);
 /// Returns the implicit tileset of the whole world.
@@ -86,8 +86,8 @@ struct WorldFile {
 Result<std::optional<WorldFile>> world_file(const OpenWorld& world, std::string_view name,
                                             const Job::Options& options);
 
-/// Reads "west,south,east,north". Code::invalid with pointer "/box" for a text that is no box, for a side of more
-/// than `longest` metres, and for a box that leaves the world.
+/// Reads "west,south,east,north", in metres. Errors are Code::invalid with pointer "/box": a text that is no
+/// box, a side of more than `longest` metres, and a box that leaves the world.
 Result<WorldBox> read_world_box(const OpenWorld& world, std::string_view text,
                                 double longest = longest_world_box);
 

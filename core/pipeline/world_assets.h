@@ -6,8 +6,8 @@
 namespace seedmesh {
 
 /// Returns a function that makes assets within `options`.
-/// - near: the model with at most 1,500 triangles, or more where it cannot be simplified so far, and textures
-///   of 128 texels.
+/// - near: the model with at most 1,500 triangles, and textures of 128 texels; it has more triangles if it
+///   cannot be simplified as far.
 /// - far: an impostor of 12 triangles with a texture of 128 texels.
 ///
 /// A request that cannot be made ends the job by Stop.

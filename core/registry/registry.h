@@ -7,7 +7,7 @@ namespace seedmesh {
 /// Returns all generators, in the order of the page's menu.
 GeneratorList generators();
 
-/// Returns null where there is no generator of this name.
+/// Returns the generator of this name, or null if there is none.
 inline const Generator* find_generator(std::string_view name) { return find_generator(generators(), name); }
 
 }  // namespace seedmesh

@@ -19,8 +19,8 @@ class IssueList {
   /// Adds an error. The value at `issue.pointer` counts as unusable from now on.
   void add(Issue issue);
 
-  /// Adds the error that the object at `pointer` lacks `member`. The pointer of the error is that of the object,
-  /// because the member has none; covers() knows the member.
+  /// Adds the error that the object at `pointer` lacks `member`. The pointer of the error is that of the
+  /// object, because the member does not exist. covers() is then true for the pointer of the member.
   void add_missing(const std::string& pointer, std::string_view member, std::string message);
 
   /// Whether the value at `pointer`, or an object or list around it, already has an error. Further errors there

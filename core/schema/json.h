@@ -17,7 +17,8 @@ class Job;
 /// The limits of parse_json.
 struct JsonLimits {
   std::size_t depth = 64;  ///< depth of nested lists and objects
-  /// Number of values of any type; a value takes up to 80 bytes, its text as few as 2.
+  /// Number of values of any type. A value takes up to 80 bytes of memory, but its text can be as short as 2
+  /// bytes.
   std::size_t values = 2'000'000;
   const Job* job = nullptr;  ///< checked for stop and deadline, so that Stop is thrown; may be null
 };

@@ -5,11 +5,12 @@
 
 namespace seedmesh::schema {
 
-/// Returns the one of `words` that `word` most likely means, or an empty text. It is a word that differs in case, "_"
-/// and "-" only, or one that a short list of synonyms names, such as autumn for fall. Otherwise it is the word with
-/// the smallest Damerau distance (insertions, deletions, changes, swaps of neighbours; Damerau, "A technique for
-/// computer detection and correction of spelling errors", 1964), the first of several. The distance is at most a third
-/// of the letters and at most 3. Words of more than 64 bytes are not compared. Cost: length squared for each word.
+/// Returns the one of `words` that `word` most likely means, or an empty text. A word that differs only in
+/// case, "_" and "-" comes first. Next comes a word that a short list of synonyms names, such as autumn for
+/// fall. Otherwise it is the word with the smallest Damerau distance, and the first one of several. That
+/// distance counts insertions, deletions, changes and swaps of neighbours (Damerau, "A technique for computer
+/// detection and correction of spelling errors", 1964). It is at most 3, and at most a third of the letters.
+/// Words of more than 64 bytes are not compared. Cost: length squared for each word.
 std::string_view nearest_word(std::string_view word, std::span<const std::string_view> words);
 
 /// The message for a name that does not exist: there is no preset "ferm"; did you mean "fern"?

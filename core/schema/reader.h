@@ -84,7 +84,7 @@ struct TextRule {
 struct CountRule {
   std::size_t least = 0;
   std::size_t most = std::numeric_limits<std::size_t>::max();
-  const Form* names = nullptr;  ///< names of the keys of a map
+  const Form* names = nullptr;  ///< form that the keys of a map must have; null: any key
 };
 
 /// "Polygon", "FeatureCollection" or another type of RFC 7946 where the value is GeoJSON; else an empty text.
@@ -123,8 +123,9 @@ bool check_list(const Location& location, const CountRule& rule);
 bool check_map(const Location& location, const CountRule& rule);
 void check_key(const Location& entry, std::string_view key, const CountRule& rule);
 
-/// Checks a list of lists of lists of numbers. Returns false, after one error for the whole value, if the
-/// outermost list is missing. `entry` and `inner` name the entries of the two outer lists, for the message.
+/// Checks that a list of lists of lists of numbers has all three levels. Returns false, after one error for
+/// the whole value, if it has only two. `entry` and `inner` name the entries of the two outer lists, for the
+/// message.
 bool check_nesting(const Location& location, std::string_view entry, std::string_view inner);
 
 /// Reads each entry. An entry with an error keeps its default value, so that indices stay the same; entries beyond

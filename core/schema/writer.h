@@ -12,7 +12,7 @@
 
 namespace seedmesh::schema {
 
-/// Returns a number if JavaScript reads it exactly, else its digits as a text.
+/// Returns the seed as a JSON number if JavaScript reads that exactly, otherwise as a string of its digits.
 Json write_seed(std::uint64_t seed);
 
 /// Writes a nested request.

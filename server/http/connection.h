@@ -17,8 +17,8 @@ namespace seedmesh::http {
 /// How fast a client has to read a response. Only time during which the socket accepts no bytes is counted. A client is
 /// therefore never too slow for a response that fits into the buffers of the kernel.
 struct ReadingPace {
-  std::chrono::steady_clock::duration timeout = std::chrono::seconds(30);  ///< timeout for each `step`
-  std::uint64_t step = 64 * 1'024;  ///< bytes; single bytes do not extend the timeout
+  std::chrono::steady_clock::duration timeout = std::chrono::seconds(30);  ///< time for reading each `step`
+  std::uint64_t step = 64 * 1'024;  ///< bytes; fewer bytes do not extend the timeout
   /// Time spent waiting for the client before `rate` is enforced.
   std::chrono::steady_clock::duration grace = std::chrono::seconds(10);
   double rate = 0;  ///< least bytes per second from the first wait on; 0: no limit
@@ -40,8 +40,8 @@ class Connection {
   /// Completes the TLS handshake. False on failure or after the deadline; true at once without TLS.
   bool handshake(Clock::time_point deadline);
 
-  /// Waits for the first byte of a request. False when the client leaves, after end_if_idle(), when `draining`
-  /// is set, and after the receive timeout (with TLS: the deadline).
+  /// Waits for the first byte of a request. Returns false if the client leaves, end_if_idle() is called,
+  /// `draining` is set, or the receive timeout passes (with TLS: the deadline).
   bool wait_for_request(Clock::time_point deadline, const std::atomic<bool>& draining);
 
   /// Ends the wait for a request, if this connection is waiting. May be called from any thread.

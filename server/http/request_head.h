@@ -1,6 +1,6 @@
 #pragma once
-/// Strict parser for the head of an HTTP/1.1 request (RFC 9112). It refuses every form that two programs on
-/// the way could read differently (RFC 9112 section 11.2: request smuggling).
+/// Strict parser for the head of an HTTP/1.1 request (RFC 9112). It refuses every form that two programs
+/// between client and service could read differently (RFC 9112 section 11.2: request smuggling).
 #include <cstddef>
 #include <cstdint>
 #include <optional>

@@ -206,6 +206,9 @@ class NetRules final : public RoadRules {
     if (!built) return RoadState::failed;
     route.pieces.insert(route.pieces.end(), built->pieces.begin(), built->pieces.end());
     route.bridges.insert(route.bridges.end(), built->bridges.begin(), built->bridges.end());
+    for (const Site& end : {from, built->reaches_end ? each.to : from}) {
+      if (const auto part = part_of_land(input_.region, net_.position(end))) parts_.insert(*part);
+    }
     if (!built->reaches_end) return RoadState::failed;
     return reached_.insert(each.to).second ? RoadState::succeed : RoadState::failed;
   }
@@ -218,13 +221,18 @@ class NetRules final : public RoadRules {
             std::sqrt(along.x * along.x + along.y * along.y) / 100};
   }
 
-  std::vector<StreetGrammar::Start> starts() {
-    std::vector<StreetGrammar::Start> all;
-    const Site start = first_site();
-    reached_.insert(start);
-    for (const Site& next : net_.neighbours(start))
-      all.push_back({0, 0, propose(start, next), key_at(site_key(start), site_key(next))});
-    return all;
+  std::vector<StreetGrammar::Start> starts() { return starts_at(first_site()); }
+
+  /// Starts on a part of the land, between waters, that no street has reached. None if there is no such part.
+  std::vector<StreetGrammar::Start> starts_beyond_water() {
+    for (const dvec2& p : lattice_of(input_.region)) {
+      const Site site = net_.site_near(p);
+      const dvec2 at = net_.position(site);
+      if (reached_.count(site) != 0 || !may_start(at)) continue;
+      const auto part = part_of_land(input_.region, at);
+      if (part && parts_.count(*part) == 0) return starts_at(site);
+    }
+    return {};
   }
 
   Route route;
@@ -233,6 +241,14 @@ class NetRules final : public RoadRules {
   struct Road {
     Site from, to;
   };
+
+  std::vector<StreetGrammar::Start> starts_at(const Site& start) {
+    reached_.insert(start);
+    std::vector<StreetGrammar::Start> all;
+    for (const Site& next : net_.neighbours(start))
+      all.push_back({0, 0, propose(start, next), key_at(site_key(start), site_key(next))});
+    return all;
+  }
   bool is_road(double road) const { return road >= 0 && road < static_cast<double>(roads_.size()); }
 
   bool was_tried(const Site& from, const Site& to) {
@@ -277,8 +293,18 @@ class NetRules final : public RoadRules {
     return next;
   }
 
-  /// Whether no other bridge or tunnel is in the way.
+  /// Whether no other bridge or tunnel is in the way, and the ends of the bridges are far enough from each other for
+  /// streets between them.
   bool is_clear_of_bridges(const Route& built) const {
+    constexpr double apart = 4000;  // cm
+    for (const BridgeLine& own : built.bridges) {
+      for (const BridgeLine& other : route.bridges) {
+        for (const CmPoint& end : {own.line.front(), own.line.back()}) {
+          if (distance(end, other.line.front()) < apart || distance(end, other.line.back()) < apart)
+            return false;
+        }
+      }
+    }
     return !meets_bridges(built, route.bridges) &&
            !(input_.given && meets_bridges(built, input_.given->bridges));
   }
@@ -311,6 +337,7 @@ class NetRules final : public RoadRules {
   std::vector<Road> roads_;
   std::set<std::pair<Site, Site>> tried_;
   std::set<Site> reached_;
+  std::set<std::size_t> parts_;  ///< of the land, with streets
 };
 
 }  // namespace
@@ -326,9 +353,11 @@ dvec2 frame_at(const CityStreets& streets, bool is_radial, const dvec2& cm) {
 Route grow_majors(const GrowthInput& input, Job& job) {
   const Net net(input.streets, job.rng().at("majors"));
   NetRules rules(input, net);
-  if (const auto steps = input.grammar.grow(rules.starts(), rules, job.limits().shapes, job)) {
-    job.refuse(limit_issue({Resource::steps, *steps, *steps + 1}, "the streets do not stop growing",
-                           "/streets/productions"));
+  for (auto starts = rules.starts(); !starts.empty(); starts = rules.starts_beyond_water()) {
+    if (const auto steps = input.grammar.grow(starts, rules, job.limits().shapes, job)) {
+      job.refuse(limit_issue({Resource::steps, *steps, *steps + 1}, "the streets do not stop growing",
+                             "/streets/productions"));
+    }
   }
   return std::move(rules.route);
 }

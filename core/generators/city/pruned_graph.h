@@ -106,14 +106,16 @@ class PrunedGraph {
   /// Removes an edge if its angle to a wider or earlier edge of a node is less than the least one. `cos_least` is the
   /// cosine of the least angle.
   void drop_sharp(double cos_least) {
+    mark_ways_to_bridges();
     for (int round = 0; round < 8; ++round) {
       const PlanarArms arms = arms_of(nodes_, edges_);
       bool goes_on = false;
       for (std::uint32_t node = 0; node < nodes_.size(); ++node)
         goes_on |= drop_sharp_at(node, arms, cos_least);
       compact();
-      if (!goes_on) return;
+      if (!goes_on) break;
     }
+    drop_sharp_at_bridges(cos_least);
   }
 
   /// Keeps the network of streets with the greatest length, and those with given streets.
@@ -208,6 +210,36 @@ class PrunedGraph {
     is_bridge_end_.assign(nodes_.size(), 0);
     for (const Bridge& each : bridges_) is_bridge_end_[each.from] = is_bridge_end_[each.to] = 1;
   }
+  /// Marks the nodes from each end of a bridge to the next junction, without the junction.
+  void mark_ways_to_bridges() {
+    leads_to_bridge_ = is_bridge_end_;
+    if (bridges_.empty()) return;
+    const PlanarArms arms = arms_of(nodes_, edges_);
+    for (std::uint32_t end = 0; end < nodes_.size(); ++end) {
+      if (is_bridge_end_[end] == 0) continue;
+      std::uint32_t before = end, at = next_of(end, end, arms);
+      while (at != no_index && leads_to_bridge_[at] == 0 && degree_[at] == 2) {
+        leads_to_bridge_[at] = 1;
+        const std::uint32_t next = next_of(at, before, arms);
+        before = at;
+        at = next;
+      }
+    }
+  }
+  /// The node at the other end of a street that leaves `node` and does not lead back to `before`. None if there is none.
+  std::uint32_t next_of(std::uint32_t node, std::uint32_t before, const PlanarArms& arms) const {
+    for (const std::uint32_t half : arms.of(node)) {
+      const std::uint32_t other = end_of(edges_, half);
+      if (is_street(edges_[half / 2]) && other != before) return other;
+    }
+    return no_index;
+  }
+  /// The rank of a street; of the same class, the way to a bridge comes first.
+  std::uint32_t order_of(const PlanarEdge& edge) const {
+    const bool leads =
+        !leads_to_bridge_.empty() && (leads_to_bridge_[edge.from] | leads_to_bridge_[edge.to]) != 0;
+    return 2 * rank_of(edge) + (leads ? 0 : 1);
+  }
   bool is_bridge_end(std::uint32_t node) const {
     return !is_bridge_end_.empty() && is_bridge_end_[node] != 0;
   }
@@ -253,15 +285,34 @@ class PrunedGraph {
         continue;
       }
       if (u.x * v.x + u.y * v.y <= cos_least) continue;
-      // The border and given streets stay, then the lower class, then the earlier edge.
+      // The border and given streets stay, then the lower class, then the way to a bridge, then the earlier one of this round.
       const bool drops_second =
-          is_boundary(first) || (is_street(second) && rank_of(first) <= rank_of(second));
+          is_boundary(first) || (is_street(second) && order_of(first) <= order_of(second));
       PlanarEdge& dropped = drops_second ? second : first;
       if (is_given(dropped)) continue;
       remove(dropped);
       has_dropped = true;
     }
     return has_dropped;
+  }
+  /// Removes streets that grew and leave the end of a bridge or tunnel in nearly its direction.
+  void drop_sharp_at_bridges(double cos_least) {
+    if (bridges_.empty()) return;
+    const PlanarArms arms = arms_of(nodes_, edges_);
+    const auto drop = [&](std::uint32_t node, const CmPoint& next) {
+      const glm::dvec2 along = (in_cm(next) - in_cm(nodes_[node])) / distance(nodes_[node], next);
+      for (const std::uint32_t half : arms.of(node)) {
+        PlanarEdge& edge = edges_[half / 2];
+        if (edge.is_removed() || is_boundary(edge) || is_given(edge)) continue;
+        const glm::dvec2 other = direction(edge, node);
+        if (other.x * along.x + other.y * along.y > cos_least) remove(edge);
+      }
+    };
+    for (const Bridge& each : bridges_) {
+      drop(each.from, each.line[1]);
+      drop(each.to, each.line[each.line.size() - 2]);
+    }
+    compact();
   }
   glm::dvec2 direction(const PlanarEdge& edge, std::uint32_t node) const {
     const glm::dvec2 along = in_cm(nodes_[edge.from == node ? edge.to : edge.from]) - in_cm(nodes_[node]);
@@ -271,7 +322,7 @@ class PrunedGraph {
   std::vector<CmPoint> nodes_;
   std::vector<PlanarEdge> edges_;
   std::vector<std::uint32_t> degree_;
-  std::vector<std::uint8_t> is_border_, is_bridge_end_;  ///< by node
+  std::vector<std::uint8_t> is_border_, is_bridge_end_, leads_to_bridge_;  ///< by node
   std::vector<Bridge> bridges_;
 };
 

@@ -119,4 +119,17 @@ Region region_of(const std::vector<CmRing>& area, const std::vector<Rings>& wate
 
 bool is_on_land(const Region& region, const glm::dvec2& cm) { return is_in(region.rings, cm); }
 
+std::optional<std::size_t> part_of_land(const Region& region, const dvec2& cm) {
+  if (!is_on_land(region, cm)) return std::nullopt;
+  std::optional<std::size_t> part;
+  std::int64_t least = 0;
+  for (std::size_t r = 0; r < region.rings.size(); ++r) {
+    const std::int64_t area = doubled_area(region.rings[r]);
+    if (area <= 0 || (part && area >= least) || !is_inside(region.rings[r], cm)) continue;
+    part = r;
+    least = area;
+  }
+  return part;
+}
+
 }  // namespace seedmesh::city

@@ -2,6 +2,7 @@
 /// The area of a city, divided into land and water.
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -38,6 +39,10 @@ glm::dvec2 position_in(const std::vector<CmPoint>& nodes, const std::vector<Plan
 
 /// Whether a position in centimetres is on land.
 bool is_on_land(const Region& region, const glm::dvec2& cm);
+
+/// Returns the number of the outer ring around the part of the land in which a position in centimetres lies. Water
+/// separates the parts. None in water and outside of the area.
+std::optional<std::size_t> part_of_land(const Region& region, const glm::dvec2& cm);
 
 /// A quantity at a position in metres.
 using ValueAt = std::function<double(const glm::dvec2&)>;

@@ -35,27 +35,22 @@ bool is_near_bend(const CmRing& ring, std::size_t i, const dvec2& p) {
 
 bool is_steep(const OutlineHit& hit) { return hit.sine >= least_border_sine; }
 
+/// The ends of a bridge, and the unit vector from `a` to `b`.
 struct Banks {
   CmPoint a, b;
+  dvec2 along{0};
 };
 
-/// A bridge through `middle`, which is in the water, along the direction or turned from it by up to 60 degrees.
-std::optional<Banks> bridge_at(const Region& region, const dvec2& middle, const dvec2& direction,
-                               double most) {
-  for (const double turned : {0.0, 12.0, -12.0, 24.0, -24.0, 36.0, -36.0, 48.0, -48.0, 60.0, -60.0}) {
-    const math::SinCos turn = math::sincos_degrees(turned);
-    const dvec2 d(direction.x * turn.cos - direction.y * turn.sin,
-                  direction.x * turn.sin + direction.y * turn.cos);
-    const std::vector<OutlineHit> ahead = hits_of(region, middle, middle + d * most),
-                                  back = hits_of(region, middle, middle - d * most);
-    if (ahead.empty() || back.empty() || !ahead[0].is_shore || !back[0].is_shore) continue;
-    if (!is_steep(ahead[0]) || !is_steep(back[0])) continue;
-    const double length = (ahead[0].share + back[0].share) * most;
-    if (length > most || length < least_bridge) continue;
-    return Banks{rounded_cm(middle - d * (back[0].share * most)),
-                 rounded_cm(middle + d * (ahead[0].share * most))};
-  }
-  return std::nullopt;
+/// The bridge through `middle`, which is in the water, along a unit vector.
+std::optional<Banks> bridge_at(const Region& region, const dvec2& middle, const dvec2& along, double most) {
+  const std::vector<OutlineHit> ahead = hits_of(region, middle, middle + along * most);
+  if (ahead.empty() || !ahead[0].is_shore || !is_steep(ahead[0])) return std::nullopt;
+  const std::vector<OutlineHit> back = hits_of(region, middle, middle - along * most);
+  if (back.empty() || !back[0].is_shore || !is_steep(back[0])) return std::nullopt;
+  const double length = (ahead[0].share + back[0].share) * most;
+  if (length > most || length < least_bridge) return std::nullopt;
+  return Banks{rounded_cm(middle - along * (back[0].share * most)),
+               rounded_cm(middle + along * (ahead[0].share * most)), along};
 }
 
 /// Follows a line and notes what can be built.
@@ -65,20 +60,19 @@ class Follower {
       : region_(region), kind_(kind), most_(bridge_length) {}
 
   Route follow(const std::vector<CmPoint>& line) {
-    kept_ = {line[0]};
-    CmPoint at = line[0];
-    for (std::size_t i = 1; i < line.size();) {
-      const std::vector<OutlineHit> hits = hits_of(region_, in_cm(at), in_cm(line[i]));
+    ahead_.assign(line.rbegin(), line.rend());
+    kept_ = {ahead_.back()};
+    ahead_.pop_back();
+    while (!ahead_.empty()) {
+      const CmPoint &at = kept_.back(), &next = ahead_.back();
+      const std::vector<OutlineHit> hits = hits_of(region_, in_cm(at), in_cm(next));
       if (hits.empty()) {
-        at = line[i++];
-        kept_.push_back(at);
+        kept_.push_back(next);
+        ahead_.pop_back();
         continue;
       }
-      if (!hits[0].is_shore) return ended_at_border(at, line[i], hits[0]);
-      const auto after = cross_water(line, i, at, hits);
-      if (!after) return {};
-      i = after->first;
-      at = after->second;
+      if (!hits[0].is_shore) return ended_at_border(at, next, hits[0]);
+      if (!cross_water(hits)) return {};
     }
     flush();
     route_.reaches_end = true;
@@ -101,48 +95,95 @@ class Follower {
     return true;
   }
 
-  /// The number of the next corner on land behind the water, and the position of the bank.
-  std::optional<std::pair<std::size_t, CmPoint>> cross_water(const std::vector<CmPoint>& line, std::size_t i,
-                                                             const CmPoint& at,
-                                                             const std::vector<OutlineHit>& hits) {
-    if (most_ < least_bridge) return std::nullopt;
-    const dvec2 start = in_cm(at), along = in_cm(line[i]) - start;
+  /// Builds a bridge from the last kept point to those ahead: where the line crosses the water, or else up to 36 m beside
+  /// it, and turned by up to 60 degrees.
+  bool cross_water(const std::vector<OutlineHit>& hits) {
+    if (most_ < least_bridge) return false;
+    const dvec2 start = in_cm(kept_.back()), along = in_cm(ahead_.back()) - start;
     const dvec2 leaves = start + along * hits[0].share;
-    // The far bank lies on this segment or on a later one.
-    dvec2 lands{0};
-    std::size_t next = i;
-    bool has_landed = false;
-    if (hits.size() > 1) {
-      if (!hits[1].is_shore) return std::nullopt;
-      lands = start + along * hits[1].share;
-      has_landed = true;
+    const std::optional<dvec2> lands = landing(start, along, hits);
+    if (!lands) return false;
+    const dvec2 over = *lands - leaves, middle = (leaves + *lands) / 2.0, direct = over / length_of(over);
+    for (const double beside : {0.0, 1800.0, -1800.0, 3600.0, -3600.0}) {
+      for (const double turned : {0.0, 15.0, -15.0, 30.0, -30.0, 45.0, -45.0, 60.0, -60.0}) {
+        const math::SinCos turn = math::sincos_degrees(turned);
+        const dvec2 d(direct.x * turn.cos - direct.y * turn.sin, direct.x * turn.sin + direct.y * turn.cos);
+        const dvec2 through = middle + dvec2(-direct.y, direct.x) * beside;
+        if (beside != 0 && is_on_land(region_, through)) continue;
+        const std::optional<Banks> banks = bridge_at(region_, through, d, most_);
+        if (banks && build_bridge(*banks)) return true;
+      }
     }
-    while (!has_landed && ++next < line.size()) {
-      const dvec2 a = in_cm(line[next - 1]), b = in_cm(line[next]);
+    return false;
+  }
+
+  /// The position of the far bank, on the segment that meets the water or on a later one. Leaves the points on land behind it
+  /// ahead.
+  std::optional<dvec2> landing(const dvec2& start, const dvec2& along, const std::vector<OutlineHit>& hits) {
+    if (hits.size() > 1)
+      return hits[1].is_shore ? std::optional(start + along * hits[1].share) : std::nullopt;
+    while (ahead_.size() > 1) {
+      const dvec2 a = in_cm(ahead_.back());
+      ahead_.pop_back();
+      const dvec2 b = in_cm(ahead_.back());
       const std::vector<OutlineHit> later = hits_of(region_, a, b);
       if (later.empty()) continue;
-      if (!later[0].is_shore) return std::nullopt;
-      lands = a + (b - a) * later[0].share;
-      has_landed = true;
+      return later[0].is_shore ? std::optional(a + (b - a) * later[0].share) : std::nullopt;
     }
-    if (!has_landed) return std::nullopt;
-    const dvec2 over = lands - leaves;
-    const auto banks = bridge_at(region_, (leaves + lands) / 2.0, over / length_of(over), most_);
-    if (!banks) return std::nullopt;
-    while (next + 1 < line.size() && distance(banks->b, line[next]) < shortest_dead_end) ++next;
-    if (!keep_end(banks->a) || !is_clear(kept_[kept_.size() - 2], banks->a) ||
-        !is_clear(line[next], banks->b) || distance(banks->b, line[next]) < shortest_dead_end)
-      return std::nullopt;
+    return std::nullopt;
+  }
+
+  bool build_bridge(const Banks& banks) {
+    std::optional<std::vector<CmPoint>> before = to_bank(kept_, banks.a, banks.along);
+    if (!before) return false;
+    std::optional<std::vector<CmPoint>> after = to_bank(ahead_, banks.b, dvec2(0) - banks.along);
+    if (!after) return false;
+    kept_ = std::move(*before);
+    kept_.push_back(banks.a);
     flush();
-    route_.bridges.push_back({{banks->a, banks->b}, kind_, 1});
-    kept_ = {banks->b};
-    return std::pair{next, banks->b};
+    route_.bridges.push_back({{banks.a, banks.b}, kind_, 1});
+    kept_ = {banks.b};
+    ahead_ = std::move(*after);
+    return true;
+  }
+
+  /// The points of a line up to a bank, the last one nearest to it, without those that the way to the bank skips. The last
+  /// piece meets the shore at a steep angle: along the bridge, whose unit vector is `along`, if the direct way does not.
+  std::optional<std::vector<CmPoint>> to_bank(std::vector<CmPoint> points, const CmPoint& bank,
+                                              const dvec2& along) const {
+    const CmPoint head = rounded_cm(in_cm(bank) - along * shortest_dead_end);
+    const bool has_head = is_on_land(region_, in_cm(head)) && is_clear(head, bank);
+    for (; !points.empty(); points.pop_back()) {
+      const CmPoint& last = points.back();
+      if (leads_along(last, bank, along, shortest_dead_end) && is_clear(last, bank) &&
+          is_steep_at(last, bank))
+        return points;
+      if (!has_head || !leads_along(last, head, along, least_bridge) ||
+          !hits_of(region_, in_cm(last), in_cm(head)).empty())
+        continue;
+      points.push_back(head);
+      return points;
+    }
+    return std::nullopt;
+  }
+
+  /// Whether a segment has at least a length and turns from a unit vector by at most 60 degrees.
+  static bool leads_along(const CmPoint& from, const CmPoint& to, const dvec2& along, double least) {
+    const dvec2 segment = in_cm(to) - in_cm(from);
+    const double length = length_of(segment);
+    return length >= least && segment.x * along.x + segment.y * along.y >= length / 2;
   }
 
   /// Whether a segment from land to a bank stays on land.
   bool is_clear(const CmPoint& land, const CmPoint& bank) const {
     const dvec2 a = in_cm(land), b = in_cm(bank), off = a - b;
     return hits_of(region_, a, b + off * (5 / length_of(off))).empty();
+  }
+
+  bool is_steep_at(const CmPoint& land, const CmPoint& bank) const {
+    const dvec2 a = in_cm(land), b = in_cm(bank), off = b - a;
+    const std::vector<OutlineHit> hits = hits_of(region_, a, b + off * (5 / length_of(off)));
+    return !hits.empty() && is_steep(hits[0]);
   }
 
   void flush() {
@@ -153,7 +194,8 @@ class Follower {
   const Region& region_;
   std::uint32_t kind_;
   double most_;
-  std::vector<CmPoint> kept_;
+  std::vector<CmPoint> kept_;   ///< since the last bridge
+  std::vector<CmPoint> ahead_;  ///< of the line, the next point last
   Route route_;
 };
 

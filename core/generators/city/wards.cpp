@@ -199,7 +199,7 @@ WardPlan lay_out_wards(const CityParams& params, const WardGround& ground,
   if (chosen.size() < least_wards) {
     issues.emplace_back(IssueKind::conflict, "/streets/wards",
                         "found space for " + std::to_string(chosen.size()) + " wards, expected at least " +
-                            std::to_string(least_wards));
+                            std::to_string(least_wards) + ": a larger area or a smaller wards.size");
     return {};
   }
   const std::vector<std::uint32_t> outline = outline_of(cells, chosen);

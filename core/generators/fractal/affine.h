@@ -7,7 +7,7 @@
 
 namespace seedmesh::fractal {
 
-/// x -> linear * x + offset.
+/// The map x -> linear * x + offset.
 struct Affine {
   glm::dmat3 linear{1};
   glm::dvec3 offset{0};

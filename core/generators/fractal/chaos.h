@@ -9,7 +9,7 @@
 
 namespace seedmesh::fractal {
 
-/// Points, and for each the index of the last map.
+/// Points, and for each point the index of the map that was applied last.
 struct Cloud {
   Array<glm::vec3> position;
   Array<std::uint8_t> map;
@@ -25,7 +25,7 @@ class StartPoints {
 
  private:
   struct Piece {
-    glm::dvec3 a, ab, ac;  ///< a corner and the edges from it; the second is 0 for a line
+    glm::dvec3 a, ab, ac;  ///< a corner and the two edges from it; for a line, `ac` is 0
     double until;          ///< sum of the areas, or lengths, up to this piece
   };
   std::vector<Piece> pieces_;

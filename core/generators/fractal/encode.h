@@ -16,7 +16,8 @@ namespace seedmesh::fractal {
 Result<Array<std::uint8_t>> encode(const FractalParams& params, const WantedFormat& format,
                                    const GenerateContext& context);
 
-/// Errors: /method for a format that the method does not have; /stages for ply, which contains one cloud.
+/// Errors have the pointer /method for a format that the method does not have, and /stages for ply, because a
+/// file contains only one cloud.
 std::vector<Issue> check_format(const FractalParams& params, const WantedFormat& form);
 
 }  // namespace seedmesh::fractal

@@ -10,8 +10,9 @@ struct FractalParams;
 
 namespace seedmesh::fractal {
 
-/// Logarithm of the escape time, divided by that of the limit: 0 for one step, below 1 for points that
-/// escape, 1 for the others. Row by row from the upper left corner of the window.
+/// Logarithm of the escape time, divided by the logarithm of the greatest number of steps. It is 0 for one
+/// step, below 1 for points that escape, and 1 for the others. Row by row from the upper left corner of the
+/// window.
 struct EscapeField {
   std::uint32_t side = 0;
   Array<float> value;

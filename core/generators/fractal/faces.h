@@ -1,5 +1,5 @@
 #pragma once
-/// Solid -> Mesh: a square between each full cell and each empty neighbour.
+/// Converts a solid to a mesh, with a square between each full cell and each of its empty neighbours.
 #include <array>
 #include <cstdint>
 #include <functional>
@@ -27,8 +27,8 @@ using SideColors = std::array<glm::u8vec4, 6>;
 /// Returns the number of exposed squares. Reads each word of the grid once.
 std::uint64_t count_exposed(const Solid& solid, const Job& job);
 
-/// Every exposed square as two triangles. Squares of one plane that face the same way share vertices. The
-/// mesh is closed; where cells touch only along an edge, four squares meet. Triangles are ordered for the
+/// Returns every exposed square as two triangles. Squares of one plane that face the same way share vertices.
+/// The mesh is closed; where cells touch only along an edge, four squares meet. Triangles are ordered for the
 /// vertex cache, in bands eight squares wide. Spends Resource::triangles first. Slices are made in parallel.
 Mesh exposed_faces(const Solid& solid, const SideColors* colors, Job& job);
 

@@ -13,7 +13,8 @@
 /// for each stage. asset.extras has `non_manifold_edges`, the number of edges at which four faces meet.
 ///
 /// Errors: /instructions/... for maps that enlarge (mrcm), do not contract (frcm) or leave nothing;
-///         /text; /element; /iterations for what would exceed a limit, before any of it is made.
+///         /text; /element; /iterations for a fractal that would exceed a limit, before any part of it is
+///         made.
 ///
 /// Cost:   about 60 bytes and 10 ns for each square, 7 ns for each point. See docs/fractals.md.
 #include <nlohmann/json_fwd.hpp>
@@ -38,7 +39,7 @@ std::vector<Warning> warnings_of(const FractalParams& params);
 Result<Model> generate(const FractalParams& params, const GenerateContext& context);
 
 /// {pieces, dimension, exposed_quads, surface_area, volume, genus, bounds, non_manifold_edges, warnings}, in
-/// the frame of the unit element. Null for what does not apply or is not known.
+/// the frame of the unit element. A member that does not apply or is not known is null.
 Result<Json> derive(const FractalParams& params, const GenerateContext& context);
 Result<Appraisal> appraise(const FractalParams& params, const GenerateContext& context);
 

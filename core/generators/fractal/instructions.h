@@ -18,8 +18,8 @@ struct Instructions {
   std::vector<Affine> maps;
   std::vector<double> weights;  ///< one for each map, for frcm; not normalised
 
-  /// Each round keeps the element and copies only what the round before has added, because the identity is
-  /// one of the maps.
+  /// True if the identity is one of the maps. Each round then keeps all copies so far, and applies the other
+  /// maps only to those that the previous round has added.
   bool keeps = false;
 
   /// Applied to the element before anything else.
@@ -28,8 +28,8 @@ struct Instructions {
   /// Applied once after all rounds: the three sides of the snowflake. May be empty.
   std::vector<Affine> arrangement;
 
-  /// The element whose copies touch at most along edges and in points, so that areas and volumes add up; ""
-  /// for none.
+  /// The name of the element whose copies touch at most along edges and in points, so that areas and volumes
+  /// can be added; "" if there is none.
   std::string_view separate;
 };
 

@@ -15,7 +15,7 @@ struct Lattice {
   int parts = 3;  ///< a block is divided into parts^3 smaller ones
   std::vector<glm::ivec3>
       cells;               ///< first cells of the copies; with blocks of one cell, 0 .. parts-1 are inside
-  glm::ivec3 block{1};     ///< cells of the element along X, Y, Z: 2 if copies have offsets of half a copy
+  glm::ivec3 block{1};     ///< cells of the element along X, Y, Z; 2 where copies are offset by half a copy
   glm::dvec3 fraction{0};  ///< translation of all cells by a part of a cell
   bool keeps = false;      ///< Instructions::keeps
 
@@ -23,7 +23,7 @@ struct Lattice {
   double side(int rounds) const;  ///< cells along the edge of the unit element: parts^rounds
 };
 
-/// Nullopt if the maps do not fill a lattice.
+/// Returns the lattice that the maps fill, or nullopt if they fill none.
 std::optional<Lattice> lattice_of(const Instructions& instructions);
 
 /// A box of cells with one bit each. Axis 0 is the one along which bits are stored.

@@ -15,7 +15,7 @@ namespace seedmesh::fractal {
 /// In the frame of the unit element. Numbers above 2^53 are the nearest doubles.
 struct Measure {
   double pieces = 0;
-  std::optional<double> points;  ///< number of the pieces that have become points
+  std::optional<double> points;  ///< number of pieces that are replaced by points
   std::optional<double>
       dimension;  ///< similarity dimension: the solution of Moran's equation, sum of scale^D = 1
   std::optional<double> exposed_quads, surface_area, volume, genus, non_manifold_edges;

@@ -1,6 +1,6 @@
 #pragma once
-/// Makes the copies of a fractal. The mesh holds the copies of the first rounds (iterations), and nodes repeat it for
-/// the others.
+/// Makes the copies of a fractal. A mesh contains the copies of the first rounds (iterations). Nodes repeat
+/// the mesh for the other rounds.
 #include <span>
 
 #include "core/generators/fractal/element.h"

@@ -16,9 +16,9 @@ constexpr Axes axes_by_x{0, 1, 2}, axes_by_z{2, 1, 0};
 /// world axes of the grid.
 struct Side {
   const BitGrid* grid;
-  Axes axes;       ///< axes of the world
-  int slice_axis;  ///< 1 or 2, of the grid
-  int step;        ///< +1 or -1 along it
+  Axes axes;       ///< world axis of each axis of the grid
+  int slice_axis;  ///< axis of the grid along which slices follow one another, 1 or 2
+  int step;        ///< direction of the normal along slice_axis, +1 or -1
 
   int rows() const { return grid->size()[3 - slice_axis]; }
   int slices() const { return grid->size()[slice_axis]; }
@@ -36,7 +36,7 @@ struct Side {
   const std::uint64_t* row(int slice, int r) const {
     return slice_axis == 2 ? grid->row(r, slice) : grid->row(slice, r);
   }
-  /// The exposed squares of a row of a slice.
+  /// Writes a row of a slice to `out`, with one bit for each exposed square.
   void exposed(int slice, int r, std::uint64_t* out) const {
     const std::size_t words = grid->row_words();
     const std::uint64_t* full = row(slice, r);

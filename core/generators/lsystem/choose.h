@@ -38,16 +38,16 @@ inline double weight_of(const Grammar& grammar, const Production& production, co
   return weight > 0 && std::isfinite(weight) ? weight : 0;
 }
 
-/// Throws Stop (Code::invalid): the weights of the productions that match a module sum to `total`, and have to sum
-/// to 1. `last` is the last of them.
+/// Throws Stop (Code::invalid), because the weights of the productions that match a module sum to `total`
+/// instead of 1. `last` is the last of these productions.
 [[noreturn]] void refuse_weights(const Grammar& grammar, const Production& last, double total,
                                  const Job& job);
 
 /// Returns the one of `candidates` that rewrites a module, or null. `match(production)` returns the slots of the
-/// production, or null where its contexts do not match. The first matching production without a weight wins.
-/// Otherwise one random number chooses among all matching productions with weights; those without a context only
-/// count if none with a context matches, unless the order of the list decides. Throws Stop if the weights have to
-/// sum to 1 and do not. Cost: linear in `candidates`.
+/// production, or null where its contexts do not match. If the first matching production has no weight, it is
+/// returned. Otherwise one random number chooses among all matching productions with weights. If
+/// Grammar::contexts_first is set, those without a context count only if none with a context matches. Throws
+/// Stop if the weights have to sum to 1 and do not. Cost: linear in `candidates`.
 template <class Match>
 const Production* choose(const Grammar& grammar, std::span<const Production> candidates, const Draws& draws,
                          Match&& match, const Job& job) {
@@ -97,7 +97,7 @@ void fill_framed_arguments(const Grammar& grammar, const Template& made, const d
                            double* out, const Job& job);
 
 /// Evaluates the arguments of a template into `out`, which has Kind::arity elements. A value that is not
-/// finite refuses the request and points to the production.
+/// finite ends the request by refuse_argument().
 inline void fill_arguments(const Grammar& grammar, const Template& made, const double* slots,
                            std::uint64_t key, double* out, const Job& job) {
   const std::uint32_t arity = grammar.kinds[made.kind].arity;

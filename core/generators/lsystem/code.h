@@ -1,6 +1,6 @@
 #pragma once
-/// Interpreter for the compiled statements of a successor. They are steps that read and write the slots of one
-/// production.
+/// Interpreter for the compiled statements of a successor. The statements are compiled to steps, which read
+/// and write the slots of one production.
 #include <array>
 #include <vector>
 
@@ -16,8 +16,8 @@ class CodeRunner {
   CodeRunner(const Grammar& grammar, Job& job) : grammar_(grammar), job_(job) {}
 
   /// Runs `steps`. `slots` has Grammar::most_slots elements and is changed. `write(template, turn)` is called
-  /// for every module; `turn` is 0 outside loops and unique for each iteration of a loop, and becomes part of
-  /// the module's key. Random functions draw from `stream` by step and iteration.
+  /// for every module; `turn` is 0 outside loops, and a different number for each iteration of each loop. It
+  /// becomes part of the module's key. Random functions draw from `stream` by step and iteration.
   template <class Write>
   void run(Range steps, double* slots, const Rng& stream, Write&& write) {
     std::array<Loop, deepest> loops;

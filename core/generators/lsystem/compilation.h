@@ -35,7 +35,8 @@ struct Source {
   std::optional<Marks> marks_;  ///< computed on first use
 };
 
-/// A module on which the turtle has no effect. It is reported only where no rule rewrites its kind.
+/// A possible error: a module on which the turtle has no effect. It is reported only if no rule rewrites its
+/// kind.
 struct Doubt {
   KindId kind;
   enum class Is { warning, error } is;
@@ -51,7 +52,7 @@ struct Compilation {
   const Limits& limits;
   std::vector<Issue>& issues;
   const Job* job;     ///< may be null
-  lang::Names names;  ///< the constants, the variables, then the parameters of the production being compiled
+  lang::Names names;  ///< constants, then variables, then parameters of the current production
   std::size_t constant_count = 0;
   std::map<std::string, std::uint32_t, std::less<>> frame_slots;             ///< parameters that are frames
   std::map<std::string, std::vector<std::uint8_t>, std::less<>> signatures;  ///< 1: a frame
@@ -84,7 +85,8 @@ void for_all_rules(Compilation& c, Use&& use) {
   for (Rules& table : c.grammar.tables) use(table);
 }
 
-/// compile_names.cpp: Read the declarations of the request. check_symbol() compares a module with the alphabet.
+/// compile_names.cpp: These functions read the declarations of the request. check_symbol() compares a module
+/// with the alphabet.
 void declare_modules(Compilation& c);
 void define_functions(Compilation& c);
 void mark_ignored(Compilation& c);
@@ -105,8 +107,9 @@ Range compile_assignments(Compilation& c, Source& source, Slice slice, std::uint
 /// compile_frames.cpp: Returns a constant whose value is the index into Grammar::frames.
 lang::Expression compile_frame(Compilation& c, Source& source, Slice slice);
 
-/// check_grammar.cpp: Warn about a position of a text; record a doubt about a module; report text of a word that is not
-/// meant as modules; check the whole grammar.
+/// check_grammar.cpp: warn() adds a warning at a position of a text. doubt_module() adds a Doubt.
+/// check_word() reports text in a word that cannot be meant as modules. check_rules() checks the whole
+/// grammar.
 void warn(Compilation& c, Source& source, std::size_t offset, std::string message);
 void doubt_module(Compilation& c, Source& source, const WrittenModule& module, const Template& made);
 void check_word(const Compilation& c, Source& source, Slice slice);

@@ -15,9 +15,9 @@ struct WrittenConstant {
   std::variant<double, std::string> value;
 };
 
-/// Evaluates the constants in order of dependency and returns them as bound names. Issues at
-/// "/constants/<name>": syntax errors, a cycle with all its names, a value that is not finite. Random
-/// functions in a constant draw from the stream rng.at(name of the constant).
+/// Evaluates the constants in order of dependency and returns them as bound names. Issues have the pointer
+/// "/constants/<name>". They are syntax errors, a cycle with all its names, and a value that is not finite.
+/// Random functions in a constant draw from the stream rng.at(name of the constant).
 lang::Names resolve_constants(const std::vector<WrittenConstant>& constants, const Rng& rng,
                               std::vector<Issue>& issues);
 

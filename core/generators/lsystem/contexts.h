@@ -16,8 +16,8 @@ void pair_brackets(const Grammar& grammar, const Word& word, Array<std::uint32_t
 class ContextMatcher {
  public:
   /// `written` is the word that this step produces. New contexts (`<<`, `>>`) are matched against it. If
-  /// Grammar::backward is set, it is written from right to left, in one piece for each module; `pieces` then holds the
-  /// first index of each piece.
+  /// Grammar::backward is set, it is written from right to left. Each module of `word` then writes one piece
+  /// of it, and `pieces` holds the first index of each piece.
   ContextMatcher(const Grammar& grammar, const Word& word, std::span<const std::uint32_t> partner,
                  const Word& written, const std::vector<std::size_t>& pieces, const Job& job)
       : grammar_(grammar),

@@ -33,13 +33,13 @@ class Drawing {
     const double* parameters;
     Keys keys;
   };
-  /// State of a module that is only partly grown. `share` scales lengths, organs and turns, and interpolates
-  /// what a symbol sets from the present state of the turtle. Turns are scaled only outside brackets that
-  /// grow too.
+  /// State of a module that is only partly grown. `share` scales lengths, organs and turns. A value that a
+  /// symbol sets is interpolated between the current state of the turtle and that value. Turns are scaled
+  /// only outside brackets that grow, too.
   struct Grown {
     double share = 1;
     int brackets = 0;  ///< number of growing brackets around the module
-    double heir = 1;   ///< share of the random values of the own key; the rest uses Keys::before
+    double heir = 1;   ///< share of the random values of Keys::own; the rest are of Keys::before
   };
   /// Draws a module that is partly grown. `step` is the depth for the width rule "decrement".
   void grow(const Module& module, double step, Grown grown);
@@ -54,7 +54,8 @@ class Drawing {
   /// Number of unmatched braces in the drawing: { that are still open, and } without an open polygon.
   std::uint64_t open_polygons() const { return open_polygons_; }
   std::uint64_t stray_closings() const { return stray_closings_; }
-  /// Recordings (core/geom/plant/turtle.h) of this drawing. Call begin_recording() on a separate drawing.
+  /// Recordings (core/geom/plant/turtle.h) of parts of this drawing. They are made by a separate drawing, on
+  /// which begin_recording() is called.
   bool can_record() const { return turtle_.can_record(); }
   bool matches(const Turtle::Recording& recording) const { return turtle_.matches(recording); }
   void append_copy(const Turtle::Recording& recording) { turtle_.append_copy(recording); }

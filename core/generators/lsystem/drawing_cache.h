@@ -16,7 +16,7 @@ class DrawingCache {
   /// Returns true for long words of systems whose rewritten symbols have no parameters, conditions or random
   /// choices and do not depend on the turtle's position. Short words are drawn module by module.
   static bool fits(const Grammar& grammar, const LsystemParams& params, std::uint32_t steps);
-  /// The same for words of any length.
+  /// The same without the condition that the word is long.
   static bool moves_rigidly(const Grammar& grammar, const LsystemParams& params, std::uint32_t steps);
 
   DrawingCache(const Grammar& grammar, const LsystemParams& params, std::uint32_t steps, Drawing& drawing,

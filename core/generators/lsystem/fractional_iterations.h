@@ -6,13 +6,15 @@
 /// lengths and organs grow from 0, turns outside new brackets grow from 0, and state that symbols set is
 /// interpolated from the turtle's state. So f = 0 draws step n and f = 1 draws step n + 1, for every grammar:
 ///
-/// - The heir of a predecessor is the first module of its successor, outside brackets and braces, of the same
-///   kind. Its parameters and random values are interpolated from those of the predecessor.
-/// - A predecessor without heir shrinks by 1 - f in front of its successor, and so does the state that it
-///   sets.
-/// - The part that a % removes shrinks by 1 - f.
+/// - A module of the successor can continue the predecessor; it is called the heir here. The heir is the
+///   first
+///   module of the same kind outside brackets and braces. Its parameters and random values are interpolated
+///   from those of the predecessor.
+/// - A predecessor without an heir is drawn before its successor, scaled by 1 - f. The state that it sets is
+///   scaled in the same way.
+/// - The part that a % removes is scaled by 1 - f.
 ///
-/// Colours, contours and the choice of interpretation rules change at once. Compare Prusinkiewicz and
+/// Colours, contours and the choice of interpretation rules change abruptly. Compare Prusinkiewicz and
 /// Lindenmayer, "The Algorithmic Beauty of Plants", 1990, section 6.1, where growth functions are fitted by
 /// hand.
 #include "core/generators/lsystem/contexts.h"

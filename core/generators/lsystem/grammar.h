@@ -29,7 +29,7 @@ struct Kind {
   std::uint32_t arity = 0;           ///< number of values; a frame has twelve
   Command command = Command::none;   ///< command that the turtle executes
   bool ignored = false;              ///< skipped when contexts are matched
-  std::vector<std::uint8_t> frames;  ///< for each written parameter 1 for a frame; empty where there is none
+  std::vector<std::uint8_t> frames;  ///< by written parameter: 1 for a frame, else 0; empty: no frames
   std::uint32_t written() const {    ///< number of parameters in the text
     return frames.empty() ? arity : static_cast<std::uint32_t>(frames.size());
   }
@@ -68,29 +68,30 @@ struct Step {
   lang::Expression index{};
 };
 
-/// One production. The slots of its expressions are the variables of the grammar, the parameters of the
-/// predecessor, of the left context, the right context, the new left and the new right context, then the
-/// locals. Within a context they run from left to right.
+/// One production. The slots of its expressions are, in this order: the variables of the grammar; the
+/// parameters of the predecessor, the left, the right, the new left and the new right context; the locals.
+/// Within a context, parameters are ordered from left to right.
 struct Production {
   KindId predecessor = 0;
-  std::vector<KindId> rest;   ///< of a strict predecessor: the modules that are replaced with the first
-  std::vector<KindId> left;   ///< nearest first
-  std::vector<KindId> right;  ///< nearest first; [ and ] count as kinds
+  std::vector<KindId> rest;                 ///< for a strict predecessor: its modules after the first one
+  std::vector<KindId> left;                 ///< nearest first
+  std::vector<KindId> right;                ///< nearest first; [ and ] count as kinds
   std::vector<KindId> new_left, new_right;  ///< contexts in the word of the next step
   bool conditional = false;
   bool weighted = false;
   lang::Expression condition;
   lang::Expression weight;
-  Range successor;          ///< range in Grammar::templates; with statements: all that they can write
-  Range code;               ///< range in Grammar::steps; empty: the successor has no statements
-  Range before;             ///< steps that run before the condition
+  Range successor;  ///< range in Grammar::templates; with statements: all templates that they can write
+  Range code;       ///< range in Grammar::steps; empty: the successor has no statements
+  Range before;     ///< steps that run before the condition
   std::uint32_t bound = 0;  ///< number of slots of parameters; locals follow
   std::string pointer;
   bool has_context() const { return !rest.empty() || !left.empty() || !right.empty() || has_new_context(); }
   bool has_new_context() const { return !new_left.empty() || !new_right.empty(); }
 };
 
-/// Productions in the order of matching: productions with context first, then the order of the text.
+/// Productions in the order of matching, which is that of the text. If Grammar::contexts_first is set,
+/// productions with a context come first.
 struct Rules {
   std::vector<Production> productions;  ///< grouped by predecessor
   std::vector<Range> of_kind;           ///< ranges of productions, indexed by kind
@@ -134,7 +135,7 @@ struct Grammar {
   Rules productions;
   Rules interpretation;
   Rules decomposition;
-  std::vector<Rules> tables;  ///< each with the `productions` appended, which apply in every step
+  std::vector<Rules> tables;                 ///< each also has the `productions`, which apply in every step
   std::vector<std::uint32_t> table_of_turn;  ///< table by step, repeated; empty: there are no tables
   std::uint32_t decomposition_depth = 0;
   std::vector<double> variables;        ///< initial values of variables and array elements: the first slots

@@ -20,7 +20,7 @@ namespace seedmesh::lsystem {
 /// Returns all errors of the grammar's texts, with pointers relative to the parameters. Generates nothing.
 std::vector<Issue> check(const LsystemParams& params, const Limits& limits);
 
-/// Generates the model. Errors: those of check(), and limits.
+/// Generates the model. Errors are those of check(), and exceeded limits.
 Result<Model> generate(const LsystemParams& params, const GenerateContext& context);
 
 /// Returns {iterations, length, counts, string, truncated, turtle, warnings}: the word and the measures of

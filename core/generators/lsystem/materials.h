@@ -13,8 +13,8 @@ enum class Sides { one, both };
 /// Checks what the schema cannot express: a material needs a colour, a texture or a colour image.
 void check_materials(const LsystemParams& params, std::vector<Issue>& issues);
 
-/// Whether a material has a generated texture, or an image of colour or normals. Such images have to repeat a whole
-/// number of times around a limb.
+/// Whether a material has a generated texture, or an image of colour or normals. These textures have to
+/// repeat a whole number of times around a limb.
 bool wraps_images(const LsystemParams& params);
 
 /// Creates materials on first use: one for each colour index, number of visible sides and kind of texture.

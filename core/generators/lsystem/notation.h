@@ -70,8 +70,8 @@ class Symbols {
 };
 
 /// Returns the modules of text[slice]. Errors: an argument list that is not closed, an empty argument,
-/// characters that are not symbols. Reading stops after lang::max_errors + 1 errors; the last one only shows that there
-/// are more.
+/// characters that are not symbols. Reading stops after lang::max_errors + 1 errors. The error beyond
+/// max_errors is not reported; it shows that the list is cut.
 std::vector<WrittenModule> read_modules(std::string_view text, Slice slice, const Symbols& symbols,
                                         std::vector<lang::TextError>& errors);
 

@@ -30,8 +30,8 @@ class OpenSystems {
 
   /// Returns the word of the first plant.
   const Word& word() const;
-  /// Draws the word of the first plant. `share` in (0, 1) adds this share of the next step; 1 draws the word
-  /// alone.
+  /// Draws the word of the first plant. If `share` is in (0, 1), it adds this share of the next step. If it
+  /// is 1, it draws the word alone.
   void draw(const Grammar& grammar, Drawing& drawing, double share) const;
   void cut(Skeleton& skeleton) const;
   /// Returns true where cut() can remove something.

@@ -6,8 +6,8 @@ namespace seedmesh::lsystem {
 
 constexpr std::size_t longest_name = 64;  ///< longest name of a local variable, in bytes
 
-/// Returns the end of the name at `at`, or `at` where no name starts. Of a name longer than `longest_name`,
-/// only longest_name + 1 bytes are read.
+/// Returns the end of the name at `at`, or `at` where no name starts. If the name is longer than
+/// `longest_name`, only its first longest_name + 1 bytes are read.
 std::size_t end_of_name(std::string_view text, std::size_t at, std::size_t to);
 /// The same without the limit of length.
 std::size_t end_of_whole_name(std::string_view text, std::size_t at, std::size_t to);

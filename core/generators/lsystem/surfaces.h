@@ -6,7 +6,7 @@
 
 namespace seedmesh::lsystem {
 
-/// Checks what the schema cannot express.
+/// Adds the errors of surfaces that the schema cannot express.
 void check_surfaces(const LsystemParams& params, std::vector<Issue>& issues);
 
 /// Organs with the size and bones of their plant.

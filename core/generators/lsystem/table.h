@@ -1,7 +1,7 @@
 #pragma once
-/// Fast derivation for plain symbols (no parameters, no random choices) with contexts of at most one symbol
-/// on each side. A table maps (left neighbour, symbol, right neighbour) to the successor. Cost: two passes
-/// over one byte for each symbol and step.
+/// Fast derivation for systems of at most 96 kinds without parameters, random choices, conditions, variables,
+/// statements and tables. Contexts have at most one symbol on each side. A table maps (left neighbour,
+/// symbol, right neighbour) to the successor. Cost: two passes over one byte for each symbol and step.
 #include <vector>
 
 #include "core/generators/lsystem/word.h"

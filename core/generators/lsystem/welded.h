@@ -13,8 +13,8 @@ namespace seedmesh::lsystem {
 
 struct WeldedBark {
   std::vector<Bark> barks;
-  /// The limbs of the bark: coincident internodes are removed, and limbs that end in a fork are continued by
-  /// one of their branches.
+  /// The limbs of which the bark is made. Coincident internodes are removed, and a limb that ends in a fork
+  /// is continued by one of its branches.
   Limbs limbs;
   Array<std::uint16_t> bones;  ///< bone of each joint; empty without growth animation
 };

@@ -19,8 +19,8 @@ struct Word {
 };
 
 /// A derivation whose word can be read and changed between steps. Each step runs Grammar::start_each, rewrites the
-/// word from left to right, and runs Grammar::end_each. Variables are shared by all productions: a value that
-/// a production sets is visible to the modules to its right in the same step.
+/// word from left to right, and runs Grammar::end_each. All productions share the variables. A value that a
+/// production sets is visible in the same step, to modules on the right of the rewritten one.
 class Derivation {
  public:
   Derivation(const Grammar& grammar, bool keyed, Job& job);

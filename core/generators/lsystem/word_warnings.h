@@ -11,7 +11,8 @@ namespace seedmesh::lsystem {
 /// Warns of unmatched braces, which draw nothing.
 void warn_of_braces(std::uint64_t open, std::uint64_t stray, std::vector<Warning>& warnings);
 
-/// Warns where the numbers of modules of each kind in the last word show unmatched braces, or that nothing is drawn.
+/// Adds a warning if `counts`, the numbers of modules of each kind in the last word, show unmatched braces.
+/// Adds another if they show that nothing is drawn.
 void warn_of_word(const Grammar& grammar, const std::vector<std::uint64_t>& counts,
                   std::vector<Warning>& warnings);
 

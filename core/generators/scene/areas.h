@@ -11,8 +11,8 @@ struct SceneArea;
 
 namespace seedmesh::scene {
 
-/// Adds a mesh below the first node for each name and colour, slightly above the ground and below paths. Spends
-/// triangles; an exceeded limit points to the area.
+/// Adds a mesh below the first node for each combination of name, colour, roughness and light, slightly above
+/// the ground and below paths. Spends triangles; an exceeded limit points to the area.
 void add_areas(Model& model, const std::vector<SceneArea>& areas, Job& job);
 
 }  // namespace seedmesh::scene

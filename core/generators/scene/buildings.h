@@ -17,7 +17,8 @@ namespace seedmesh::scene {
 
 class Ground;
 
-/// Up to this number, buildings are nodes of their own. More are merged into meshes of about this many vertices.
+/// Up to this number of buildings, each is a node of its own. More buildings are merged into meshes of about
+/// merged_vertices vertices.
 constexpr std::size_t most_building_nodes = 2000;
 constexpr std::size_t merged_vertices = 60'000;
 
@@ -25,7 +26,7 @@ constexpr std::size_t merged_vertices = 60'000;
 /// above the roof, options without effect.
 void check_outlines(const SceneParams& params, const Job& job, std::vector<Issue>& issues);
 
-/// Returns the plan of rings of positions (east, south), with its y northwards.
+/// Returns the plan of rings whose positions are (east, south), in metres. In the plan, y points north.
 Plan plan_of_rings(const std::vector<std::vector<std::array<double, 2>>>& rings);
 
 /// Adds the areas and the buildings below the first node. A building is one closed mesh about the middle of its
@@ -36,7 +37,7 @@ void add_outlines(Model& model, const SceneParams& params, const Ground& ground,
 /// Returns the rectangle around each building, which later layers keep away from.
 Array<Footprint> footprints_of_buildings(const SceneParams& params, const Job& job);
 
-/// Returns about how many triangles the areas and buildings have.
+/// Returns an estimate of the triangles of the areas and buildings.
 std::uint64_t expected_triangles(const SceneParams& params);
 
 }  // namespace seedmesh::scene

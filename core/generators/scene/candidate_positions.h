@@ -3,7 +3,7 @@
 /// A position is (x, z) in metres; x points east, z points south.
 ///
 /// The position in the pattern determines the key of a placement, and the key determines all its random
-/// values. So these never depend on which other placements are kept.
+/// values. These values therefore never depend on which other placements are kept.
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <span>
@@ -40,16 +40,16 @@ Issue shapes_issue(const std::string& what, double needed, const Job& job);
 /// saturated: about 0.67 positions in a square of side `distance`. The distance also holds after rounding of
 /// coordinates to 32 bits.
 ///
-/// Darts are thrown at the cells of a grid whose diagonal is the distance, in three rounds. They fall into
-/// the parts of a cell that no earlier position covers. Cells that are processed together lie three apart and
-/// cannot conflict, so the result does not depend on order or threads. Sources: Wei, "Parallel Poisson disk
-/// sampling", 2008, with its phase groups on the full grid; White, Cline and Egbert, "Poisson disk point sets
-/// by hierarchical dart throwing", 2007. Throws Stop where the number of positions exceeds the limit on
-/// shapes. Cost: about 0.4 microseconds for each position.
+/// The method is dart throwing: random candidates are tried in the cells of a grid, in three rounds. The
+/// diagonal of a cell is the distance. Candidates are in the parts of a cell that no earlier position covers.
+/// Cells that are processed together lie three apart and cannot conflict, so the result does not depend on
+/// order or threads. Sources: Wei, "Parallel Poisson disk sampling", 2008, with its phase groups on the full
+/// grid; White, Cline and Egbert, "Poisson disk point sets by hierarchical dart throwing", 2007. Throws Stop
+/// where the number of positions exceeds the limit on shapes. Cost: about 0.4 microseconds for each position.
 Array<Placement> poisson_disk(const Extent& whole, const Extent& part, double distance, Rng rng,
                               const Job& job);
-/// Throws the Stop of poisson_disk() without computing positions. The two functions below do the same for
-/// other patterns.
+/// Throws the Stop of poisson_disk() without computing positions. refuse_rows() and refuse_along() do the
+/// same for in_rows() and along().
 void refuse_poisson_disk(const Extent& whole, const Extent& part, double distance, const Job& job);
 
 /// Elements first to first + count - 1 of an infinite series.

@@ -1,6 +1,6 @@
 #pragma once
-/// Which parts of a grid cell lie inside the exclusion disc of a position in a neighbouring cell. The diagonal
-/// of a cell is the radius of the disc.
+/// The parts of a grid cell that lie inside the exclusion disc of a position in a neighbouring cell. The
+/// radius of the disc is the diagonal of a cell.
 #include <algorithm>
 #include <array>
 #include <cstdint>

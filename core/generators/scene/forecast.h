@@ -12,7 +12,7 @@
 
 namespace seedmesh::scene {
 
-/// Modules, shapes and triangles, as counted by Job.
+/// Numbers of modules, shapes and triangles, as Job counts them.
 using Amounts = std::array<std::uint64_t, 3>;
 
 /// Returns what the job has spent so far.
@@ -24,8 +24,8 @@ class Forecast {
   /// count as 0. Owns neither argument.
   Forecast(const SceneParams& params, const VariantTable& variant_table, const GenerateContext& context);
 
-  /// Sets the number of placements of each variant; a variant with 0 is not generated. Before this call all
-  /// are. With `merges`, every placement has its own triangles.
+  /// Sets the number of placements of each variant. A variant with 0 placements is not generated. Before this
+  /// call, each variant counts as placed once. With `merges`, every placement counts with its own triangles.
   void set_counts(const std::vector<std::uint64_t>& placements, bool merges);
   /// Removes the ground from the expected cost, because the job has spent it.
   void spend_ground() { ground_ = 0; }
@@ -33,8 +33,8 @@ class Forecast {
 
   const VariantTable& variant_table() const { return variant_table_; }
 
-  /// Returns the variants to generate first where many have no exact estimate: the first of each layer. The
-  /// others are predicted from them.
+  /// Returns the variants to generate first if many have no exact estimate. They are the first variants of
+  /// layers; the cost of the others is predicted from them.
   std::vector<std::size_t> samples() const;
 
   /// Records the cost of a variant with all levels of detail. The other variants of its layer are then
@@ -46,9 +46,9 @@ class Forecast {
   /// generated.
   void refuse(const Job& job) const;
 
-  /// The same when one part of the variants is finished: it has cost what the job has spent beyond `before`, and
-  /// `parts` parts of about this cost follow. Does nothing where the variants of a layer differ in more than
-  /// their seeds.
+  /// The same after one part of the variants has been generated. Its cost is what the job has spent since
+  /// `before`, and `parts` further parts of about this cost follow. Does nothing where the variants of a
+  /// layer differ in more than their seeds.
   void refuse(const Job& job, const Amounts& before, std::size_t parts) const;
 
   /// Returns the pointer for a limit that is exceeded during generation: among layers without exact estimate,

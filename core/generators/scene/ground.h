@@ -37,14 +37,15 @@ class Ground {
   /// Returns true where there is ground and its border is at least `edge` metres away.
   bool holds(const glm::dvec2& p, double edge) const;
 
-  /// Returns the height of the grid mesh at a position. A reduced mesh differs by its error. Refined ground has the
-  /// height of its surface, which the corners of its triangles have.
+  /// Returns the height of the grid mesh at a position. A reduced mesh differs by its error. On refined
+  /// ground, it returns the height of the refined surface, on which the vertices of the mesh lie.
   double height(const glm::dvec2& p) const { return refines(p) ? refined_height(p) : sample(p).height; }
-  /// Returns the rise per metre to the east and to the south of the same triangle; of refined ground over a metre.
+  /// Returns the rise per metre to the east and to the south. It is that of the triangle at the position, or
+  /// on refined ground that over a distance of a metre.
   glm::dvec2 gradient(const glm::dvec2& p) const;
 
-  /// Returns 0 where classes of ground have at most 30 % of the ground, 1 where they have 55 % of it or more, and a
-  /// smooth step between; 1 where cover() was not called.
+  /// Returns 0 where the classes together have at most 0.3 of the ground, and 1 where they have at least 0.55.
+  /// Between these shares, it is a smooth step. If cover() was not called, it is 1.
   double share_of(const std::vector<SceneGroundClass>& classes, const glm::dvec2& p) const;
   /// Finds the classes of ground. Foundations that are made later do not change them.
   void cover(const Job& job);
@@ -55,7 +56,8 @@ class Ground {
   /// Levels the ground under a foundation to the height of the foundation's centre. Ground under an earlier
   /// foundation is unchanged.
   void level(const Foundation& foundation, const Job& job);
-  /// Returns how far around a foundation the ground becomes level with it, from the size of its grid squares.
+  /// Returns the distance around a foundation, in metres, up to which the ground can become level with it. It
+  /// follows from the size of the grid squares.
   double level_margin() const;
 
   /// Returns the ground, and the paths, areas and buildings on it, as a model with one root, and spends its

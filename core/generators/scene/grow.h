@@ -30,7 +30,7 @@ struct GrowingPlant {
   std::vector<Node> joints;  ///< parents are indices into this list; -1: the placement
   std::vector<glm::mat4> inverse_bind;
   Animation animation;  ///< channel targets are indices into `joints`
-  /// by start: first key time in the animation of the scene; -1: none
+  /// by start: index of the first of its Animation::times in the scene; -1: none
   std::array<int, starts_of_a_layer> times;
 
   GrowingPlant() { times.fill(-1); }
@@ -55,8 +55,8 @@ struct PlantInstance {
 /// Adds a growing plant to the scene.
 void add_growing_plant(Model& scene, GrowingPlant& growing_plant, const PlantInstance& plot);
 
-/// Returns the number of bones of each plant. Issue: the plants need more than most_joints bones, at two
-/// each.
+/// Returns the number of bones of each plant. Issue: with two bones for each plant, the plants would have
+/// more than most_joints bones.
 Result<std::uint32_t> bones_for(const Plan& plan, GeneratorList generators);
 
 }  // namespace seedmesh::scene

@@ -31,12 +31,12 @@ int level_count_of(const SceneParams& params, const Demand& demand);
 using Levels = std::vector<Array<std::uint8_t>>;
 
 /// Chooses levels by the share of the screen height that a placement fills: level 0 from 0.5, 1 from 0.25, 2
-/// from 0.12, 3 from 0.06. Below that it is the impostor, or the coarsest mesh. Without a camera, sizes are
-/// relative to the largest plant, which counts as filling the screen; each is reduced at random by up to 30
-/// %. With a budget (Demand::most_triangles), all sizes are multiplied by one factor from 0 to 1. It is the
-/// largest for which the placements and the `others` triangles of the scene stay within the budget.
-/// `lod_infos` is indexed by VariantTable::variants. Cost: about 50 ns for each placement, and 5 ns for each
-/// of 30 steps with a budget.
+/// from 0.12, 3 from 0.06. A smaller placement is shown by the impostor, or else by the coarsest mesh.
+/// Without a camera, sizes are relative to that of the largest plant, which is assumed to fill the screen.
+/// Each size is then reduced at random by up to 30 %. With a budget (Demand::most_triangles), all sizes are
+/// multiplied by one factor from 0 to 1. The factor is the largest one with which the triangles of all
+/// placements, plus `others`, stay within the budget. `lod_infos` is indexed by VariantTable::variants. Cost:
+/// about 50 ns for each placement, and 5 ns for each of 30 steps with a budget.
 Levels levels_of(const SceneParams& params, const Plan& plan, const std::vector<LodInfo>& lod_infos,
                  std::uint64_t others, const GenerateContext& context);
 

@@ -14,8 +14,8 @@ enum class Seeds { must_agree, may_differ };
 bool is_same(const Material& a, const Material& b, Seeds seeds);
 
 /// Separates touching bodies, such as the parts of a building, by less than 0.0002 of the size of the model.
-/// Neighbours move in different directions. Otherwise one mesh would have edges with four faces, and
-/// duplicate faces.
+/// Neighbours move in different directions. Without this, the mesh that joins the bodies would have edges
+/// with four faces, and duplicate faces.
 void separate_bodies(Model& model);
 
 /// Takes the meshes out of a model and returns one list of primitives for each level. Material indices are

@@ -1,7 +1,7 @@
 #pragma once
-/// The model variants of a scene: those of each layer, and those of positions with their own model. Each
-/// variant is a complete request with a seed, so a client that has the list of placements can request it
-/// separately.
+/// The model variants of a scene. They are the variants of each layer, and the models that explicit positions
+/// have of their own. Each variant is a complete request with a seed, so a client that has the list of
+/// placements can request it separately.
 #include <functional>
 #include <optional>
 #include <string>
@@ -67,7 +67,7 @@ class Forecast;
 /// Generates all variants with placements, in order, on all threads of the job. Models are not finished;
 /// variants without placements are empty. `demand` applies to plants; other models are generated without
 /// growth. Where `forecast` requests samples, these are generated first, and an excessive scene is refused
-/// early. `background` is other work that runs in the background on one thread; it may be empty. A Stop at a
+/// early. `background` is other work that runs on one thread at the same time; it may be empty. A Stop at a
 /// limit points to a model.
 Result<std::vector<Model>> models_of(Forecast& forecast, const Demand& demand, const GenerateContext& context,
                                      const std::function<void()>& background = {});

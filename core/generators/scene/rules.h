@@ -55,8 +55,8 @@ struct DensityImage {
 /// Returns smooth noise of three octaves, about -1 to 1 (Perlin, "Improving noise", 2002, in 2D).
 double patch_noise(const glm::dvec2& p, std::uint64_t key);
 
-/// Returns the share of light that crowns absorb at a position. Each crown fades to its edge; transmissions
-/// multiply.
+/// Returns the share of light that the crowns of the first `before` layers absorb at a position. The
+/// absorption of a crown decreases to 0 at its edge. The transmissions of several crowns are multiplied.
 double shade_at(const glm::dvec2& p, const std::vector<Planted>& planted, std::size_t before);
 
 /// The compiled rules of one layer. Does not own its inputs.
@@ -67,7 +67,7 @@ class Rules {
     const Ground& ground;
     const Obstacles& obstacles;
     const std::vector<Planted>& planted;  ///< earlier layers
-    std::vector<std::size_t> near;        ///< by place.near: index of the layer
+    std::vector<std::size_t> near;        ///< for each entry of place.near, the index of its layer
     std::uint64_t noise_key = 0;
   };
   /// Throws Stop (Code::invalid) at `pointer` for an unreadable image.

@@ -11,13 +11,14 @@ struct ScenePlace;
 
 namespace seedmesh::scene {
 
-/// Whether the rules of a layer can keep a different part on different ground, so that samples are worth their cost.
+/// Whether the share of positions that the rules of a layer keep can depend on the ground, so that it has to
+/// be sampled.
 bool depends_on_ground(const ScenePlace& place);
 
 /// Returns the mean, from 0 to 1, of the product of the layer's rules slope, altitude, water, image, noise
-/// and edge. Density, other placements, paths and footprints do not count. For a path it takes samples along
-/// the path, else in the area of the layer. For a share of 2 %, the relative standard error is below 3 %.
-/// `number` is the index of the layer. Cost: about 8 ms. Throws Stop as Rules does.
+/// and edge. Density, other placements, paths and footprints are ignored. Samples are along the path for the
+/// method path, and otherwise in the area of the layer. For a share of 2 %, the relative standard error is
+/// below 3 %. `number` is the index of the layer. Cost: about 8 ms. Throws Stop as Rules does.
 double sampled_share(const SceneLayer& layer, std::size_t number, const Ground& ground, const Job& job);
 
 }  // namespace seedmesh::scene

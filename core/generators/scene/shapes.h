@@ -23,7 +23,7 @@ struct Footprint {
   double reach() const { return round ? half.x : glm::length(half); }
 };
 
-/// Returns true where two footprints of the same kind overlap. Touching does not count.
+/// Returns true if two footprints of the same kind overlap. Footprints that only touch do not overlap.
 bool overlap(const Footprint& a, const Footprint& b);
 
 /// Returns true inside the polygon, by the even-odd rule.

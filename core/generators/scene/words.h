@@ -8,9 +8,9 @@
 namespace seedmesh::scene {
 
 /// Returns {string, truncated, length, branches, depth} for each placed L-system, by the name of its model.
-/// These are the last word, whether it is cut at 64 KiB, and the numbers of its modules and of its branches
-/// ("["). The depth is that of nested brackets. The depth of a word that is cut is null. All words together
-/// are cut at 16 MiB. Errors: those of a model.
+/// `string` is the last word, cut at 64 KiB, and `truncated` is true if it is cut. `length` is its number of
+/// modules, and `branches` its number of "[". `depth` is that of nested brackets, and null if the word is
+/// cut. All words together are cut at 16 MiB. Errors: those of a model.
 Result<Json> words_of(const Planting& planting, const VariantTable& variant_table,
                       const GenerateContext& context);
 

@@ -1,6 +1,7 @@
 #pragma once
-/// Texture coordinates for textures of ground that repeat. Each face is mapped from the side that it faces, so that no
-/// texture is stretched by more than 1.8: gentle ground from above, ground steeper than 50 degrees from aside.
+/// Texture coordinates for textures of ground that repeat. Each face is mapped from the side that it faces.
+/// Gentle ground is mapped from above, and ground steeper than 50 degrees from a side. No texture is
+/// therefore stretched by more than 1.8.
 #include <array>
 #include <span>
 
@@ -20,8 +21,8 @@ struct VertexLooks {
 /// Collects triangles of a mesh. A vertex that faces of several sides share is duplicated.
 class BoxMapped {
  public:
-  /// `lighter`: factor of all colours. `from` and `looks` are borrowed. The coordinates go to set 1 where `from` has
-  /// some in set 0, which are kept; otherwise to set 0.
+  /// `lighter`: factor of all colours. `from` and `looks` are borrowed. If `from` has texture coordinates in
+  /// set 0, these are kept, and the new ones are in set 1. Otherwise the new ones are in set 0.
   BoxMapped(const Mesh& from, const VertexLooks& looks, float lighter, const Job& job);
 
   void add(const std::array<std::uint32_t, 3>& corners);
@@ -35,7 +36,7 @@ class BoxMapped {
   VertexLooks looks_;
   float lighter_;
   std::size_t set_;
-  Array<std::uint32_t> place_;  ///< of each vertex and side in `mesh`
+  Array<std::uint32_t> place_;  ///< index in `mesh` of each vertex and side
 };
 
 }  // namespace seedmesh::terrain

@@ -1,8 +1,8 @@
 #pragma once
 /// Height map conventions of game engines: supported sizes, and the import settings that belong to a file.
 ///
-/// Sources: Unreal's Landscape Technical Guide. A size is quads per section, times sections per component,
-/// times components, plus one. The value 32768 is height 0; 128 steps are a metre at Z scale 100; X and Y
+/// Sources: Unreal's Landscape Technical Guide. A side has quads per section * sections per component *
+/// components + 1 samples. The value 32768 is height 0. At a Z scale of 100, a metre has 128 values. X and Y
 /// scales are centimetres per quad. Unity's terrain settings: resolutions 2^n + 1 from 33 to 4097; a raw file
 /// starts with the southern row.
 #include <optional>

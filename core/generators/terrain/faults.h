@@ -2,7 +2,7 @@
 /// Fields by fault formation: random lines, each raising one side (Kogovšek 2014, section 5.2.1,
 /// formula 5.1; Polack, "Focus on 3D Terrain Programming", 2002).
 ///
-/// Heights are sums of whole micrometres. So the sum depends neither on the order of faults nor on the
+/// Heights are sums of whole micrometres. The sum therefore depends neither on the order of faults nor on the
 /// window, and tiles of one world agree exactly.
 #include <cstdint>
 #include <vector>
@@ -23,7 +23,7 @@ enum class FaultStep { hard, line, cosine };
 
 struct FaultPlan {
   FaultKind kind = FaultKind::one_sided;
-  int planned = 0;  ///< number of faults with a falling bound
+  int planned = 0;  ///< number of faults whose bound decreases from `greatest` to `least`
   int extra = 0;    ///< number of faults after these, with the bound `greatest`
   double greatest = 0, least = 0;
   FaultStep step = FaultStep::hard;
@@ -36,8 +36,8 @@ struct FaultPlan {
 Field faulted(const FaultPlan& plan, const Window& world, const Window& window, double cell, Rng rng,
               const Job& job);
 
-/// Returns the displacement of fault i: of the raised side for one_sided, of both sides, up and down, for
-/// normal.
+/// Returns the displacement of fault i in metres. For one_sided, it applies to the raised side. For normal,
+/// one side rises and the other side sinks by it.
 double fault_height(const FaultPlan& plan, int i, Rng rng);
 
 }  // namespace seedmesh::terrain

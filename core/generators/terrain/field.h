@@ -15,7 +15,7 @@ struct Field {
   std::int32_t margin = 0;
   double cell = 1;  ///< metres between samples
   Array<float> heights;
-  std::uint64_t voids = 0;  ///< samples without a height in the source, which were filled
+  std::uint64_t voids = 0;  ///< number of samples without a height in the source; they were filled
 
   Field() = default;
   Field(const Job& job, std::int32_t wide, std::int32_t deep, std::int32_t around)

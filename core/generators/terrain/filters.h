@@ -6,10 +6,10 @@
 
 namespace seedmesh::terrain {
 
-/// Applies the recursive low-pass of HeightMap Generator, which calls it erosion (Kogovšek 2014, section
-/// 5.3.1, after Polack): h[i] = k h[i-1] + (1 - k) h[i] with k = percent / 100, once eastwards, westwards,
-/// southwards and northwards. 0 changes nothing; 100 sets every sample to the height of the north-west
-/// corner. Cost: about 3 ns for each sample.
+/// Applies the recursive low-pass filter that HeightMap Generator calls erosion (Kogovšek 2014, section
+/// 5.3.1, after Polack). It is h[i] = k h[i-1] + (1 - k) h[i] with k = percent / 100, applied eastwards,
+/// westwards, southwards and northwards. 0 changes nothing; 100 sets every sample to the height of the
+/// north-west corner. Cost: about 3 ns for each sample.
 void smooth(Field& field, double percent, const Job& job);
 
 /// Returns the reach of smooth_by_position() in samples: the smallest r with k^r < 2^-24, the relative
@@ -44,12 +44,12 @@ void terrace(Field& field, const TerracePlan& plan, const Job& job);
 
 struct IslandPlan {
   double reach = 0.8;  ///< distance of the coast from the centre, as a share of half the smaller side
-  /// depth of the rim below the lowest height; absent: a quarter of the range
+  /// depth of the rim below the lowest height, in metres; absent: a quarter of the range
   std::optional<double> depth = {};
   double roughness = 0;              ///< deviation of the coast from a circle, 0 to 1
   std::optional<double> floor = {};  ///< height of the rim instead of a depth; required with a margin
-  /// Side of the square that contains the whole island, in samples, and the position of sample (0, 0) of this
-  /// field in that square. `side` 0: the island fills this field.
+  /// `side` is the side in samples of the square that contains the whole island; 0: the island fills this
+  /// field. `x` and `z` are the position of sample (0, 0) of the field in that square.
   std::int64_t side = 0, x = 0, z = 0;
 };
 void sink_rim(Field& field, const IslandPlan& plan, Rng rng, const Job& job);
@@ -60,10 +60,10 @@ struct ThermalPlan {
   double rate = 0.5;
 };
 
-/// Applies thermal erosion (weathering) after Musgrave, Kolb and Mace, "The synthesis and rendering of eroded fractal
-/// terrains", 1989, over eight neighbours, with all samples of a round at once. Conserves material. A sample
-/// depends on samples at most `iterations` away, so tiles with a margin of that width agree. Cost: about 3 ns
-/// for each sample and round.
+/// Applies thermal erosion (weathering) over eight neighbours, with all samples of a round at once. Source:
+/// Musgrave, Kolb and Mace, "The synthesis and rendering of eroded fractal terrains", 1989. It conserves
+/// material. A sample depends on samples at most `iterations` away, so tiles with a margin of that width
+/// agree. Cost: about 3 ns for each sample and round.
 void slip(Field& field, const ThermalPlan& plan, const Job& job);
 
 struct DropletPlan {
@@ -84,9 +84,9 @@ struct StreamPlan {
   double area_exponent = 0.5;
 };
 
-/// Cuts rivers by the stream power law, implicit in time (Braun and Willett, "A very efficient O(n), implicit
-/// and parallel method to solve the stream power equation", 2013). Water leaves every depression at its
-/// lowest rim (flow.h). The border is fixed. Cost: about 250 ns for each sample and step.
+/// Cuts rivers by the stream power law, implicit in time. Source: Braun and Willett, "A very efficient O(n),
+/// implicit and parallel method to solve the stream power equation", 2013. Water leaves every depression at
+/// its lowest rim (flow.h). The border is fixed. Cost: about 250 ns for each sample and step.
 void cut_rivers(Field& field, const StreamPlan& plan, const Job& job);
 
 }  // namespace seedmesh::terrain

@@ -16,8 +16,9 @@ struct Drainage {
 /// 30 ns for each sample.
 Drainage drainage_of(const Field& field, const Job& job);
 
-/// Returns for each sample the number of samples that drain through it, including itself, in fractions. Water
-/// spreads over all lower neighbours by slope (Freeman 1991), and leaves depressions over their rim.
+/// Returns for each sample the number of samples that drain through it, including itself. The numbers have
+/// fractions. Water spreads over all lower neighbours by slope (Freeman 1991), and leaves depressions over
+/// their rim.
 Array<float> gathered(const Field& field, const Drainage& drainage, const Job& job);
 
 }  // namespace seedmesh::terrain

@@ -2,8 +2,8 @@
 /// Grounds by class (grass, rock, scree, sand, snow, soil), each with textures that repeat each two metres. They
 /// multiply the vertex colours, which contain the colours of the land at low resolution.
 ///
-/// Texture coordinates are in set 1. Gentle ground is mapped from above, ground steeper than 50 degrees from the
-/// side that it faces (box mapping), so that no texture is stretched by more than 1.8.
+/// Texture coordinates are in set 1. Gentle ground is mapped from above. Ground steeper than 50 degrees is
+/// mapped from the side that it faces (box mapping). No texture is therefore stretched by more than 1.8.
 #include <optional>
 #include <vector>
 
@@ -23,8 +23,8 @@ class GroundClasses {
                 const Material& plain, Model& model);
 
   /// Returns the mesh in one primitive for each class, with texture coordinates in set 1 and tangents. Vertices between
-  /// classes or sides are duplicated. Vertex colours are brightened by what the grey textures darken, and vary more
-  /// than those of ground without details. About 100 ns a vertex.
+  /// classes or sides are duplicated. Vertex colours are brighter, to make up for the grey of the textures,
+  /// and vary more than those of ground without details. About 100 ns a vertex.
   std::vector<Primitive> divide(const Mesh& mesh, const Sites& sites, const Job& job) const;
   /// Returns the same of a refined mesh. Its small forms replace the bumps of the normals.
   std::vector<Primitive> divide(const RefinedMesh& refined, const Sites& sites, const Job& job) const;

@@ -19,7 +19,7 @@ class GroundCover {
   GroundCover(const TerrainParams& params, const Field& field, std::shared_ptr<const RefinedGround> refined,
               const Job& job);
 
-  /// Metres to the east and south of the north-west sample.
+  /// Returns the shares at `x` metres east and `z` metres south of the north-west sample.
   GroundShares at(double x, double z) const;
 
  private:

@@ -16,7 +16,8 @@ inline GroundShares blend(const GroundShares& a, const GroundShares& b, float t)
   return all;
 }
 
-/// Returns the bilinear mean of what a function gives for the four samples of a square; blend() mixes two.
+/// Returns the bilinear interpolation of the values at(0, 0) to at(1, 1) at the four samples of a square, by
+/// blend() of two values.
 template <class At>
 auto bilinear(const At& at, float u, float v) {
   return blend(blend(at(0, 0), at(1, 0), u), blend(at(0, 1), at(1, 1), u), v);

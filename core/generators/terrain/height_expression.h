@@ -49,7 +49,7 @@ class HeightRows {
  public:
   HeightRows(const HeightExpression& expression, Rng noise);
 
-  /// As lang::RowEvaluator::run(). `slots` has a row for each slot of the names in use.
+  /// Does the same as lang::RowEvaluator::run(). `slots` has a row for each slot of the names in use.
   void run(std::span<const double* const> slots, std::size_t count, std::span<Rng> rngs, double* out);
 
  private:

@@ -14,11 +14,11 @@ struct TerrainLayer;
 
 namespace seedmesh::terrain {
 
-/// Adds the errors of the members that the algorithm of a layer does not have, and of their values.
+/// Adds an error for each member of a layer that its algorithm does not have, and for each invalid value.
 void check_layer_algorithm(const TerrainParams& params, std::size_t index, std::vector<Issue>& issues);
 
 struct LayerSource {
-  double cell = 1;  ///< the distance of samples
+  double cell = 1;  ///< distance between samples, in metres
   Rng rng;
 };
 

@@ -1,6 +1,6 @@
 #pragma once
-/// Terrain by expressions, and layers that are combined with the heights so far (Kogovšek 2014, section 6: height
-/// algorithms of one's own without programming).
+/// Terrain by expressions, and layers that are combined with the heights computed before them. They allow
+/// users to define height algorithms without programming (Kogovšek 2014, section 6).
 #include <vector>
 
 #include "core/base/result.h"
@@ -16,9 +16,9 @@ namespace seedmesh::terrain {
 /// Returns the errors of `expression` and `layers`, with line and column in their texts.
 std::vector<Issue> layer_errors(const TerrainParams& params);
 
-/// Returns the heights of `expression` at the samples of a window, which are `cell` metres apart. Throws Stop: a
-/// value that is not finite, or above 10,000 km. Cost: about 6 ns a sample for ten arithmetic operations, and 27
-/// ns for each octave of noise.
+/// Returns the heights of `expression` at the samples of a window, which are `cell` metres apart. Throws Stop
+/// for a value that is not finite, or above 10,000 km. Cost: about 6 ns a sample for ten arithmetic
+/// operations, and 27 ns for each octave of noise.
 Field expressed_field(const TerrainParams& params, const Window& window, double cell, Rng rng,
                       const Job& job);
 

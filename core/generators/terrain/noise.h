@@ -34,7 +34,8 @@ Field noisy(const NoisePlan& plan, const Window& window, double cell, Rng rng, c
 void noise_in_plane(const NoisePlan& plan, std::span<const double> x, std::span<const double> z, Rng rng,
                     double* out);
 
-/// The same noise for points that follow one another closely, whose last cells are kept. For one thread.
+/// The same noise for points that follow one another closely. It keeps the last cell of each octave. For one
+/// thread.
 class PlaneNoise {
  public:
   PlaneNoise(const NoisePlan& plan, Rng rng);

@@ -4,7 +4,7 @@
 ///
 /// The centre of the field is at the origin of each mesh. The field continues mirrored beyond its edges.
 /// Heights are projected along X, Y and Z and blended by the squares of the normal's components. Lengths are
-/// in the frame of the mesh, before the scale of nodes.
+/// in the frame of the mesh; the scale of nodes is not applied.
 #include "core/generators/terrain/field.h"
 #include "core/model/model.h"
 
@@ -15,9 +15,9 @@ namespace seedmesh::terrain {
 double mirrored_height(const Field& field, double x, double z);
 
 /// Splits every triangle into four, `rounds` times, and moves every vertex by the height along the mean
-/// normal at its position. Vertices nearer than 1e-6 of the diagonal move alike, so a closed surface stays closed, and
-/// shared normals stay shared. Tangents are removed. Meshes without normals are unchanged. Spends triangles. Cost:
-/// about 150 ns for each vertex.
+/// normal at its position. Vertices whose distance is below 1e-6 of the diagonal get the same displacement,
+/// so a closed surface stays closed. Vertices that shared a normal still share it. Tangents are removed.
+/// Meshes without normals are unchanged. Spends triangles. Cost: about 150 ns for each vertex.
 void displace(Model& model, const Field& field, int rounds, Job& job);
 
 /// Writes the second set of texture coordinates of every triangle mesh with normals, projected along the dominant axis

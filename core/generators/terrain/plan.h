@@ -39,7 +39,7 @@ Window window_of(const TerrainParams& params);
 /// Returns the number of samples along a side that the algorithm generates; for a sphere, along an edge of
 /// its cube; 0 for an image.
 int made_side(const TerrainParams& params);
-/// Returns the same for the finished field, after `resample`.
+/// Returns the number of samples along a side of the finished field, after `resample`.
 int finished_side(const TerrainParams& params);
 /// Returns the number of samples along one side of the world that the tile is a part of. Requires a tile.
 std::int64_t samples_across(const TerrainParams& params);
@@ -61,8 +61,8 @@ void algorithm_sphere(const TerrainParams& params, Planet& planet, Rng rng, cons
 /// Generates the field with all filters; margin 1 for a tile, else 0. Issues: an unreadable image.
 Result<Field> field_of(const TerrainParams& params, Job& job);
 
-/// Evaluates the expressions at the samples of the field, if there are at most 2,100,000. Like field_of(), throws
-/// Stop if a value is not finite. Filters are not run.
+/// Evaluates the expressions at the samples of the field, if these are at most 2,100,000, and discards the
+/// values. Like field_of(), it throws Stop if a value is not finite. Filters are not run.
 void try_expressions(const TerrainParams& params, Job& job);
 
 /// Returns the number of points along an edge of the cube of a planetoid at a level; level 0 has that of the

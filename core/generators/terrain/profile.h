@@ -1,8 +1,9 @@
 #pragma once
 /// Heights along one line from west to east, as a graph.
 ///
-/// Fractional Brownian motion is a Gaussian process with the variance d^2H of the difference at the distance d
-/// (Mandelbrot and Van Ness, "Fractional Brownian motions, fractional noises and applications", 1968).
+/// Fractional Brownian motion is a Gaussian process. The difference of two values at the distance d has the
+/// variance d^(2 H). Source: Mandelbrot and Van Ness, "Fractional Brownian motions, fractional noises and
+/// applications", 1968.
 #include "core/base/array.h"
 #include "core/base/rng.h"
 #include "core/model/model.h"
@@ -13,7 +14,8 @@ struct TerrainParams;
 
 namespace seedmesh::terrain {
 
-/// The longest profile of fractional Brownian motion, because its cost is the square of the number of samples.
+/// Greatest number of samples of a profile by fractional Brownian motion, because the cost grows with the
+/// square of this number.
 constexpr int longest_brownian = 4097;
 
 /// Returns `count` heights, of which the first is 0. The last has the standard deviation `amplitude`. The process
@@ -22,7 +24,7 @@ constexpr int longest_brownian = 4097;
 /// samples.
 Array<float> brownian_heights(int count, double hurst, double amplitude, Rng rng, const Job& job);
 
-/// Returns the heights of the request. Its shape is profile.
+/// Returns the heights of a request with the shape `profile`.
 Array<float> profile_heights(const TerrainParams& params, const Job& job);
 
 /// Returns the graph as lines in the plane z = 0, centred on x = 0.

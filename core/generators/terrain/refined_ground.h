@@ -15,12 +15,12 @@ namespace seedmesh::terrain {
 /// The ground at a point.
 struct RefinedPoint {
   float height = 0;
-  float weight = 0;  ///< of the forms: 1 near the point of the refinement, 0 outside of it
-  float small = 0;   ///< height of the forms below a metre by their amplitude: about -1 in hollows, 1 on tops
+  float weight = 0;  ///< weight of the forms: 1 near the point of the refinement, 0 beyond its reach
+  float small = 0;   ///< forms smaller than a metre: height / amplitude, about -1 in hollows, 1 on tops
   Site site;         ///< its slope is that of the field, more on outcrops
 };
 
-/// Keeps what it needs of the field.
+/// The refined ground of a field. It keeps copies of the samples that it needs, so the field may be released.
 class RefinedGround {
  public:
   /// `world`: window of the field in its world.
@@ -28,7 +28,7 @@ class RefinedGround {
                 const Window& world, Rng rng, const Job& job);
 
   const Refinement& refinement() const { return refinement_; }
-  /// Returns true in a divided square. Metres to the east and south of the north-west sample.
+  /// Returns true in a divided square. `x` and `z` are metres to the east and south of the north-west sample.
   bool holds(double x, double z) const;
 
   /// Returns points one after the other. For one thread. Cost: about 0.3 microseconds for a point.

@@ -5,7 +5,7 @@
 
 namespace seedmesh::terrain {
 
-/// The site of a vertex, and what RefinedPoint has of it.
+/// The site of a vertex, and the members `weight` and `small` of its RefinedPoint.
 struct VertexSite {
   Site site;
   float weight = 0, small = 0;

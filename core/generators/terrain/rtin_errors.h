@@ -12,16 +12,16 @@
 
 namespace seedmesh::terrain {
 
-/// Row stride of arrays of samples: whole cache lines, and an odd number of them, so that consecutive rows do
-/// not share cache sets.
+/// Row stride of arrays of samples, in floats: whole cache lines. For sides of 2^n + 1 from 33 on, their
+/// number is odd, so that consecutive rows do not share cache sets.
 constexpr std::int32_t stride_of(std::int32_t side) {
   constexpr std::int32_t line = 16;
   return (side + line - 1) / line * line;
 }
 static_assert(stride_of(1025) / 16 % 2 == 1);
 
-/// For every sample, the largest error of the mesh if the triangles that it would split stay whole: the maximum over
-/// the sample itself and all samples of finer levels inside of these triangles.
+/// For every sample, the largest error of the mesh if the triangles that the sample splits are not split. It
+/// is the maximum over the sample itself and all samples of finer levels inside these triangles.
 class RtinErrors {
  public:
   /// error of samples that are in every mesh
@@ -45,9 +45,9 @@ class RtinErrors {
   const float* row(std::int32_t z) const { return errors_.data() + index_of(0, z); }
   float at(GridPoint sample) const { return errors_[index_of(sample.x, sample.z)]; }
 
-  /// Adds a sample to the mesh, and with it all samples whose triangles must be split before. Samples that a
-  /// mesh of the bound `threshold` contains are skipped, because all their ancestors are in it too. New
-  /// samples are appended to `fresh`.
+  /// Adds a sample to the mesh. Also adds all samples that must be in the mesh before it can split its
+  /// triangles. Samples that a mesh of the bound `threshold` contains are skipped, because all their
+  /// ancestors are in it too. New samples are appended to `fresh`.
   void need(GridPoint sample, float threshold, std::vector<GridPoint>& fresh) {
     left_.assign(1, sample);
     while (!left_.empty()) {
@@ -63,7 +63,8 @@ class RtinErrors {
 
   bool is_corner(GridPoint at) const { return step_of(at) == side_ - 1; }
 
-  /// Returns how often the triangles that a sample splits can be split; 0 for a corner of the field.
+  /// Returns the number of splits from the triangles that a sample splits down to half a cell; 0 for a corner
+  /// of the field.
   int level(GridPoint at) const {
     const std::int32_t step = step_of(at);
     if (step == side_ - 1) return 0;
@@ -81,8 +82,8 @@ class RtinErrors {
     };
     const bool odd_x = (at.x & step) != 0, odd_z = (at.z & step) != 0;
     if (odd_x && odd_z) {
-      // For a centre: the corners that are not on the long side, which are midpoints of sides of squares of
-      // twice the size.
+      // For a centre, these are the two corners that are not on the long side. They are midpoints of sides of
+      // squares of twice the size.
       const std::int32_t south = runs_south_east(at.x, at.z, step) ? -step : step;
       tell(at.x + step, at.z + south);
       tell(at.x - step, at.z - south);
@@ -122,8 +123,8 @@ class RtinErrors {
                  });
   }
 
-  /// Processes the midpoints of the sides of squares of 2 * step. Below them are the centres of squares of
-  /// `step`.
+  /// Processes the midpoints of the sides of squares of 2 * step. The next finer samples are the centres of
+  /// squares of `step`.
   void sides(std::int32_t step) {
     each_step(job_, 0, side_ - 1, step, [&](std::int32_t z) {
       const bool along = z / step % 2 == 0;  // a side from west to east

@@ -8,8 +8,8 @@
 namespace seedmesh::terrain {
 
 /// Numbers the samples by their first use, in the order of the hierarchy. `parts` are all parts of the field,
-/// in order. `errors` belong to a conforming mesh of the bound `threshold`: no sample is a corner on one side
-/// of an edge only. Runs on job.threads().
+/// in order. `errors` must give a conforming mesh for the bound `threshold`: each sample on an edge is a
+/// corner on both sides of the edge, or on none. Runs on job.threads().
 Triangulation named(std::span<const Half> parts, const RtinErrors& errors, float threshold, const Job& job);
 
 }  // namespace seedmesh::terrain

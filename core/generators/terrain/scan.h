@@ -101,7 +101,7 @@ void each_row_inside(GridPoint a, GridPoint b, GridPoint c, const Visit& visit) 
   if (c.z < b.z) std::swap(b, c);
   if (a.z == c.z) return;  // no area
   EdgeWalk longest(a, c);
-  // The side of the middle corner decides which edge bounds which side.
+  // The middle corner is east or west of the longest edge. This decides which edges bound a row on which end.
   const bool middle_is_east = std::int64_t{b.x - a.x} * (c.z - a.z) > std::int64_t{c.x - a.x} * (b.z - a.z);
   std::int32_t z = a.z;
   const auto half = [&](EdgeWalk side, std::int32_t end) {

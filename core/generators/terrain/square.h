@@ -5,8 +5,8 @@
 
 namespace seedmesh::terrain {
 
-/// Returns true where the diagonal from the north-western to the south-eastern corner divides a square: that with the
-/// smaller difference of heights.
+/// Returns true if the diagonal from the north-western to the south-eastern corner divides a square. The
+/// diagonal with the smaller difference of heights is used.
 template <class Height>
 bool falls_to_south_east(Height nw, Height ne, Height sw, Height se) {
   return std::abs(nw - se) <= std::abs(ne - sw);

@@ -3,8 +3,8 @@
 /// (Fournier, Fussell and Carpenter 1982; Miller, "The definition and rendering of terrain maps", 1986;
 /// Kogovšek 2014, section 5.2.2).
 ///
-/// Every random deviation is a function of (seed, level, position in the world). So one more round refines
-/// the same field, each window can be generated separately, and overlapping windows agree.
+/// Every random deviation is a function of (seed, level, position in the world). Therefore one more round
+/// refines the same field, each window can be generated separately, and overlapping windows agree.
 #include <array>
 #include <cstdint>
 #include <optional>

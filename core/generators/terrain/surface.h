@@ -1,6 +1,6 @@
 #pragma once
-/// Meshes of fields. All have +Y up, the centre of the field at the origin of X and Z, unchanged heights, and
-/// texture coordinates 0..1 with the north-west corner at (0, 0).
+/// Meshes of fields. +Y is up, the centre of the field is at the origin of X and Z, and heights are
+/// unchanged. Texture coordinates are 0..1, with the north-west corner at (0, 0).
 #include <functional>
 
 #include "core/generators/terrain/field.h"
@@ -35,10 +35,12 @@ using ColorOf = std::function<glm::u8vec4(std::uint32_t sample)>;
 /// Returns a reduced mesh. Releases `color_of` after the last colour. Cost: about 50 ns for each triangle.
 Mesh reduced_mesh(const Field& field, Triangulation plan, ColorOf color_of, const Coarse& coarse, Job& job);
 
-/// Turns normals upward until none faces away from a triangle of the mesh. Indices are wide.
+/// Turns normals upward until none faces away from a triangle of its vertex. The mesh must have 32-bit
+/// indices.
 void lean_back(Mesh& mesh, const Job& job);
 
-/// The lower ends of walls(). `closed`: with a floor at the level `floor`.
+/// The lower ends of walls(). Walls are `depth` metres high. If `closed`, they end at the height `floor`
+/// instead, and a floor closes the mesh.
 struct WallPlan {
   double depth = 0;
   bool closed = false;

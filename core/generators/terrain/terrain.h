@@ -28,8 +28,8 @@ std::vector<Issue> check(const TerrainParams& params, const Limits& limits);
 /// Generates the model. Errors: those of check(), and an unreadable image.
 Result<Model> generate(const TerrainParams& params, const GenerateContext& context);
 
-/// Returns the model of a given field, for example a modified result of field_of(). Planes only. Issues: a
-/// mesh type that does not fit the field.
+/// Returns the model of a given field, for example a modified result of field_of(). Not for spheres. Issues:
+/// a mesh type that does not fit the field.
 Result<Model> dressed(const TerrainParams& params, const Field& field, const GenerateContext& context);
 
 /// Returns {width, height, min, max, mean, heights, engines, warnings}. Heights are in metres, row by row

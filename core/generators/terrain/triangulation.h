@@ -15,9 +15,9 @@ struct Triangulation {
   Array<std::uint32_t> index;
 };
 
-/// Treatment of the border. `whole`: the samples kept depend on the border alone, so that neighbours fit
-/// together. rtin() keeps all of them, greedy() those that a polyline within the bound needs. `by_error`
-/// treats the border like the interior.
+/// Treatment of the border. With `whole`, the samples of the border that are kept depend on the border alone,
+/// so that neighbours fit together. rtin() keeps all samples of the border. greedy() keeps those that a
+/// polyline within the bound needs. With `by_error`, the border is treated like the interior.
 enum class Border { by_error, whole };
 
 /// The largest error of a mesh, in metres, with a separate bound for a border that has to fit meshes of other

@@ -6,9 +6,9 @@
 namespace seedmesh::terrain {
 
 /// Replaces all heights that are not finite by heights between those around them, and counts them in `voids`.
-/// It builds a pyramid of means, and gives each void the value of the finest level that has one, interpolated
-/// bilinearly (Gortler et al., "The Lumigraph", 1996, section 3.4, "pull-push"). Requires margin 0. False if
-/// no height is finite. Linear time.
+/// It builds a pyramid of means. Each void gets the bilinearly interpolated value of the finest level that
+/// has one (Gortler et al., "The Lumigraph", 1996, section 3.4, "pull-push"). Requires margin 0. False if no
+/// height is finite. Linear time.
 bool fill_voids(Field& field, const Job& job);
 
 /// States how many samples were filled.

@@ -3,8 +3,8 @@
 ///
 /// Let t be the time, 0 .. 1. The trunk has the relative size 1 - (1 - t)^2. A limb sprouts at a time b in
 /// the first half of the time that remains when its parent sprouts. Thick limbs and limbs near the base of
-/// their parent sprout earlier; the rest is random. Compared with its parent it has the relative size
-/// 1 - (1 - x)^2, where x = (t - b) / (t (1 - b)) is the share of the parent's life. So a young tree is a
+/// their parent sprout earlier; apart from that, b is random. Let x = (t - b) / (t (1 - b)), the share of the
+/// parent's life. Relative to its parent, the limb then has the size 1 - (1 - x)^2. So a young tree is a
 /// small tree with few limbs, not a bare stem. Everything is continuous in t. Radii change with the 1.5th
 /// power of lengths (T. McMahon, "Size and shape in biology", Science 179, 1973). Leaves unfold with their
 /// twig. Before t = 0.4 their size is the 3/4th power of that of the trunk. Before t = 0.1, stems have first

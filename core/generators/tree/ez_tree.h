@@ -1,7 +1,7 @@
 #pragma once
 /// The model of ez-tree 1.1 (Daniel Greenheck, MIT). Limbs consist of straight sections. Each section turns by random
-/// angles, about its axis, toward a direction and toward a trellis. Limbs of the next level start at random positions.
-/// Unless the form is evergreen, one of them continues each limb at its tip.
+/// angles, about its axis, toward a direction and toward a trellis. Limbs of the next level start at random
+/// positions on a limb. Unless the form is evergreen, one of them continues the limb at its tip.
 ///
 /// The order of all random choices is that of ez-tree, so that a saved seed gives the same limbs and leaves, within
 /// rounding. Foot at the origin, +Y up. Cost: linear in the size of the skeleton.

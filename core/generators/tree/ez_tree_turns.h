@@ -17,7 +17,7 @@ EzTurn turn_of_angles(const glm::dvec3& angles);
 EzTurn turn_about(const glm::dvec3& axis, double angle);
 /// Returns the smallest rotation from +Y to `to`, which need not have length 1. For -Y it is half a turn about Z.
 EzTurn turn_from_up(const glm::dvec3& to);
-/// Returns the rotation `b` followed by `a`.
+/// Returns the rotation that applies `b` first and then `a`.
 EzTurn product(const EzTurn& a, const EzTurn& b);
 /// Interpolates from `a` (`t` is 0) to `b` (1) at constant speed along the shorter arc. Extrapolates for other `t`.
 EzTurn between(const EzTurn& a, const EzTurn& b, double t);

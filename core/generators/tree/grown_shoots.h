@@ -9,17 +9,19 @@
 
 namespace seedmesh::tree {
 
-/// The surroundings and parameters of a growing plant. Borrowed.
-/// A direction in which a bud samples the light: its angle off the heading, and around it.
+/// A direction in which a bud samples the light: its angle from the heading, and its angle around the
+/// heading.
 struct LightSample {
   math::SinCos off{0, 1}, around{0, 1};
 };
-/// Ahead, and rings at half the perception angle and at all of it.
+/// Number of samples in a ring. One sample is in the direction of the heading, and two rings are at half and
+/// at all of the perception angle.
 constexpr int samples_of_ring = 6;
 using LightSamples = std::array<LightSample, 1 + 2 * samples_of_ring>;
 /// Returns the samples for a perception angle in degrees.
 LightSamples light_samples(double perception_angle);
 
+/// The parameters and the surroundings of a growing plant. All members are borrowed, except `samples`.
 struct GrownSite {
   const TreeGrown& grown;
   const RandomStreams& random;
@@ -32,8 +34,9 @@ struct GrownSite {
 /// Sets the exposure of each bud to light, 0 .. 1: 1 - shade + the shade of its own internode.
 void sense_light(GrownPlant& plant, const GrownSite& site);
 
-/// Grows the shoot of each bud whose vigour is at least 1, and removes buds that die. Internodes of a shoot have the
-/// length vigour / number. Returns the number of internodes that grew.
+/// Grows the shoot of each bud whose vigour is at least 1, and removes buds that die. A shoot has
+/// floor(vigour) internodes of the length vigour / floor(vigour), as a share of the length of an internode.
+/// Returns the number of internodes that grew.
 std::uint64_t grow_shoots(GrownPlant& plant, const GrownSite& site, std::uint16_t year);
 
 /// Removes branches whose vigour by internode is below the threshold, and wood without living buds.

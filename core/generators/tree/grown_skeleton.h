@@ -10,9 +10,9 @@ struct GrownTime {
   double share = 1;
 };
 
-/// Writes the tree of number 0. At a node, the thickest internode continues the limb, and the others begin limbs. Limbs
-/// are smoothed as old wood is, and have joints where they bend or where limbs begin. Leaves are on wood of the last
-/// `leaf_years`.
+/// Writes the tree of number 0. At a node, the thickest internode continues the limb, and the others begin
+/// limbs. Limbs are smoothed, thick ones more than thin ones. They have joints where they bend or where other
+/// limbs begin. Leaves are on wood of the last `leaf_years`.
 void write_grown(const GrownPlant& plant, const TreeParams& params, const GrownTime& time,
                  const RandomStreams& random, SkeletonWriter& writer);
 

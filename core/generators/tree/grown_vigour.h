@@ -12,13 +12,14 @@ void gather_light(GrownPlant& plant, int first_young);
 /// Returns the apical control in a year.
 double lambda_in(const TreeGrown& grown, double year);
 
-/// Divides the vigour alpha * light of each tree among its branches and buds: at a node with light m of the axis and s
-/// of its side branches, the axis gets lambda m / (lambda m + (1 - lambda) s) of the vigour. Side branches share the
-/// rest by their light.
+/// Divides the vigour alpha * light of each tree among its branches and buds. Let m be the light of the axis
+/// at a node, and s that of its side branches. The axis then gets the share lambda m / (lambda m + (1 -
+/// lambda) s) of the vigour. Side branches share the rest by their light.
 void divide_by_lambda(GrownPlant& plant, double alpha, double lambda);
 
-/// Divides it along each axis, among its side branches, side buds and the bud at its end: in order of their mean light,
-/// weights fall linearly from 1 to `priority_least`. Each gets vigour in proportion to light times weight.
+/// Divides the vigour along each axis among its side branches, its side buds and the bud at its end. Their
+/// weights decrease linearly from 1 to `priority_least`, in descending order of their mean light. Each gets
+/// vigour in proportion to light times weight.
 void divide_by_priority(GrownPlant& plant, const TreeGrown& grown, Job& job);
 
 }  // namespace seedmesh::tree

@@ -9,8 +9,8 @@
 
 namespace seedmesh::tree {
 
-/// Returns a leaf at `position`, turned about +Y by the share `bend` so that its upper side faces away from the
-/// trunk, then up by the same share. In double precision, for single leaves.
+/// Returns the frame of a leaf at `position` after two turns: about +Y until its upper side faces away from
+/// the trunk, then up. Each turn is multiplied by `bend`. Computed in double precision, for single leaves.
 Frame turned_to_light(const Frame& leaf, const glm::dvec3& position, double bend);
 
 /// Returns a leaf whose upper side faces down, turned over about its heading.

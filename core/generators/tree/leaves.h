@@ -19,8 +19,8 @@ struct LeafMotion {
 /// Returns the mesh of a leaf of length 1, with faces on one side.
 Mesh leaf_of(const TreeParams& params, int level, const Job& job);
 
-/// The same as a thin leaf if leaves have outward faces: all faces once more with vertices of their own, 0.003 of
-/// the length below the first ones, in the opposite winding.
+/// The same. If leaves have outward faces, the mesh has each face a second time, with vertices of its own and
+/// opposite winding. The second faces are 0.003 of the length below the first ones.
 Mesh drawn_leaf(const TreeParams& params, int level, const GenerateContext& context);
 
 /// The vertex colours of the leaves, or none where all leaves have the same colour. `leaf`: drawn_leaf() of the

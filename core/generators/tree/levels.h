@@ -1,9 +1,10 @@
 #pragma once
 /// Which leaves and limbs of a tree remain at coarser levels of detail.
 ///
-/// Levels have 100, 40, 15, 5 and 3 % of the triangles. Leaves give up triangles first, because their textures keep
-/// the outline: bent cards become flat, then triangles, then triangles seen from both sides. Only what this does not
-/// save is left out, by the order of FoliageLevels.
+/// Levels have 100, 40, 15, 5 and 3 % of the triangles. Leaves lose triangles first, because their textures
+/// keep the outline. Bent cards become flat quads, then triangles, then single triangles that are visible
+/// from both sides. If this does not save enough triangles, leaves are left out in the order of
+/// FoliageLevels.
 #include <optional>
 #include <vector>
 
@@ -22,8 +23,8 @@ struct TreeLevels {
   struct Plan {
     int level = 1;
     LeafDetail leaves = LeafDetail::bent;
-    double share = 1;        ///< of the leaves that remains
-    std::uint64_t bark = 0;  ///< the most triangles
+    double share = 1;        ///< share of the leaves that remains
+    std::uint64_t bark = 0;  ///< greatest number of triangles of the bark
   };
   /// The plan of a coarser level. `finest` is the number of triangles of the bark at the finest level.
   Plan plan(int level, std::uint64_t finest) const;
@@ -42,7 +43,7 @@ struct TreeLevels {
   std::uint64_t count_ = 0;    ///< of leaves
   std::uint64_t of_leaf_ = 0;  ///< triangles of a leaf at the finest level
   bool has_far_leaves_ = false;
-  std::vector<Build> builds_;        ///< by falling number of triangles
+  std::vector<Build> builds_;        ///< in descending order of triangles
   std::vector<std::uint64_t> bent_;  ///< triangles of a bent leaf by level
 };
 

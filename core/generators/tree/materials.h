@@ -36,8 +36,8 @@ bool has_outward_faces(const TreeParams& params, const Demand& demand);
 /// The linear colour of the leaves in the season of the request.
 glm::vec3 color_of_leaves(const TreeParams& params);
 
-/// Whether leaves, or bark, have a normal map if textures are wanted. With outward faces, only a normal map of
-/// the request is used.
+/// Whether leaves, or bark respectively, get a normal map when the output has textures. Leaves with outward
+/// faces use only a normal map of the request.
 bool has_leaf_relief(const TreeParams& params, const Demand& demand);
 bool has_bark_relief(const TreeParams& params);
 
@@ -53,7 +53,7 @@ struct LeafMaterials {
 /// Adds the materials of leaves and their variants. Throws Stop (Code::invalid) for a damaged image.
 LeafMaterials add_leaf_materials(Model& model, const TreeParams& params, const GenerateContext& context);
 
-/// The appearance of leaves that one face shows from both sides.
+/// The appearance of leaves that have one double-sided face.
 struct FarLook {
   float gain = 1;          ///< factor of the colour
   bool is_sparse = false;  ///< few are left: a lower alpha cutoff makes leaves and needles wider

@@ -1,7 +1,7 @@
 #pragma once
-/// The parts of a distant tree that are made: Weber and Penn, "Creation and Rendering of Realistic Trees",
-/// SIGGRAPH 1995, section 4.9 (degradation at range), for an image 1,000 pixels high with a field of view of
-/// 60 degrees.
+/// The parts of a tree that are generated for a viewing distance. The image is 1,000 pixels high, with a
+/// field of view of 60 degrees. Source: Weber and Penn, "Creation and Rendering of Realistic Trees", SIGGRAPH
+/// 1995, section 4.9 (degradation at range).
 #include "core/generators/tree/skeleton_writer.h"
 
 namespace seedmesh::tree {
@@ -14,10 +14,10 @@ bool has_linear_faces(const TreeParams& params);
 /// Here a random number of each part decides. The parts that are made for a distance are therefore a subset of
 /// those for a shorter distance.
 struct RangeShares {
-  double sides = 1;     ///< corners of cross-sections: all to 300 m, a sixth from 800 m
+  double sides = 1;     ///< corners of cross-sections: all up to 300 m, a sixth from 800 m
   double branches = 1;  ///< main branches: all to 300 m, none from 900 m
   double twigs = 1;     ///< limbs of branches: all to 50 m, none from 100 m
-  double leaves = 1;    ///< all to 50 m (25 m in spring), at least an eighth; larger ones
+  double leaves = 1;    ///< all up to 50 m (25 m in spring), at least an eighth, enlarged
 };
 /// Returns the shares for the `range` of a request.
 RangeShares shares_at(const TreeParams& params);

@@ -74,7 +74,8 @@ class SkeletonWriter {
   /// Only the share `density` of the leaves is written; the others are counted.
   SkeletonWriter(Skeleton& skeleton, Job& job, double density = 1);
 
-  /// Abandons the attempt (core/base/attempt.h) that adds more joints or leaves.
+  /// Makes the attempt (core/base/attempt.h) end by abandon_attempt() as soon as it adds more joints or
+  /// leaves than these.
   void end_after(std::size_t joints, std::size_t leaves) {
     end_joints_ = joints;
     end_leaves_ = leaves;
@@ -83,8 +84,9 @@ class SkeletonWriter {
   /// Whether end_after() was called, so that the attempt may be abandoned.
   bool may_abandon() const { return end_joints_ != ~std::size_t{0}; }
 
-  /// Limbs that begin thinner, and everything that grows from them, need not be written, because no part of
-  /// the output needs them. The caller calls pass_over() for their joints, and finish() at the end.
+  /// No part of the output needs limbs whose radius at the base is below `radius`, or anything that grows
+  /// from them. They need not be written. The caller calls pass_over() for their joints, and finish() at the
+  /// end.
   void leave_out_below(double radius) { least_radius_ = static_cast<float>(radius); }
   /// Asks for a joint wherever a limb begins, even where the bark needs none, so that limbs can be measured.
   void mark_every_foot() { marks_every_foot_ = true; }
@@ -175,7 +177,7 @@ class SkeletonWriter {
   }
   [[noreturn]] void refuse_joints() const;
   [[noreturn]] void refuse_leaves() const;
-  /// Including those that were passed over.
+  /// Returns the number of joints, including those that were passed over.
   std::size_t joints() const { return limbs_.size() + passed_; }
   void write(const Joint& joint);
   void copy(const SkeletonWriter& part, std::size_t leaf);

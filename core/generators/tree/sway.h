@@ -18,9 +18,11 @@ struct SwayAngles {
 };
 
 /// Returns the degrees by which a segment turns about its left and up axes. It starts at fraction `z` of the stem,
-/// where the radius is `radius`. With a0 = 4 length (1 - z) / radius, a1 = a0 wind / 50, a2 = a0 gust / 50 + a1 / 2
-/// and b = offset + base_radius / length time / 15 these are (a1 sin b + a2 sin 0.7 b) / segments. Unlike in the paper,
-/// a whole stem turns by at most 90 degrees.
+/// where the radius is `radius`. Each angle is (a1 sin(b) + a2 sin(0.7 b)) / segments, with:
+/// - a0 = 4 * length * (1 - z) / radius;
+/// - a1 = a0 * wind / 50, and a2 = a0 * gust / 50 + a1 / 2;
+/// - b = offset + base_radius / length * time / 15, with offset_x or offset_y.
+/// Unlike in the paper, a whole stem turns by at most 90 degrees.
 SwayAngles sway_angles(const TreeSway& sway, const SwayingStem& stem, double z, double radius);
 
 /// Returns the frame of a segment turned by these angles.

@@ -11,7 +11,7 @@ namespace seedmesh::tree {
 struct WeberPennLevel {
   double down_angle, down_angle_v, rotate, rotate_v;
   int branches;
-  double spread = 1;  ///< part of each segment of the parent that bears them
+  double spread = 1;  ///< share of each segment of the parent, from its base, on which they begin
   int whorl = 1;      ///< how many begin at the same height
   double bare = 0;    ///< share of their length without children and leaves
   double length, length_v, taper, seg_splits, split_angle, split_angle_v;
@@ -25,8 +25,9 @@ std::array<WeberPennLevel, 4> weber_penn_levels(const TreeParams& params);
 /// math::pow with a relative error below 1e-11, but faster. Exact for the exponents 1, 2 and 0.5.
 double power(double base, double exponent);
 
-/// Returns the length of branches as a share of the greatest length, for `ratio` from 1 at the base of the crown to 0
-/// at its top. Shape 8 is the envelope. Shape 0 of Arbaro ends in a point, that of the paper at a fifth.
+/// Returns the length of branches as a share of the greatest length. `ratio` is 1 at the base of the crown
+/// and 0 at its top. Shape 8 is the envelope. Shape 0 of Arbaro ends in a point, that of the paper at a
+/// fifth.
 double shape_ratio(const TreeParams& params, int shape, double ratio);
 
 /// Returns the radius at share `z` of a stem of `length` with `radius` at its base, without flare and lobes.
@@ -39,8 +40,8 @@ double flared(double flare, double z);
 /// Returns the factor of Flare and trunk_flare together: at the ground the product of both.
 double flared_trunk(const TreeParams& params, double z);
 
-/// Whether the point at the distance `aside` from the axis, and at `height` above the ground, is within the
-/// envelope of a tree of height `scale`.
+/// Whether a point is within the envelope of a tree of height `scale`. The point is `aside` from the axis,
+/// and `height` above the ground.
 bool is_in_envelope(const TreeParams& params, double scale, double aside, double height);
 
 /// Returns the inverse cosine within 1e-7, for -1 .. 1. After M. Abramowitz and I. Stegun, Handbook of Mathematical

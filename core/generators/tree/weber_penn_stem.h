@@ -37,10 +37,10 @@ struct WeberPennStem {
   int trunk = 0;                      ///< the number of a trunk; also of its clones
   double length = 0, radius = 0;
   double offset = 0, parent_length = 0;  ///< the offset is its position along the parent
-  double parent_length_max = 0;          ///< the paper's length_child,max of which its length is a share
+  double parent_length_max = 0;          ///< length_child,max of the paper; `length` is a share of it
   Rng rng{0};
-  // A clone, which splits off from another stem, begins at a later segment of that stem, has its length,
-  // turns back by `uncurve` in each segment, and bears `share` of its children.
+  // A clone is a stem that splits off from another stem, at a later segment of that stem. It has the length
+  // of that stem. It turns back by `uncurve` in each segment, and bears `share` of the children of that stem.
   int segment = 0;
   double uncurve = 0;
   double share = 1;
@@ -88,18 +88,18 @@ double child_length(const WeberPennTree& tree, const WeberPennStem& stem, double
 /// Radius of a child of this length at `offset`.
 double child_radius(const WeberPennTree& tree, const WeberPennStem& stem, double offset, double length);
 
-/// Shortens a stem to what stays within the envelope, as far as PruneRatio says. Returns false where nothing
-/// is left. `frames` is memory that calls reuse.
+/// Shortens a stem so that it stays within the envelope, by the share PruneRatio. Returns false if nothing is
+/// left. `frames` is memory that calls reuse.
 bool prune(const WeberPennTree& tree, WeberPennStem& stem, std::vector<Frame>& frames);
 
-/// Whether a child of this length and radius is not made: in Arbaro, one of half a millimetre or less, or a tenth
-/// of that thick.
+/// Whether a stem is left out because of its size. This is a stem without length. With the counting of
+/// Arbaro, it is a stem of at most 0.5 mm, or with a radius of at most 0.05 mm.
 bool is_too_small(const WeberPennTree& tree, const WeberPennStem& stem);
 
 /// Returns the rounding error of the number of splits after the segments from `segment` on and after the clones that
 /// split off them.
-/// Arbaro adds it up from stem to stem of a level, to each clone before the rest of its stem. Cost: that of the
-/// segments, at most 10,000.
+/// Arbaro passes this error from stem to stem of a level. A clone receives it before the rest of the stem
+/// from which it splits off. Cost: that of the segments, at most 10,000.
 double carried_behind(const WeberPennLevel& level, double carried, int segment);
 
 /// Returns the rounding error of splits before the first child of a stem or of a clone.

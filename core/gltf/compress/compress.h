@@ -8,7 +8,8 @@
 
 namespace seedmesh::gltf {
 
-/// Encodes an array that will have a view of its own, before compress(), which then uses the stream.
+/// Encodes an array that will have a view of its own. Call it before compress(), which then uses the encoded
+/// stream.
 Slice encoded_ahead(const Slice& plain, Pool pool, Job& job);
 
 struct Compressed {

@@ -14,8 +14,9 @@ bool has_flat_triangle(const Column& position, std::span<const std::uint32_t> co
 /// Removes triangles without area; the others keep their order.
 void drop_flat_triangles(const Column& position, Array<std::uint32_t>& corners);
 
-/// Removes doubled triangles. Where a thin piece has become flat, its two sides are one triangle in opposite
-/// windings: both go. Of equal triangles with equal winding one stays. O(n log n) in triangles.
+/// Removes duplicate triangles. Where a thin piece has become flat, its two sides are the same triangle with
+/// opposite windings, and both are removed. Of triangles with equal winding, one is kept. Cost: O(n log n) in
+/// the number of triangles.
 void drop_doubled_triangles(const Column& position, Array<std::uint32_t>& corners, Job& job);
 
 }  // namespace seedmesh::gltf

@@ -1,6 +1,6 @@
 #pragma once
 /// Compresses finished meshes before the rest of their model exists, so that a large mesh takes little memory
-/// meanwhile.
+/// until the file is written.
 #include "core/model/model.h"
 
 namespace seedmesh::gltf {

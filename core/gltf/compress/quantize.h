@@ -12,7 +12,7 @@ namespace seedmesh::gltf {
 struct Grid {
   glm::vec3 origin{0};
   float step = 1;
-  bool is_exact = false;  ///< positions stay floats; origin 0 and step 1
+  bool is_exact = false;  ///< positions stay floats; origin is then 0 and step 1
 };
 
 struct GridOptions {
@@ -25,9 +25,9 @@ struct GridOptions {
 /// Returns one grid for each mesh; meshes that one node or one skin shows get equal grids.
 std::vector<Grid> grids_of(const Model& model, const GridOptions& options = {});
 
-/// Computes grids_of() and writes the inverse of the quantization into the model: into the transforms of
-/// nodes and copies, into the matrices of skins, or, where a node has children or is animated, into a new
-/// child node ("trunk_mesh").
+/// Computes grids_of() and writes the inverse of the quantization into the model. It changes the transforms
+/// of nodes and copies, and the matrices of skins. Where a node has children or is animated, it adds a child
+/// node ("trunk_mesh") for the mesh instead.
 std::vector<Grid> apply_grids(Model& model, const GridOptions& options = {});
 
 /// `filtered`: for EXT_meshopt_compression, whose readers decode two of the attributes. `plain`: for

@@ -1,6 +1,6 @@
 #pragma once
-/// Normals of faces that are hardly larger than a step of the quantization grid: such faces turn when their
-/// corners move to grid points.
+/// Normals of faces that are hardly larger than a step of the quantization grid. The direction of such a face
+/// changes when its corners move to grid points.
 #include <vector>
 
 #include "core/gltf/columns.h"

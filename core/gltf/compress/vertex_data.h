@@ -28,7 +28,7 @@ inline std::uint32_t corner_at(const Column& index, std::size_t i) {
 /// Returns the elements of a column at these vertex indices.
 Slice selected(const Column& column, const Array<std::uint32_t>& vertices, Job& job);
 
-/// Replaces the index of a part; 16 bits where `vertices` allows it.
+/// Replaces the index of a part. Indices have 16 bits where the number `vertices` allows it.
 void set_index(Part& part, Array<std::uint32_t> corners, std::size_t vertices, Job& job);
 
 /// A unit vector in the encoding of the octahedral filter of EXT_meshopt_compression: u, v, the integer that
@@ -45,7 +45,7 @@ inline bool is_flat(const glm::ivec3& a, const glm::ivec3& b, const glm::ivec3& 
   return u.y * v.z == u.z * v.y && u.z * v.x == u.x * v.z && u.x * v.y == u.y * v.x;
 }
 
-/// Returns a quantized position as one number.
+/// Returns a quantized position, 16 bits for each axis, as one number.
 inline std::uint64_t word_of(const glm::ivec3& p) {
   return static_cast<std::uint64_t>(p.x) << 32U | static_cast<std::uint64_t>(p.y) << 16U |
          static_cast<std::uint64_t>(p.z);

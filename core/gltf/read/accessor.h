@@ -36,7 +36,8 @@ struct Accessor {
 /// buffer.
 Accessor accessor_of(const tinygltf::Model& file, int number);
 
-/// Returns a colour as bytes, clamped to 0 to 1 before. It is white if the attribute has fewer than three components.
+/// Clamps a colour to the range from 0 to 1 and returns it as bytes, or white if the attribute has fewer than
+/// three components.
 glm::u8vec4 color_at(const Accessor& color, std::size_t i);
 
 /// Returns the corners of triangles, three for each, all below `vertices`. Strips and fans become triangles.

@@ -30,7 +30,8 @@ class Charge {
   std::uint64_t bytes_;
 };
 
-/// Decodes RFC 4648 with or without padding and without line ends. Throws Unreadable.
+/// Decodes base64 (RFC 4648 section 4), with or without padding. Line ends are not allowed. Throws
+/// Unreadable.
 Array<std::byte> bytes_of_base64(std::string_view text, const Job& job);
 
 /// Checks the header, the chunks and the nesting of the JSON, and returns the JSON. Throws Unreadable for

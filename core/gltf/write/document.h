@@ -14,7 +14,7 @@ namespace seedmesh::gltf {
 struct Document {
   std::string head, tail;
   std::vector<std::size_t> images;  ///< the numbers of the used images, see image_numbered()
-  Bin bin;                          ///< arranged; where it is empty, nothing goes between head and tail
+  Bin bin;                          ///< arranged; if it is empty, nothing is between head and tail
 };
 
 /// Returns an image of the model by number: the elements of Model::textures, and after them their forms as WebP.

@@ -72,11 +72,11 @@ void append_skin(std::string& out, const Skin& skin, int matrices);
 /// A texture is an image with a wrap mode. Each of the two wrap modes has one sampler.
 class TextureList {
  public:
-  /// Returns the number of the texture for a use, -1 for none. Adds its image to `images`, and its form as WebP
-  /// (EXT_texture_webp) as image_numbered() counts it.
+  /// Returns the number of the texture for a use, -1 for none. Adds the numbers of its image and of its WebP
+  /// form (EXT_texture_webp) to `images`; image_numbered() defines these numbers.
   int number(const TextureUse& use, const Model& model, Numbering& images);
   bool has_webp() const { return has_webp_; }      ///< a texture is WebP, or has such a form
-  bool needs_webp() const { return needs_webp_; }  ///< a texture is nothing else
+  bool needs_webp() const { return needs_webp_; }  ///< a texture is only WebP
 
   // Lists without brackets.
   const std::string& samplers() const { return sampler_list_; }
@@ -91,8 +91,8 @@ class TextureList {
   bool has_webp_ = false, needs_webp_ = false;
 };
 
-/// Appends the views of a buffer that has been arranged: a list without brackets. `has_strides`: every view of vertices
-/// states its stride, as elements with padding need.
+/// Appends the views of a buffer that has been arranged: a list without brackets. `has_strides`: every view
+/// of vertices states its stride, which is required where elements have padding.
 void append_views(std::string& out, const Bin& bin, bool has_strides = false);
 
 }  // namespace seedmesh::gltf

@@ -9,7 +9,8 @@
 
 namespace seedmesh::gltf {
 
-/// The accessors of a node's copies in EXT_mesh_gpu_instancing. -1: all copies have the default.
+/// The accessors of a node's copies in EXT_mesh_gpu_instancing. -1: all copies have the default value of
+/// glTF.
 struct CopyAccessors {
   int translation = -1, rotation = -1, scale = -1;
 };

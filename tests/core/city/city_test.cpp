@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <set>
 #include <variant>
 
@@ -343,6 +345,37 @@ TEST(City, CrossesARiverOnBridges) {
   EXPECT_TRUE(made(params, 6).graph.bridges.empty());
 }
 
+/// The streets that have all of their length on the given side of x = 0.
+std::size_t streets_beside(const CityPlan& plan, int side) {
+  return static_cast<std::size_t>(
+      std::count_if(plan.graph.edges.begin(), plan.graph.edges.end(), [&](const PlanarEdge& edge) {
+        return is_street_tag(edge.tag) && plan.graph.nodes[edge.from].x * side > 0 &&
+               plan.graph.nodes[edge.to].x * side > 0;
+      }));
+}
+
+TEST(City, HasStreetsOnBothBanksOfAWindingRiver) {
+  CityParams params = small_town(1100, 1000);
+  params.maps.water = "abs(x - 60 * sin(y / 3)) < 26";
+  params.streets.major_spacing = 250;
+  params.streets.bend = 90;
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    const CityPlan plan = made(params, seed);
+    const std::size_t west = streets_beside(plan, -1), east = streets_beside(plan, 1);
+    EXPECT_GE(plan.graph.bridges.size(), 1U) << seed;
+    EXPECT_GT(std::min(west, east) * 4, std::max(west, east)) << seed << ": " << west << " and " << east;
+  }
+}
+
+TEST(City, GrowsOnTheOtherBankWithoutABridgeIfTheFirstStartIsOnAnIsland) {
+  // No link of the net ends on an island of 40 m, where the net starts.
+  CityParams params = small_town(1100, 1000);
+  params.maps.water = "sqrt(x * x + y * y) < 300 && sqrt(x * x + y * y) > 20";
+  params.streets.bridge_length = 0;
+  for (std::uint64_t seed = 1; seed <= 5; ++seed)
+    EXPECT_GT(streets_beside(made(params, seed), 1), 20U) << seed;
+}
+
 /// A feature collection of lines without properties.
 GeoJson lines(const std::vector<std::vector<std::array<double, 2>>>& list, const Json& properties = nullptr) {
   Json features = Json::array();
@@ -352,6 +385,32 @@ GeoJson lines(const std::vector<std::vector<std::array<double, 2>>>& list, const
                         {"geometry", {{"type", "LineString"}, {"coordinates", line}}}});
   }
   return {Json({{"type", "FeatureCollection"}, {"features", features}}).dump()};
+}
+
+TEST(City, StreetsLeaveTheEndsOfAGivenBridgeAtClearAngles) {
+  // Least angle between two streets at a node, degrees: the published bound for grown streets.
+  constexpr double least_angle = 22.5;
+  CityParams params = small_town(800, 700);
+  params.maps.water = "abs(x) < 25";
+  params.given.given_streets = lines({{{-120, 20}, {110, -15}}}, {{"level", 1}, {"class", "minor"}});
+  std::size_t streets = 0;
+  for (std::uint64_t seed = 1; seed <= 30; ++seed) {
+    const CityPlan plan = made(params, seed);
+    for (const Bridge& bridge : plan.graph.bridges) {
+      const glm::dvec2 from = in_cm(bridge.line.front()), to = in_cm(bridge.line.back());
+      for (const auto& [node, along] : {std::pair(bridge.from, to - from), std::pair(bridge.to, from - to)}) {
+        for (const std::uint32_t half : plan.graph.arms.of(node)) {
+          if (!plan.graph.is_street(half / 2)) continue;
+          const glm::dvec2 arm =
+              in_cm(plan.graph.nodes[end_of(plan.graph.edges, half)]) - in_cm(plan.graph.nodes[node]);
+          const double angle = std::acos(glm::dot(arm, along) / glm::length(arm) / glm::length(along));
+          EXPECT_GT(angle * 180 / std::numbers::pi, least_angle) << seed;
+          ++streets;
+        }
+      }
+    }
+  }
+  EXPECT_GT(streets, 60U);
 }
 
 TEST(City, KeepsGivenStreetsAndGrowsFromThem) {
