@@ -26,8 +26,8 @@ struct Route {
 };
 
 /// Follows a line from its start, which is on land. It ends at the border of the area, and crosses water on bridges
-/// of at most `bridge_length` centimetres. Returns an empty route if the line would end at a shore. The route is also
-/// empty if the line would meet the border or a shore at an acute angle, or with a piece below 15 m.
+/// of at most `bridge_length` centimetres. Returns an empty route if the line would end at a shore. The same holds
+/// for a line that would meet the border or a shore at an acute angle, or with a piece below 15 m.
 Route route_of(const Region& region, const std::vector<CmPoint>& line, std::uint32_t kind,
                double bridge_length);
 
