@@ -15,7 +15,7 @@ namespace seedmesh::city {
 
 /// A feature with its geometry, or a geometry without a feature.
 struct GeoFeature {
-  std::string pointer;   ///< of the feature
+  std::string pointer;   ///< pointer of the feature
   std::string geometry;  ///< pointer of its geometry
   Json properties;       ///< an object
   std::vector<CmRing> lines;

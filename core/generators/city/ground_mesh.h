@@ -10,6 +10,7 @@
 
 namespace seedmesh::city {
 
+/// Collects the triangles of one mesh of the ground, until take().
 class GroundMesh {
  public:
   /// With textures, pedestrian crossings and lane lines get coordinates for the textures of their stripes.
@@ -47,9 +48,10 @@ class GroundMesh {
     CrossLine start, end;
     std::vector<double> start_shares, end_shares;
     std::vector<glm::dvec2> start_corner, end_corner;  ///< nodes on the border of the area
-    double station = 0, length = 0;                    ///< along the street, metres
-    double first_dash = 0, dashes_a_metre = 1;         ///< of texture coordinates along the street
-    double periods_across = 0;                         ///< of a crossing; 0: metres
+    double station = 0, length = 0;                    ///< position and length along the street, metres
+    /// Texture coordinate at the start, and its increase for each metre.
+    double first_dash = 0, dashes_a_metre = 1;
+    double periods_across = 0;  ///< repetitions of the texture across a crossing; 0: metres
   };
   void set_sides(const Part& part, std::size_t strip, double station);
   void add_strip(std::uint32_t part, const StripPiece& piece);

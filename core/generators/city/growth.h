@@ -31,12 +31,12 @@ struct GrowthInput {
   const FieldMap* obstacles = nullptr;         ///< null: none
   const Route* given = nullptr;                ///< null: none
   const WardPlan* wards = nullptr;             ///< null: major streets grow
-  const TensorField* tensor = nullptr;         ///< of major streets; null: they follow a pattern
-  const TensorField* minor_field = nullptr;    ///< of minor streets; null: they follow a pattern
+  const TensorField* tensor = nullptr;         ///< field of major streets; null: they follow a pattern
+  const TensorField* minor_field = nullptr;    ///< field of minor streets; null: they follow a pattern
   const Landform* landform = nullptr;          ///< null: level ground
   const FootprintIndex* footprints = nullptr;  ///< null: none
-  std::vector<CrossSection> sections = {};     ///< by tag
-  double least_height = -1e9;                  ///< of streets, m
+  std::vector<CrossSection> sections = {};     ///< cross sections by tag
+  double least_height = -1e9;                  ///< least height of streets, m
 
   /// Whether an obstacle is at a position in metres, or a given building is too near to it. The least distance from a
   /// given building is 1 m plus half the width of the widest class of streets with its sidewalk.

@@ -10,6 +10,7 @@
 
 namespace seedmesh::city {
 
+/// Collects meshes until write(), by chunk and material.
 class MergedCopies {
  public:
   explicit MergedCopies(Job& job) : job_(job) {}

@@ -42,6 +42,7 @@ struct Copy {
   std::uint32_t chunk = 0;
 };
 
+/// Writes models and their copies into the model of a city.
 class CopyWriter {
  public:
   CopyWriter(Model& city, ChunkNodes& nodes, const ViewPoint& view, const GenerateContext& context)

@@ -93,7 +93,7 @@ class Network {
   ConstraintLimits limits_;
   std::vector<CmPoint> nodes_;
   std::vector<NetworkEdge> edges_;
-  std::vector<EdgeBox> boxes_;  ///< by edge
+  std::vector<EdgeBox> boxes_;  ///< boxes of the edges
   std::vector<std::uint32_t> closed_;
   std::vector<std::vector<std::uint32_t>> arms_;
 };

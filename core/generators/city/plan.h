@@ -25,12 +25,13 @@ namespace seedmesh::city {
 /// The cross section of a class of streets.
 struct CrossSection {
   std::string name;
-  double width = 0;                         ///< of the carriageway
+  double width = 0;                         ///< width of the carriageway
   std::array<double, 2> sidewalk = {0, 0};  ///< left and right
   int lanes = 0;
   double grade_limit = 0.12;                ///< rise over run
   std::optional<double> tree_spacing = {};  ///< 0: no trees; nullopt: that of the furniture
-  bool has_wall = false;                    ///< on the right side of its streets, in place of the sidewalk
+  /// Whether a wall stands on the right side of its streets, in place of the sidewalk.
+  bool has_wall = false;
   friend bool operator==(const CrossSection&, const CrossSection&) = default;
 };
 
@@ -62,11 +63,11 @@ struct StreetGraph {
   std::vector<PlanarEdge> edges;  ///< the tag is an EdgeClass, or from first_given on that of a given street
   PlanarArms arms;
   std::vector<std::uint64_t> node_key, edge_key;  ///< identities by position
-  std::vector<std::uint8_t> is_border;            ///< by node: on the border of the area or on a shore
+  std::vector<std::uint8_t> is_border;  ///< for each node, 1 on the border of the area or on a shore
   std::vector<Bridge> bridges;
-  std::vector<CmPoint> ring_nodes;         ///< of roundabouts, sorted
+  std::vector<CmPoint> ring_nodes;         ///< nodes of roundabouts, sorted
   bool has_branches = false;               ///< a minor street grew at whose end others could branch off
-  std::vector<std::uint32_t> bridge_ends;  ///< by node: ends of bridges there; empty without bridges
+  std::vector<std::uint32_t> bridge_ends;  ///< number of ends of bridges at each node; empty without bridges
 
   bool is_street(std::uint32_t edge) const { return is_street_tag(edges[edge].tag); }
   /// Whether a node is on the border of the area itself.
@@ -100,7 +101,8 @@ constexpr std::uint32_t no_index = 0xFFFFFFFFU;
 /// corners along their common borders.
 struct Part {
   PartKind kind = PartKind::verge;
-  std::uint32_t street = no_index, node = no_index, block = no_index;  ///< what it belongs to
+  /// The street, node or block that it belongs to.
+  std::uint32_t street = no_index, node = no_index, block = no_index;
   std::vector<CmRing> rings;
   bool is_wall = false;  ///< a verge that a town wall fills
 };
@@ -127,22 +129,22 @@ struct NamedZone {
 
 /// The rectangle below a building.
 struct Footing {
-  glm::dvec2 position{0};       ///< of its centre, metres east and north
+  glm::dvec2 position{0};       ///< position of its centre, metres east and north
   double turn = 0;              ///< degrees, counter-clockwise from above
-  double width = 0, depth = 0;  ///< along and across the front, metres
+  double width = 0, depth = 0;  ///< sides along and across the front, metres
   std::uint32_t part = 0;       ///< index into CityPlan::parts
 };
 
 /// A model at a given position.
 struct Landmark {
-  Child request;  ///< with its seed
+  Child request;  ///< request with its seed
   std::string pointer;
   glm::dvec2 position{0};  ///< metres east and north
   double turn = 0;         ///< degrees, counter-clockwise from above
   double radius = 15;      ///< metres around `position` in which no tree of a park stands
   bool is_block_whole = false, replaces_house = true;
   bool is_given = false;      ///< a footprint of the request
-  bool is_too_large = false;  ///< for its lot, which then has no building in the plan
+  bool is_too_large = false;  ///< whether it is too large for its lot, which then has no building in the plan
   /// Indices of the lot and of the part below it; no_index: none.
   std::uint32_t lot = no_index, part = no_index;
 };
@@ -152,8 +154,8 @@ struct House {
   std::uint32_t rule = 0;
   std::uint64_t seed = 0;
   int floors = 1;
-  double width = 0, depth = 0;  ///< along and across the front, metres
-  glm::dvec2 position{0};       ///< of its centre, metres east and north
+  double width = 0, depth = 0;  ///< sides along and across the front, metres
+  glm::dvec2 position{0};       ///< position of its centre, metres east and north
   double turn = 0;              ///< degrees, counter-clockwise from above
 };
 
@@ -161,11 +163,11 @@ struct Lot {
   std::uint64_t key = 0;
   std::uint32_t part = 0;  ///< index into CityPlan::parts
   double area = 0, frontage = 0;
-  std::uint32_t street = no_index;  ///< of its front: an edge of the graph
+  std::uint32_t street = no_index;  ///< street of its front: an edge of the graph
   bool is_corner = false, is_inner = false;
   double density = 0;
   std::string zone;  ///< empty without zones
-  CmRing corners;    ///< without the corners of neighbours in between
+  CmRing corners;    ///< its corners without those that neighbours add
   CmPoint front_start, front_end;
   std::optional<House> house;
   std::uint32_t landmark = no_index;  ///< index into CityPlan::landmarks; such lots have no house
@@ -209,7 +211,7 @@ class MemoryCharge {
 struct CityPlan {
   std::vector<CmRing> area;
   Region region;                      ///< the same, divided into land and water
-  std::vector<CrossSection> classes;  ///< by EdgeClass, then those of given streets
+  std::vector<CrossSection> classes;  ///< cross sections by EdgeClass, then those of given streets
   std::vector<Ward> wards;            ///< empty unless the method is wards
   std::vector<CmPoint> gates;         ///< nodes where streets pass a town wall
   std::vector<NamedZone> zones;

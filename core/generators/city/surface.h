@@ -83,13 +83,13 @@ class Surface {
   double wall_height_;
   EdgeTable part_of_edge_;  ///< the edges of all parts, or of the low ones
   Tunnels tunnels_;
-  std::vector<StreetStrips> strips_;  ///< by edge
+  std::vector<StreetStrips> strips_;  ///< strips of each edge
   EdgeTable divided_at_;              ///< indices into `divided_`, from the lesser end to the greater
   std::vector<DividedEdge> divided_;
   std::vector<glm::dvec2> edge_points_;
   std::vector<Ground> grounds_;
-  std::vector<std::uint32_t> ground_of_;  ///< by part
-  std::vector<double> water_level_;       ///< by part
+  std::vector<std::uint32_t> ground_of_;  ///< index into `grounds_` of each part
+  std::vector<double> water_level_;       ///< height of the water of each part
   // Natural heights on a lattice, without slopes that need a wall.
   glm::dvec2 low_{0};
   double cell_ = 1;

@@ -68,7 +68,7 @@ class TensorField {
   std::vector<Base> bases_;
   const Landform* landform_;
   const FieldMap* blend_ = nullptr;
-  double noise_size_ = 1;  ///< of a cell of the noise, centimetres
+  double noise_size_ = 1;  ///< size of a cell of the noise, centimetres
   Rng rng_{0};
 };
 

@@ -13,7 +13,7 @@ namespace seedmesh::city {
 
 /// The opening of a tunnel on the border of a block, in metres.
 struct TunnelMouth {
-  glm::dvec2 middle{0}, along{1, 0};    ///< of the opening, and the direction of the border
+  glm::dvec2 middle{0}, along{1, 0};    ///< middle of the opening, and the direction of the border
   double half = 0;                      ///< half of its width along the border
   double floor = 0;                     ///< its height: that of the sidewalk
   std::array<glm::dvec2, 2> corners{};  ///< left and right, seen from outside
@@ -34,7 +34,8 @@ struct Tunnel {
 
 class Tunnels {
  public:
-  static constexpr double clear_height = 5, slab = 0.4;  ///< of the tube, m
+  /// Clear height of the tube, and thickness of its roof, m.
+  static constexpr double clear_height = 5, slab = 0.4;
 
   Tunnels() = default;
   /// Finds the tunnels of a plan with heights. `part_of_edge` has the edges of all parts.

@@ -31,7 +31,7 @@ std::vector<std::uint32_t> outline_of(const WardCells& cells, const std::vector<
 struct WardStreetInput {
   const CityStreets& streets;
   const WardGround& ground;
-  std::uint32_t wall_tag = 0;  ///< of streets along the wall, whose right side is outside
+  std::uint32_t wall_tag = 0;  ///< tag of streets along the wall, whose right side is outside
   Rng rng;
 };
 
