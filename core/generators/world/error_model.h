@@ -39,7 +39,7 @@ struct Roughness {
 
   double measured = 0, measured_spacing = 1;  ///< measured deviation from triangles with this spacing
 
-  MetDeviation met;  ///< by the triangles of this area
+  MetDeviation met;  ///< deviation of the triangles of this area
 
   void add(const GroundSample& sample);
   void add(const Roughness& other);

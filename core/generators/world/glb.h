@@ -15,7 +15,7 @@ namespace seedmesh::world {
 struct Asset;
 
 struct TileVertex {
-  std::int16_t x = 0, y = 0, z = 0;  ///< in steps; +Y up
+  std::int16_t x = 0, y = 0, z = 0;  ///< position in steps; +Y up
   std::int16_t unused = 0;
   std::int8_t normal[4] = {0, 127, 0, 0};
   std::uint8_t color[4] = {255, 255, 255, 255};  ///< linear

@@ -65,6 +65,7 @@ class Ground {
  public:
   /// Makes ground without rivers and lakes.
   explicit Ground(const World& world) : world_(&world) {}
+  /// Makes ground with the rivers and lakes that can change the heights within the rectangle.
   Ground(const World& world, const Rectangle& rectangle, Job& job);
   /// Makes ground with the rivers and lakes within `reach` metres of the rectangle.
   Ground(const World& world, const Rectangle& rectangle, Job& job, double reach);
@@ -74,6 +75,7 @@ class Ground {
   static Ground with_main_roads(const World& world, const Rectangle& rectangle, Job& job);
   /// Returns ground with roads and houses.
   static Ground with_works(const World& world, const Rectangle& rectangle, Job& job);
+  /// Returns the ground at a position in absolute metres, which has to lie within the rectangle.
   GroundSample at(double east, double north) const;
   double height(double east, double north) const { return at(east, north).height; }
 

@@ -16,19 +16,19 @@ namespace seedmesh::world {
 struct Town;
 
 struct House {
-  double east = 0, north = 0;            ///< of its middle, absolute
+  double east = 0, north = 0;            ///< its middle, absolute
   double x = 1, y = 0;                   ///< direction of the ridge, east and north
   double length = 0, depth = 0;          ///< half of the plan along and across the ridge
   double low = 0, eaves = 0, ridge = 0;  ///< heights; `low` is below the ground
   double top = 0;                        ///< height of the highest chimney or tower
   enum Kind : std::uint8_t { dwelling, barn, church, wall } kind = dwelling;
-  bool is_on_lot = false;  ///< of a town
+  bool is_on_lot = false;  ///< whether it is on a lot of a town
   int front = 0;           ///< side of its front, seen along the ridge: -1 right, 1 left, 0 no side
   /// Brightness of the colours of walls and roof; `warmth` shifts the colour of the walls to yellow or white.
   float wall_light = 1, roof_light = 1, warmth = 0;
   int model = -1;                   ///< index into WorldSettlements::houses; -1: walls and a gable roof
-  double scale = 1, floor = 0;      ///< of the model, and the height of its foot
-  std::array<float, 2> turn{0, 1};  ///< of the model, as Instances::add() takes it
+  double scale = 1, floor = 0;      ///< scale of the model, and the height of its foot
+  std::array<float, 2> turn{0, 1};  ///< rotation of the model, as Instances::add() takes it
 };
 
 /// Greatest height of the ground at its middle above its lowest corner, metres.

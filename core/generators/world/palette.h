@@ -26,6 +26,7 @@ struct GroundColors {
 std::array<std::uint8_t, 4> ground_color(const World& world, const GroundColors& colors,
                                          const GroundSample& sample, double east, double north,
                                          double steepness, double spacing);
+/// Returns a colour of the request as linear bytes, opaque.
 std::array<std::uint8_t, 4> linear_color(const Color& color);
 
 }  // namespace seedmesh::world

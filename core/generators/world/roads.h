@@ -45,7 +45,9 @@ struct Road {
 /// Returns the greatest radius that a settlement can have.
 double greatest_radius(const World& world);
 
+/// Returns the id of a settlement, such as "s3_-2". It follows from the cell of the settlement.
 std::string name_of(const Site& site);
+/// Returns the site of a cell from the store; makes it if the store has none. Site::is_settled can be false.
 std::shared_ptr<const Site> site_at(const World& world, const CellKey& cell, Job& job);
 /// Returns the settlements within `reach` of a rectangle.
 std::vector<std::shared_ptr<const Site>> sites_near(const World& world, const Rectangle& box, double reach,

@@ -12,9 +12,10 @@
 namespace seedmesh::world {
 
 struct TerrainIndices {
-  std::vector<std::uint16_t> corners;  ///< of cells from the south-west, then of the walls of the skirt
-  std::string file;                    ///< the same, little-endian
-  std::string hash;                    ///< 16 hexadecimal digits of the file
+  /// Indices of cells from the south-west, then of the walls of the skirt.
+  std::vector<std::uint16_t> corners;
+  std::string file;  ///< the same, little-endian
+  std::string hash;  ///< 16 hexadecimal digits of the file
   std::uint64_t bytes() const { return 2 * corners.size() + file.size() + sizeof(TerrainIndices); }
 };
 

@@ -8,7 +8,7 @@ namespace seedmesh::world {
 
 struct TileFrame {
   double side = 0;                           ///< metres
-  int cells = 0;                             ///< of the terrain along a side
+  int cells = 0;                             ///< cells of the terrain along a side
   double spacing = 0;                        ///< spacing of terrain samples
   double west = 0, south = 0;                ///< absolute; the coordinates of samples are exact
   double middle_east = 0, middle_north = 0;  ///< absolute
