@@ -13,7 +13,8 @@ namespace seedmesh::building {
 struct Asset {
   glm::dvec3 low{0}, size{1};
   std::vector<Primitive> primitives;  ///< materials are those of the model
-  const PartRow* row = nullptr;       ///< of a built-in part: it has no primitives and is made for each size
+  /// The row of a built-in part, which has no primitives and is made for each size.
+  const PartRow* row = nullptr;
 };
 
 /// The amount that one body adds to a file.

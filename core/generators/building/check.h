@@ -35,7 +35,8 @@ struct RuleSet {
   std::optional<std::string> start;
   std::pair<int, int> restrictions;
   std::vector<std::string> materials;
-  std::unique_ptr<RoofStore> roofs = std::make_unique<RoofStore>();  ///< of all requests with these rules
+  /// Roofs of all requests with these rules.
+  std::unique_ptr<RoofStore> roofs = std::make_unique<RoofStore>();
 };
 
 /// Returns the rules of the request or of its blueprint; empty if it has a shape grammar. Adds an issue

@@ -39,7 +39,7 @@ class CoplanarRectangles {
   };
   /// All corners of a plane, sorted by one of their coordinates and then by the other.
   struct Lines {
-    std::vector<std::uint32_t> begins;  ///< of each line, and the end
+    std::vector<std::uint32_t> begins;  ///< start of each line, and the end
     std::vector<std::uint32_t> at;      ///< the other coordinate
 
     /// The corners on a line strictly between two positions.

@@ -39,7 +39,7 @@ struct Derivation {
 
   const Task& task;
   const Grammar& grammar;
-  const Context* first_pass;  ///< what the first pass made; null during that pass
+  const Context* first_pass;  ///< result of the first pass; null during that pass
   Job& job;
   ShapeMeter meter;
   Shapes out;

@@ -22,7 +22,7 @@ namespace seedmesh::building {
 struct Shapes;
 
 struct ShapeEdit {
-  std::map<std::uint32_t, lang::TaggedValue> attributes;  ///< by index into Grammar::attributes
+  std::map<std::uint32_t, lang::TaggedValue> attributes;  ///< values, by index into Grammar::attributes
   std::optional<std::uint32_t> rule;                      ///< the symbol whose rule replaces the shape
   bool is_removed = false;
 };
@@ -63,7 +63,7 @@ class EditSearch {
   const EditTree* tree_;
   /// Index into EditTree::nodes, by shape on a path to an edit.
   std::map<std::uint32_t, std::uint32_t> nodes_;
-  std::map<EditTree::Step, std::uint32_t> numbers_;  ///< by node and symbol
+  std::map<EditTree::Step, std::uint32_t> numbers_;  ///< number of shapes so far, by node and symbol
   std::vector<bool> found_;
 };
 

@@ -16,7 +16,7 @@
 namespace seedmesh::building {
 
 struct LoadedTokens {
-  std::vector<lang::Token> tokens;  ///< of the main file and of what it imports; the last is the end
+  std::vector<lang::Token> tokens;  ///< tokens of the main file and of what it imports; the last is the end
   std::set<std::string> texts;      ///< texts that tokens with a prefix refer to
   std::string start;                ///< the rule marked with `start` in the main file
   /// Prefixes of files that the request does not have, each ending with a point.

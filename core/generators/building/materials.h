@@ -44,7 +44,7 @@ class MaterialTable {
   struct MaterialRequest {
     const std::string& name;
     const std::string* color;  ///< the current colour; may be null
-    bool is_role;              ///< of a part
+    bool is_role;              ///< whether the name is a role of a part
   };
   int make(const MaterialRequest& request);
   int facade_material();

@@ -63,8 +63,9 @@ struct Parser {
   std::uint32_t start = none;  ///< the symbol after @StartRule
   std::size_t last_error = static_cast<std::size_t>(-1);
   std::size_t written = 0;  ///< tokens of all expressions, with functions written out
-  std::map<std::string, bool, std::less<>> text_signs, tree_signs;   ///< see tree_need.cpp
-  std::map<std::string, std::uint32_t, std::less<>> function_trees;  ///< by name, into Grammar::functions
+  std::map<std::string, bool, std::less<>> text_signs, tree_signs;  ///< see tree_need.cpp
+  /// Indices into Grammar::functions, by name.
+  std::map<std::string, std::uint32_t, std::less<>> function_trees;
 };
 
 /// Returns the next token.

@@ -19,7 +19,7 @@ LinePoints line_points(const std::vector<PictureLine>& lines, const std::vector<
 /// The points of a picture by kind, as the search sees them.
 struct PicturePoints {
   const std::map<std::uint32_t, std::vector<PictureAnchor>>& by_kind;
-  const LinePoints& on_lines;  ///< of anchor_crossing
+  const LinePoints& on_lines;  ///< lines of the points of the kind anchor_crossing
   const std::vector<PictureLine>& lines;
   double near = 0;  ///< metres that matched points may differ, with a margin
 };

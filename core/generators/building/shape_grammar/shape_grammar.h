@@ -37,7 +37,7 @@ struct OpenVariable {
 };
 
 struct PicturePair {
-  std::string name;  ///< for the report: its own name, or "rule 1" and so on
+  std::string name;  ///< name for the report: its own name, or "rule 1" and so on
   double weight = 1;
   ShapePicture left, right;
   /// Variables of both shapes. If there are some, `left` has them at first_sample, with a line for each segment, and
@@ -74,7 +74,7 @@ std::optional<ShapePicture> right_shape(const BuildingShapeGrammar& given, const
 
 struct DerivedPicture {
   ShapePicture picture;
-  std::map<std::string, std::uint64_t> uses;  ///< of each rule
+  std::map<std::string, std::uint64_t> uses;  ///< number of uses of each rule
   std::uint64_t steps = 0;
   bool fits_nowhere = false;  ///< no rule applies to the initial shape
 };
