@@ -31,7 +31,7 @@ class Sheets {
 
  private:
   const Mesh& mesh_;
-  std::vector<std::uint32_t> begin_;     ///< of each sheet in `triangle_`, and the end
+  std::vector<std::uint32_t> begin_;     ///< start of each sheet in `triangle_`, and the end
   std::vector<std::uint32_t> triangle_;  ///< numbers of triangles, sheet by sheet
 };
 

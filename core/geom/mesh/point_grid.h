@@ -159,7 +159,7 @@ class Weld {
   float reach_squared_, reach_;
   NumberTable first_;
   Array<std::uint32_t> next_;   ///< linked lists of the numbers of each cell
-  Array<std::uint32_t> point_;  ///< of each number: the first point with it
+  Array<std::uint32_t> point_;  ///< first point with each number
 };
 
 }  // namespace seedmesh

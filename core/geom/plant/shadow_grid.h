@@ -39,7 +39,7 @@ class ShadowGrid {
   void cast(const Cell& cell, double weight, std::uint32_t sign);
 
   double cell_;
-  std::vector<double> amounts_;  ///< of each layer, in the unit of the shades
+  std::vector<double> amounts_;  ///< shade of each layer, in the unit of the shades
   Range range_;
   Array<std::uint32_t> shade_;  ///< x by x, within it y by y, and rows along z
 };

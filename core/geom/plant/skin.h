@@ -22,7 +22,8 @@ struct SkinOptions {
   /// Whether internodes whose radius does not change are also cut into these pieces.
   bool cuts_all = false;
   bool uv = true;
-  std::span<const std::uint16_t> bones = {};  ///< for each joint, what moves its internode; fills Mesh::bone
+  /// Bone that moves the internode of each joint; fills Mesh::bone.
+  std::span<const std::uint16_t> bones = {};
   /// For textures that repeat. u goes a whole number of times from 0 to 1 around each limb: once for each
   /// metre of its first circumference, at least once. v keeps the proportions of the texture as the limb
   /// becomes thinner.

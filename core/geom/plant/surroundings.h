@@ -90,8 +90,8 @@ class Surroundings {
   std::vector<Stretch> grown_;
   /// Whether `cells_` and `shades_` belong to `grown_`. They are computed on first use.
   bool has_cells_ = false, has_shades_ = false;
-  Array<Cell> cells_;            ///< by bucket of their key, then by number of the stretch
-  Array<std::uint32_t> starts_;  ///< of each bucket in `cells_`, and the end
+  Array<Cell> cells_;            ///< cells by bucket of their key, then by number of the stretch
+  Array<std::uint32_t> starts_;  ///< start of each bucket in `cells_`, and the end
   KeySums shades_;               ///< the shade of each cell
 };
 

@@ -44,7 +44,7 @@ struct MassOptions {
   /// Unit vector in the plan that points down a slope, at a right angle to the ridge. Null: at a right angle to the
   /// longer side of the smallest rectangle; for a skillion roof, outwards at a right angle to the longest edge.
   std::optional<glm::dvec2> direction;
-  bool across = false;  ///< without a direction: the ridge runs along the shorter side
+  bool across = false;  ///< whether the ridge runs along the shorter side; only without a direction
 };
 
 enum class MassPart : std::uint8_t { wall, roof, floor };

@@ -43,10 +43,13 @@ std::vector<PlanDefect> defects_of(const Plan& plan, const Job* job = nullptr);
 /// the middle of straight edges stay.
 Plan read_plan(std::vector<PlanRing> rings);
 
+/// Returns the area of a ring in square metres; negative if the ring is clockwise.
 double signed_area(std::span<const glm::dvec2> ring);
+/// Returns the area of a plan without its holes, in square metres.
 double area(const Plan& plan);
 /// Returns the centroid of a ring, whose area is not 0.
 glm::dvec2 centroid_of(std::span<const glm::dvec2> ring);
+/// Returns the number of edges of all rings.
 std::uint32_t edge_count(const Plan& plan);
 /// Returns the two ends of an edge, by its number through all rings.
 std::pair<glm::dvec2, glm::dvec2> edge_of(const Plan& plan, std::uint32_t edge);

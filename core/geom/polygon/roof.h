@@ -63,7 +63,7 @@ struct RoofFace {
 struct Roof {
   std::vector<glm::dvec3> point;  ///< shared by faces that meet
   std::vector<RoofFace> faces;    ///< faces of the body, then of the cover
-  double height = 0;              ///< of the highest point
+  double height = 0;              ///< height of the highest point
   /// One sentence for each option that could not be used; the roof is flat or of the kind that the sentence
   /// names.
   std::vector<std::string> warnings;

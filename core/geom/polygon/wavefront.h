@@ -166,7 +166,7 @@ class Wavefront {
   std::size_t changes_ = 0;  ///< edges that changed since the grid was made
   double effort_ = 1;        ///< multiplies the limit of candidate pairs in a grid
   CellGrid edge_grid_, corner_grid_;
-  std::size_t most_entries_ = 0;  ///< with more the grid is made anew
+  std::size_t most_entries_ = 0;  ///< number of entries above which the grid is made anew
   /// Comparisons after events since the grid was made, and their limit.
   std::size_t comparisons_nearby_ = 0, most_nearby_ = 0;
   std::vector<std::uint32_t> seen_;

@@ -63,7 +63,7 @@ struct BarkBuffers {
   Mesh mesh;  ///< its arrays have more capacity than `vertices`, so that four floats can be read anywhere
   std::size_t vertices = 0;               ///< written so far
   Array<std::uint32_t> group;             ///< group of each vertex, or Limbs::none
-  Array<std::uint8_t> twin;               ///< for each vertex, 1: an earlier vertex has the same position
+  Array<std::uint8_t> twin;               ///< 1 for each vertex whose position an earlier vertex has
   Array<std::uint32_t> joints;            ///< joint of each vertex, as GraftOptions::joints
   Array<std::int16_t> colors;             ///< colour of each triangle, as GraftOptions::colors
   Array<std::uint32_t> loop_triangles;    ///< triangles with a vertex on a loop, rising

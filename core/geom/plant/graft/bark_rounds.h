@@ -14,8 +14,8 @@ enum class Recheck : std::uint8_t { nothing, loop, all };
 struct BarkRounds {
   std::vector<JoinMode> written;      ///< GraftInput::join at the last round; empty before the first one
   std::vector<std::uint32_t> parent;  ///< parent of each limb; empty in the first round
-  std::vector<std::uint8_t> dirty;    ///< for each limb, 1: written in this round
-  std::vector<std::uint8_t> touched;  ///< for each pair of groups, 1: its parent or child limb is dirty
+  std::vector<std::uint8_t> dirty;    ///< 1 for each limb that is written in this round
+  std::vector<std::uint8_t> touched;  ///< 1 for each pair of groups whose parent or child limb is dirty
   std::vector<Recheck> recheck;       ///< recheck of each limb
   bool is_large = true;               ///< enough to check for more than one thread
 
