@@ -22,7 +22,7 @@ namespace seedmesh::texture {
 enum class Channel { color, normal, surface };
 
 struct Link {
-  TextureRecipe recipe;  ///< without the factor, which belongs to a material
+  TextureRecipe recipe;  ///< recipe without the factor, which belongs to a material
   int size = 512;        ///< texels of a side
   Channel channel = Channel::color;
 };
