@@ -15,8 +15,8 @@ struct Projected {
   float depth = 0;
 };
 
-/// Returns a position in samples as a fixed-point number, clamped to a range outside of every image, so that products
-/// of two differences fit 64 bits.
+/// Returns a position in samples as a fixed-point number. It is clamped to a range outside of every image, so that
+/// products of two differences fit 64 bits.
 inline std::int32_t fixed(float samples) {
   constexpr float farthest = 1 << 20;
   const float at = std::clamp(samples, -farthest, farthest) * fixed_one + 0.5F;

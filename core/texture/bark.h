@@ -1,8 +1,8 @@
 #pragma once
-/// Bark textures by seed, of nine kinds. They tile seamlessly in both directions. v grows along the limb, so
-/// that the direction of growth is down in the image. An image covers about two thirds of a metre of a trunk, or the whole
-/// girth of a thinner limb. The strips of the image from its left edge to a half, a quarter and so on down to
-/// `least_bark_strip` of its width tile as well, so that thin limbs can show them at the same scale.
+/// Bark textures by seed, of nine kinds. They tile seamlessly in both directions. v grows along the limb, so that the
+/// direction of growth is down in the image. An image covers about two thirds of a metre of a trunk, or the whole
+/// girth of a thinner limb. Strips from the left edge of the image with 1/2, 1/4 and so on of its width, down to
+/// `least_bark_strip`, tile as well. Thin limbs can therefore show them at the same scale.
 #include <array>
 #include <optional>
 #include <span>
@@ -32,7 +32,7 @@ Ramp ramp_round(glm::vec3 main, float dark, float light, glm::vec3 accent, const
 /// Returns the relief of a bark. `kind` is one of bark_kinds(). Cost: about 20 ns a texel for cracked kinds, 10 ns for
 /// smooth ones.
 Relief bark_relief(std::string_view kind, int size, std::uint64_t seed, const Job& job);
-/// Returns how it becomes images.
+/// Returns how the relief becomes images.
 Finish bark_finish(std::string_view kind, const Tint& tint);
 
 }  // namespace seedmesh::texture

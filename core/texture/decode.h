@@ -45,8 +45,7 @@ namespace detail {
 /// Returns an error without a pointer.
 Error refused_picture(std::string message);
 
-/// Returns an error if a side of a picture is 0 or longer than the limit, or if a file of `bytes` cannot hold the
-/// pixels.
+/// Returns an error if a side of a picture is 0 or longer than the limit; nullopt otherwise.
 std::optional<Error> size_error(const char* format, std::uint64_t width, std::uint64_t height,
                                 const PngLimits& limits);
 

@@ -20,7 +20,7 @@ class TextureSizes {
 
  private:
   std::set<std::pair<std::string, std::uint32_t>> colors_;  ///< kind and colour
-  std::map<std::string, bool> has_normals_;                 ///< by kind
+  std::map<std::string, bool> has_normals_;                 ///< whether each kind has normals
 };
 
 }  // namespace seedmesh::texture

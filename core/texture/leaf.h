@@ -38,7 +38,7 @@ void let_light_through(Material& material, LeafShape shape);
 
 /// Returns the relief of a leaf or twig. `kind` is one of leaf_kinds(). Cost: 10 to 30 ns a texel.
 Relief leaf_relief(std::string_view kind, int size, std::uint64_t seed, const Job& job);
-/// Returns how it becomes images.
+/// Returns how the relief becomes images.
 Finish leaf_finish(std::string_view kind, const Tint& tint);
 
 }  // namespace seedmesh::texture

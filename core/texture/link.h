@@ -22,7 +22,7 @@ namespace seedmesh::texture {
 enum class Channel { color, normal, surface };
 
 struct Link {
-  TextureRecipe recipe;  ///< without the factor, which belongs to a material
+  TextureRecipe recipe;  ///< recipe without the factor, which belongs to a material
   int size = 512;        ///< texels of a side
   Channel channel = Channel::color;
 };
@@ -30,8 +30,8 @@ struct Link {
 /// Returns the name of a texture; 100 characters at most.
 std::string name_of(const Link& link);
 
-/// Reads a name. Nothing for a text that name_of() cannot have made: an unknown kind or channel, a size that is no
-/// power of two from 16 to 4096, a number with leading zeros.
+/// Reads a name. Returns nullopt for a text that name_of() cannot have made: an unknown kind or channel, a size that
+/// is no power of two from 16 to 4096, a number with leading zeros.
 std::optional<Link> read_link(std::string_view name);
 
 /// Returns the image of a link, from `store` or made now. `store` may be null. Cost: about 60 ns a texel,

@@ -1,7 +1,7 @@
 #pragma once
-/// A rasteriser with parallel projection, for images of models. Coordinates are fixed-point numbers, and an
-/// edge belongs to one of its two triangles, so that the same triangles give the same image on every machine.
-/// At equal depth the first triangle wins.
+/// A rasteriser with parallel projection, for images of models. Coordinates are fixed-point numbers, and an edge
+/// belongs to one of its two triangles. The same triangles therefore give the same image on every machine. At equal
+/// depth the first triangle wins.
 #include <glm/glm.hpp>
 
 #include "core/base/array.h"
@@ -40,7 +40,8 @@ class Canvas {
   struct Sample {
     glm::u16vec3 color{0};         ///< linear
     std::uint16_t is_covered = 0;  ///< 0 or 1
-    glm::i8vec4 normal{0};  ///< of the visible side: right, up, towards the viewer, as signed 8-bit shares
+    /// Normal of the visible side: right, up, towards the viewer, as signed 8-bit shares.
+    glm::i8vec4 normal{0};
   };
   std::uint32_t width() const { return width_; }
   std::uint32_t height() const { return height_; }

@@ -31,7 +31,7 @@ struct ScanWindow {
   std::int64_t x0 = 0, y0 = 0, x1 = 0, y1 = 0;
 };
 
-/// Twice the area of a triangle in fixed-point units; above 0 if its corners run clockwise with y down.
+/// Returns twice the area of a triangle in fixed-point units; above 0 if its corners run clockwise with y down.
 inline std::int64_t scan_area(const std::array<ScanPoint, 3>& c) {
   return (c[1].x - c[0].x) * (c[2].y - c[0].y) - (c[1].y - c[0].y) * (c[2].x - c[0].x);
 }

@@ -19,7 +19,7 @@ class Texels {
   /// Returns the level for a sample that covers this many texels.
   std::size_t level_of(double texels) const;
 
-  /// Linear RGB and alpha from 0 to 65535; empty texels have alpha 0. With `repeat` the image tiles, else its
+  /// Returns linear RGB and alpha from 0 to 65535; empty texels have alpha 0. With `repeat` the image tiles, else its
   /// edge continues.
   glm::u16vec4 at(const glm::dvec2& uv, std::size_t level, bool repeat) const;
 

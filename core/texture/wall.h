@@ -34,7 +34,7 @@ float grey_of(std::string_view name);
 /// Returns the relief of a wall, a roof or a ground. `name` is the name of one of wall_kinds(). Cost: about 30 ns a
 /// texel.
 Relief wall_relief(std::string_view name, int size, std::uint64_t seed, const Job& job);
-/// Returns how it becomes images.
+/// Returns how the relief becomes images.
 Finish wall_finish(std::string_view name, const Tint& tint);
 
 }  // namespace seedmesh::texture

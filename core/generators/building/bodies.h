@@ -13,10 +13,11 @@ namespace seedmesh::building {
 struct Asset {
   glm::dvec3 low{0}, size{1};
   std::vector<Primitive> primitives;  ///< materials are those of the model
-  const PartRow* row = nullptr;       ///< of a built-in part: it has no primitives and is made for each size
+  /// The row of a built-in part, which has no primitives and is made for each size.
+  const PartRow* row = nullptr;
 };
 
-/// What one body adds to a file.
+/// The amount that one body adds to a file.
 struct BodyCost {
   std::uint64_t triangles = 0, vertices = 0, primitives = 1;
 

@@ -5,9 +5,9 @@
 ///
 /// Out:    metres, +Y up. The first scope stands on the ground: a box is centred on the origin, a footprint lies
 ///         at its coordinates. One node "building" has the bodies below it.
-/// Errors: /rules with line and column: all errors of the text; and, found during derivation, numbers that are
-/// not finite and endless recursion. /start, /attributes/..., /footprint, /assets/..., /materials/... Cost:
-/// about 0.3 us a shape and 0.5 us a body. See docs/buildings.md.
+/// Errors: all errors of the text, at /rules with line and column. During the derivation: numbers that are not finite,
+///         and endless recursion. Also errors at /start, /attributes/..., /footprint, /assets/... and /materials/...
+/// Cost:   about 0.3 us a shape and 0.5 us a body. See docs/buildings.md.
 #include <nlohmann/json_fwd.hpp>
 #include <vector>
 
@@ -31,7 +31,7 @@ Generator::Prepared prepare(const BuildingParams& params, const CheckContext& co
 /// Makes the model. If the context has prepared rules of equal parameters, they are used instead of being read again.
 Result<Model> generate(const BuildingParams& params, const GenerateContext& context);
 
-/// {shapes: [{id, parent, symbol, parameters, active, scope: {origin, axes, size}}], count, truncated,
+/// Returns {shapes: [{id, parent, symbol, parameters, active, scope: {origin, axes, size}}], count, truncated,
 /// reports, warnings}. At most 100,000 shapes are listed.
 Result<Json> derive(const BuildingParams& params, const GenerateContext& context);
 Result<Appraisal> appraise(const BuildingParams& params, const GenerateContext& context);

@@ -35,7 +35,8 @@ struct RuleSet {
   std::optional<std::string> start;
   std::pair<int, int> restrictions;
   std::vector<std::string> materials;
-  std::unique_ptr<RoofStore> roofs = std::make_unique<RoofStore>();  ///< of all requests with these rules
+  /// Roofs of all requests with these rules.
+  std::unique_ptr<RoofStore> roofs = std::make_unique<RoofStore>();
 };
 
 /// Returns the rules of the request or of its blueprint; empty if it has a shape grammar. Adds an issue
@@ -57,7 +58,7 @@ void check_attribute_value(const Grammar& grammar, Texts& texts,
 /// Returns a warning if nothing is drawn and no NIL removed shapes.
 std::optional<Warning> nothing_drawn(const Shapes& shapes);
 
-/// The limits of the request and the job in whose time check_all() works.
+/// The limits of the request, and the job whose deadline check_all() keeps.
 struct Bounds {
   const Limits& limits;
   const Job* job = nullptr;  ///< checked for stop and deadline; may be null

@@ -10,9 +10,9 @@ namespace seedmesh::building {
 /// body that the rules split into faces or draw as a whole. Bodies on faces of others, such as windows and
 /// roofs, are masses only if their boxes have at least a twentieth of the largest volume.
 ///
-/// A mass inside the hull of another is left out. A mass that fills less than 92 % of its hull is cut in two
-/// across an axis, as long as this reduces the volume of the hulls by at least 4 %. There are at most 32
-/// bodies, the largest first, and none with less than a thousandth of the largest volume.
+/// A mass inside the hull of another is left out. A mass that fills less than 92 % of its hull is cut in two across
+/// an axis. This is done only if it reduces the volume of the hulls by at least 4 %. There are at most 32 bodies, the
+/// largest first, and none with less than a thousandth of the largest volume.
 void add_collision(Model& model, const Shapes& shapes, const GenerateContext& context);
 
 }  // namespace seedmesh::building

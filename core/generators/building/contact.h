@@ -14,7 +14,7 @@ struct Outline {
   int dimension = 0;
   WorldBox box;                                             ///< larger by `near` on all sides
   double near = 0;                                          ///< metres that count as contact
-  std::vector<std::array<glm::dvec3, 3>> triangles;         ///< of the faces
+  std::vector<std::array<glm::dvec3, 3>> triangles;         ///< triangles of the faces
   std::vector<std::pair<glm::dvec3, glm::dvec3>> segments;  ///< edges of a flat shape, or the line itself
 };
 

@@ -22,7 +22,8 @@ class CoplanarRectangles {
     return places_[i] == none ? 0 : rects_[places_[i]].more;
   }
 
-  /// The corners around a rectangle, counter-clockwise, in the world; empty if the shape is no rectangle.
+  /// Sets `points` to the corners of a rectangle in the world, counter-clockwise; to none if the shape is no
+  /// rectangle.
   void outline(std::size_t i, std::vector<glm::dvec3>& points) const;
 
   /// Sets `surface` to the rectangle with all its corners, in the frame of axes(i). Returns false if the
@@ -38,7 +39,7 @@ class CoplanarRectangles {
   };
   /// All corners of a plane, sorted by one of their coordinates and then by the other.
   struct Lines {
-    std::vector<std::uint32_t> begins;  ///< of each line, and the end
+    std::vector<std::uint32_t> begins;  ///< start of each line, and the end
     std::vector<std::uint32_t> at;      ///< the other coordinate
 
     /// The corners on a line strictly between two positions.

@@ -25,7 +25,7 @@ struct Cell {
   Measure measure = Measure::absolute;
   bool is_group = false;
   std::uint32_t first = 0, count = 0;  ///< range of the cells of a group
-  std::uint32_t part = 0;              ///< what the cell is, for the caller
+  std::uint32_t part = 0;              ///< identifier of the cell, for the caller
 };
 
 /// A piece of the scope that a cell takes.
@@ -42,8 +42,8 @@ struct CutOptions {
 };
 
 /// Cuts `length` into the first `count` cells; the others belong to groups. Pieces come in order from the low end.
-/// Pieces without a size are left out, and the piece that reaches beyond the end is cut off there. False: there would
-/// be more than options.most pieces; `wanted` says how many. Cost: linear in the pieces.
+/// Pieces without a size are left out, and the piece that reaches beyond the end is cut off there. Returns false if
+/// there would be more than options.most pieces; `wanted` is then their number. Cost: linear in the pieces.
 bool cut(std::span<const Cell> cells, std::uint32_t count, double length, const CutOptions& options,
          std::vector<Cut>& out, double& wanted);
 

@@ -39,7 +39,7 @@ struct Derivation {
 
   const Task& task;
   const Grammar& grammar;
-  const Context* first_pass;  ///< what the first pass made; null during that pass
+  const Context* first_pass;  ///< result of the first pass; null during that pass
   Job& job;
   ShapeMeter meter;
   Shapes out;
@@ -82,7 +82,7 @@ struct Derivation {
 /// Ends the derivation with an error at a byte of the rules; in a rule file of CityEngine, ends the step.
 [[noreturn]] void reject(const Derivation& d, std::uint32_t offset, const std::string& message);
 
-/// Adds a warning at a byte of the rules; one for each byte, and at most 100.
+/// Adds a warning at a byte of the rules: at most one for each byte, and 100 in all.
 void warn(Derivation& d, std::uint32_t offset, const std::string& message);
 
 /// Adds a row to a table and returns its number. add_solid() throws Stop (a limit) if all solids together

@@ -26,7 +26,7 @@ namespace seedmesh::building {
 
 /// An asset that rules can insert, with the box that it has without a scope.
 struct AssetBox {
-  std::string_view name;  ///< of an asset of the request or of a built-in part
+  std::string_view name;  ///< name of an asset of the request or of a built-in part
   glm::dvec3 low{0}, size{1};
 };
 
@@ -35,9 +35,9 @@ struct Task {
   const Texts* texts = nullptr;                         ///< those of the grammar, and those of given values
   const RuleText* text = nullptr;                       ///< the rules, for line and column
   bool is_blueprint = false;                            ///< they are part of the program
-  glm::dvec3 size{0};                                   ///< of the first shape
+  glm::dvec3 size{0};                                   ///< size of the first shape
   const Solid* footprint = nullptr;                     ///< null: a box
-  glm::dvec3 origin{0};                                 ///< of the first scope
+  glm::dvec3 origin{0};                                 ///< origin of the first scope
   std::map<std::string, lang::TaggedValue> attributes;  ///< given values
   const EditTree* edits = nullptr;
   std::optional<int> iterations;
@@ -47,9 +47,9 @@ struct Task {
   std::size_t own_assets = 0;  ///< the first of `assets` are those of the request
   const std::map<std::string, std::string>* tables = nullptr;
   std::vector<std::string> files;  ///< names of assets, materials and tables of the request, sorted
-  bool keeps_masses = false;       ///< for collision bodies
+  bool keeps_masses = false;       ///< whether masses are kept, for collision bodies
   bool stays_inside = false;       ///< a shape that leaves the scope of its predecessor is an error
-  bool keeps_choices = false;      ///< for lists of shapes
+  bool keeps_choices = false;      ///< whether choices are kept, for lists of shapes
   std::uint64_t most_shapes = ~std::uint64_t{0};  ///< the derivation stops when there are more
   RoofStore* roofs = nullptr;
 };

@@ -22,7 +22,7 @@ namespace seedmesh::building {
 struct Shapes;
 
 struct ShapeEdit {
-  std::map<std::uint32_t, lang::TaggedValue> attributes;  ///< by index into Grammar::attributes
+  std::map<std::uint32_t, lang::TaggedValue> attributes;  ///< values, by index into Grammar::attributes
   std::optional<std::uint32_t> rule;                      ///< the symbol whose rule replaces the shape
   bool is_removed = false;
 };
@@ -38,7 +38,7 @@ struct EditTree {
   std::vector<ShapeEdit> edits;
 };
 
-/// Errors of the edits of a request, with their pointers.
+/// Adds the errors of the edits of a request, with their pointers.
 void check_edits(const BuildingParams& params, const Grammar& grammar, std::vector<Issue>& issues);
 
 /// Returns the edits of a request that has no errors. Texts of attributes are added to `texts`, which begin with those
@@ -48,7 +48,7 @@ EditTree edits_of(const BuildingParams& params, const Grammar& grammar, Texts& t
 /// Numbers the shapes of each symbol below each predecessor while they are made, and finds their edits in a tree.
 class EditSearch {
  public:
-  /// `tree` may be null: nothing is found.
+  /// If `tree` is null, nothing is found.
   explicit EditSearch(const EditTree* tree);
 
   /// Counts a new shape and returns its edit; null if it has none. `parent` is the number of its predecessor, or
@@ -61,13 +61,13 @@ class EditSearch {
 
  private:
   const EditTree* tree_;
-  std::map<std::uint32_t, std::uint32_t>
-      nodes_;  ///< index into EditTree::nodes, by shape on a path to an edit
-  std::map<EditTree::Step, std::uint32_t> numbers_;  ///< by node and symbol
+  /// Index into EditTree::nodes, by shape on a path to an edit.
+  std::map<std::uint32_t, std::uint32_t> nodes_;
+  std::map<EditTree::Step, std::uint32_t> numbers_;  ///< number of shapes so far, by node and symbol
   std::vector<bool> found_;
 };
 
-/// Warnings about edits without a shape.
+/// Returns warnings about edits without a shape.
 std::vector<Warning> missing_edits(const BuildingParams& params, const Shapes& shapes);
 
 /// Returns the paths of the first `most` shapes. Paths beyond 32 MiB together are empty.

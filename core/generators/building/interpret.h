@@ -7,7 +7,7 @@ namespace seedmesh::building {
 /// Whether the shape can be replaced: it is part of the result, and its symbol has rules.
 bool has_rule(const Derivation& d, const Shape& shape);
 
-/// Replaces a shape by what its rule makes. False: no rule holds, and the shape becomes a leaf.
+/// Replaces a shape by what its rule makes. Returns false if no rule holds; the shape then becomes a leaf.
 bool expand(Derivation& d, std::uint32_t shape);
 
 /// Replaces the shapes from index `first` on until none has a rule, the newest first. Shapes that wait for

@@ -2,9 +2,9 @@
 /// Rules whose left side has several shapes, as in `pane + [door] ~> wide.`: a set grammar (Stiny 1982; Kogovšek
 /// 2014, 4.1 and 4.2), whose left sides are connected shapes of the whole figure, at any position and rotation.
 ///
-/// Shapes of such left sides wait until no other shape can be replaced. The left sides are then searched in the
-/// order of the rules, and their shapes in that of the tree of shapes, so that the result does not depend on the
-/// order of the derivation. What no left side matches is replaced by the rules of its own symbol.
+/// Shapes of such left sides wait until no other shape can be replaced. The left sides are then searched in the order
+/// of the rules, and their shapes in the order of the tree. The result therefore does not depend on the order of the
+/// derivation. Shapes that no left side matches are replaced by the rules of their own symbols.
 #include "core/generators/building/derivation.h"
 
 namespace seedmesh::building {

@@ -8,11 +8,11 @@
 
 namespace seedmesh::building {
 
-/// Returns the lowest free layer for each shape, in order. A layer is not free for a closed body if a body in it has
-/// a corner at the same position, to 10^-5 of the diagonal. It is not free for a flat face if a face in it
-/// has an edge in the same direction at the same position. So walls side by side, or around the corner of a
-/// house, share a layer. There are at most 64 layers; boxes cut in a grid need 8. Cost: about 30 ns a corner,
-/// and the same for an edge if there are flat faces.
+/// Returns the lowest free layer for each shape, in order. A layer is free for a closed body unless a body in it has
+/// a corner at the same position, within 10^-5 of the diagonal. It is free for a flat face unless a face in it has an
+/// edge with the same position and direction. Walls side by side, or around the corner of a house, therefore share a
+/// layer. There are at most 64 layers; boxes cut in a grid need 8. Cost: about 30 ns a corner, and the same for an
+/// edge if there are flat faces.
 std::vector<std::uint8_t> layers_of(const Shapes& shapes, std::span<const std::uint32_t> drawn,
                                     const CoplanarRectangles& rectangles, const glm::dvec3& low,
                                     double diagonal, Job& job);

@@ -1,6 +1,6 @@
 #pragma once
 /// Puts rule files that import each other into one list of tokens. Names of an imported file get its prefix: the rule
-/// `Roof` of a file imported as `r` becomes `r.Roof`, as other files write it.
+/// `Roof` of a file imported as `r` becomes `r.Roof`, the name that other files use.
 ///
 /// An attribute of the importing file replaces that of the same name in the imported file, unless the import
 /// protects it. An import can also set values of attributes and redefine extension rules (CGA reference,
@@ -16,7 +16,7 @@
 namespace seedmesh::building {
 
 struct LoadedTokens {
-  std::vector<lang::Token> tokens;  ///< of the main file and of what it imports; the last is the end
+  std::vector<lang::Token> tokens;  ///< tokens of the main file and of what it imports; the last is the end
   std::set<std::string> texts;      ///< texts that tokens with a prefix refer to
   std::string start;                ///< the rule marked with `start` in the main file
   /// Prefixes of files that the request does not have, each ending with a point.

@@ -17,15 +17,15 @@ struct BuildingParams;
 
 namespace seedmesh::building {
 
-/// Adds materials to the model when they are first used. The material of a shape is, in this order: its
-/// material by name, its colour, the one with the name of its symbol (Wall, Roof, Window, ...), plain
-/// plaster. If `textures` of the request says so, materials with names such as brick get textures made by
-/// seed (core/texture/wall.h) in the current colour; built-in parts have none.
+/// Adds materials to the model when they are first used. The material of a shape is the first of these that exists:
+/// its material by name, its colour, the material with the name of its symbol (Wall, Roof, Window, ...), plain
+/// plaster. If `textures` of the request says so, materials with names such as brick get textures made by seed
+/// (core/texture/wall.h) in the current colour; built-in parts have none.
 class MaterialTable {
  public:
   MaterialTable(Model& model, const BuildingParams& params, const Shapes& shapes,
                 const GenerateContext& context);
-  /// Changes to other shapes of the same request, as those of another level of detail.
+  /// From now on, uses other shapes of the same request, such as those of another level of detail.
   void use(const Shapes& shapes) {
     shapes_ = &shapes;
     made_.clear();
@@ -44,11 +44,11 @@ class MaterialTable {
   struct MaterialRequest {
     const std::string& name;
     const std::string* color;  ///< the current colour; may be null
-    bool is_role;              ///< of a part
+    bool is_role;              ///< whether the name is a role of a part
   };
   int make(const MaterialRequest& request);
   int facade_material();
-  /// An upright flat face, which the facade picture may cover.
+  /// Whether a shape is an upright flat face, which the facade picture may cover.
   bool is_upright(const Shape& shape) const;
   const texture::WallKind* surface_of(const MaterialRequest& request) const;
   int load(const std::string& uri, const std::string& name, const std::string& pointer, const Job& job);

@@ -57,8 +57,8 @@ class Context {
   Shapes shapes_;
   std::vector<SnapPlane> snaps_;
   const Grammar* grammar_;
-  std::vector<std::uint32_t> last_;  ///< of each shape: the end of its descendants by rank
-  std::vector<std::uint32_t> rank_;  ///< of each shape: its position in a depth-first walk
+  std::vector<std::uint32_t> last_;  ///< end of the descendants of each shape, by rank
+  std::vector<std::uint32_t> rank_;  ///< position of each shape in a depth-first walk
   std::vector<Candidate> candidates_;
   std::unordered_map<std::uint64_t, std::uint32_t> of_key_;
   glm::dvec3 low_{0}, cell_{1};

@@ -48,7 +48,7 @@ std::span<const OperationRow> operations();
 /// attribute or report.
 std::string_view kind_of(Op op);
 
-/// Null if no operation has this name.
+/// Returns the operation of this name; null if there is none.
 const OperationRow* find_operation(std::string_view name);
 
 }  // namespace seedmesh::building

@@ -1,9 +1,9 @@
 #pragma once
-/// The operations of the rules, as functions of one type; interpret.cpp has the table. Each reads its
-/// arguments from the grammar and either changes the state of the shape (translate, extrude, style) or makes
-/// other shapes of it and runs the bodies behind it for them (split, comp, setback). An operation that cannot
-/// do what the rule says ends the derivation with an error at its byte of the rules. Operations of the CGA
-/// reference keep its definitions.
+/// The operations of the rules, as functions of one type; interpret.cpp has the table. Each reads its arguments from
+/// the grammar. It either changes the state of the shape (translate, extrude, style) or makes other shapes of it
+/// (split, comp, setback). For these shapes it runs the bodies that follow the operation. An operation that cannot do
+/// what the rule says ends the derivation with an error at its byte of the rules. Operations of the CGA reference
+/// keep its definitions.
 #include "core/generators/building/derivation.h"
 
 namespace seedmesh::building {

@@ -11,7 +11,7 @@ std::uint32_t parse_body(Parser& p);
 /// Reads steps up to the end of the successor.
 Choice parse_successor(Parser& p);
 
-/// Reads one symbol or operation. False, with an error: none begins here.
+/// Reads one symbol or operation. Returns false and adds an error if none begins here.
 bool parse_step(Parser& p, std::vector<Step>& out);
 
 /// Returns the operation that begins at the next token; null if none does. An operation without arguments

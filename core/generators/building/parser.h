@@ -63,8 +63,9 @@ struct Parser {
   std::uint32_t start = none;  ///< the symbol after @StartRule
   std::size_t last_error = static_cast<std::size_t>(-1);
   std::size_t written = 0;  ///< tokens of all expressions, with functions written out
-  std::map<std::string, bool, std::less<>> text_signs, tree_signs;   ///< see tree_need.cpp
-  std::map<std::string, std::uint32_t, std::less<>> function_trees;  ///< by name, into Grammar::functions
+  std::map<std::string, bool, std::less<>> text_signs, tree_signs;  ///< see tree_need.cpp
+  /// Indices into Grammar::functions, by name.
+  std::map<std::string, std::uint32_t, std::less<>> function_trees;
 };
 
 /// Returns the next token.
@@ -86,7 +87,7 @@ void add_unexpected(Parser& p, std::string_view expected);
 void add_wrong_word(Parser& p, std::string_view word, std::string_view expected);
 void add_warning(Parser& p, std::uint32_t offset, std::string message);
 
-/// Counts an opened bracket. False, with an error: brackets are nested too deep.
+/// Counts an opened bracket. Returns false and adds an error if brackets are nested too deep.
 bool enter_bracket(Parser& p, const lang::Token& token);
 
 /// Returns the token behind the head of a rule or function: its name at `i`, its parameters, and `with (name :=

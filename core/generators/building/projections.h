@@ -1,5 +1,5 @@
 #pragma once
-/// Texture coordinates of flat shapes as projections, by sets 0 to 9. Set 0 is drawn.
+/// Texture coordinates of flat shapes as projections, by sets 0 to 9. Only set 0 is drawn.
 #include <array>
 
 #include "core/generators/building/derivation.h"

@@ -1,6 +1,6 @@
 #pragma once
-/// Roofs that were made before. The houses of a city stand on few different plans, and a roof costs more than all
-/// other shapes of a simple house.
+/// A store of roofs that were made before. The houses of a city stand on few different plans, and a roof costs more
+/// than all other shapes of a simple house.
 #include <cstdint>
 #include <map>
 #include <memory>

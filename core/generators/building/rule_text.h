@@ -25,8 +25,8 @@ struct RuleText {
   }
   /// Returns the file that holds a byte of the joined text.
   const Part& part_at(std::size_t offset) const;
-  /// Returns the file that an import names: by its key, with or without directories and the ending ".cga". Null: there
-  /// is none.
+  /// Returns the file that an import names: by its key, with or without directories and the ending ".cga". Returns
+  /// null if there is none.
   const Part* find(std::string_view path) const;
 };
 
@@ -43,7 +43,7 @@ RuleText rule_text(const std::map<std::string, std::string>& files, std::string_
 Issue issue_at(IssueKind kind, const RuleText& text, std::size_t offset, std::string message);
 
 /// Returns a text with blanks instead of comments (// # and /* */), and typographical signs such as ≥ as those of the
-/// language. No byte moves.
+/// language. All other bytes keep their positions.
 std::string without_comments(std::string_view text);
 
 /// Returns a name as a token of a JSON Pointer.

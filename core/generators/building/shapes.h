@@ -38,7 +38,7 @@ struct ShapeState {
   bool has_solid() const { return geometry != box_geometry && !has_asset(); }
 };
 
-/// A shape of the derivation. 112 bytes.
+/// A shape of the derivation. It takes 112 bytes.
 struct Shape : ShapeState {
   std::uint64_t key = 0;  ///< hash of the path in the derivation; it keys the random numbers of the shape
   std::uint32_t parent = none, symbol = none;
@@ -115,12 +115,13 @@ struct Shapes {
   std::vector<DecomposedBody> masses;
   std::vector<PartOptions> part_options{PartOptions{}};
   std::map<std::string, Report> reports;
-  std::vector<std::string_view> asset_names;  ///< of geometry with asset_bit; not owned
+  std::vector<std::string_view> asset_names;  ///< names of the assets to which asset_bit refers; not owned
   Texts texts;
   std::vector<Warning> warnings;
   bool has_removed_shape = false;  ///< a rule or an edit has removed a shape (NIL)
   std::vector<bool> found_edits;   ///< for each edit of Task::edits, whether its shape was made
-  std::map<std::uint32_t, std::uint32_t> symbols_before_edits;  ///< of shapes whose rule an edit has changed
+  /// Symbols of shapes whose rule an edit has changed.
+  std::map<std::uint32_t, std::uint32_t> symbols_before_edits;
   /// For each shape the choice of Grammar::choices that replaced it, or `none`. It may have fewer rows than
   /// `shapes`. Only with Task::keeps_choices.
   std::vector<std::uint32_t> choices;

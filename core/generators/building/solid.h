@@ -1,7 +1,6 @@
 #pragma once
-/// Geometry other than boxes: polygons with holes, and solids made of them. Coordinates are in the unit cube
-/// of the scope, so that they stay the same if a shape is moved, turned or scaled, and equal solids are
-/// shared.
+/// Geometry other than boxes: polygons with holes, and solids made of them. Coordinates are in the unit cube of the
+/// scope. They stay the same if a shape is moved, turned or scaled, and equal solids are shared.
 ///
 /// A flat shape has coordinate 0 on the axis of its normal and faces in the positive direction. Outer loops
 /// run counter-clockwise seen from outside, holes clockwise.

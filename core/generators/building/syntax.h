@@ -63,7 +63,7 @@ struct ValueNode {
     mask,        ///< the same for each value of an array
     both,        ///< logical and (&&), which stops at the first that does not hold
     either,      ///< logical or (||)
-    choose,      ///< by conditions: condition, value, condition, value, ..., value otherwise
+    choose,      ///< choice by conditions: condition, value, condition, value, ..., value otherwise
     weigh,       ///< at random: percentage, value, percentage, value, ..., value otherwise
     call,        ///< `id`: index into lang::functions()
     function,    ///< `id`: index into Grammar::functions
@@ -105,7 +105,7 @@ enum class Measure : std::uint8_t { absolute, relative, floating, height };
 struct Argument {
   Value value;
   Measure measure = Measure::absolute;
-  std::uint32_t word = none;  ///< of an argument that is a word: index into Grammar::words
+  std::uint32_t word = none;  ///< index into Grammar::words of an argument that is a word
 };
 
 enum class Op : std::uint8_t {
@@ -305,7 +305,7 @@ struct Rule {
 struct Joint {
   struct Left {
     std::uint32_t symbol = 0, parameter_count = 0;
-    bool is_kept = false;  ///< in brackets: it has to be there and stays
+    bool is_kept = false;  ///< whether it is in brackets: it must be there and stays
     bool operator==(const Left&) const = default;
   };
   std::vector<Left> lefts;   ///< the first is not kept
@@ -327,10 +327,11 @@ struct Attribute {
   bool is_constant = false;
   bool has_range = false;
   double low = 0, high = 0;
-  double step = 0;                         ///< of @Range; 0: any
-  std::vector<lang::TaggedValue> choices;  ///< of @Enum
+  double step = 0;                         ///< step of @Range; 0: any
+  std::vector<lang::TaggedValue> choices;  ///< values of @Enum
   bool is_restricted = true;               ///< values outside of the range or the choices are errors
-  std::string group, description, widget;  ///< of other annotations; the widget is color, angle, percent, ...
+  /// Values of other annotations; the widget is color, angle, percent, ...
+  std::string group, description, widget;
   bool is_hidden = false;
   double order = 0;
 };
@@ -353,10 +354,10 @@ struct Grammar {
   std::vector<Choice> choices;
   std::vector<Rule> rules;
   std::vector<Symbol> symbols;
-  std::vector<Joint> joints;              ///< in the order of the text
+  std::vector<Joint> joints;              ///< left sides of several shapes, in the order of the text
   std::vector<Attribute> attributes;      ///< those that others need come first
-  std::vector<Query> queries;             ///< without duplicates
-  std::vector<std::uint32_t> query_uses;  ///< of values: indices into `queries`
+  std::vector<Query> queries;             ///< queries to other shapes, without duplicates
+  std::vector<std::uint32_t> query_uses;  ///< indices into `queries` of the queries that values use
   std::uint32_t start = none;
   std::uint32_t first_attribute_slot = first_free_slot, first_parameter_slot = first_free_slot;
   std::uint32_t most_parameters = 0;
@@ -367,8 +368,8 @@ struct Grammar {
   std::vector<ComponentValue> component_values;
   bool uses_selectors = false;  ///< comp.sel is read somewhere
   bool uses_tags = false;       ///< tags are read somewhere, so that operations tag what they make
-  bool turns_scopes =
-      false;  ///< scopes behave as in CityEngine; see stand_up and lift_face. Not after @KeepScopes
+  /// Whether scopes behave as in CityEngine (see stand_up and lift_face); false after @KeepScopes.
+  bool turns_scopes = false;
   bool is_cityengine = false;  ///< has `version`, `import`, `@StartRule`: errors of steps are warnings
   std::vector<Warning> warnings;
 

@@ -10,8 +10,8 @@ enum class TableCells : std::uint8_t { texts, numbers };
 /// a name that the request does not have.
 const std::string& table_text(Evaluation& at, std::string_view path);
 
-/// Returns the cells of a table, row by row. The separator is `;`, a tabulator or `,`, whichever the first line contains;
-/// cells that contain it are in double quotes. Rows that are too short are filled with empty cells or 0.
+/// Returns the cells of a table, row by row. The separator is `;`, a tabulator or `,`, whichever the first line
+/// contains; cells that contain it are in double quotes. Rows that are too short are filled with empty cells or 0.
 ValueArray read_table(Evaluation& at, std::string_view path, TableCells cells);
 
 /// Returns the cells of one table, for tests.

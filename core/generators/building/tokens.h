@@ -46,7 +46,7 @@ class Tokens {
   std::size_t behind_operand(std::size_t i) const;
 
   const RuleText& files_;
-  std::string text_;  ///< without comments; tokens point into it
+  std::string text_;  ///< text without comments; tokens point into it
   std::size_t main_size_ = 0;
   LoadedTokens loaded_;
   std::vector<lang::Token>& tokens_ = loaded_.tokens;

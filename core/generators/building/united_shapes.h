@@ -8,7 +8,7 @@
 
 namespace seedmesh::building {
 
-constexpr std::size_t most_faces = 20'000;  ///< of a Boolean operation
+constexpr std::size_t most_faces = 20'000;  ///< greatest number of faces of a Boolean operation
 
 enum class Joining : std::uint8_t {
   append,     ///< all faces, as they are

@@ -42,8 +42,8 @@ std::uint32_t value_function_count();
 [[noreturn]] void reject(const Evaluation& at, const std::string& message);
 
 // Arguments and results.
-std::string text_in(const Evaluation& at,
-                    const lang::TaggedValue& value);  ///< a number gives its decimal digits
+/// Returns a text; a number becomes its decimal digits.
+std::string text_in(const Evaluation& at, const lang::TaggedValue& value);
 double number_in(const Evaluation& at, const lang::TaggedValue& value);  ///< a text is rejected
 lang::TaggedValue text_value(Evaluation& at, std::string_view text);
 inline lang::TaggedValue number_value(double number) { return {number, 0}; }

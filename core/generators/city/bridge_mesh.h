@@ -11,7 +11,7 @@ namespace seedmesh::city {
 /// Returns all bridges as one mesh.
 Mesh bridge_mesh(const CityPlan& plan, const Job& job);
 
-/// Returns the insides of all tunnels as one mesh. They join the openings of the walls at their mouths.
+/// Returns the inner surfaces of all tunnels as one mesh. At the mouths, they meet the openings of the walls.
 Mesh tunnel_mesh(const Surface& surface, const Job& job);
 
 /// Returns a warning about tunnels that are left out.

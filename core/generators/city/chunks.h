@@ -18,6 +18,7 @@ namespace seedmesh::city {
 /// Adds a node without a mesh and returns its number.
 int add_node(Model& model, std::string name, int parent);
 
+/// The chunks of a city: its blocks, or squares, as the request selects.
 class Chunks {
  public:
   Chunks(const CityPlan& plan, const CityParams& params);

@@ -1,5 +1,5 @@
 #pragma once
-/// What stands on the ground of a city: houses, landmarks, furniture, trees, hedges and fences.
+/// Objects on the ground of a city: houses, landmarks, furniture, trees, hedges and fences.
 #include <optional>
 
 #include "core/generators/api.h"

@@ -1,5 +1,6 @@
 #pragma once
-/// FieldMap: a scalar field over the area, given as an expression over x and y, the brightness of an image, or polygons.
+/// FieldMap: a scalar field over the area, given by an expression over x and y, by the brightness of an image, or by
+/// polygons.
 #include <glm/vec2.hpp>
 #include <optional>
 #include <string>
@@ -22,7 +23,8 @@ using MapValue = std::variant<std::string, GeoJson>;
 class FieldMap {
  public:
   /// Reads an expression, a PNG data URI or polygons. An image covers the box [low, high] in metres, with its first
-  /// row in the north. Polygons have the value 1 inside. Issues: the text or image cannot be read, at `pointer`.
+  /// row in the north. Polygons have the value 1 inside. Returns nullopt and adds an issue at `pointer` if the text
+  /// or the image cannot be read.
   static std::optional<FieldMap> read(const MapValue& value, const std::string& pointer,
                                       const glm::dvec2& low, const glm::dvec2& high, const Job& job,
                                       std::vector<Issue>& issues);

@@ -29,7 +29,7 @@ struct Piece {
   CmRing ring;
   std::vector<std::uint32_t> edges;
   std::uint64_t key = 0;
-  bool is_inner = false;  ///< the method leaves it without frontage
+  bool is_inner = false;  ///< the method of division leaves the piece without frontage
 };
 
 constexpr double least_block_angle = 12.5;  // degrees
@@ -48,7 +48,8 @@ class Division {
   const std::vector<SharedEdge>& edges() const { return edges_; }
   const Piece& whole() const { return whole_; }
 
-  /// Returns the outline of a piece, with the corners that cuts on the other sides of its edges have added.
+  /// Returns the outline of a piece. It includes the corners that cuts in neighbouring pieces have added to its
+  /// edges.
   CmRing outline(const Piece& piece) const;
   /// Returns the outline of the piece with this index, after cut(). Moves the outline out of the division, so it
   /// may be called once for each piece.
@@ -58,8 +59,8 @@ class Division {
 
   /// Returns the length of a piece along streets, in centimetres.
   double frontage(const Piece& piece) const;
-  /// Whether a piece has at least the least area, frontage and side of the request. Also, it has no corner
-  /// sharper than `angle` (degrees), and at most the aspect `aspect` (long side divided by short side).
+  /// Whether a piece has at least the least area, frontage and side of the request. It must also have no corner
+  /// sharper than `angle` (degrees), and an aspect ratio (long side divided by short side) of at most `aspect`.
   bool is_fit(const Piece& piece, double angle, double aspect) const;
 
  private:
@@ -102,18 +103,19 @@ class Division {
   Piece whole_;
   std::vector<SharedEdge> edges_;
   std::vector<Piece> pieces_;
-  std::vector<CmRing> outlines_;  ///< of the pieces, if they were checked last
+  std::vector<CmRing> outlines_;  ///< outlines of the pieces, if is_partition() ran after the last cut
   std::uint32_t inner_ = no_index;
   double cut_aspect_ = 0;  ///< greatest aspect that a piece may have after the cut that is being searched
-  // Members only to reuse their memory: offsets of the corners from a cut, and where it meets the outline.
+  // These members exist only so that their memory is reused: offsets of the corners from a cut, and the positions
+  // where the cut meets the outline.
   std::vector<double> offsets_;
   std::vector<Meeting> meetings_;
 };
 
-/// Returns the pieces along the streets of a block by its straight skeleton (Vanegas et al. 2012). If `depth`
-/// (cm) is finite, also returns the courts that are farther from all streets. Pieces that hold no lot are
-/// joined with a neighbour. Adds the edges between pieces to the division. Returns an empty list if the
-/// skeleton does not give valid pieces.
+/// Returns the pieces along the streets of a block by its straight skeleton (Vanegas et al. 2012). If `depth` (cm) is
+/// finite, also returns the courts that are farther than `depth` from all streets. Pieces that hold no lot are joined
+/// with a neighbour. Adds the edges between pieces to the division. Returns an empty list if the skeleton does not
+/// give valid pieces.
 std::vector<Piece> strips_of(Division& division, double depth, const Job& job);
 
 }  // namespace seedmesh::city

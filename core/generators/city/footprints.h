@@ -17,9 +17,9 @@ namespace seedmesh::city {
 
 /// One polygon of a feature.
 struct GivenFootprint {
-  std::string pointer;  ///< of its feature
+  std::string pointer;  ///< pointer of its feature
   Rings rings;          ///< the outer one first
-  double height = 0;    ///< of its walls, metres
+  double height = 0;    ///< height of its walls, metres
 };
 
 /// Returns the polygons of the given footprints. Issues: geometries that cannot be read, properties of a wrong type or

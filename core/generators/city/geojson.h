@@ -13,9 +13,9 @@
 
 namespace seedmesh::city {
 
-/// A feature with its geometry, or a geometry that stands alone.
+/// A feature with its geometry, or a geometry without a feature.
 struct GeoFeature {
-  std::string pointer;   ///< of the feature
+  std::string pointer;   ///< pointer of the feature
   std::string geometry;  ///< pointer of its geometry
   Json properties;       ///< an object
   std::vector<CmRing> lines;
@@ -24,16 +24,16 @@ struct GeoFeature {
 
 enum class GeoKind { lines, polygons };
 
-/// Where reading reports what it finds.
+/// The lists that receive issues and warnings.
 struct GeoReport {
   std::vector<Issue>& issues;
   std::vector<Warning>* warnings = nullptr;  ///< may be null
 };
 
-/// Returns the features with lines or with polygons. Features without a geometry and geometries without coordinates
-/// are left out, as RFC 7946 allows them. Lines do not repeat a corner, and rings not their first point.
-/// Issues: what RFC 7946 forbids; coordinates beyond 1,000 km; lines with fewer than two different corners;
-/// rings with fewer than three; positions that look like degrees; geometries of other kinds alone.
+/// Returns the features with lines or with polygons. RFC 7946 allows features without a geometry and geometries
+/// without coordinates; both are left out. Consecutive corners of a line differ, and rings do not repeat their first
+/// point. Issues: what RFC 7946 forbids; coordinates beyond 1,000 km; lines with fewer than two different corners;
+/// rings with fewer than three; positions that look like degrees; a value whose geometries are all of other kinds.
 /// Warnings: geometries of another kind beside those of the wanted kind.
 std::vector<GeoFeature> features_of(const GeoJson& value, GeoKind kind, const std::string& pointer,
                                     const GeoReport& report);
@@ -41,13 +41,13 @@ std::vector<GeoFeature> features_of(const GeoJson& value, GeoKind kind, const st
 /// Returns the polygons of all features.
 std::vector<Rings> polygons_of(const GeoJson& value, const std::string& pointer, const GeoReport& report);
 
-/// Returns a property; of a list its first value, since merged streets of OpenStreetMap have lists. Null without it
-/// and for null.
+/// Returns a property. If it is a list, returns its first value, since merged streets of OpenStreetMap have lists.
+/// Returns null if the property is missing or null.
 const Json* first_property(const GeoFeature& feature, const char* name);
 
 /// Returns a property that is a number, or a text with a number, as OpenStreetMap has them: "2", "6.5 m", "20 ft",
-/// "20'". Lengths are converted to metres, and the first of "3;4" counts. Nothing without it or for null. Issue:
-/// another value.
+/// "20'". Lengths are converted to metres, and the first of "3;4" counts. Returns nullopt if the property is missing
+/// or null. Adds an issue for any other value.
 std::optional<double> number_property(const GeoFeature& feature, const char* name,
                                       std::vector<Issue>& issues);
 

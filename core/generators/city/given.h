@@ -18,7 +18,7 @@ std::vector<CrossSection> classes_of(const CityParams& params);
 
 /// A given line. It has a corner, which becomes a node, wherever another line of its level meets it.
 struct GivenLine {
-  std::string pointer;   ///< of its feature
+  std::string pointer;   ///< pointer of its feature
   std::string geometry;  ///< pointer of the geometry of the feature
   CmRing points;
   std::uint32_t section = 0;  ///< index into the list of cross sections; at least first_given
@@ -31,7 +31,7 @@ struct GivenLine {
 std::vector<GivenLine> given_lines(const CityParams& params, std::vector<CrossSection>& sections,
                                    std::vector<Issue>& issues);
 
-/// Returns the given water.
+/// Returns the polygons of the given water, in centimetres. Adds issues for geometries that cannot be read.
 std::vector<Rings> given_water(const CityParams& params, std::vector<Issue>& issues);
 
 }  // namespace seedmesh::city

@@ -10,9 +10,10 @@
 
 namespace seedmesh::city {
 
+/// Collects the triangles of one mesh of the ground, until take().
 class GroundMesh {
  public:
-  /// With textures, pedestrian crossings and lane lines have the coordinates of the textures of their stripes.
+  /// With textures, pedestrian crossings and lane lines get coordinates for the textures of their stripes.
   GroundMesh(const CityPlan& plan, const Surface& surface, bool has_textures, const Job& job);
 
   /// Adds the surface of a part, with texture coordinates in metres east and north.
@@ -41,14 +42,16 @@ class GroundMesh {
   Mesh take(Job& job);
 
  private:
-  /// A strip of a carriageway: the lines across it at both ends, and the vertices on each as shares of its length.
+  /// A strip of a carriageway: the lines across it at both ends, and the vertices on each line as shares of the
+  /// length of that line.
   struct StripSides {
     CrossLine start, end;
     std::vector<double> start_shares, end_shares;
     std::vector<glm::dvec2> start_corner, end_corner;  ///< nodes on the border of the area
-    double station = 0, length = 0;                    ///< along the street, metres
-    double first_dash = 0, dashes_a_metre = 1;         ///< of texture coordinates along the street
-    double periods_across = 0;                         ///< of a crossing; 0: metres
+    double station = 0, length = 0;                    ///< position and length along the street, metres
+    /// Texture coordinate at the start, and its increase for each metre.
+    double first_dash = 0, dashes_a_metre = 1;
+    double periods_across = 0;  ///< repetitions of the texture across a crossing; 0: metres
   };
   void set_sides(const Part& part, std::size_t strip, double station);
   void add_strip(std::uint32_t part, const StripPiece& piece);
@@ -76,8 +79,8 @@ class GroundMesh {
   const Surface& surface_;
   bool has_textures_;
   const Job& job_;
-  /// Twice the area seen from above, in square metres, up to which a triangle is left out. Corners on a straight border
-  /// make triangles without area, which cover nothing.
+  /// Twice the least area of a triangle seen from above, in square metres. Triangles of at most this area are left
+  /// out, because corners on a straight border make triangles that cover nothing.
   float least_ = 0;
   Mesh welded_, mesh_;  ///< triangles added first, with shared vertices; triangles added last
   Triangulator triangulator_;

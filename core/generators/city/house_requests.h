@@ -23,7 +23,7 @@ class HouseRequests {
 
  private:
   const CityParams& params_;
-  std::vector<Json> bases_;  ///< by rule: the parameters without size and floors
+  std::vector<Json> bases_;  ///< for each rule, the parameters without size and floors
 };
 
 /// A building that stands in the city, once or often.

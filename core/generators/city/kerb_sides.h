@@ -8,10 +8,10 @@ namespace seedmesh::city {
 
 /// The kerb along the left side of a half-edge. Lists of kerb sides are indexed by half-edge.
 struct KerbSide {
-  std::vector<CmPoint> corner;        ///< corner at its start, after the half-edge before it; the kerb
-  std::vector<CmPoint> outer_corner;  ///< the same for the border of the block
-  CmPoint to{};                       ///< point where the kerb ends
-  CmPoint cut_from{}, cut_to{};       ///< points where the carriageway begins and ends
+  std::vector<CmPoint> corner;                        ///< kerb around the corner at its start
+  std::vector<CmPoint> outer_corner;                  ///< border of the block around that corner
+  CmPoint to{};                                       ///< point where the kerb ends
+  CmPoint cut_from{}, cut_to{};                       ///< points where the carriageway begins and ends
   std::uint32_t before = no_index, after = no_index;  ///< half-edges of the same outline
   bool is_laid_out = false;                           ///< its face is part of the area
   const CmPoint& from() const { return corner.back(); }
@@ -36,14 +36,15 @@ std::vector<double> corner_reaches(const StreetGraph& graph, const std::vector<K
 /// Empty at a node without sides that are laid out.
 CmRing junction_ring(const StreetGraph& graph, const std::vector<KerbSide>& sides, std::uint32_t node);
 
-/// Returns the outline of a carriageway. Of a street along the border, the half inside is part of the area.
+/// Returns the outline of a carriageway. If a street runs along the border of the area, only its inner half is
+/// outlined.
 CmRing carriageway_ring(const StreetGraph& graph, const std::vector<KerbSide>& sides, std::uint32_t edge);
 
-/// Returns the sidewalk to the left of a half-edge: along the kerb, and back along the block. Corners are divided at their
-/// middle.
+/// Returns the sidewalk to the left of a half-edge: along the kerb, and back along the block. At a corner, the two
+/// sidewalks meet at its middle.
 CmRing sidewalk_ring(const std::vector<KerbSide>& sides, std::uint32_t half);
 
-/// Makes the ends of carriageways at junctions perpendicular where there is space. Replaces the ends that there are.
+/// Makes the ends of carriageways at junctions perpendicular where there is space. Replaces the previous ends.
 void cut_carriageways(const StreetGraph& graph, std::vector<KerbSide>& sides);
 
 /// Removes the perpendicular ends at junctions whose outlines would cross themselves because of these ends. Returns the

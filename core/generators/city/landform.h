@@ -41,13 +41,13 @@ class Landform {
   /// Returns the height of the water of a terrain that is partly below it.
   const std::optional<double>& water_level() const { return water_level_; }
 
-  /// Whether a rectangle lies within the terrain.
+  /// Whether the rectangle [low, high], in metres, lies within the terrain.
   bool covers(const glm::dvec2& low, const glm::dvec2& high) const;
 
  private:
   terrain::Field field_;
   std::optional<FieldMap> heights_;
-  double base_ = 0, rise_ = 1;  ///< height where `heights_` is 0, and the rise to where it is 1
+  double base_ = 0, rise_ = 1;  ///< metres: height at the value 0 of `heights_`, and the rise to the value 1
   std::optional<double> water_level_;
 };
 

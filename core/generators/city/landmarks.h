@@ -18,11 +18,11 @@ namespace seedmesh::city {
 std::vector<Landmark> landmarks_of(const CityParams& params, const Job& job);
 
 /// Finds the part and the lot below each landmark. Unless `plot` is free, the house of the lot is removed. The first
-/// landmark that fits gets the lot, and one that does not fit is marked too large.
+/// landmark that fits gets the lot. A landmark that does not fit is marked (`is_too_large`).
 void place_landmarks(CityPlan& plan);
 
-/// Returns the box around the ground plan of a landmark that is a building and stands in the area. Null for other
-/// models.
+/// Returns the box around the ground plan of a landmark that is a building and stands in the area. Returns nullopt
+/// for other models.
 std::optional<Footing> footing_of(const Landmark& landmark);
 
 /// Returns warnings about landmarks outside the area, on streets, on water, or larger than their lot.

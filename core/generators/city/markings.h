@@ -1,5 +1,6 @@
 #pragma once
-/// Carriageways in strips across the street, so that lane lines, stop lines and zebra crossings are pieces of its surface.
+/// Carriageways in strips across the street, so that lane lines, stop lines and zebra crossings are pieces of its
+/// surface.
 #include <vector>
 
 #include "core/generators/city/plan.h"
@@ -7,8 +8,8 @@
 namespace seedmesh::city {
 
 enum class StripKind : std::uint8_t {
-  lanes,          ///< with lines between the lanes
-  plain,          ///< without lines
+  lanes,          ///< a carriageway with lines between the lanes
+  plain,          ///< a carriageway without lines
   zebra,          ///< a pedestrian crossing
   stop_at_start,  ///< a stop line on the left half, for traffic towards the street's first node
   stop_at_end,    ///< the same on the right half, towards the last node

@@ -17,15 +17,16 @@ struct LevelInfo {
   double middle = 0;                     ///< height of the centre of that sphere, metres
 };
 
-/// A point of view: chooses a level for each copy by the share of the screen's height that it fills, as scenes do.
+/// The camera of the request. It chooses the level of each copy by the share of the screen's height that the copy
+/// fills, as scenes do.
 class ViewPoint {
  public:
   explicit ViewPoint(const CityParams& params);
 
   /// Whether the request has a camera.
   bool is_given() const { return half_height_ > 0; }
-  /// Returns the level of a copy; 0 without a camera. Level 0 is for a share of the screen's height of at least 0.5,
-  /// level 1 from 0.25, 2 from 0.12, 3 from 0.06, and 4 below.
+  /// Returns the level of a copy; 0 without a camera. Level 0 is for shares of the screen's height from 0.5, level 1
+  /// from 0.25, 2 from 0.12, 3 from 0.06; level 4 is for smaller ones.
   std::size_t level(const LevelInfo& info, const Transform& at) const;
 
  private:
@@ -41,6 +42,7 @@ struct Copy {
   std::uint32_t chunk = 0;
 };
 
+/// Writes models and their copies into the model of a city.
 class CopyWriter {
  public:
   CopyWriter(Model& city, ChunkNodes& nodes, const ViewPoint& view, const GenerateContext& context)
@@ -72,7 +74,7 @@ class CopyWriter {
   std::optional<MergedCopies> merged_;
 };
 
-/// Measures the levels of a model, which it consumes.
+/// Measures the levels of a model, and destroys the model.
 LevelInfo level_info_of(Model made, Job& job);
 
 }  // namespace seedmesh::city

@@ -29,7 +29,7 @@ struct EdgeBox {
   std::int32_t low_x = 0, low_y = 0, high_x = 0, high_y = 0;
 };
 
-/// All distances in centimetres.
+/// Limits of the local constraints. All distances are centimetres.
 struct ConstraintLimits {
   double snap = 2500;
   double clearance = 3000;
@@ -93,7 +93,7 @@ class Network {
   ConstraintLimits limits_;
   std::vector<CmPoint> nodes_;
   std::vector<NetworkEdge> edges_;
-  std::vector<EdgeBox> boxes_;  ///< by edge
+  std::vector<EdgeBox> boxes_;  ///< boxes of the edges
   std::vector<std::uint32_t> closed_;
   std::vector<std::vector<std::uint32_t>> arms_;
 };

@@ -29,7 +29,7 @@ struct CityObject {
 struct ObjectKind {
   std::string name;
   std::string pointer;            ///< pointer of its requests
-  std::span<const Child> models;  ///< models of the parameters
+  std::span<const Child> models;  ///< models that the request gives
   std::vector<CityObject> objects;
 
   std::uint32_t model_count() const;
@@ -38,8 +38,8 @@ struct ObjectKind {
 /// Whether a request asks for furniture or trees along streets.
 bool has_street_furniture(const CityParams& params);
 
-/// Returns the lamps, trees, benches, bins, signs and parked cars along all streets of level 0 that the request
-/// asks for. Choices depend on the key of the street, its side, and the number of the position from the end with
+/// Returns the lamps, trees, benches, bins, signs and parked cars along all streets of level 0 that the request asks
+/// for. Choices depend on the key of the street, its side, and the number of the position, counted from the end with
 /// the smaller key. Cost: linear in the lengths of the streets.
 std::vector<ObjectKind> street_furniture(const CityPlan& plan, const CityParams& params, const Job& job);
 
@@ -59,7 +59,8 @@ std::vector<BorderPiece> lot_borders(const CityPlan& plan, const Job& job);
 /// Returns the distance from a position to a ring, metres.
 double distance_to_ring(const CmRing& ring, const glm::dvec2& metres);
 
-/// Returns a direction from the street to the lot as the turn of an object that faces the street.
+/// Returns the turn, in degrees, of an object that faces the street. `inward` is the direction from the street to the
+/// lot.
 double turn_of(const glm::dvec2& inward);
 
 }  // namespace seedmesh::city

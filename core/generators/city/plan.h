@@ -1,6 +1,6 @@
 #pragma once
 /// The plan of a city: the street graph and the partition of the area that is cut along it. Points are whole
-/// centimetres, x east and y north; lengths and areas are metres unless a name says otherwise.
+/// centimetres, x east and y north; lengths are metres and areas square metres, unless a name says otherwise.
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -25,12 +25,13 @@ namespace seedmesh::city {
 /// The cross section of a class of streets.
 struct CrossSection {
   std::string name;
-  double width = 0;                         ///< of the carriageway
+  double width = 0;                         ///< width of the carriageway
   std::array<double, 2> sidewalk = {0, 0};  ///< left and right
   int lanes = 0;
   double grade_limit = 0.12;                ///< rise over run
   std::optional<double> tree_spacing = {};  ///< 0: no trees; nullopt: that of the furniture
-  bool has_wall = false;                    ///< on the right side of its streets, in place of the sidewalk
+  /// Whether a wall stands on the right side of its streets, in place of the sidewalk.
+  bool has_wall = false;
   friend bool operator==(const CrossSection&, const CrossSection&) = default;
 };
 
@@ -40,7 +41,7 @@ struct StreetPiece {
   std::uint32_t kind = 0;
 };
 
-/// A street above or below the others, before its ends are nodes.
+/// A street above or below the others, before its ends have become nodes.
 struct BridgeLine {
   CmRing line;
   std::uint32_t kind = 0;
@@ -62,11 +63,11 @@ struct StreetGraph {
   std::vector<PlanarEdge> edges;  ///< the tag is an EdgeClass, or from first_given on that of a given street
   PlanarArms arms;
   std::vector<std::uint64_t> node_key, edge_key;  ///< identities by position
-  std::vector<std::uint8_t> is_border;            ///< by node: on the border of the area or on a shore
+  std::vector<std::uint8_t> is_border;  ///< for each node, 1 on the border of the area or on a shore
   std::vector<Bridge> bridges;
-  std::vector<CmPoint> ring_nodes;         ///< of roundabouts, sorted
+  std::vector<CmPoint> ring_nodes;         ///< nodes of roundabouts, sorted
   bool has_branches = false;               ///< a minor street grew at whose end others could branch off
-  std::vector<std::uint32_t> bridge_ends;  ///< by node: ends of bridges there; empty without bridges
+  std::vector<std::uint32_t> bridge_ends;  ///< number of ends of bridges at each node; empty without bridges
 
   bool is_street(std::uint32_t edge) const { return is_street_tag(edges[edge].tag); }
   /// Whether a node is on the border of the area itself.
@@ -100,12 +101,13 @@ constexpr std::uint32_t no_index = 0xFFFFFFFFU;
 /// corners along their common borders.
 struct Part {
   PartKind kind = PartKind::verge;
-  std::uint32_t street = no_index, node = no_index, block = no_index;  ///< what it belongs to
+  /// The street, node or block that it belongs to.
+  std::uint32_t street = no_index, node = no_index, block = no_index;
   std::vector<CmRing> rings;
   bool is_wall = false;  ///< a verge that a town wall fills
 };
 
-/// Whether a part is a carriageway, a junction or a sidewalk, or a town wall in its position.
+/// Whether a part is a carriageway, a junction, a sidewalk, or a town wall in place of a sidewalk.
 inline bool is_street_space(const Part& part) {
   return part.kind == PartKind::carriageway || part.kind == PartKind::junction ||
          part.kind == PartKind::sidewalk || part.is_wall;
@@ -119,7 +121,7 @@ struct Ward {
 /// Zones without minor streets. The square has no lots, and the citadel is one lot.
 constexpr const char *zone_square = "square", *zone_citadel = "citadel";
 
-/// A zone of the request: where its map is 0.5 or more.
+/// A zone of the request: the area where its map is 0.5 or more.
 struct NamedZone {
   std::string name;
   FieldMap map;
@@ -127,23 +129,24 @@ struct NamedZone {
 
 /// The rectangle below a building.
 struct Footing {
-  glm::dvec2 position{0};       ///< of its centre, metres east and north
+  glm::dvec2 position{0};       ///< position of its centre, metres east and north
   double turn = 0;              ///< degrees, counter-clockwise from above
-  double width = 0, depth = 0;  ///< along and across the front, metres
+  double width = 0, depth = 0;  ///< sides along and across the front, metres
   std::uint32_t part = 0;       ///< index into CityPlan::parts
 };
 
 /// A model at a given position.
 struct Landmark {
-  Child request;  ///< with its seed
+  Child request;  ///< request with its seed
   std::string pointer;
   glm::dvec2 position{0};  ///< metres east and north
   double turn = 0;         ///< degrees, counter-clockwise from above
   double radius = 15;      ///< metres around `position` in which no tree of a park stands
   bool is_block_whole = false, replaces_house = true;
-  bool is_given = false;                          ///< a footprint of the request
-  bool is_too_large = false;                      ///< for its lot, which then has no building in the plan
-  std::uint32_t lot = no_index, part = no_index;  ///< on which it stands; no_index: none
+  bool is_given = false;      ///< a footprint of the request
+  bool is_too_large = false;  ///< whether it is too large for its lot, which then has no building in the plan
+  /// Indices of the lot and of the part below it; no_index: none.
+  std::uint32_t lot = no_index, part = no_index;
 };
 
 /// A house that stands on a lot.
@@ -151,8 +154,8 @@ struct House {
   std::uint32_t rule = 0;
   std::uint64_t seed = 0;
   int floors = 1;
-  double width = 0, depth = 0;  ///< along and across the front, metres
-  glm::dvec2 position{0};       ///< of its centre, metres east and north
+  double width = 0, depth = 0;  ///< sides along and across the front, metres
+  glm::dvec2 position{0};       ///< position of its centre, metres east and north
   double turn = 0;              ///< degrees, counter-clockwise from above
 };
 
@@ -160,11 +163,11 @@ struct Lot {
   std::uint64_t key = 0;
   std::uint32_t part = 0;  ///< index into CityPlan::parts
   double area = 0, frontage = 0;
-  std::uint32_t street = no_index;  ///< of its front: an edge of the graph
+  std::uint32_t street = no_index;  ///< street of its front: an edge of the graph
   bool is_corner = false, is_inner = false;
   double density = 0;
   std::string zone;  ///< empty without zones
-  CmRing corners;    ///< without the corners of neighbours in between
+  CmRing corners;    ///< its corners without those that neighbours add
   CmPoint front_start, front_end;
   std::optional<House> house;
   std::uint32_t landmark = no_index;  ///< index into CityPlan::landmarks; such lots have no house
@@ -180,8 +183,8 @@ struct Block {
   std::vector<std::uint32_t> streets;  ///< edges around it, rising
 };
 
-/// Charges the estimated memory of a plan, which consists of many small lists, to the budget of the request while it
-/// exists.
+/// Charges the estimated memory of a plan, which consists of many small lists, to the budget of the request, as long
+/// as this object exists.
 class MemoryCharge {
  public:
   MemoryCharge(const Job& job, std::uint64_t bytes) : budget_(job.budget()), bytes_(bytes) {
@@ -208,16 +211,17 @@ class MemoryCharge {
 struct CityPlan {
   std::vector<CmRing> area;
   Region region;                      ///< the same, divided into land and water
-  std::vector<CrossSection> classes;  ///< by EdgeClass, then those of given streets
+  std::vector<CrossSection> classes;  ///< cross sections by EdgeClass, then those of given streets
   std::vector<Ward> wards;            ///< empty unless the method is wards
   std::vector<CmPoint> gates;         ///< nodes where streets pass a town wall
   std::vector<NamedZone> zones;
   std::vector<Landmark> landmarks;
   StreetGraph graph;
-  /// By edge: the start and end of the straight kerbs, left and then right; equal points without them.
+  /// For each edge, the start and end of its straight kerbs, first the left and then the right one. Both points are
+  /// equal where there is no straight kerb.
   std::vector<std::array<CmPoint, 4>> kerbs;
-  std::vector<double>
-      corner_reaches;  ///< by half-edge: how far the corners at its start reach along it, metres
+  /// For each half-edge, the distance in metres that the corners at its start reach along it.
+  std::vector<double> corner_reaches;
   std::shared_ptr<const Landform> landform;  ///< never null after plan_of()
   StreetHeights heights;
   std::vector<Part> parts;

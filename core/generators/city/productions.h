@@ -51,9 +51,9 @@ class StreetGrammar {
     double delay = 0, rule = 0, road = 0;
     std::uint64_t key = 0;
   };
-  /// Rewrites all sites in the order of (step, key). Ends when none is left, after `most_steps` rewritings,
-  /// or when there are far more rewritings or waiting sites than roads. Returns nothing if all sites came to
-  /// an end, otherwise the number of rewritings until then.
+  /// Rewrites all sites in the order of (step, key). Ends when none is left, after `most_steps` rewritings, or when
+  /// there are far more rewritings or waiting sites than roads. Returns nullopt if all sites came to an end,
+  /// otherwise the number of rewritings so far.
   std::optional<std::uint64_t> grow(const std::vector<Start>& starts, RoadRules& rules,
                                     std::uint64_t most_steps, const Job& job) const;
 

@@ -1,5 +1,5 @@
 #pragma once
-/// Removes what the rules of a street network forbid from a planar graph.
+/// Removes from a planar graph the edges that the rules of a street network forbid.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -72,7 +72,7 @@ class PrunedGraph {
     compact();
   }
 
-  /// Removes streets that are shorter than the least length, where rounding and clipping left any.
+  /// Removes streets shorter than the least length (cm), which rounding and clipping can leave.
   void drop_short(double least) {
     for (PlanarEdge& edge : edges_) {
       if (is_street(edge) && !is_given(edge) && distance(nodes_[edge.from], nodes_[edge.to]) < least)
@@ -81,7 +81,8 @@ class PrunedGraph {
     compact();
   }
 
-  /// Joins the pieces of a straight given street at nodes without another street, where one is too short.
+  /// Joins two pieces of a straight given street if one of them is shorter than `least` (cm) and no other street
+  /// meets their common node.
   void join_short_given(double least) {
     const PlanarArms arms = arms_of(nodes_, edges_);
     for (std::uint32_t node = 0; node < nodes_.size(); ++node) {
@@ -102,7 +103,8 @@ class PrunedGraph {
     compact();
   }
 
-  /// Removes edges that leave a node at an angle below the least one to a wider or earlier edge.
+  /// Removes an edge if its angle to a wider or earlier edge of a node is less than the least one. `cos_least` is the
+  /// cosine of the least angle.
   void drop_sharp(double cos_least) {
     mark_ways_to_bridges();
     for (int round = 0; round < 8; ++round) {

@@ -47,8 +47,9 @@ std::optional<std::size_t> part_of_land(const Region& region, const glm::dvec2& 
 /// A quantity at a position in metres.
 using ValueAt = std::function<double(const glm::dvec2&)>;
 
-/// Returns the polygon where a value is at least 0.5, within the box [low, high] in metres: marching squares on a
-/// lattice of at most 300 squares a side, corners moved along the lattice to the border, and simplified to a metre.
+/// Returns the polygon where a value is at least 0.5, within the box [low, high] in metres. The method is marching
+/// squares on a lattice of at most 300 squares a side. Corners are moved along the lattice to the border, and rings
+/// are simplified with a tolerance of 1 m.
 Rings contour_of(const ValueAt& value, const glm::dvec2& low, const glm::dvec2& high, Job& job);
 
 }  // namespace seedmesh::city

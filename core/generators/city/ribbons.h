@@ -27,7 +27,7 @@ struct BlockOutline {
 /// The cut across the corners of blocks, between streets.
 struct CornerCut {
   double width = 0;            ///< centimetres; 0: none
-  double greatest_angle = 90;  ///< of the corners that are cut, degrees
+  double greatest_angle = 90;  ///< greatest angle of the corners that are cut, degrees
 };
 
 /// Adds carriageways, junctions, sidewalks and verges to the plan, and returns the outlines of the blocks in the

@@ -9,9 +9,9 @@ struct CityStreets;
 
 namespace seedmesh::city {
 
-/// Replaces a share of the junctions with enough space around them by rings of minor streets, and returns the
-/// pieces of the graph. The keys of the nodes decide which junctions. `ring_nodes` gets the nodes of the
-/// rings, sorted.
+/// Replaces a share of the junctions by rings of minor streets, where there is enough space, and returns the pieces
+/// of the graph. The keys of the nodes decide which junctions are replaced. `ring_nodes` gets the nodes of the rings,
+/// sorted.
 std::vector<StreetPiece> with_roundabouts(const StreetGraph& majors, const CityStreets& streets,
                                           const Rng& rng, std::vector<CmPoint>& ring_nodes, const Job& job);
 

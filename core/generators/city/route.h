@@ -10,12 +10,12 @@ namespace seedmesh::city {
 /// Where a segment leaves or enters the land.
 struct OutlineHit {
   double share = 0;  ///< share of the segment
-  double sine = 0;   ///< sine of the angle between both; 0 near a corner of the outline
+  double sine = 0;   ///< sine of the angle between segment and outline; 0 near a corner
   bool is_shore = false;
 };
 
-/// Returns all positions where the segment from a to b crosses the outline of the land, in its order, without its
-/// start.
+/// Returns all positions where the segment from a to b crosses the outline of the land, in order from a, but not a
+/// itself.
 std::vector<OutlineHit> hits_of(const Region& region, const glm::dvec2& a, const glm::dvec2& b);
 
 /// The part of a line that can be built.
@@ -25,9 +25,9 @@ struct Route {
   bool reaches_end = false;
 };
 
-/// Follows a line from its start, which is on land. It ends at the border of the area, and crosses water on
-/// bridges of at most `bridge_length` centimetres. Returns an empty route if the line would end at a shore.
-/// The same holds if it would meet the border or a shore at an acute angle or with a piece below 15 m.
+/// Follows a line from its start, which is on land. It ends at the border of the area, and crosses water on bridges
+/// of at most `bridge_length` centimetres. Returns an empty route if the line would end at a shore. The same holds
+/// for a line that would meet the border or a shore at an acute angle, or with a piece below 15 m.
 Route route_of(const Region& region, const std::vector<CmPoint>& line, std::uint32_t kind,
                double bridge_length);
 

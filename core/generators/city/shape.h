@@ -9,7 +9,7 @@ namespace seedmesh::city {
 /// The sides of the box of least area around a ring, in centimetres; the direction is that of the long side.
 struct LeastBox {
   double short_side = 0, long_side = 0;
-  double narrowest = 0;  ///< the least short side of the boxes that are less than 2 % larger
+  double narrowest = 0;  ///< least short side of all boxes whose area is less than 2 % larger
   glm::dvec2 centre{0}, long_direction{1, 0};
 };
 /// Returns the box of least area around a ring.
@@ -18,15 +18,15 @@ LeastBox least_box(std::span<const CmPoint> ring);
 /// Returns the convex hull, counter-clockwise (Andrew 1979).
 CmRing hull_of(std::span<const CmPoint> ring);
 
-/// Returns the cosine of the sharpest inner corner of a counter-clockwise ring; -1 without any.
+/// Returns the cosine of the sharpest inner corner of a counter-clockwise ring; -1 if there is none.
 double sharpest_cosine(std::span<const CmPoint> ring);
 
-/// Returns a ring without the corners that are less than `least`, in centimetres, from the line between their neighbours.
-/// At least three corners stay.
+/// Returns a ring without the corners that are less than `least`, in centimetres, from the line between their
+/// neighbours. At least three corners stay.
 CmRing without_bends(std::span<const CmPoint> ring, double least);
 
-/// Whether a counter-clockwise ring is somewhere narrower than `least`, in centimetres, between a corner and an edge
-/// that runs back beside it. Cost: quadratic.
+/// Whether a counter-clockwise ring has a part narrower than `least` (cm), measured between a corner and an opposite
+/// edge. Cost: quadratic.
 bool has_narrow_part(std::span<const CmPoint> ring, double least);
 
 /// Whether no two of the rings meet. Cost: quadratic.

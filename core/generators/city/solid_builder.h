@@ -27,11 +27,12 @@ class SolidBuilder {
   explicit SolidBuilder(const Job& job);
 
   void add_box(const glm::vec3& low, const glm::vec3& high);
-  /// Adds a prism or cone about the upright line through `foot`, with `sides` sides; a radius of 0 at the top is a tip.
+  /// Adds a prism or cone about the upright line through `foot`, with `sides` sides. With a radius of 0, the top is a
+  /// tip.
   void add_prism(const glm::vec3& foot, float height, std::array<float, 2> radii, int sides);
   /// Adds a convex outline in the plane of x and y, counter-clockwise seen from +z, extruded along z.
   void add_extrusion(std::span<const glm::vec2> outline, float from_z, float to_z);
-  /// Adds an ellipsoid with radii varied by up to `roughness` by a key, and smooth normals.
+  /// Adds an ellipsoid with smooth normals. Random numbers of the key vary its radii by up to the share `roughness`.
   void add_blob(const glm::vec3& centre, const glm::vec3& radii, float roughness, std::uint64_t key);
   /// Adds a convex body over a quadrangle: corners counter-clockwise from above, each with its own lower and
   /// upper height.

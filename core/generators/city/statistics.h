@@ -8,7 +8,7 @@
 
 namespace seedmesh::city {
 
-/// Streets nearer to the border of the area than this are left out, metres.
+/// Distance from the border of the area, in metres, within which streets are left out.
 constexpr double border_margin = 60;
 
 /// Returns the statistics that docs/cities.md lists. A value whose divisor is 0 is null.

@@ -1,8 +1,8 @@
 #pragma once
 /// The surface of the finished city: the height of every part of the partition. On level ground carriageways are at
-/// height 0. On a terrain carriageways and sidewalks follow the profiles of the streets, and the ground of a block joins
-/// their outer edges and the natural ground by embankments of at most 1:2. Where the streets around a block differ too
-/// much for that, its border lies above or below the sidewalk, and a wall stands there.
+/// height 0. On a terrain, carriageways and sidewalks follow the profiles of the streets. The ground of a block joins
+/// their outer edges and the natural ground by embankments of at most 1:2. Where the streets around a block differ
+/// too much for that, its border lies above or below the sidewalk, and a wall stands there.
 #include <span>
 
 #include "core/generators/city/edge_table.h"
@@ -17,7 +17,7 @@ constexpr double water_depth = 1.2;   // of water below the lowest point of its 
 
 class Surface {
  public:
-  /// Keeps a reference to the plan, which has to stay as it is. `wall_height` is that of a town wall.
+  /// Keeps a reference to the plan, which must not change. `wall_height` is that of a town wall.
   Surface(const CityPlan& plan, double wall_height, Job& job);
 
   bool is_level() const { return plan_.heights.is_level(); }
@@ -44,10 +44,12 @@ class Surface {
 
   /// Frees the strips, once all carriageways are made.
   void release_strips() { strips_ = {}; }
-  /// Frees all that only the meshes of the ground need. Of the functions above, the heights stay.
+  /// Frees all that only the meshes of the ground need. Afterwards, points_between(), strips() and part_beyond() must
+  /// not be called.
   void release_edges();
 
-  /// Returns the height of the floor of a building: that of the highest ground below it. Sets `lowest` to the lowest.
+  /// Returns the height of the floor of a building, which is that of the highest ground below it. Sets `lowest` to
+  /// the height of the lowest ground below it.
   double floor_height(const Footing& footing, double& lowest) const;
 
  private:
@@ -82,13 +84,13 @@ class Surface {
   double wall_height_;
   EdgeTable part_of_edge_;  ///< the edges of all parts, or of the low ones
   Tunnels tunnels_;
-  std::vector<StreetStrips> strips_;  ///< by edge
+  std::vector<StreetStrips> strips_;  ///< strips of each edge
   EdgeTable divided_at_;              ///< indices into `divided_`, from the lesser end to the greater
   std::vector<DividedEdge> divided_;
   std::vector<glm::dvec2> edge_points_;
   std::vector<Ground> grounds_;
-  std::vector<std::uint32_t> ground_of_;  ///< by part
-  std::vector<double> water_level_;       ///< by part
+  std::vector<std::uint32_t> ground_of_;  ///< index into `grounds_` of each part
+  std::vector<double> water_level_;       ///< height of the water of each part
   // Natural heights on a lattice, without slopes that need a wall.
   glm::dvec2 low_{0};
   double cell_ = 1;

@@ -32,8 +32,8 @@ class TensorField {
   TensorField(const CityStreets& streets, const Region& region, const Landform* landform,
               std::vector<Issue>& issues);
 
-  /// The pattern slope: along the contours of the ground, and the grid of the streets where it is level. `landform`,
-  /// null on level ground, has to outlive the field.
+  /// Makes the field of the pattern `slope`. It follows the contours of the ground, and the grid of the streets where
+  /// the ground is level. `landform`, null on level ground, has to outlive the field.
   TensorField(const CityStreets& streets, const Landform* landform);
 
   /// Blends the pattern and the second pattern of the streets by a map that has to outlive the field. An organic
@@ -46,8 +46,8 @@ class TensorField {
   /// Returns R cos 2a and R sin 2a at a position in centimetres.
   glm::dvec2 tensor_at(const glm::dvec2& cm) const;
 
-  /// Returns the major direction as a unit vector, of either sign; the minor one is its quarter turn. 0, 0 at
-  /// degenerate points.
+  /// Returns the major direction as a unit vector, of either sign; the minor one is its quarter turn. Returns (0, 0)
+  /// at degenerate points.
   glm::dvec2 direction_at(const glm::dvec2& cm) const;
 
  private:
@@ -57,8 +57,8 @@ class TensorField {
     glm::dvec2 position{0}, grid{1, 0};
     double weight = 1, size = 0;  ///< size in centimetres; 0: everywhere alike
     std::vector<CmRing> lines;
-    bool is_second =
-        false;  ///< belongs to the second pattern of a blend, whose weight is the value of the map
+    /// Whether it belongs to the second pattern of a blend, whose weight is the value of the map.
+    bool is_second = false;
   };
   static Base base_of(CityPattern pattern, const CityStreets& streets);
   glm::dvec2 tensor_of(const Base& base, const glm::dvec2& cm, double& squared_distance) const;
@@ -68,7 +68,7 @@ class TensorField {
   std::vector<Base> bases_;
   const Landform* landform_;
   const FieldMap* blend_ = nullptr;
-  double noise_size_ = 1;  ///< of a cell of the noise, centimetres
+  double noise_size_ = 1;  ///< size of a cell of the noise, centimetres
   Rng rng_{0};
 };
 
@@ -77,15 +77,15 @@ struct StreetFields {
   std::shared_ptr<const TensorField> majors, minors;
 };
 
-/// What the fields of a request depend on besides its streets. `blend` is the map of patterns.
+/// The data, besides the streets, on which the fields of a request depend. `blend` is the map of patterns.
 struct FieldGround {
   const Region& region;
   const FieldMap* blend = nullptr;     ///< null: none
   const Landform* landform = nullptr;  ///< null: level ground
 };
 
-/// Returns the fields of the method and of the patterns. Minor streets follow that of the major ones, unless they have
-/// a pattern of their own. Issues: those of the tensor field.
+/// Returns the fields of the method and of the patterns. Minor streets follow the field of the major ones, unless
+/// they have a pattern of their own. Issues: those of the tensor field.
 StreetFields fields_of(const CityStreets& streets, const FieldGround& ground, Rng rng,
                        std::vector<Issue>& issues);
 

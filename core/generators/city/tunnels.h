@@ -1,6 +1,6 @@
 #pragma once
-/// Tunnels under a terrain. A tunnel begins where its line enters the ground behind the street at its end: the ground
-/// there ends in an upright wall with an opening. Around the tube the ground is high enough to cover it.
+/// Tunnels under a terrain. A tunnel begins where its line enters the ground, behind the street at its end. There,
+/// the ground ends in an upright wall with an opening. Around the tube the ground is high enough to cover it.
 #include <array>
 #include <optional>
 #include <span>
@@ -13,7 +13,7 @@ namespace seedmesh::city {
 
 /// The opening of a tunnel on the border of a block, in metres.
 struct TunnelMouth {
-  glm::dvec2 middle{0}, along{1, 0};    ///< of the opening, and the direction of the border
+  glm::dvec2 middle{0}, along{1, 0};    ///< middle of the opening, and the direction of the border
   double half = 0;                      ///< half of its width along the border
   double floor = 0;                     ///< its height: that of the sidewalk
   std::array<glm::dvec2, 2> corners{};  ///< left and right, seen from outside
@@ -34,7 +34,8 @@ struct Tunnel {
 
 class Tunnels {
  public:
-  static constexpr double clear_height = 5, slab = 0.4;  ///< of the tube, m
+  /// Clear height of the tube, and thickness of its roof, m.
+  static constexpr double clear_height = 5, slab = 0.4;
 
   Tunnels() = default;
   /// Finds the tunnels of a plan with heights. `part_of_edge` has the edges of all parts.
@@ -45,8 +46,8 @@ class Tunnels {
   /// those that are not deep enough below a street.
   std::size_t left_out() const { return left_out_; }
 
-  /// Returns the least height that the ground must have at a position in metres to cover the tunnels; a very low
-  /// value far from tunnels.
+  /// Returns the least height that the ground must have at a position in metres to cover the tunnels; far from
+  /// tunnels, a value far below the ground.
   double cover(const glm::dvec2& metres) const;
 
   /// Returns the height of the top of an opening at a position on its border; nothing elsewhere.

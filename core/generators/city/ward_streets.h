@@ -19,19 +19,19 @@ struct WardCells {
   std::vector<std::vector<std::uint32_t>> rings;
   std::vector<glm::dvec2> middle;
 
-  /// Returns the first corner within a distance, or a new one.
+  /// Returns the first corner within `reach` (cm) of `p`. Adds a corner if there is none.
   std::uint32_t corner_near(const glm::dvec2& p, double reach);
   CmRing ring_of(std::uint32_t cell) const;
 };
 
-/// Returns the corners around a set of cells, counter-clockwise. Empty unless they have one outline that touches itself
-/// nowhere.
+/// Returns the corners around a set of cells, counter-clockwise. Returns an empty list unless the cells have one
+/// outline, which does not touch itself.
 std::vector<std::uint32_t> outline_of(const WardCells& cells, const std::vector<std::uint32_t>& chosen);
 
 struct WardStreetInput {
   const CityStreets& streets;
   const WardGround& ground;
-  std::uint32_t wall_tag = 0;  ///< of streets along the wall, whose right side is outside
+  std::uint32_t wall_tag = 0;  ///< tag of streets along the wall, whose right side is outside
   Rng rng;
 };
 

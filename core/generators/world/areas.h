@@ -10,7 +10,8 @@
 namespace seedmesh::world {
 
 constexpr int levels_a_block = 4;
-constexpr double coarse_spacing = 128;  ///< metres; from here, samples are of the land without valleys
+/// Metres; samples with this spacing or a wider one show the land without valleys.
+constexpr double coarse_spacing = 128;
 
 /// Cells of the grid of samples along the side of a link, which is a tile of the lowest level of a file. The root has
 /// the widest links and is made once.

@@ -27,8 +27,8 @@ struct Asset {
 /// near is a simplified mesh, far is an impostor.
 enum class AssetForm { near, far };
 
-/// Makes the model of the request at `pointer`. Its seed is that of the request, or else `seed`. A model that cannot be
-/// made ends the job by Stop.
+/// Makes the model of the request at `pointer`. Its seed is that of the request, or else `seed`. Throws Stop if the
+/// model cannot be made.
 using MakeAsset = std::function<Asset(const Child& model, AssetForm form, std::uint64_t seed,
                                       const std::string& pointer, Job& job)>;
 

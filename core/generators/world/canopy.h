@@ -1,6 +1,6 @@
 #pragma once
 /// Woods seen from afar: a surface over the crowns, from edge to edge, with a texture of crowns. Its positions are
-/// those of the terrain's samples, and its edges follow the cover of woods between them, so no grid shows.
+/// those of the terrain's samples, and its edges follow the cover of woods between them, so that no grid is visible.
 #include <array>
 #include <string_view>
 
@@ -12,13 +12,13 @@ namespace seedmesh::world {
 /// Whether the crowns of a class are so large and dense that a wood of it is drawn as a surface.
 bool has_canopy(const WorldClass& plant);
 
-/// What covers a position: the mean of the classes by their cover.
+/// The woods at a position: the mean of the classes of plants, weighted by their cover.
 struct Wood {
   double cover = 0;               ///< 0 to 1; of classes with a canopy
   double height = 0;              ///< metres, of the crowns
   std::array<double, 3> color{};  ///< linear, of the crowns
 };
-/// Returns what covers a position, given as metres east and north. `spacing`: distance of the samples in metres;
+/// Returns the woods at a position, given as metres east and north. `spacing`: distance of the samples in metres;
 /// cover that varies over shorter distances is averaged.
 Wood wood_at(const World& world, const GroundSample& sample, const Climate& climate, double east,
              double north, double spacing);

@@ -7,13 +7,13 @@
 
 namespace seedmesh::world {
 
-constexpr double shallow = 1;  ///< metres that water lies below the land at least
+constexpr double shallow = 1;  ///< least depth of the water level below the land, metres
 
 /// A river from a node to the node below, or to a shore.
 struct Course {
   std::vector<RiverPoint> points;
   std::vector<double> ruggedness;  ///< ruggedness of the land at the points
-  std::string into;                ///< where it ends before the node below
+  std::string into;                ///< id of the water where it ends before the node below
   int down = -1;                   ///< the course that it ends at
   int lake = -1;                   ///< the lake at its node
   int into_lake = -1;
@@ -22,7 +22,8 @@ struct Course {
 /// Moves the points between the first and the last towards lower land to the sides, so that rivers follow valleys.
 void settle_in_valleys(const World& world, std::vector<RiverPoint>& points);
 
-/// Moves a bend of a river that comes too near to a dry position away from it.
+/// Moves a bend of a river away from a dry position that it comes too near to. The coordinates of dry positions are
+/// multiples of dry_spacing (region.h).
 void keep_away(RiverPoint& p);
 
 /// Returns the height of the lowest land across a river at a point, up to both banks and a little farther.

@@ -1,5 +1,6 @@
 #pragma once
-/// A strip along a line on the triangles of the terrain of a tile, for rivers that are narrow beside the cells.
+/// A strip along a line on the triangles of the terrain of a tile, for rivers that are narrow compared with the
+/// cells.
 #include <vector>
 
 #include "core/generators/world/flat_mesh.h"
@@ -13,8 +14,9 @@ struct StripEdges {
 };
 
 /// Adds the strip between two points, `lift` metres above the triangles of the terrain along its line and along its
-/// edges. It has vertices where the terrain bends by more than a part of `lift`, and at the borders of the tile, so that
-/// strips of neighbours meet. Clips to the tile. The edges may pass the tile by one cell at most.
+/// edges. It has vertices where it would otherwise leave this height by more than a share of `lift`. It also has
+/// vertices at the borders of the tile, so that strips of neighbouring tiles meet. The strip is clipped to the tile.
+/// Its edges may lie at most one cell outside of the tile.
 void add_draped_strip(FlatMesh& builder, const TerrainGrid& grid, const StripEdges& from,
                       const StripEdges& to, double lift);
 

@@ -10,10 +10,11 @@
 
 namespace seedmesh::world {
 
-/// Metres of the side of a tile beyond which the depths of its valleys are guessed, because rivers of wide areas take too long.
+/// Greatest side, in metres, of a tile whose rivers are computed. In wider tiles the depths of valleys are estimated,
+/// because the rivers of wide areas take too long.
 constexpr double widest_known_rivers = 8192;
 
-/// A guess of how deep valleys are cut into land whose heights differ by `range` metres.
+/// Returns an estimate, in metres, of the depth of valleys in land whose heights differ by `range` metres.
 constexpr double guessed_valley(double range) { return 20 + 0.4 * range; }
 
 /// The measured distance of samples from the triangles of a tile.
@@ -22,7 +23,7 @@ struct MetDeviation {
   double spacing = 0;        ///< spacing of the vertices of the tile; 0 if nothing was measured
   double finer_spacing = 0;  ///< spacing of the samples
   bool has_valleys = false, has_detail = false;  ///< whether the samples have them; detail includes roads
-  bool is_estimate = false;  ///< by cells twice as wide, where no samples lie inside of the cells
+  bool is_estimate = false;  ///< estimated from cells twice as wide, because no samples lie inside the cells
 };
 
 constexpr double sea_floor_coast = 0.05;  ///< coast of Land below which the ground is the floor of the sea
@@ -39,7 +40,7 @@ struct Roughness {
 
   double measured = 0, measured_spacing = 1;  ///< measured deviation from triangles with this spacing
 
-  MetDeviation met;  ///< by the triangles of this area
+  MetDeviation met;  ///< deviation of the triangles of this area
 
   void add(const GroundSample& sample);
   void add(const Roughness& other);

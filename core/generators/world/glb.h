@@ -15,7 +15,7 @@ namespace seedmesh::world {
 struct Asset;
 
 struct TileVertex {
-  std::int16_t x = 0, y = 0, z = 0;  ///< in steps; +Y up
+  std::int16_t x = 0, y = 0, z = 0;  ///< position in steps; +Y up
   std::int16_t unused = 0;
   std::int8_t normal[4] = {0, 127, 0, 0};
   std::uint8_t color[4] = {255, 255, 255, 255};  ///< linear
@@ -47,14 +47,14 @@ class Glb {
   /// the texture, two for each vertex, or none.
   void add_mesh(std::string_view name, const TileMesh& mesh, int material, double step, double height,
                 const std::vector<float>& coordinates = {});
-  /// Accessors of the corners of triangles and of texture coordinates; -1: none.
+  /// Numbers of the accessors of triangle indices (`order`) and of texture coordinates; -1: none.
   struct SharedParts {
     int order = -1, coordinates = -1;
   };
-  /// Like add_mesh() above, with corners and texture coordinates from accessors.
+  /// Like add_mesh() above, with triangle indices and texture coordinates from accessors.
   void add_mesh(std::string_view name, const std::vector<TileVertex>& vertices, const SharedParts& parts,
                 int material, double step, double height);
-  /// Adds the corners of triangles among `vertices` vertices and returns the index of their accessor.
+  /// Adds the indices of triangles over `vertices` vertices, and returns the index of their accessor.
   int add_indices(const std::vector<std::uint32_t>& indices, std::size_t vertices);
   /// Like add_indices(), with corners of 16 bits at a part of another buffer.
   int add_shared_indices(int buffer, std::size_t offset, std::size_t count);

@@ -20,12 +20,11 @@ struct Rectangle {
 struct GroundSample {
   double height = 0;
   Land land;
-  double shore =
-      std::numeric_limits<double>::infinity();  ///< metres to the nearest bank of a river or lake; below
-                                                ///< 0 in its water
+  /// Metres to the nearest bank of a river or lake; below 0 in its water.
+  double shore = std::numeric_limits<double>::infinity();
   double road = std::numeric_limits<double>::infinity();   ///< metres to the edge of the nearest road
   double house = std::numeric_limits<double>::infinity();  ///< metres to the nearest house
-  double cut = 0;                                          ///< metres that valleys lower the land
+  double cut = 0;                                          ///< depth by which valleys lower the land, metres
   double works = 0;  ///< absolute difference of height between the earthworks of roads and the ground, metres
   int field = -1;    ///< index into WorldFields::colors; -1 outside of fields
   bool is_hedge = false;  ///< at the border of a field
@@ -57,8 +56,8 @@ struct Farmland {
 /// A piece of a river.
 struct Reach {
   RiverPoint from, to;
-  double middle_east = 0, middle_north = 0,
-         far = 0;               ///< squared distance from the middle beyond which the piece has no effect
+  /// Middle of the piece, and `far`: the squared distance from the middle beyond which the piece has no effect.
+  double middle_east = 0, middle_north = 0, far = 0;
   double x = 0, y = 0, by = 0;  ///< vector from `from` to `to`, and 1 / its squared length (0 if it has none)
 };
 
@@ -66,6 +65,7 @@ class Ground {
  public:
   /// Makes ground without rivers and lakes.
   explicit Ground(const World& world) : world_(&world) {}
+  /// Makes ground with the rivers and lakes that can change the heights within the rectangle.
   Ground(const World& world, const Rectangle& rectangle, Job& job);
   /// Makes ground with the rivers and lakes within `reach` metres of the rectangle.
   Ground(const World& world, const Rectangle& rectangle, Job& job, double reach);
@@ -75,6 +75,7 @@ class Ground {
   static Ground with_main_roads(const World& world, const Rectangle& rectangle, Job& job);
   /// Returns ground with roads and houses.
   static Ground with_works(const World& world, const Rectangle& rectangle, Job& job);
+  /// Returns the ground at a position in absolute metres, which has to lie within the rectangle.
   GroundSample at(double east, double north) const;
   double height(double east, double north) const { return at(east, north).height; }
 

@@ -14,8 +14,8 @@ constexpr double widest_gully = 420;   ///< metres between gullies of the first 
 constexpr double gully_fall = 0.47;    ///< distance of gullies divided by that of the octave before
 constexpr double gully_depth = 0.055;  ///< depth of a gully divided by its distance from the next
 
-/// Returns the metres to add to the ground, mostly negative. `slope`: the ground with its derivative. The result
-/// is discontinuous only where the slope is.
+/// Returns the metres to add to the ground, mostly negative. `slope`: the ground with its derivative. The result is
+/// discontinuous only where the slope is discontinuous.
 double gullies_at(const std::array<std::uint64_t, gully_octaves>& keys, const Slope& slope, double east,
                   double north);
 

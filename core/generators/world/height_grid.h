@@ -28,15 +28,16 @@ std::vector<double> deviations_of_tiles(const HeightGrid& grid, int tiles, const
 /// the middles of the four sides and of the diagonal. (i, j) is the south-west corner of the cells.
 double deviation_over_cells(const HeightGrid& grid, int i, int j);
 
-/// Returns the greatest slope in a square of `side` x `side` cells.
+/// Returns the greatest slope (rise over run) in a square of `side` x `side` cells. Its south-west corner is the
+/// sample (column, row).
 double greatest_slope(const HeightGrid& grid, int column, int row, int side);
 
 /// Returns the south-west corners of the four cells in which the slope changes most, among `side` x `side`
 /// cells.
 std::array<std::array<int, 2>, 4> most_bent_cells(const HeightGrid& grid, int column, int row, int side);
 
-/// Returns the distance of the ground from the triangles through its heights at the corners of a cell,
-/// measured at the middles of the sides and of the diagonal.
+/// Returns the distance of the ground from the triangles through its heights at the corners of a cell. It is measured
+/// at the middles of the sides and of the diagonal.
 double deviation_of_ground(const HeightGrid& grid, const Ground& ground, int i, int j);
 
 /// Heights before valleys are cut, and ruggedness, at the samples of a grid. It does not own them.

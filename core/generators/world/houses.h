@@ -16,22 +16,23 @@ namespace seedmesh::world {
 struct Town;
 
 struct House {
-  double east = 0, north = 0;            ///< of its middle, absolute
+  double east = 0, north = 0;            ///< its middle, absolute
   double x = 1, y = 0;                   ///< direction of the ridge, east and north
   double length = 0, depth = 0;          ///< half of the plan along and across the ridge
   double low = 0, eaves = 0, ridge = 0;  ///< heights; `low` is below the ground
   double top = 0;                        ///< height of the highest chimney or tower
   enum Kind : std::uint8_t { dwelling, barn, church, wall } kind = dwelling;
-  bool is_on_lot = false;  ///< of a town
+  bool is_on_lot = false;  ///< whether it is on a lot of a town
   int front = 0;           ///< side of its front, seen along the ridge: -1 right, 1 left, 0 no side
-  float wall_light = 1, roof_light = 1,
-        warmth = 0;                 ///< of the colours; warmth shifts the walls to yellow or white
+  /// Brightness of the colours of walls and roof; `warmth` shifts the colour of the walls to yellow or white.
+  float wall_light = 1, roof_light = 1, warmth = 0;
   int model = -1;                   ///< index into WorldSettlements::houses; -1: walls and a gable roof
-  double scale = 1, floor = 0;      ///< of the model, and the height of its foot
-  std::array<float, 2> turn{0, 1};  ///< of the model, as Instances::add() takes it
+  double scale = 1, floor = 0;      ///< scale of the model, and the height of its foot
+  std::array<float, 2> turn{0, 1};  ///< rotation of the model, as Instances::add() takes it
 };
 
-constexpr double most_cellar = 4;  ///< metres from the ground at its middle to its lowest corner at most
+/// Greatest height of the ground at its middle above its lowest corner, metres.
+constexpr double most_cellar = 4;
 
 /// Bounds of the houses of a world: metres from the middle to the corners, and from the ground there to the ridge.
 /// Greater models are scaled down. 0 in a world without settlements.
@@ -59,10 +60,10 @@ std::shared_ptr<const Plan> plan_of(const World& world, const Site& site, Job& j
 /// Returns the houses and pieces of walls whose middle is within `reach` of a rectangle.
 std::vector<House> houses_near(const World& world, const Rectangle& box, double reach, Job& job);
 
-/// Adds the houses whose middle is in the tile. In tiles of up to 128 m they are models, or walls and a gable
-/// roof. In tiles of up to 512 m all are walls and a roof. In tiles of up to 2 km they are boxes, and up to 8 km
-/// one prism for each square of side / 64. Towns have boxes in tiles of 512 m. They have prisms for squares of
-/// 40 m in tiles of 1 km, and for squares of 64 m in tiles of 2 km.
+/// Adds the houses whose middle is in the tile. In tiles of up to 128 m they are models, or walls and a gable roof.
+/// In tiles of up to 512 m all are walls and a roof. In tiles of up to 2 km they are boxes. In tiles of 4 km and 8 km
+/// there is one prism for each square with 1/64 of the tile's side. Towns have boxes in tiles of 512 m. They have
+/// prisms for squares of 40 m in tiles of 1 km, and for squares of 64 m in tiles of 2 km.
 void add_houses(Glb& glb, const World& world, const TileFrame& frame, double base, Job& job,
                 std::string_view folder);
 

@@ -21,21 +21,23 @@ constexpr double land_rise = 170, sea_fall = 520;  ///< metres at a coast value 
 constexpr double coast_blend = 0.02;
 constexpr double terrace_step = 60;  ///< metres
 
-/// The land at wavelengths of 1.2 km and more, in metres above zero, and what finer wavelengths depend on.
+/// The land at wavelengths of 1.2 km and more, and the values on which finer wavelengths depend. Heights are metres
+/// above zero.
 struct Land {
   Slope height;
   double ruggedness = 0;  ///< 0 on plains to 1 in the greatest mountains
   double coast = 0;       ///< below 0 is the sea, above 0 land; about -1 to 1
-  std::array<float, range_octaves>
-      ridges{};  ///< the share of its full amplitude that each octave of ridges has
+  /// For each octave of ridges, its share of its full amplitude.
+  std::array<float, range_octaves> ridges{};
 };
 /// Returns the land at a position.
 Land land_at(const World& world, double east, double north);
 
-/// Returns the amplitude of an octave of detail by its wavelength.
+/// Returns the amplitude of an octave of detail, divided by its wavelength.
 double detail_share(const World& world, double ruggedness);
 
-/// Returns the metres that gullies and finer wavelengths add. `land` is the ground with its slope, after rivers.
+/// Returns the height in metres that gullies and finer wavelengths add. `land` is the ground with its slope, after
+/// rivers.
 double detail_at(const World& world, const Land& land, double east, double north);
 
 /// Moisture 0..1 and temperature in degrees Celsius of a position at a height.

@@ -12,7 +12,7 @@ struct Lane {
   double width = 0;
   bool leads_to_farm = false;
   std::vector<RoadPoint> points;  ///< from the road outwards; none is a bridge
-  bool is_street = false;         ///< of a town; its houses have lots
+  bool is_street = false;         ///< whether it is a street of a town, whose houses have lots
 };
 struct Lanes {
   std::vector<Lane> lanes;

@@ -74,7 +74,8 @@ inline constexpr const auto& float_direction = float_directions.of;
 
 constexpr std::uint64_t column_factor = 0x9E3779B97F4A7C15U, row_factor = 0xC2B2AE3D27D4EB4FU;
 
-/// Mixes the sum of a key, a column and a row to the number of a direction.
+/// Returns the number of a direction, 0 to 15. `hash` is the exclusive or of a key, a column and a row, as in
+/// direction_of().
 inline std::size_t number_of(std::uint64_t hash) {
   hash ^= hash >> 32U;
   hash *= 0xD6E8FEB86659FD93U;

@@ -1,6 +1,7 @@
 #pragma once
-/// The plants of a tile. Leaves and tiles of 128 m show whole plants, tiles of 256 m to 1 km show simple ones, each a
-/// part of what the tiles below show. Tiles from 512 m to 4 km show the surface of woods.
+/// The plants of a tile. The leaves of the tree and tiles of 128 m show whole plants. Tiles of 256 m to 1 km show
+/// simple ones. Each tile shows a part of the plants that the tiles below it show. Tiles from 512 m to 4 km show the
+/// surface of woods.
 #include <string_view>
 
 #include "core/generators/world/asset.h"

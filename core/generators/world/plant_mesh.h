@@ -28,8 +28,9 @@ PlantFile plant_file(const World& world, int plant_class, PlantForm form = Plant
 double crown_width(const WorldClass& plant);
 
 constexpr double plant_depth = 0.1;    ///< metres that the foot of a plant is below the ground
-constexpr double deepest_root = 0.06;  ///< of the height: how far a plant may reach below its foot
-constexpr double widest_plant = 0.8;   ///< of the height: how far a plant may reach from its foot in plan
+constexpr double deepest_root = 0.06;  ///< greatest reach of a plant below its foot, as a share of its height
+/// Greatest reach of a plant from its foot in plan, as a share of its height.
+constexpr double widest_plant = 0.8;
 
 /// Upper bounds of the distance of any part of a plant from its foot: in plan, upwards, and below the ground, in
 /// metres.

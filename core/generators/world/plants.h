@@ -21,11 +21,10 @@ struct Plant {
   std::uint64_t key = 0;       ///< key of further random choices
 };
 
-/// Returns the plants of a class in [west, east) x [south, north). The rectangle is inside that of `ground`.
-/// Only candidates with a mark below `share` compete. A plant depends on candidates with lower marks alone,
-/// so a lower share returns a part of the plants of a higher share, in less time. `reach` is the distance
-/// around the rectangle, in spacings, within which candidates compete; tests try other values than the
-/// default.
+/// Returns the plants of a class in [west, east) x [south, north). The rectangle is inside that of `ground`. Only
+/// candidates with a mark below `share` compete. A plant depends only on candidates with lower marks. A lower share
+/// therefore returns a part of the plants of a higher share, in less time. `reach` is the distance around the
+/// rectangle, in spacings, within which candidates compete; tests try other values than the default.
 std::vector<Plant> plants_in(const World& world, int plant_class, const Rectangle& box, const Ground& ground,
                              Job& job, double share = 1, double reach = thinning_rounds);
 

@@ -19,7 +19,7 @@
 namespace seedmesh::world {
 
 constexpr double drain_cell = 2048;  ///< metres; one node a cell
-constexpr int region_cells = 16;     ///< along a side of a region
+constexpr int region_cells = 16;     ///< cells along a side of a region
 /// In metres. No water reaches positions whose coordinates are multiples of this.
 constexpr double dry_spacing = 8 * drain_cell;
 
@@ -47,7 +47,7 @@ struct River {
   std::string id;
   std::string into;                                               ///< "sea", or the id of a lake or river
   std::vector<RiverPoint> points;                                 ///< source to mouth
-  double west = 1e12, south = 1e12, east = -1e12, north = -1e12;  ///< of the points
+  double west = 1e12, south = 1e12, east = -1e12, north = -1e12;  ///< bounds of the points
 
   void add_to_bounds(const RiverPoint& p);
 };

@@ -1,6 +1,6 @@
 #pragma once
-/// Variations fade from level to level before samples are too far apart to show them, so that no line shows where a
-/// level ends.
+/// Variations fade from level to level before samples are too far apart to show them, so that no line is visible
+/// where a level ends.
 #include "core/generators/world/noise.h"
 
 namespace seedmesh::world {

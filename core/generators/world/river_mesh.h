@@ -1,6 +1,6 @@
 #pragma once
 /// Rivers and small lakes of a tile. Where samples are too far apart for the bed of a river, its ribbon lies on the
-/// terrain, at least as wide as can be seen, so that rivers are continuous from every distance.
+/// terrain. The ribbon is wide enough to be visible, so that rivers are continuous from every distance.
 #include "core/generators/world/flat_mesh.h"
 #include "core/generators/world/ground.h"
 

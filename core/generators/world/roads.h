@@ -1,11 +1,11 @@
 #pragma once
 /// Settlements and the roads between them.
 ///
-/// Two settlements are joined if none is nearer to both than they are to each other (relative neighbourhood graph,
-/// Toussaint 1980) and they are at most WorldRoads::longest apart. A road is the cheapest path on a grid of 128 m
-/// within an ellipse around its ends, with costs by grade as in Galin et al. 2010 ("Procedural generation of roads").
-/// Its height follows the ground with a grade of at most 10 %: the mean of the highest road below the ground and the
-/// lowest above it.
+/// Two settlements are joined if no third one is nearer to both than they are to each other (relative neighbourhood
+/// graph, Toussaint 1980). They must also be at most WorldRoads::longest apart. A road is the cheapest path on a grid
+/// of 128 m within an ellipse around its ends. Costs depend on the grade, as in Galin et al. 2010 ("Procedural
+/// generation of roads"). Its height follows the ground with a grade of at most 10 %: the mean of the highest road
+/// below the ground and the lowest above it.
 ///
 /// The nodes of the grid keep 64 m away from positions whose coordinates are multiples of 512 m, and so do earthworks:
 /// coarse tiles, whose samples have such coordinates, need no roads.
@@ -45,7 +45,9 @@ struct Road {
 /// Returns the greatest radius that a settlement can have.
 double greatest_radius(const World& world);
 
+/// Returns the id of a settlement, such as "s3_-2". It follows from the cell of the settlement.
 std::string name_of(const Site& site);
+/// Returns the site of a cell from the store; makes it if the store has none. Site::is_settled can be false.
 std::shared_ptr<const Site> site_at(const World& world, const CellKey& cell, Job& job);
 /// Returns the settlements within `reach` of a rectangle.
 std::vector<std::shared_ptr<const Site>> sites_near(const World& world, const Rectangle& box, double reach,

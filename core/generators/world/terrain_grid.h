@@ -7,8 +7,8 @@
 
 namespace seedmesh::world {
 
-/// Samples of a tile at `count` x `count` positions, rows from the south, with one row and column beyond each
-/// border where `halo` is 1.
+/// Samples of a tile at `count` x `count` positions, rows from the south. If `halo` is 1, there is one more row or
+/// column beyond each border.
 struct TerrainGrid {
   int count = 0, halo = 0;
   double west = 0, south = 0, spacing = 0;  ///< absolute position of sample (0, 0)

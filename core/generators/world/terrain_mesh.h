@@ -11,13 +11,13 @@ struct TerrainMesh {
   double height = 0;  ///< metres at position 0: a multiple of the step
 };
 
-/// Returns 33 x 33 vertices, and below those of the border a skirt whose walls face outwards; terrain_indices()
-/// has the triangles. `grid` has a halo. Heights are rounded to whole steps of the level, and normals follow from
-/// samples of the level. Neighbours of one level therefore have equal borders.
+/// Returns a vertex for each sample of the tile, and below those of the border a skirt whose walls face outwards;
+/// terrain_indices() has the triangles. `grid` has a halo. Heights are rounded to whole steps of the level, and
+/// normals follow from samples of the level. Neighbours of one level therefore have equal borders.
 TerrainMesh terrain_mesh(const World& world, const TileFrame& frame, const TerrainGrid& grid, double skirt);
 
-/// Returns the depth in metres of the skirt of a tile of a level. It hides gaps beside tiles of up to three levels coarser
-/// or finer. `grid` is that of the tile.
+/// Returns the depth in metres of the skirt of a tile of a level. It hides gaps beside tiles of up to three levels
+/// coarser or finer. `grid` is that of the tile.
 double skirt_depth(const World& world, int level, const TerrainGrid& grid);
 /// Returns a bound of the depths of skirts in an area.
 double most_skirt(const World& world, const TileFrame& frame, Roughness roughness);

@@ -8,7 +8,7 @@ namespace seedmesh::world {
 
 struct TileFrame {
   double side = 0;                           ///< metres
-  int cells = 0;                             ///< of the terrain along a side
+  int cells = 0;                             ///< cells of the terrain along a side
   double spacing = 0;                        ///< spacing of terrain samples
   double west = 0, south = 0;                ///< absolute; the coordinates of samples are exact
   double middle_east = 0, middle_north = 0;  ///< absolute
@@ -20,7 +20,7 @@ constexpr double dense_side = 8192;  ///< metres; of the tiles that have `dense_
 
 /// Returns the number of cells along the side of a tile. Tiles of 4 km show woods and villages as surfaces and
 /// prisms, whose heights are the greatest part of their errors. Tiles of 8 km have the same spacing of samples as
-/// tiles of 4 km. Views from about a kilometre therefore end at tiles of 8 km, with one level of tiles and
+/// tiles of 4 km. Views from about a kilometre away therefore end at tiles of 8 km, and need one level of tiles and
 /// tilesets less.
 constexpr int cells_of(double side) { return side == dense_side ? dense_cells : tile_cells; }
 

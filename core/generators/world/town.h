@@ -15,15 +15,15 @@ namespace seedmesh::world {
 
 /// The rectangle of a house on its lot.
 struct TownHouse {
-  double east = 0, north = 0;   ///< of its middle, absolute
+  double east = 0, north = 0;   ///< its middle, absolute
   double turn = 0;              ///< degrees, counter-clockwise from above; at 0 the front faces south
-  double width = 0, depth = 0;  ///< along and across the front, metres
+  double width = 0, depth = 0;  ///< sides along and across the front, metres
   int floors = 1;
   std::uint64_t key = 0;
 };
 
 struct Town {
-  std::vector<Lane> streets;  ///< without the roads of the world, which pass through
+  std::vector<Lane> streets;  ///< streets without the roads of the world, which pass through
   std::vector<TownHouse> houses;
   bool has_church = false;
   double church_east = 0, church_north = 0;

@@ -23,8 +23,8 @@ struct ValleySide {
 /// Whether valley_side() is certainly not below `height`, which is at most `land`. Takes less time than valley_side().
 bool is_above(double height, double land, double ruggedness, const Beside& beside);
 
-/// Returns the side of a valley below land of the height `land`. It rises from the water, more steeply beyond the flood
-/// plain, and meets the land at the reach at the latest. Beside the water it is never below the water, if the land is
+/// Returns the side of a valley below land of the height `land`. It rises from the water, more steeply beyond the
+/// flood plain, and meets the land within valley_reach. Beside the water it is never below the water, if the land is
 /// not.
 ValleySide valley_side(double land, double ruggedness, const Beside& beside);
 

@@ -1,6 +1,6 @@
 #pragma once
-/// A plane of land and sea that is generated from a seed, up to the extent of the request, and streamed as OGC 3D
-/// Tiles 1.1. A tile is a function of the request and its address; no tile needs another tile.
+/// A plane of land and sea, generated from a seed up to the extent of the request. It is streamed as OGC 3D Tiles
+/// 1.1. A tile is a function of the request and its address; no tile needs another tile.
 ///
 ///   region (drainage, lakes) -> height of a point -> villages -> roads -> fields, houses -> plants -> tiles
 ///
@@ -29,8 +29,8 @@ bool has_tile(const World& world, const TileKey& key);
 /// its children; it lies inside the box of its parent. In plan it is the tile's square, except where plants and
 /// buildings extend beyond it.
 struct TileBounds {
-  double west = 0, south = 0, low = 0, east = 0, north = 0,
-         high = 0;             ///< metres from the middle of the world
+  /// Metres from the middle of the world.
+  double west = 0, south = 0, low = 0, east = 0, north = 0, high = 0;
   double geometric_error = 0;  ///< metres; falls at every level and is 0 at leaves
 };
 

@@ -17,7 +17,7 @@ namespace seedmesh::world {
 
 constexpr double leaf_side = 64;             ///< metres
 constexpr std::int64_t region_side = 32768;  ///< metres; the unit of the origin
-constexpr int tile_cells = 32;               ///< along a side of the terrain of most tiles
+constexpr int tile_cells = 32;               ///< cells along a side of the terrain of most tiles
 
 enum class Layer : std::uint8_t { terrain, water, roads, buildings, plants };
 
@@ -47,17 +47,17 @@ enum class Reads : std::uint8_t { cells, water, roads, works, fields, houses, to
 struct World {
   WorldParams params;
   std::uint64_t seed = 0;
-  std::uint64_t key = 0;             ///< of all random choices
+  std::uint64_t key = 0;             ///< key of all random choices
   std::uint64_t id = 0;              ///< distinguishes worlds in the store
-  int levels = 15;                   ///< of the tree; the last has the leaves
+  int levels = 15;                   ///< levels of the tree; the last has the leaves
   double extent = 1048576;           ///< metres
   std::int64_t east = 0, north = 0;  ///< the middle, absolute
   std::shared_ptr<Store> store;
-  MakeAsset make_asset;  ///< of plants and houses by requests; without it they have their plain forms
+  MakeAsset make_asset;  ///< makes plants and houses by requests; without it they have their plain forms
 
   bool has(Layer layer) const { return (layers & (1U << static_cast<unsigned>(layer))) != 0; }
   unsigned layers = 31;
-  double land_bias = 0;  ///< of the continents
+  double land_bias = 0;  ///< bias of the continents
   NoiseKeys noise;
   std::shared_ptr<const CityParams> town_rules;  ///< never null
 
@@ -71,8 +71,8 @@ struct World {
   std::array<double, reaches> reach_factor{1, 1, 1, 1, 1, 1, 1}, reach_more{};
 };
 
-/// Errors that the schema cannot express: /extent where it is no power of two, /layers where one is named twice,
-/// /plants where two classes have one name.
+/// Returns the errors that the schema cannot express: /extent is no power of two, /layers names one twice, or two
+/// classes of /plants have one name.
 std::vector<Issue> issues_of(const WorldParams& params);
 
 /// Checks the parameters and returns the world. `store` keeps values that tiles share; without one, the world

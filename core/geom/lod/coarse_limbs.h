@@ -1,6 +1,6 @@
 #pragma once
-/// Simplification of limbs for the coarser levels of detail of a plant. It removes the joints and twigs that
-/// change the outline least for the triangles that they cost.
+/// Simplification of limbs for the coarser levels of detail of a plant. It removes the joints and twigs whose removal
+/// changes the outline least in proportion to the triangles that it saves.
 ///
 /// Joints of a limb are selected after Douglas and Peucker, "Algorithms for the reduction of the number of
 /// points required to represent a digitized line or its caricature", 1973; the error is the area by which the
@@ -22,23 +22,24 @@ struct CoarseOptions {
   /// different barks and cross-sections along a limb; joints where those change are kept.
   const SkinOptions* skin = nullptr;
   bool was_grafted = false;  ///< graft() makes the finest level, skin() the coarser ones
-  int sides = 8;             ///< for graft(): corners of the thickest limb at this level
-  int finest_sides = 8;      ///< the same at the finest level; limbs with fewer corners get as much thicker
+  int sides = 8;             ///< corners of the thickest limb at this level, for graft()
+  int finest_sides = 8;      ///< the same at the finest level; limbs with fewer corners become thicker
   bool pointed = false;      ///< thin ends have no ring (GraftOptions::pointed)
-  std::span<const float> shown = {};          ///< for each joint the visible share 0..1; empty: all visible
+  std::span<const float> shown = {};          ///< visible share 0..1 of each joint; empty: all visible
   std::span<const glm::vec3> drawn = {};      ///< positions of joints in the finest level; empty: unchanged
-  std::span<const std::uint16_t> bones = {};  ///< for each joint; joints where the bone changes are kept
+  std::span<const std::uint16_t> bones = {};  ///< bone of each joint; joints where the bone changes are kept
 };
 
 struct CoarseLimbs {
   Limbs limbs;
-  Array<std::uint32_t> was;  ///< for each joint its index in the original limbs
+  Array<std::uint32_t> was;  ///< index of each joint in the original limbs
   /// For skin(): for each joint the corners of its limb (SkinOptions::corners). The limbs then have keys,
   /// which give them the same rotation as at the finest level.
   std::vector<LimbCorners> corners;
 };
 
-/// Returns the simplified limbs, parents before children, limb by limb. Time: n log of the longest limb.
+/// Returns the simplified limbs, parents before children, limb by limb. Time: n log m for n joints, of which the
+/// longest limb has m.
 CoarseLimbs coarsen(const Limbs& limbs, const CoarseOptions& options, Job& job);
 
 }  // namespace seedmesh

@@ -124,12 +124,13 @@ class Coarsening {
   Chains chains_;
   float thickest_ = 0, thickest_head_ = 0;
   int least_corners_ = 3;
-  std::vector<LimbCorners> corners_;   ///< for each limb, for skin(), with the multiplier of the last count()
+  /// Corners of each limb, for skin(), with the multiplier of the last count().
+  std::vector<LimbCorners> corners_;
   std::vector<Station> stations_;      ///< limb by limb, each from its base
   std::vector<std::size_t> first_;     ///< first station of each limb; one more entry at the end
-  std::vector<float> area_;            ///< for each limb, its visible area times its random factor
-  std::vector<std::uint8_t> kept_;     ///< for each limb, with the multiplier of the last count()
-  std::vector<std::uint8_t> is_fork_;  ///< for each joint: 1 where a kept limb branches off
+  std::vector<float> area_;            ///< visible area of each limb times its random factor
+  std::vector<std::uint8_t> kept_;     ///< whether each limb is kept, with the multiplier of the last count()
+  std::vector<std::uint8_t> is_fork_;  ///< 1 for each joint where a kept limb branches off
 };
 
 }  // namespace seedmesh

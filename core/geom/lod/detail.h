@@ -19,20 +19,21 @@ class Detail {
   /// 1 stack.
   int sides(int most) const;
   int stacks(int most) const;
-  /// The sides of a tree's bark, whose thin limbs have few at every level: most / (level + 1)^0.3.
+  /// Returns the number of sides of a tree's bark, whose thin limbs have few at every level: most / (level + 1)^0.3.
   int bark_sides(int most) const;
-  /// The share of the organs that is kept: 1 / sqrt(level + 1).
+  /// Returns the share of the organs that is kept: 1 / sqrt(level + 1).
   double organs() const;
-  /// The most triangles of the bark, if the finest level has `finest` and the share `seen` of it is visible.
-  /// They are 1 / (level + 1)^0.65 of the visible part, and 1 / (2 (level + 1)) of the part hidden by leaves.
+  /// Returns the greatest number of triangles of the bark, if the finest level has `finest` and the share `seen` of
+  /// it is visible. This is 1 / (level + 1)^0.65 of the visible part, and 1 / (2 (level + 1)) of the part hidden by
+  /// leaves.
   std::uint64_t bark(std::uint64_t finest, double seen) const;
-  /// The share of the area covered by organs that may become uncovered.
+  /// Returns the share of the area covered by organs that may become uncovered.
   double loss() const { return 0.005 * level_; }
-  /// The most triangles of tubes that nothing hides: finest / sqrt(level + 1).
+  /// Returns the greatest number of triangles of tubes that nothing hides: finest / sqrt(level + 1).
   std::uint64_t tubes(std::uint64_t finest) const {
     return static_cast<std::uint64_t>(static_cast<double>(finest) * organs());
   }
-  /// The most triangles of a level whose predecessor has `triangles`.
+  /// Returns the greatest number of triangles of a level whose finer neighbour has `triangles`.
   static std::uint64_t fewer_than(std::uint64_t triangles) { return triangles * 89 / 100; }
 
  private:
@@ -53,7 +54,7 @@ KeptLimbs keep(const Limbs& limbs, const Array<std::uint8_t>& stays, Job& job);
 /// ones.
 KeptLimbs without_repeats(const Limbs& limbs, int sides, Job& job);
 
-/// The greatest radius of any internode.
+/// Returns the greatest radius of all internodes.
 float thickest(const Limbs& limbs);
 
 }  // namespace seedmesh

@@ -28,14 +28,14 @@ class FoliageLevels {
   };
   FoliageLevels(const Plant& plant, Job& job);
 
-  /// Keeps the share `share`, and at least 0.2, of the organs, in the same order. `organs` must be those of
+  /// Returns the share `share` of the organs, but at least 0.2 of them, in the same order. `organs` must be those of
   /// the plant.
   Organs keep(const Organs& organs, double share, Job& job);
 
-  /// The least share to keep so that at most the share `loss` of the covered texels becomes uncovered.
+  /// Returns the least share to keep so that at most the share `loss` of the covered texels becomes uncovered.
   double share_for(double loss) const;
 
-  /// For each joint the share 0..1 of its internode that no organ and no other thick limb hides, averaged
+  /// Returns, for each joint, the share 0..1 of its internode that no organ and no other thick limb hides, averaged
   /// over all views.
   Array<float> shown(const Limbs& limbs, Job& job) const;
 
@@ -54,14 +54,14 @@ class FoliageLevels {
   float best_growth(const Organ& organ, const Array<std::int8_t>& gain);
 
   ViewSamples view_samples_;
-  std::vector<Corners> footprints_;      ///< by surface
-  Corners placed_;                       ///< of the current organ
+  std::vector<Corners> footprints_;      ///< triangles of each surface
+  Corners placed_;                       ///< triangles of the current organ
   Array<std::uint16_t> leaves_, limbs_;  ///< number of them at each texel of each view
   Array<std::uint32_t> owner_;           ///< exclusive or of the numbers of the organs at each texel
   Array<std::uint32_t> last_visit_;      ///< number of the last call of cover() that touched each texel
   std::uint32_t visits_ = 0;
-  Array<std::uint32_t> rank_;  ///< for each organ the number of organs removed before it
-  std::vector<float> lost_;    ///< by removed organs: share of the covered texels that is uncovered
+  Array<std::uint32_t> rank_;  ///< number of organs removed before each organ
+  std::vector<float> lost_;    ///< uncovered share of the covered texels, by the number of removed organs
 };
 
 }  // namespace seedmesh

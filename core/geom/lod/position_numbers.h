@@ -13,7 +13,7 @@ struct PositionNumbers {
   Array<std::uint32_t> number, first;
 };
 
-/// -0 has to be 0. Linear time, by hashing.
+/// Returns the numbers of positions. Each -0 must have been replaced by 0. Linear time, by hashing.
 PositionNumbers position_numbers(const Array<glm::vec3>& positions, const Job& job);
 
 }  // namespace seedmesh

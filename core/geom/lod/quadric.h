@@ -28,8 +28,8 @@ struct Quadric {
   }
 };
 
-/// Returns the cost of moving a point onto another: the error of both quadrics there, plus a small term that grows
-/// with the fourth power of the distance, so that short edges are collapsed first on flat surfaces.
+/// Returns the cost of moving a point onto another: the error of both quadrics there, plus a small term. The term
+/// grows with the fourth power of the distance, so that short edges are collapsed first on flat surfaces.
 inline double collapse_cost(const Quadric& from, const Quadric& to, const glm::dvec3& at,
                             const glm::dvec3& target) {
   constexpr double length_weight = 1e-6;

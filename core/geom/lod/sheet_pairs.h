@@ -31,12 +31,12 @@ class Sheets {
 
  private:
   const Mesh& mesh_;
-  std::vector<std::uint32_t> begin_;     ///< of each sheet in `triangle_`, and the end
+  std::vector<std::uint32_t> begin_;     ///< start of each sheet in `triangle_`, and the end
   std::vector<std::uint32_t> triangle_;  ///< numbers of triangles, sheet by sheet
 };
 
-/// For each leaf of `fine` the same leaf of `coarse`, or Sheets' size where there is none. Each leaf is used once. Leaves
-/// are compared by their frames, the most similar ones first.
+/// Returns, for each leaf of `fine`, the same leaf of `coarse`, or coarse.size() if there is none. Each leaf is used
+/// once. Leaves are compared by their frames, the most similar ones first.
 std::vector<std::uint32_t> paired_sheets(const Sheets& fine, const Sheets& coarse, const Job& job);
 
 }  // namespace seedmesh

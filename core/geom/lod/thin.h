@@ -8,8 +8,8 @@
 
 namespace seedmesh {
 
-/// True where at least nine tenths of the pieces of a mesh are small open sheets, such as leaves, cards and
-/// blades, and there are at least 16 pieces.
+/// Whether a mesh has at least 16 pieces, nine tenths or more of which are small open sheets, such as leaves, cards
+/// and blades.
 bool is_foliage(const Mesh& mesh, const Job& job);
 
 /// Removes sheets, selected by a hash of their position, until at most `target` triangles are left, but keeps

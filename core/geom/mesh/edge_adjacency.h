@@ -44,7 +44,7 @@ class EdgeAdjacency {
   NumberTable use_of_;
   Array<Use> uses_;
   Array<std::uint32_t> leader_;  ///< leader of each piece
-  Array<std::uint8_t> parity_;   ///< of each piece: 1 where it is flipped against its leader
+  Array<std::uint8_t> parity_;   ///< parity of each piece: 1 where it is flipped against its leader
   std::vector<Leader> bound_;    ///< groups that the next piece touches, and its parity against their leaders
 };
 

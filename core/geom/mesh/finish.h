@@ -8,8 +8,8 @@ namespace seedmesh {
 /// computes bounds; narrows indices; and gives nodes, meshes and materials unique names.
 void finish(Model& model, Job& job);
 
-/// Only those of the steps above that concern single meshes. For code that packs a part of a model before the
-/// rest is made.
+/// Performs only those of the steps above that concern single meshes. For code that packs a part of a model before
+/// the rest is made.
 void finish_meshes(Model& model, const Job& job);
 
 /// Orders the triangles for a vertex cache and the vertices by first use, and removes unused vertices. Does

@@ -6,10 +6,10 @@
 
 namespace seedmesh {
 
-/// Joins all meshes of the nodes of `model`, with transforms and instances applied, into one primitive for
-/// each material and topology, in the order of first use. Where only some parts have an attribute, the others
-/// get white, texture coordinate 0 or the normal +Y. Skins keep their bind pose. Coarser levels, tangents and
-/// animations are dropped. Spends the triangles of additional copies.
+/// Joins all meshes of the nodes of `model` into one primitive for each material and topology, in the order of first
+/// use. Transforms and instances are applied. Where only some parts have an attribute, the others get white, texture
+/// coordinate 0 or the normal +Y. Skins keep their bind pose. Coarser levels, tangents and animations are dropped.
+/// Spends the triangles of additional copies.
 std::vector<Primitive> flatten(const Model& model, Job& job);
 
 /// Moves and scales the primitives so that their common bounding box has its centre at the origin and its

@@ -5,10 +5,10 @@
 
 namespace seedmesh {
 
-/// Where the normal of a corner points to the inner side of its triangle, gives the corner a vertex of its
-/// own at the same position with the normal of the face. Such corners arise at sharp bends of tubes with few
-/// sides. Triangles are counter-clockwise seen from outside; indices have 32 bits (Mesh::index.wide). Cost: a
-/// few nanoseconds for each triangle.
+/// If the normal of a corner points to the inner side of its triangle, the corner gets a vertex of its own. This
+/// vertex has the same position, and the normal of the face. Such corners arise at sharp bends of tubes with few
+/// sides. Triangles are counter-clockwise seen from outside; indices have 32 bits (Mesh::index.wide). Cost: a few
+/// nanoseconds for each triangle.
 void repair_inward_normals(Mesh& mesh, const Job& job);
 
 }  // namespace seedmesh

@@ -36,8 +36,8 @@ class MeshField {
  private:
   struct Knot {
     glm::vec3 low{0}, high{0};
-    std::uint32_t first =
-        0;  ///< first triangle; of an inner node: second child (the first child is the next node)
+    /// First triangle of a leaf. Of an inner node, the second child; the first child is the next node.
+    std::uint32_t first = 0;
     std::uint32_t count = 0;  ///< number of triangles; 0: an inner node
   };
   /// Builds the hierarchy over `corner_`, and sorts the triangles.

@@ -15,8 +15,8 @@ class PointGrid {
  public:
   PointGrid(const Box& box, float cell) : low_(box.min), per_cell_(cell > 0 ? 1 / cell : 0) {}
 
-  /// Returns the key of the cell of `point`, which must lie inside the box. A cell is centred on the corner of the
-  /// box, so that rounding errors about a coordinate that many points share do not cross a border of cells.
+  /// Returns the key of the cell of `point`, which must lie inside the box. The corner of the box is the centre of a
+  /// cell. Rounding errors about a coordinate that many points share therefore do not cross a border of cells.
   std::uint64_t key(const glm::vec3& point) const {
     const glm::vec3 cell = (point - low_) * per_cell_ + 0.5F;
     return static_cast<std::uint64_t>(static_cast<std::int64_t>(cell.x)) |
@@ -57,8 +57,8 @@ class NumberTable {
   /// Returns the number of `key`, or `none`.
   std::uint32_t peek(std::uint64_t key) { return find(key).number; }
 
-  /// The number of `key`. It is `none` where the key is new; the caller then assigns a number. The reference
-  /// is valid until the next call.
+  /// Returns the number of `key`. It is `none` if the key is new; the caller then assigns a number. The reference is
+  /// valid until the next call.
   std::uint32_t& operator[](std::uint64_t key) {
     if (used_ * 3 >= slots_.size() * 2) grow();
     Slot& slot = find(key);
@@ -159,7 +159,7 @@ class Weld {
   float reach_squared_, reach_;
   NumberTable first_;
   Array<std::uint32_t> next_;   ///< linked lists of the numbers of each cell
-  Array<std::uint32_t> point_;  ///< of each number: the first point with it
+  Array<std::uint32_t> point_;  ///< first point with each number
 };
 
 }  // namespace seedmesh

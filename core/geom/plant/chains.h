@@ -36,7 +36,7 @@ struct Chains {
 /// a joint while it runs, 9 to 13 for the result.
 Chains find_chains(const Limbs& limbs, const Scale& scale, Job& job);
 
-/// For each joint, the first joint that it coincides with, or itself.
+/// Returns, for each joint, the first joint that it coincides with, or the joint itself.
 Array<std::uint32_t> originals_of(const Limbs& limbs, const Scale& scale, Job& job);
 
 /// find_chains() without the search for internodes that coincide; a tenth of the time.

@@ -1,7 +1,7 @@
 #pragma once
-/// Cross-sections of generalised cylinders: closed outlines for a radius of 1 that are swept along a limb and
-/// blended from joint to joint (Prusinkiewicz, Mündermann, Karwowski and Lane, "The use of positional
-/// information in the modeling of plants", 2001).
+/// Cross-sections of generalised cylinders: closed outlines for a radius of 1 that are swept along a limb and blended
+/// from joint to joint. Source: Prusinkiewicz, Mündermann, Karwowski and Lane, "The use of positional information in
+/// the modeling of plants", 2001.
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <optional>

@@ -14,9 +14,9 @@
 /// - At the end all scales are 1: the animation ends in the still model, bit for bit.
 /// - Coarser levels of detail use the same bones.
 ///
-/// A piece with birth b has at time t (both 0..1) the size 1 - (1 - x)^2, x = (t - b) / (1 - b), relative to
-/// its final size: old pieces continue to grow while young ones start. Its node has the ratio of that to the
-/// size of its parent.
+/// At time t, a piece with birth b has the share 1 - (1 - x)^2 of its final size. Here x = (t - b) / (1 - b), and t
+/// and b are from 0 to 1. Old pieces therefore continue to grow while young ones start. The scale of a node is the
+/// share of its piece divided by that of its parent.
 #include <span>
 
 #include "core/geom/plant/limbs.h"
@@ -40,7 +40,7 @@ struct GrowthPlan {
 
   std::vector<Bone> bones;    ///< parents first; the first is the ground, at the origin
   Array<std::uint16_t> bone;  ///< bone that moves the internode of each joint
-  /// The bone of the ground is scaled too: there is no limb, or there are too many plants.
+  /// Whether the bone of the ground is scaled too, because there is no limb, or there are too many plants.
   bool ground_grows = false;
   double seconds = 8;
 

@@ -7,8 +7,8 @@
 
 namespace seedmesh {
 
-/// The placement of a leaflet: its base, the direction of its tip in degrees to the right of +y, its length, and the
-/// factor of its width, below 1 for a leaflet that is seen from the side.
+/// The placement of a leaflet: its base, the direction of its tip in degrees to the right of +y, its length, and a
+/// factor of its width. The factor is below 1 for a leaflet that is seen from the side.
 struct LeafletPlacement {
   glm::dvec2 at{0};
   double degrees = 0, length = 1, width = 1;

@@ -24,7 +24,7 @@ struct Internode {
 struct Turn {
   glm::vec3 tangent{0};
   float cosine = 1;  ///< cosine of half the angle between the two
-  float reach = 0;   ///< how far the ring leans along either internode
+  float reach = 0;   ///< length by which the ring leans along either internode
 };
 
 enum class TubeOpening { root, branch, point };

@@ -4,7 +4,8 @@
 
 namespace seedmesh {
 
-/// `count` shoots with short needles; the first one is the stem with the tip. The box is not set.
+/// Returns `count` shoots with short needles, of which the first is the stem with the tip. Does not set the bounding
+/// square (LeafDrawing::low and high).
 LeafDrawing needle_twig(int count);
 
 }  // namespace seedmesh

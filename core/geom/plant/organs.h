@@ -37,8 +37,8 @@ struct FoliageOptions {
   std::optional<glm::vec3> crown;
   float crown_share = 0.75F;
   /// With `crown`: for surfaces whose sides have vertices of their own. The normals of both sides turn to the light,
-  /// between straight up (0.6) and away from `crown` (0.4), as far as they stay on the side of their faces. The
-  /// directions away are those of an ellipsoid with these half axes.
+  /// as far as they stay on the side of their faces. The light comes from the mean of the directions straight up
+  /// (weight 0.6) and away from `crown` (0.4). The directions away are those of an ellipsoid with these half axes.
   bool outward = false;
   glm::vec3 crown_axes{1};
   /// Organs differ in brightness by up to this share, by a hash of their key, as vertex colours; 0: no
@@ -54,13 +54,13 @@ struct FoliageOptions {
   bool tangents = false;
 };
 
-/// One Foliage for each surface and colour in use, both rising. Organs that coincide with an earlier one of
-/// their surface, and organs without extent, are left out. A surface's tangents are transformed with it.
-/// Spends Resource::triangles before it allocates. Runs on job.threads(); the result does not depend on
-/// their number. 3 ns a vertex and thread, twice that with a crown.
+/// Returns one Foliage for each surface and colour in use, both rising. Organs that coincide with an earlier one of
+/// their surface, and organs without extent, are left out. A surface's tangents are transformed with it. Spends
+/// Resource::triangles before it allocates. Runs on job.threads(); the result does not depend on their number. Cost:
+/// 3 ns a vertex on one thread, divided by the number of threads; twice that with a crown.
 std::vector<Foliage> place_organs(const Organs& organs, const FoliageOptions& options, Job& job);
 
-/// The same organs as transforms, for formats where nodes share a mesh.
+/// Returns the same organs as transforms, for formats where nodes share a mesh.
 std::vector<FoliagePlaces> organ_places(const Organs& organs, const FoliageOptions& options, Job& job);
 
 }  // namespace seedmesh

@@ -1,7 +1,7 @@
 #pragma once
-/// Light by shadow propagation on a dense grid (Palubicki et al., "Self-organizing tree models for image synthesis",
-/// SIGGRAPH 2009, section 4.1.2), for plants that add and lose internodes one by one. Shades are whole numbers, so
-/// that removing a shadow restores the grid exactly.
+/// Light by shadow propagation on a dense grid, for plants that add and lose internodes one by one. Source: Palubicki
+/// et al., "Self-organizing tree models for image synthesis", SIGGRAPH 2009, section 4.1.2. Shades are whole numbers,
+/// so that removing a shadow restores the grid exactly.
 ///
 ///   layer 0:        [x]            shade
 ///   layer 1:     [ ][ ][ ]         shade / falloff
@@ -39,7 +39,7 @@ class ShadowGrid {
   void cast(const Cell& cell, double weight, std::uint32_t sign);
 
   double cell_;
-  std::vector<double> amounts_;  ///< of each layer, in the unit of the shades
+  std::vector<double> amounts_;  ///< shade of each layer, in the unit of the shades
   Range range_;
   Array<std::uint32_t> shade_;  ///< x by x, within it y by y, and rows along z
 };

@@ -19,20 +19,21 @@ struct LimbCorners {
 struct SkinOptions {
   int sides = 8;   ///< corners of a cross-section of the thickest limb, 3..64
   int stacks = 1;  ///< pieces that an internode is cut into, 1..16
-  bool cuts_all =
-      false;  ///< true where these pieces are also made of internodes whose radius does not change
+  /// Whether internodes whose radius does not change are also cut into these pieces.
+  bool cuts_all = false;
   bool uv = true;
-  std::span<const std::uint16_t> bones = {};  ///< for each joint, what moves its internode; fills Mesh::bone
+  /// Bone that moves the internode of each joint; fills Mesh::bone.
+  std::span<const std::uint16_t> bones = {};
   /// For textures that repeat. u goes a whole number of times from 0 to 1 around each limb: once for each
   /// metre of its first circumference, at least once. v keeps the proportions of the texture as the limb
   /// becomes thinner.
   bool wrap = false;
-  /// With `wrap`, below 1 for textures whose strips from 0 to each power of two down to this one also repeat: u goes
-  /// from 0 to such a power around thin limbs, and has strips_a_metre repetitions a metre around thick ones. Towards the tip of a limb, the
-  /// texture then shrinks less along the limb than around it.
+  /// With `wrap`, below 1 for textures whose strips from 0 to each power of two down to this one also repeat. Around
+  /// thin limbs, u goes from 0 to such a power; around thick limbs, it has strips_a_metre repetitions a metre.
+  /// Towards the tip of a limb, the texture then shrinks less along the limb than around it.
   float least_repeats = 1;
-  /// Fewer sides for limbs that begin thinner than the thickest (by the root of the ratio), and fewer rings
-  /// for internodes shorter than a tenth of the model.
+  /// Whether limbs that begin thinner than the thickest one have fewer sides, in proportion to the root of their
+  /// radius. Internodes shorter than a tenth of the model then have fewer rings.
   bool adapt = false;
   /// The cross-sections that Limbs::contour counts from 1. They follow the turtle's frame (Limbs::frame). A
   /// limb twists by at most 45 degrees an internode, and by at most its length divided by its radius. There
@@ -72,9 +73,9 @@ struct Bark {
 /// - Ends. A root begins with a flat floor, a side branch with a cone inside its parent. A free tip ends in a
 ///   cone within the drawn length. An end with branches, or at a bend that is not mitred, ends in a cone of
 ///   half the radius beyond the drawn length.
-/// - Bends. A bend is mitred up to 120 degrees. At a larger bend the tube is closed and a new one
-///   begins. The same happens if a face would face away from a normal, or if the rings at both ends of an
-///   internode would cross on its inner side.
+/// - Bends. A bend is mitred up to 120 degrees. At a larger bend the tube is closed and a new one begins. The same
+///   happens if a face would face away from a normal. It also happens if the rings at both ends of an internode would
+///   cross on its inner side.
 /// - Small internodes. An internode is left out if its length is below 1e-5 of the model's diagonal. It is also
 ///   left out if its corners would be welded at 1e-6 of the diagonal.
 /// - Repeated internodes. Of internodes that coincide (same ends in either order, same radii) the first is
@@ -100,7 +101,7 @@ std::uint64_t too_thin(const Limbs& limbs, int sides);
 std::vector<Bark> wires(const Limbs& limbs, Job& job);
 std::vector<Bark> wires(Limbs&& limbs, Job& job);
 
-/// Whether a count finds repeated internodes, which takes ten times as long, or counts them twice.
+/// How a count treats repeated internodes: it counts them twice, or finds them, which takes ten times as long.
 enum class Redrawn { counted, found };
 
 struct TubeCount {

@@ -28,9 +28,8 @@ struct Stretch {
   double radius = 0;
   std::uint32_t system = 0;
   std::uint32_t joint = 0, parent = 0;  ///< joints in the system's Limbs
-  std::uint32_t limb = 0,
-                limb_below =
-                    0;  ///< identifiers of the limb of this internode, and of the limb of its parent joint
+  /// Identifiers of the limb of this internode, and of the limb of its parent joint.
+  std::uint32_t limb = 0, limb_below = 0;
 };
 
 /// A tip that queries. A query ignores:
@@ -42,8 +41,8 @@ struct Prober {
   double radius = 0;
   std::uint32_t system = 0;
   std::uint32_t joint = Limbs::none;  ///< the last joint on its branch
-  std::uint32_t limb = Limbs::none,
-                limb_ahead = Limbs::none;  ///< the limb that it is on, and the limb that continues from it
+  /// The limb that it is on, and the limb that continues from it.
+  std::uint32_t limb = Limbs::none, limb_ahead = Limbs::none;
 };
 
 class Surroundings {
@@ -70,7 +69,7 @@ class Surroundings {
   /// True where the tip may grow by `length` along its heading: inside guides, outside obstacles, and clear of
   /// other limbs.
   bool is_free(const Prober& prober, double length);
-  /// From 0, dark, to 1, open sky. A tip's own shade is not counted.
+  /// Returns the light at a point, from 0 (dark) to 1 (open sky). A tip's own shade is not counted.
   double light_at(const glm::dvec3& point);
 
   bool bounds_growth() const { return !options_.guides.empty() || !options_.obstacles.empty(); }
@@ -89,10 +88,10 @@ class Surroundings {
   Job& job_;
   double cell_ = 1;  ///< cell size of the grid of internodes
   std::vector<Stretch> grown_;
-  bool has_cells_ = false,
-       has_shades_ = false;      ///< those of `grown_`, which are made when they are asked for
-  Array<Cell> cells_;            ///< by bucket of their key, then by number of the stretch
-  Array<std::uint32_t> starts_;  ///< of each bucket in `cells_`, and the end
+  /// Whether `cells_` and `shades_` belong to `grown_`. They are computed on first use.
+  bool has_cells_ = false, has_shades_ = false;
+  Array<Cell> cells_;            ///< cells by bucket of their key, then by number of the stretch
+  Array<std::uint32_t> starts_;  ///< start of each bucket in `cells_`, and the end
   KeySums shades_;               ///< the shade of each cell
 };
 

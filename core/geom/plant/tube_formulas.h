@@ -24,8 +24,9 @@ inline float fraction_of(std::uint64_t hash) { return static_cast<float>(hash >>
 /// oaks are then 51 mm apart, and plates of pines 74 mm, as on real trunks.
 constexpr float strips_a_metre = 1.5F;
 
-/// Returns the repetitions of a wrapped texture around a limb. Of a texture with strips, of which `least` is below 1, there
-/// may be a power of two below 1, the nearest by ratio: thin limbs then show a strip of the texture at its own scale.
+/// Returns the number of repetitions of a wrapped texture around a limb. For a texture with strips, whose `least` is
+/// below 1, the result may be a power of two below 1, the nearest by ratio. Thin limbs then show a strip of the
+/// texture at its own scale.
 inline float texture_repeats(float radius, float least) {
   constexpr float root_of_half = 0.70710678F;
   const float around = static_cast<float>(2 * math::pi) * radius * (least < 1 ? strips_a_metre : 1);
@@ -34,8 +35,9 @@ inline float texture_repeats(float radius, float least) {
   return std::max(repeats, least);
 }
 
-/// Returns the radius that sets the pace of v along a limb. A texture that repeats as a whole keeps its proportions. One
-/// with strips, of which `least` is below 1, becomes narrower than long: half way between its proportions and its scale.
+/// Returns the radius that determines how fast v grows along a limb. A texture that repeats as a whole keeps its
+/// proportions. One with strips, of which `least` is below 1, becomes narrower than long: it is half way between
+/// keeping its proportions and keeping its scale.
 inline float paced_radius(float radius, float first, float least) {
   return least < 1 ? std::sqrt(radius * first) : radius;
 }

@@ -1,9 +1,8 @@
 #pragma once
 /// A sink of walk_limb() that writes vertices and triangles to the arrays of the meshes.
 ///
-/// Frames turn by the least rotation from one internode to the next, which for straight pieces is the
-/// rotation-minimising frame (Wang, Juettler, Zheng and Liu, "Computation of Rotation Minimizing Frames",
-/// 2008).
+/// Frames turn by the least rotation from one internode to the next. For straight pieces, this is the
+/// rotation-minimising frame (Wang, Juettler, Zheng and Liu, "Computation of Rotation Minimizing Frames", 2008).
 #include <vector>
 
 #include "core/geom/plant/tube_count.h"
@@ -19,13 +18,14 @@ struct TubeTables {
   /// Adjacent quads of a tube, six corners each, counted from the first vertex of the lower ring. Their
   /// triangles are written together along the limb, so that two rings at a time stay in the vertex cache.
   using Column = std::vector<std::uint32_t>;
-  std::vector<glm::vec2> circle;                     ///< cosine and sine of each corner
-  std::vector<std::vector<ContourCorner>> contours;  ///< of the circle and of SkinOptions::contours; or empty
+  std::vector<glm::vec2> circle;  ///< cosine and sine of each corner
+  /// Outlines of the circle and of SkinOptions::contours; or empty.
+  std::vector<std::vector<ContourCorner>> contours;
   std::vector<glm::vec2> coarse_phases, fine_phases;  ///< the angles that a tube may start with
   glm::vec2 half_side{1, 0};                          ///< the angle of half a side
   /// For tubes that begin with a fan, which brings the first ring into the cache.
   std::vector<Column> columns;
-  std::vector<Column> narrow_columns;  ///< for tubes that do not
+  std::vector<Column> narrow_columns;  ///< columns for tubes that do not begin with a fan
 };
 
 /// The arrays for the tubes of one colour, and the next free vertex and index.
@@ -140,7 +140,7 @@ class TubeWriter {
   Ring waiting_;  ///< the last ring: its normals depend on what follows
   bool is_waiting_ = false;
   bool is_turned_ = false;            ///< was the last ring turned by half a side?
-  std::vector<bool> is_ring_turned_;  ///< of the piece, where rings may be turned
+  std::vector<bool> is_ring_turned_;  ///< whether each ring of the piece is turned, where rings may be turned
   Internode internode_;               ///< the current one
   float radius_ = 0;                  ///< radius of the ring where it begins
   float reach_ = 0;                   ///< reach of that ring's mitre

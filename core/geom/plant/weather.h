@@ -4,9 +4,9 @@
 /// After Kogovšek 2014, section 3.2.4: first the model is made without weather. Then, from the root to the
 /// last leaf, the force of the weather turns each element depending on its thickness. All elements beyond
 /// it turn with it.
-/// - Forces act on internodes (the drag of a cylinder in cross flow) and on outlines (the drag of a plate).
-///   Snow has the
-///   weight of its horizontal area, and water that of its wet area. Organs move, but no force acts on them.
+/// - Forces act on internodes (the drag of a cylinder in cross flow) and on outlines (the drag of a plate). The
+///   weight of snow follows from the horizontal area, and that of water from the wet area. Organs move, but no force
+///   acts on them.
 /// - Each internode turns like a cantilever (Euler and Bernoulli): by bending moment times length divided by E I, with
 ///   I = pi r^4 / 4. Moment and force are those of all parts beyond. No internode turns beyond the direction of the
 ///   force.

@@ -1,7 +1,7 @@
 #pragma once
 /// Laws that compute the radii of a finished skeleton. Each changes Limbs::radius and base_radius alone. If
-/// Limbs::share is given, the last two count an internode by its share, so that radii change continuously as
-/// internodes appear and disappear. Linear time, one thread.
+/// Limbs::share is given, widen_by_longest_chain() and widen_by_pipes() count an internode by its share. Radii
+/// therefore change continuously as internodes appear and disappear. Linear time, one thread.
 #include "core/geom/plant/limbs.h"
 
 namespace seedmesh {

@@ -21,7 +21,8 @@ constexpr std::int32_t greatest_cm = 1 << 27;
 /// Rings do not repeat their first point.
 using CmRing = std::vector<CmPoint>;
 
-/// Twice the signed area of the triangle o, a, b; positive for counter-clockwise order. Exact.
+/// Returns twice the signed area of the triangle o, a, b in square centimetres; positive for counter-clockwise order.
+/// Exact.
 constexpr std::int64_t cross(const CmPoint& o, const CmPoint& a, const CmPoint& b) {
   return (std::int64_t{a.x} - o.x) * (std::int64_t{b.y} - o.y) -
          (std::int64_t{a.y} - o.y) * (std::int64_t{b.x} - o.x);
@@ -40,7 +41,7 @@ inline double distance(const CmPoint& a, const CmPoint& b) {
   return std::sqrt(d.x * d.x + d.y * d.y);
 }
 
-/// Distance from `p` to the segment a b, in centimetres.
+/// Returns the distance from `p` to the segment a b, in centimetres.
 double distance_to_segment(const glm::dvec2& p, const glm::dvec2& a, const glm::dvec2& b);
 
 /// Whether the open segments a b and c d cross at one inner point of both. Exact.

@@ -2,10 +2,10 @@
 /// Bodies of buildings: a plan with a floor, walls and a roof, as one closed surface. Maps describe buildings in
 /// this way (Simple 3D Buildings of OpenStreetMap).
 ///
-/// Points are (x, y) of the plan and a height. Roofs of one profile (gabled, gambrel, saltbox, round, skillion,
-/// half-hipped) are the lower envelope of planes over the smallest rectangle around the plan, so that they fit
-/// any plan with courtyards. Hipped and mansard roofs are those of roof.h. Pyramidal roofs, domes and onions
-/// are cones and surfaces of rings about the centroid.
+/// Points are (x, y) of the plan and a height. Gabled, gambrel, saltbox, round, skillion and half-hipped roofs are
+/// the lower envelope of planes over the smallest rectangle around the plan. They therefore fit any plan with
+/// courtyards. Hipped and mansard roofs are those of roof.h. Pyramidal roofs, domes and onions are cones and surfaces
+/// of rings about the centroid.
 #include <array>
 #include <cstdint>
 #include <glm/vec2.hpp>
@@ -44,7 +44,7 @@ struct MassOptions {
   /// Unit vector in the plan that points down a slope, at a right angle to the ridge. Null: at a right angle to the
   /// longer side of the smallest rectangle; for a skillion roof, outwards at a right angle to the longest edge.
   std::optional<glm::dvec2> direction;
-  bool across = false;  ///< without a direction: the ridge runs along the shorter side
+  bool across = false;  ///< whether the ridge runs along the shorter side; only without a direction
 };
 
 enum class MassPart : std::uint8_t { wall, roof, floor };
@@ -59,8 +59,8 @@ struct Mass {
   std::vector<glm::dvec3> point;  ///< x and y of the plan, and the height; shared by faces that meet
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< counter-clockwise seen from outside
   std::vector<Face> faces;
-  MassRoof made =
-      MassRoof::flat;  ///< the roof that was built; another than that of the options if that one failed
+  /// The roof that was built. It differs from that of the options if that one failed.
+  MassRoof made = MassRoof::flat;
 };
 
 /// The smallest rectangle around a plan that has a side along one of the edges of its convex hull.

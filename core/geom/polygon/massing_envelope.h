@@ -30,7 +30,7 @@ Envelope level_envelope();
 /// Returns the roof over the rectangle around the plan: skillion, gabled, half-hipped, gambrel, saltbox or round.
 Envelope envelope_of(const Plan& plan, const MassOptions& options);
 
-/// Four slopes from the sides of the rectangle around the plan, with the height of the options.
+/// Returns four slopes from the sides of the rectangle around the plan, with the height of the options.
 Envelope hipped_envelope(const Plan& plan, const MassOptions& options);
 
 /// Returns the width of the plan across the ridge, or down the slope of a skillion roof.

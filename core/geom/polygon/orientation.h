@@ -4,7 +4,7 @@
 
 namespace seedmesh {
 
-/// Twice the signed area of the triangle a, b, c, with rounding errors; positive for counter-clockwise order.
+/// Returns twice the signed area of the triangle a, b, c, with rounding errors; positive for counter-clockwise order.
 inline double doubled_area(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c) {
   return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }

@@ -32,20 +32,24 @@ struct PlanDefect {
   std::string message;  ///< "crosses the edge from point 3 of ring 0"
 };
 
-/// Returns all errors of a plan: fewer than three points, numbers that are not finite, points nearer to the next
-/// than a millionth of the diagonal, rings without an area, edges that cross or touch, holes outside of the outer
-/// ring or inside other holes. The direction of rings may be wrong, but a last point equal to the first is an
-/// error (see `read_plan`). Cost: about n log n in practice. Checks stop and deadline where there is a job.
+/// Returns all errors of a plan: fewer than three points, numbers that are not finite, rings without an area, and
+/// edges that cross or touch. A point nearer to the next than a millionth of the diagonal is an error. So is a hole
+/// outside of the outer ring or inside another hole. The direction of rings may be wrong, but a last point equal to
+/// the first is an error (see `read_plan`). Cost: about n log n in practice. Checks stop and deadline where there is
+/// a job.
 std::vector<PlanDefect> defects_of(const Plan& plan, const Job* job = nullptr);
 
 /// Returns a plan of rings in any direction. A last point equal to the first is removed, as GeoJSON has it. Points in
 /// the middle of straight edges stay.
 Plan read_plan(std::vector<PlanRing> rings);
 
+/// Returns the area of a ring in square metres; negative if the ring is clockwise.
 double signed_area(std::span<const glm::dvec2> ring);
+/// Returns the area of a plan without its holes, in square metres.
 double area(const Plan& plan);
 /// Returns the centroid of a ring, whose area is not 0.
 glm::dvec2 centroid_of(std::span<const glm::dvec2> ring);
+/// Returns the number of edges of all rings.
 std::uint32_t edge_count(const Plan& plan);
 /// Returns the two ends of an edge, by its number through all rings.
 std::pair<glm::dvec2, glm::dvec2> edge_of(const Plan& plan, std::uint32_t edge);

@@ -1,8 +1,9 @@
 #pragma once
-/// A planar straight-line graph on whole centimetres. Segments are added one by one, and wherever two of them
-/// meet there is a node. All decisions are exact; crossings are rounded to the nearest centimetre, and segments
-/// that pass within 0.71 cm of a node run through it, so that rounding creates no new crossing (snap rounding:
-/// Hobby, "Practical segment intersection with finite precision output", 1999; here by insertion, one at a time).
+/// A planar straight-line graph on whole centimetres. Segments are added one by one, and wherever two of them meet
+/// there is a node. All decisions are exact. Crossings are rounded to the nearest centimetre. Segments that pass
+/// within 0.71 cm of a node run through it, so that rounding creates no new crossing. This is the snap rounding of
+/// Hobby, "Practical segment intersection with finite precision output", 1999, but segments are inserted one at a
+/// time.
 #include <cstdint>
 #include <span>
 #include <unordered_map>
@@ -104,8 +105,8 @@ inline std::uint32_t end_of(std::span<const PlanarEdge> edges, std::uint32_t hal
 
 /// The half-edges that leave each node, counter-clockwise from east.
 struct PlanarArms {
-  std::vector<std::uint32_t>
-      first;  ///< index into `half_edges` of the first one of each node; one more at the end
+  /// Index into `half_edges` of the first one of each node; one more at the end.
+  std::vector<std::uint32_t> first;
   std::vector<std::uint32_t> half_edges;
   std::span<const std::uint32_t> of(std::uint32_t node) const {
     return std::span(half_edges).subspan(first[node], first[node + 1] - first[node]);

@@ -63,15 +63,15 @@ struct RoofFace {
 struct Roof {
   std::vector<glm::dvec3> point;  ///< shared by faces that meet
   std::vector<RoofFace> faces;    ///< faces of the body, then of the cover
-  double height = 0;              ///< of the highest point
+  double height = 0;              ///< height of the highest point
   /// One sentence for each option that could not be used; the roof is flat or of the kind that the sentence
   /// names.
   std::vector<std::string> warnings;
 };
 
 /// Makes a roof. A plan with errors gets one horizontal face and a warning. Every roof is checked
-/// (straight_skeleton.h). If the check fails, the roof is made again with other tolerances for merging points,
-/// then from a plan whose points are moved by up to a thousandth of its diagonal. If all attempts fail, it is
+/// (straight_skeleton.h). If the check fails, the roof is made again with other tolerances for merging points. Then
+/// it is made from a plan whose points are moved by up to a thousandth of its diagonal. If all attempts fail, it is
 /// flat with a warning. A flat roof without thickness is one face that faces up, and no solid.
 Roof roof(const Plan& plan, const RoofOptions& options, const Job& job);
 

@@ -30,8 +30,8 @@ struct RoofStage {
 /// The plan of a roof, or that plan offset outwards for an overhang.
 struct RoofBase {
   Plan plan;
-  std::vector<std::uint32_t>
-      source;  ///< for each edge of `plan`: the edge of the roof's plan that it comes from
+  /// For each edge of `plan`: the edge of the roof's plan that it comes from.
+  std::vector<std::uint32_t> source;
   double height = 0;
 };
 
@@ -71,8 +71,8 @@ bool is_closed(const Roof& roof, bool is_cover, const Job& job);
 double height_of(const RoofSurface& surface);
 
 /// Returns the height at which the slope of a two-slope roof changes from `steep` to `flat`, which are tangents. This
-/// height is `share` of the height of the roof; a share above 1 counts as 1. `depth` is the distance from the eave to the
-/// innermost point of the plan.
+/// height is `share` of the height of the roof; a share above 1 counts as 1. `depth` is the distance from the eave to
+/// the innermost point of the plan.
 double break_at(double share, double depth, double steep, double flat);
 
 }  // namespace seedmesh

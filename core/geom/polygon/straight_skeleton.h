@@ -32,9 +32,8 @@ struct StraightSkeleton {
   std::vector<glm::dvec3> node;       ///< x and y in plan, z is the time; first the points of the plan
   std::vector<SkeletonFace> faces;    ///< faces, sorted by edge; an edge may have several
   std::vector<SkeletonFront> fronts;  ///< fronts at the end time; empty if nothing is left
-  /// Whether the result passed its check: every face has a simple, counter-clockwise outline in the plane of
-  /// its edge, and the areas of faces and fronts sum to the area of the plan. If false, do not use the
-  /// result.
+  /// Whether the result passed its check. Every face must have a simple, counter-clockwise outline in the plane of
+  /// its edge. The areas of faces and fronts must sum to the area of the plan. If false, do not use the result.
   bool is_sound = false;
 };
 

@@ -19,15 +19,15 @@ class Triangulator {
   /// Checks stop and deadline of `job`, which outlives the object; null: it runs to the end.
   explicit Triangulator(const Job* job = nullptr) : job_(job) {}
 
-  /// Triangles (three numbers of points each, counter-clockwise) that fill a counter-clockwise outline. The
-  /// outline may be concave and may touch itself; one that crosses itself is filled as far as possible. No
-  /// triangle has an area of `least_area` or less; points that only such triangles use are left out.
+  /// Returns triangles (three numbers of points each, counter-clockwise) that fill a counter-clockwise outline. The
+  /// outline may be concave and may touch itself; one that crosses itself is filled as far as possible. No triangle
+  /// has an area of `least_area` or less; points that only such triangles use are left out.
   std::span<const std::uint32_t> run(std::span<const glm::dvec2> outline, double least_area);
 
-  /// Triangles that fill a polygon with holes, as numbers of `points`. `points` holds the rings one after the
-  /// other, with `ring_sizes` points each: the outer ring counter-clockwise, then the holes clockwise. If no
-  /// two edges meet except at common ends, the triangles use every point, so that neighbours along an edge
-  /// meet without gaps. Triangles of `least_area` or less occur only where no others are possible.
+  /// Returns triangles that fill a polygon with holes, as numbers of `points`. `points` holds the rings one after the
+  /// other, with `ring_sizes` points each: the outer ring counter-clockwise, then the holes clockwise. If no two
+  /// edges meet except at common ends, the triangles use every point, so that neighbours along an edge meet without
+  /// gaps. Triangles of `least_area` or less occur only where no others are possible.
   std::span<const std::uint32_t> run(std::span<const glm::dvec2> points,
                                      std::span<const std::uint32_t> ring_sizes, double least_area);
 

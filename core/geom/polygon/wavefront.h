@@ -15,11 +15,10 @@ namespace seedmesh {
 /// are joined so that the inside stays to the left. At each position as many edges end as begin, so that the
 /// outline stays closed despite rounding errors.
 ///
-/// A corner is compared with the edges of its neighbourhood alone. A grid holds the regions that edges and
-/// corners pass over until a horizon, which is chosen so that these regions stay small; then the grid is made
-/// anew with the corners that are left. Regions end where an edge is known to shrink to nothing. So an event
-/// costs log n for the queue and the number of neighbours, and the grid costs a few steps for each corner and
-/// horizon.
+/// A corner is compared with the edges of its neighbourhood alone. A grid holds the regions that edges and corners
+/// pass over until a horizon, which is chosen so that these regions stay small; then the grid is made anew with the
+/// corners that are left. Regions end where an edge is known to shrink to nothing. An event therefore costs log n for
+/// the queue, plus the number of neighbours. The grid costs a few steps for each corner and horizon.
 class Wavefront {
  public:
   /// A line that moves along its normal.
@@ -167,7 +166,7 @@ class Wavefront {
   std::size_t changes_ = 0;  ///< edges that changed since the grid was made
   double effort_ = 1;        ///< multiplies the limit of candidate pairs in a grid
   CellGrid edge_grid_, corner_grid_;
-  std::size_t most_entries_ = 0;  ///< with more the grid is made anew
+  std::size_t most_entries_ = 0;  ///< number of entries above which the grid is made anew
   /// Comparisons after events since the grid was made, and their limit.
   std::size_t comparisons_nearby_ = 0, most_nearby_ = 0;
   std::vector<std::uint32_t> seen_;

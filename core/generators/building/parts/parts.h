@@ -28,8 +28,8 @@ struct PartOptions {
   int count = 0;
   /// Width of the frame of a window or door, or of a balcony rail, in metres. 0 derives it from the size.
   double frame = 0;
-  /// What shows behind a window, one of the rooms of core/texture/rooms.h: 0 a dark room, 1 curtains, 2 a blind, 3 a
-  /// short curtain; 4 to 10 more dark rooms, 11 and 12 curtains, 13 and 14 blinds, 15 a short curtain.
+  /// Number of the room that is visible behind a window, as in core/texture/rooms.h: 0 a dark room, 1 curtains, 2 a
+  /// blind, 3 a short curtain; 4 to 10 more dark rooms, 11 and 12 curtains, 13 and 14 blinds, 15 a short curtain.
   int room = 0;
 
   friend auto operator<=>(const PartOptions&, const PartOptions&) = default;

@@ -13,7 +13,7 @@ struct PictureAnchor {
   glm::dvec3 at{0};
   std::uint32_t kind = 0;    ///< a similarity can map it only to points of the same kind
   std::uint32_t owner = 0;   ///< the marker or solid of the point, or no_owner
-  std::uint32_t corner = 0;  ///< of a solid: which of its key points
+  std::uint32_t corner = 0;  ///< number of the key point of a solid
 };
 constexpr std::uint32_t no_owner = 0xFFFFFFFFU;
 constexpr std::uint32_t anchor_crossing = 0, anchor_end = 1;

@@ -19,14 +19,15 @@ LinePoints line_points(const std::vector<PictureLine>& lines, const std::vector<
 /// The points of a picture by kind, as the search sees them.
 struct PicturePoints {
   const std::map<std::uint32_t, std::vector<PictureAnchor>>& by_kind;
-  const LinePoints& on_lines;  ///< of anchor_crossing
+  const LinePoints& on_lines;  ///< lines of the points of the kind anchor_crossing
   const std::vector<PictureLine>& lines;
   double near = 0;  ///< metres that matched points may differ, with a margin
 };
 
 /// Calls `found` with a point of the picture for each anchor in this order. Kinds agree, points of one marker or
-/// solid belong to one, and crossings that a line of the left shape joins lie on one line. Where another anchor follows
-/// from these points, as a centroid does, the picture has it, or lines to it. Calls `look` for each point that it tries.
+/// solid belong to one, and crossings that a line of the left shape joins lie on one line. If these points determine
+/// the position of another anchor, as they determine a centroid, the picture has a point there, or lines to it. Calls
+/// `look` for each point that it tries.
 void search_points(const std::vector<OpenAnchor>& anchors, std::span<const std::uint32_t> order,
                    const PicturePoints& points, const std::function<void()>& look,
                    const std::function<void(const std::vector<glm::dvec3>&)>& found);

@@ -37,7 +37,7 @@ struct OpenVariable {
 };
 
 struct PicturePair {
-  std::string name;  ///< for the report: its own name, or "rule 1" and so on
+  std::string name;  ///< name for the report: its own name, or "rule 1" and so on
   double weight = 1;
   ShapePicture left, right;
   /// Variables of both shapes. If there are some, `left` has them at first_sample, with a line for each segment, and
@@ -74,15 +74,15 @@ std::optional<ShapePicture> right_shape(const BuildingShapeGrammar& given, const
 
 struct DerivedPicture {
   ShapePicture picture;
-  std::map<std::string, std::uint64_t> uses;  ///< of each rule
+  std::map<std::string, std::uint64_t> uses;  ///< number of uses of each rule
   std::uint64_t steps = 0;
   bool fits_nowhere = false;  ///< no rule applies to the initial shape
 };
 
-/// Runs the rules: one match in each step, or in parallel all matches that share no marker and no solid.
-/// Without `steps` it runs until no rule applies, at most 100,000 steps. Spends Resource::shapes for added
-/// elements. Throws Stop if the picture grows beyond 1,000 km. Cost of a step: linear in markers and solids
-/// if markers determine the similarity, else the square of the lines.
+/// Runs the rules: one match in each step, or in parallel all matches that share no marker and no solid. Without
+/// `steps` it runs until no rule applies. Spends Resource::shapes for added elements. Throws Stop after 100,000
+/// steps, or if the picture grows beyond 1,000 km. Cost of a step: linear in markers and solids if markers determine
+/// the similarity, else the square of the lines.
 DerivedPicture derive_picture(const BuildingShapeGrammar& given, const PictureGrammar& grammar,
                               std::optional<int> steps, bool is_parallel, Job& job);
 

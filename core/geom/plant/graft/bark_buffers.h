@@ -1,8 +1,8 @@
 #pragma once
 /// The arrays that welded bark is written to: vertices, triangles, loops, and which limb owns what.
 ///
-/// A vertex on a loop belongs to a group. The parent's vertices and the child's vertices at one point of a
-/// loop have the groups 2n and 2n + 1, and share the normal of group 2n in the end.
+/// A vertex on a loop belongs to a group. At one point of a loop, the parent's vertices have the group 2n and the
+/// child's vertices the group 2n + 1. In the end, both share the normal of group 2n.
 #include <span>
 #include <utility>
 #include <vector>
@@ -23,9 +23,9 @@ struct LoopVertex {
 /// The loop that a limb begins with: elements of BarkBuffers::loop_vertices.
 struct Loop {
   std::uint32_t first = Limbs::none, count = 0;
-  float radius = 0,
-        reach = 0;  ///< of the child at the loop; of the point of the loop farthest along the child
-  glm::vec3 u{0};   ///< the direction of angle 0 at the child
+  /// `radius` is that of the child at the loop. `reach` is that of the point of the loop farthest along the child.
+  float radius = 0, reach = 0;
+  glm::vec3 u{0};  ///< the direction of angle 0 at the child
   bool is_fork = false;
 };
 
@@ -63,7 +63,7 @@ struct BarkBuffers {
   Mesh mesh;  ///< its arrays have more capacity than `vertices`, so that four floats can be read anywhere
   std::size_t vertices = 0;               ///< written so far
   Array<std::uint32_t> group;             ///< group of each vertex, or Limbs::none
-  Array<std::uint8_t> twin;               ///< for each vertex, 1: an earlier vertex has the same position
+  Array<std::uint8_t> twin;               ///< 1 for each vertex whose position an earlier vertex has
   Array<std::uint32_t> joints;            ///< joint of each vertex, as GraftOptions::joints
   Array<std::int16_t> colors;             ///< colour of each triangle, as GraftOptions::colors
   Array<std::uint32_t> loop_triangles;    ///< triangles with a vertex on a loop, rising
@@ -111,7 +111,7 @@ void note_loop_triangles(BarkBuffers& bark, std::size_t first);
 /// any direction in that plane.
 void level_tangent(Mesh& mesh, std::size_t vertex);
 
-/// The bark of all limbs in the order of limbs, without what earlier rounds have left.
+/// The bark of all limbs in the order of limbs, without the remains of earlier rounds.
 struct JoinedBark {
   Mesh mesh;
   Array<std::uint32_t> joints;

@@ -14,8 +14,8 @@ enum class Recheck : std::uint8_t { nothing, loop, all };
 struct BarkRounds {
   std::vector<JoinMode> written;      ///< GraftInput::join at the last round; empty before the first one
   std::vector<std::uint32_t> parent;  ///< parent of each limb; empty in the first round
-  std::vector<std::uint8_t> dirty;    ///< for each limb, 1: written in this round
-  std::vector<std::uint8_t> touched;  ///< for each pair of groups, 1: its parent or child limb is dirty
+  std::vector<std::uint8_t> dirty;    ///< 1 for each limb that is written in this round
+  std::vector<std::uint8_t> touched;  ///< 1 for each pair of groups whose parent or child limb is dirty
   std::vector<Recheck> recheck;       ///< recheck of each limb
   bool is_large = true;               ///< enough to check for more than one thread
 
@@ -32,11 +32,11 @@ void write_round(const GraftInput& in, BarkBuffers& bark, BarkRounds& rounds, Jo
 /// whose limbs are in an order that cannot be cut.
 bool write_in_parts(const GraftInput& in, BarkBuffers& bark, Job& job);
 
-/// parallel_for(), but on the calling thread in a round with little to check.
+/// Calls parallel_for(). In a round with little to check, runs `body` on the calling thread instead.
 void for_chunks(const BarkRounds& rounds, const Job& job, std::size_t count, std::size_t chunk,
                 const std::function<void(std::size_t begin, std::size_t end, std::size_t index)>& body);
 
-/// The end of the triangles of a limb that have to be checked; they begin at its range.
+/// Returns the end of the triangles of a limb that have to be checked; they begin where its range begins.
 std::uint32_t recheck_end(const BarkBuffers& bark, const BarkRounds& rounds, std::size_t limb);
 
 /// Whether a corner of the triangle is on a loop that has changed.

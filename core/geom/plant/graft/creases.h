@@ -14,9 +14,9 @@ struct Crease {
   std::uint32_t triangle = 0, first = 0, last = 0;
 };
 
-/// Returns whether a face that points away from its normals may get a crease. Faces between limbs that meet at a narrow
-/// angle may. A face that is folded over to the other side of its limb or junction may get one only if it is too small
-/// to be seen.
+/// Returns whether a face that points away from its normals may get a crease. Faces between limbs that meet at a
+/// narrow angle may. A face that is folded over to the other side of its limb or junction may get one only if it is
+/// invisibly small.
 bool can_be_creased(const GraftInput& in, const BarkBuffers& bark, std::uint32_t triangle, std::size_t limb);
 
 /// Returns the creased triangles, by their numbers in the buffers, that still belong to a limb.

@@ -1,5 +1,5 @@
 #pragma once
-/// Limbs that graft() leaves to skin(): which they are, and their bark.
+/// Finds the limbs that graft() leaves to skin(), and makes their bark.
 #include <vector>
 
 #include "core/geom/plant/graft/bark_buffers.h"

@@ -69,8 +69,9 @@ struct GraftCounts {
   std::uint32_t creases = 0;      ///< faces with a normal of their own
 };
 
-/// Returns the bark of all limbs, of all colours. If limbs part at so acute an angle that no normal points to
-/// the front of all faces of a vertex, a face that it points behind gets a vertex of its own: a crease.
+/// Returns the bark of all limbs, of all colours. Where limbs part at an acute angle, a vertex may have no normal
+/// that points to the front of all its faces. A face that the normal points behind then gets a vertex of its own: a
+/// crease.
 ///
 /// Guarantees, as skin(): a closed surface, where every edge belongs to two triangles after welding by
 /// position; unit normals that no face faces away from; no unused vertex; u and v in metres (unless `wrap`),

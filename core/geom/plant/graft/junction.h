@@ -33,7 +33,7 @@ struct Junction {
   /// the lowest and highest heights of the loop.
   float at = 0, low = 0, high = 0;
   float middle = 0, half_width = 0;  ///< angles about the parent
-  float radius = 0;                  ///< of the child at the loop
+  float radius = 0;                  ///< radius of the child at the loop
   float child_reach = 0;             ///< greatest LoopPoint::reach; the next ring of the child lies beyond it
   bool is_fork = false;
   std::size_t piece = 0;  ///< piece of the parent; the angles are in its frame
@@ -71,16 +71,17 @@ class LoopAngles {
 /// A side limb before its junction is made.
 struct ChildLimb {
   std::uint32_t limb = 0;
-  glm::vec3 along{0};            ///< direction of its first piece
-  float radius = 0, length = 0;  ///< of the first ring; of the whole limb, or of as much as was read
-  float tip = 0;                 ///< length up to its last ring, or up to what was read
+  glm::vec3 along{0};  ///< direction of its first piece
+  /// Radius of the first ring; length of the limb, or of the part that was read.
+  float radius = 0, length = 0;
+  float tip = 0;  ///< length up to its last ring, or up to what was read
   int sides = 3;
   LoopAngles* angles = nullptr;
 };
 
-/// Returns a collar at point `at_point` of the parent, on the piece after it, or on the piece before it for a limb
-/// that points backward. Appends its points to `points`. Returns nullopt where the limb leaves at too flat an
-/// angle, or is too thick or too short.
+/// Returns a collar at point `at_point` of the parent. It lies on the piece after the point, or on the piece before
+/// it if the limb points backward. Appends its points to `points`. Returns nullopt where the limb leaves at too flat
+/// an angle, or is too thick or too short.
 std::optional<Junction> collar_at(const LimbAxis& parent, std::size_t at_point, const ChildLimb& child,
                                   std::vector<LoopPoint>& points);
 

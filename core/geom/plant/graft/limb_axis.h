@@ -18,7 +18,8 @@ struct LimbAxis {
   std::vector<float> v;              ///< texture coordinate along the limb at each point
   std::vector<std::uint32_t> joint;  ///< joint of Limbs, for each point
   std::vector<std::int16_t> color;   ///< colour of each piece; filled by read_colors()
-  std::vector<glm::vec3> along, u;  ///< of each piece: its direction, and a unit vector at right angles to it
+  /// For each piece, its direction, and a unit vector at right angles to it.
+  std::vector<glm::vec3> along, u;
   int order = 0;
 
   /// A piece is the straight part between two points; there is one piece fewer than points.

@@ -7,9 +7,9 @@ namespace seedmesh {
 /// True where the limb has rings with ribs.
 bool has_rib_seams(const BarkBuffers& bark, std::size_t limb);
 
-/// Replaces the normals of a limb with ribs, except on loops, by the means of its faces, weighted by angle,
-/// and turns them in front of their faces as relax_normals() does. Used if normals by formula face away from
-/// faces of the limb. With few corners for a ring, the faces of deep ribs or of a flare are steeper than the
+/// Replaces the normals of a limb with ribs, except on loops, by the means of the normals of adjacent faces, weighted
+/// by angle. Turns them to the front of their faces, as relax_normals() does. Used if normals by formula face away
+/// from faces of the limb. With few corners for a ring, the faces of deep ribs or of a flare are steeper than the
 /// ribs themselves.
 void smooth_rib_normals(BarkBuffers& bark, std::size_t limb);
 

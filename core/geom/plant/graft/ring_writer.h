@@ -57,13 +57,13 @@ struct LimbWriter {
 /// True where the limb has ribs: limbs of order 0 with GraftOptions::lobes.
 inline bool has_ribs(const LimbWriter& w) { return w.axis.order == 0 && w.in.options.lobes != 0; }
 
-/// The plane at the length `at` of a piece, and the plane of a planned ring; a ring at a bend halves the
+/// Return the plane at the length `at` of a piece, and the plane of a planned ring. A ring at a bend halves the
 /// angle.
 RingPlane plane_at(const LimbAxis& axis, float at, std::size_t piece);
 RingPlane plane_of(const LimbAxis& axis, const PlannedRing& ring);
 
-/// Returns the corners of a ring of this radius: by the radius, the ribs, the side limbs, and the loop that the limb
-/// begins with, whose number it keeps until it differs by more than 1.
+/// Returns the number of corners of a ring of this radius. It follows from the radius, the ribs and the side limbs.
+/// The number of the loop that the limb begins with is kept until the two differ by more than 1.
 int sides_for(const LimbWriter& w, float radius);
 
 void set_seam(LimbWriter& w, float angle);

@@ -4,8 +4,8 @@
 
 namespace seedmesh {
 
-/// Counts rings, loops and junctions as if every limb had room for its junction: a limb without room has slightly
-/// fewer triangles, a crease slightly more. The estimate is within a quarter of the true number for trees whose
+/// Counts rings, loops and junctions as if every junction fitted. A limb whose junction does not fit has slightly
+/// fewer triangles, and a crease slightly more. The estimate is within a quarter of the true number for trees whose
 /// limbs do not overlap. Linear time, a twentieth of that of graft().
 std::uint64_t graft_triangles(const Limbs& limbs, const GraftOptions& options, Job& job);
 
