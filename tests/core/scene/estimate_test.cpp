@@ -96,10 +96,11 @@ TEST(SceneEstimate, SamplesRulesOfSlopeAltitudeAndWater) {
   }
 }
 
+/// A system without an estimate: its word is random, and has more modules than an estimate makes for a count.
 Json stochastic() {
-  return {
-      {"generator", "lsystem"},
-      {"parameters", {{"axiom", "A"}, {"productions", {"A -> FA : 1", "A -> F : 2"}}, {"iterations", 4}}}};
+  return {{"generator", "lsystem"},
+          {"parameters",
+           {{"axiom", "A"}, {"productions", {"A -> FAA : 1", "A -> FFAA : 2"}}, {"iterations", 16}}}};
 }
 
 TEST(SceneEstimate, IsAbsentWhereNoModelOfALayerHasAnEstimate) {
