@@ -20,7 +20,7 @@ struct Reader {
   std::vector<Warning> warnings;
 
   void report(IssueKind kind, const std::string& pointer, std::string message) {
-    issues.push_back({kind, pointer, std::move(message)});
+    issues.emplace_back(kind, pointer, std::move(message));
   }
   /// `pointer` leads into the file; "" is the whole file.
   void warn(const std::string& pointer, std::string message) {

@@ -135,9 +135,10 @@ class AreaFinder {
     double tallest = -1;
     for_areas_of(i, j, [&](Area& area, int, int) {
       if (area.plant_height >= tallest_class_) return;
-      if (tallest < 0)
+      if (tallest < 0) {
         tallest = tallest_growing(world_, sample, frame_.west + i * spacing_, frame_.south + j * spacing_,
                                   plant_stride_ * spacing_);
+      }
       area.plant_height = std::max(area.plant_height, tallest);
     });
   }
@@ -234,8 +235,9 @@ class AreaFinder {
   void leave_out_absent_plants() {
     job_.check();
     for (int k = 0; k < count_ * count_; ++k) {
-      const double west = frame_.west + k % count_ * side_, south = frame_.south + k / count_ * side_;
-      Area& area = at(k % count_, k / count_);
+      const int column = k % count_, row = k / count_;
+      const double west = frame_.west + column * side_, south = frame_.south + row * side_;
+      Area& area = at(column, row);
       // between samples, the ground differs by less than their distance
       const Growth growth{std::min(area.low, area.lowest) - spacing_,
                           std::max(area.high, area.highest) + spacing_, area.plant_height,

@@ -191,7 +191,7 @@ Wood wood_at(const World& world, const GroundSample& sample, const Climate& clim
   for (std::size_t k = 0; k < world.params.plants.size(); ++k) {
     const WorldClass& plant = world.params.plants[k];
     if (!has_canopy(plant)) continue;
-    const double cover = wood_cover(world, static_cast<int>(k), sample, climate, east, north, spacing);
+    const double cover = wood_cover(world, static_cast<int>(k), sample, climate, {east, north}, spacing);
     if (cover <= 0) continue;
     const auto color = linear_color(plant.color);
     wood.cover = std::max(wood.cover, cover);

@@ -116,7 +116,7 @@ void add_places(Glb& glb, const World& world, int above_leaves, const TileFrame&
     const bool closes = has_canopy(plant);
     if ((closes ? showing.share : showing.open_share) <= 0) continue;
     const std::vector<Plant> plants =
-        plants_in(world, number, box, ground, job, closes ? showing.share : showing.open_share);
+        plants_in(world, number, box, ground, job, {closes ? showing.share : showing.open_share});
     if (plants.empty()) continue;
     const std::string name = "plants_" + plant.class_name;
     const auto asset = plant_asset(world, number, is_far ? AssetForm::far : AssetForm::near, job);

@@ -192,9 +192,9 @@ double moisture_near(const Climate& climate, const GroundSample& sample) {
 }  // namespace
 
 std::vector<Plant> plants_in(const World& world, int plant_class, const Rectangle& box, const Ground& ground,
-                             Job& job, double share, double reach) {
+                             Job& job, const Competitors& competitors) {
   const WorldClass& plant = world.params.plants[static_cast<std::size_t>(plant_class)];
-  Field field = field_of(key_of(world, plant_class), plant, box, share, reach);
+  Field field = field_of(key_of(world, plant_class), plant, box, competitors.share, competitors.reach);
   thin(field, plant.spacing, job);
   const double steepest = steepest_of(plant);
   std::vector<Plant> plants;
@@ -218,13 +218,13 @@ std::vector<Plant> plants_in(const World& world, int plant_class, const Rectangl
 }
 
 double wood_cover(const World& world, int plant_class, const GroundSample& sample, const Climate& climate,
-                  double east, double north, double spacing) {
+                  const glm::dvec2& at, double spacing) {
   const WorldClass& plant = world.params.plants[static_cast<std::size_t>(plant_class)];
   if (sample.field >= 0) return 0;
   Climate moist = climate;
   moist.moisture = moisture_near(climate, sample);
   if (!suits(world, plant, sample, moist, steepest_of(plant))) return 0;
-  return cover_at(key_of(world, plant_class), plant.density, east, north, spacing) *
+  return cover_at(key_of(world, plant_class), plant.density, at.x, at.y, spacing) *
          (1 - cleared_share(plant, sample));
 }
 

@@ -8,6 +8,8 @@
 /// A finite form of the dependent thinning of Matérn 1960 ("Spatial variation").
 #include <vector>
 
+#include <glm/vec2.hpp>
+
 #include "core/generators/world/ground.h"
 
 namespace seedmesh::world {
@@ -21,17 +23,22 @@ struct Plant {
   std::uint64_t key = 0;       ///< key of further random choices
 };
 
-/// Returns the plants of a class in [west, east) x [south, north). The rectangle is inside that of `ground`. Only
-/// candidates with a mark below `share` compete. A plant depends only on candidates with lower marks. A lower share
-/// therefore returns a part of the plants of a higher share, in less time. `reach` is the distance around the
-/// rectangle, in spacings, within which candidates compete; tests try other values than the default.
-std::vector<Plant> plants_in(const World& world, int plant_class, const Rectangle& box, const Ground& ground,
-                             Job& job, double share = 1, double reach = thinning_rounds);
+/// The candidates that compete for space: those with a mark below `share`, within `reach` spacings of the rectangle.
+/// Tests try other values of `reach` than the default.
+struct Competitors {
+  double share = 1, reach = thinning_rounds;
+};
 
-/// Returns the share of the ground at a position that the class covers, 0 to 1. Variations shorter than
+/// Returns the plants of a class in [west, east) x [south, north). The rectangle is inside that of `ground`. A plant
+/// depends only on candidates with lower marks. A lower share therefore returns a part of the plants of a higher share,
+/// in less time.
+std::vector<Plant> plants_in(const World& world, int plant_class, const Rectangle& box, const Ground& ground,
+                             Job& job, const Competitors& competitors = {});
+
+/// Returns the share of the ground at a position, east and north in metres, that the class covers, 0 to 1. Variations shorter than
 /// `spacing`, the distance between samples in metres, are left out.
 double wood_cover(const World& world, int plant_class, const GroundSample& sample, const Climate& climate,
-                  double east, double north, double spacing);
+                  const glm::dvec2& at, double spacing);
 
 /// Returns the height of the tallest class that density, moisture, temperature, biomes and the sea do not exclude within
 /// `spacing` metres of a sample; 0 if they exclude all classes.

@@ -31,8 +31,9 @@ FilePart append_coordinates(std::string& file, int count) {
   FilePart part{file.size(), 0};
   const auto add = [&](int vertex) {
     const float by = texture_repeats / static_cast<float>(count - 1);
-    append_float(file, by * static_cast<float>(vertex % count));
-    append_float(file, by * static_cast<float>(vertex / count));
+    const int column = vertex % count, row = vertex / count;
+    append_float(file, by * static_cast<float>(column));
+    append_float(file, by * static_cast<float>(row));
     ++part.count;
   };
   for (int k = 0; k < count * count; ++k) add(k);

@@ -114,7 +114,7 @@ Result<Appraisal> appraise(const WorldParams& params, const GenerateContext&) {
   Estimate estimate;
   if (has(WorldLayersItem::terrain)) estimate.triangles += terrain_triangles;
   if (has(WorldLayersItem::water) && params.relief.sea) estimate.triangles += 2;
-  if (has(WorldLayersItem::water) && params.extent / tile_cells < dry_spacing)
+  if (has(WorldLayersItem::water) && params.extent < dry_spacing * tile_cells)
     estimate.triangles += usual_rivers;
   estimate.bytes = estimate.triangles * 20;
   appraisal.estimate = estimate;

@@ -235,7 +235,7 @@ std::set<std::pair<double, double>> feet_of(const World& world, const Rectangle&
   Job job = test_job();
   const Ground ground(world, box, job);
   std::set<std::pair<double, double>> feet;
-  for (const Plant& plant : plants_in(world, 0, box, ground, job, 1, reach))
+  for (const Plant& plant : plants_in(world, 0, box, ground, job, {1, reach}))
     feet.insert({plant.east, plant.north});
   return feet;
 }

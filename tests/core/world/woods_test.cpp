@@ -25,7 +25,7 @@ TEST(WorldWoods, OfALowerShareAreAPartOfThoseOfAHigherOne) {
     all += below.size();
     for (const double share : {0.25, 0.08}) {
       std::set<std::pair<double, double>> own;
-      for (const Plant& p : plants_in(world, 0, box, ground, job, share)) {
+      for (const Plant& p : plants_in(world, 0, box, ground, job, {share})) {
         EXPECT_TRUE(below.contains({p.east, p.north}));
         own.insert({p.east, p.north});
       }
