@@ -6,9 +6,8 @@
 /// gives the same result.
 ///
 /// A finite form of the dependent thinning of Matérn 1960 ("Spatial variation").
-#include <vector>
-
 #include <glm/vec2.hpp>
+#include <vector>
 
 #include "core/generators/world/ground.h"
 
