@@ -27,11 +27,15 @@ struct Found {
   float *border, *shade, *right, *down;
 };
 
+/// What is found for the texels of all lanes.
+struct LaneCells {
+  float border[lanes], shade[lanes], right[lanes], down[lanes];
+};
+
 /// The cells of `lanes` texels in one square: the distance to the border between the nearest and the second nearest
 /// point.
 inline void find_cells(const Near& near, const float* __restrict at_x, const float* __restrict at_y,
-                       float (&border)[lanes], float (&shade)[lanes], float (&right)[lanes],
-                       float (&down)[lanes]) {
+                       LaneCells& cells) {
   for (int k = 0; k < lanes; ++k) {
     const float x = at_x[k], y = at_y[k];
     // Without branches, which the processor could not predict.
@@ -49,10 +53,10 @@ inline void find_cells(const Near& near, const float* __restrict at_x, const flo
       nearest = is_nearest ? own : nearest;
     }
     const float across_x = second_x - near_x, across_y = second_y - near_y;
-    border[k] = (second - nearest) / (2 * std::sqrt(across_x * across_x + across_y * across_y));
-    shade[k] = own_shade;
-    right[k] = x - near_x;
-    down[k] = y - near_y;
+    cells.border[k] = (second - nearest) / (2 * std::sqrt(across_x * across_x + across_y * across_y));
+    cells.shade[k] = own_shade;
+    cells.right[k] = x - near_x;
+    cells.down[k] = y - near_y;
   }
 }
 
@@ -89,14 +93,14 @@ SEEDMESH_WIDE void find_row(const RowInput& in, const float* __restrict x, const
         near.y[i] = point.y;
         near.shade[i] = point.shade;
       }
-      float borders[lanes], shades[lanes], rights[lanes], downs[lanes];
-      find_cells(near, x + begin, y + begin, borders, shades, rights, downs);
+      LaneCells cells;
+      find_cells(near, x + begin, y + begin, cells);
       for (int k = 0; k < lanes; ++k) {
         const bool is_own = square[k] == own;
-        border[begin + k] = is_own ? borders[k] : border[begin + k];
-        shade[begin + k] = is_own ? shades[k] : shade[begin + k];
-        right[begin + k] = is_own ? rights[k] : right[begin + k];
-        down[begin + k] = is_own ? downs[k] : down[begin + k];
+        border[begin + k] = is_own ? cells.border[k] : border[begin + k];
+        shade[begin + k] = is_own ? cells.shade[k] : shade[begin + k];
+        right[begin + k] = is_own ? cells.right[k] : right[begin + k];
+        down[begin + k] = is_own ? cells.down[k] : down[begin + k];
         done |= static_cast<int>(is_own) << k;
       }
     }

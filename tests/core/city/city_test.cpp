@@ -138,9 +138,10 @@ TEST(City, TakesTheInnerHalfOfAStreetAlongTheBorder) {
   for (const bool has_branch : {false, true}) {
     Json features = Json::array();
     for (const std::string& line : {along, away}) {
-      if (line == along || has_branch)
+      if (line == along || has_branch) {
         features.push_back(
             {{"type", "Feature"}, {"properties", {{"width", 7}}}, {"geometry", Json::parse(line)}});
+      }
     }
     IssueList errors;
     const CityParams params = read_city(

@@ -10,7 +10,6 @@ using testing::AllOf;
 using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
-using testing::IsEmpty;
 using testing::StartsWith;
 
 constexpr std::string_view monopodial = R"(/* A monopodial plant, */
@@ -144,7 +143,8 @@ TEST(Cpfg, ExpandsNoBombs) {
   std::string text = "Lsystem: 1\nderivation length: 1\nAxiom: A\n#define X0 [F]\n";
   for (int i = 1; i < 40; ++i) {
     const std::string before = "X" + std::to_string(i - 1);
-    text += "#define X" + std::to_string(i) + " " + before + " " + before + "\n";
+    text.append("#define X").append(std::to_string(i));
+    text.append(" ").append(before).append(" ").append(before).append("\n");
   }
   EXPECT_THAT(reports(imported("cpfg", text + "A --> X39\n")), Contains(HasSubstr("longer than")));
 }

@@ -86,9 +86,10 @@ TEST_P(Grounds, ShowNoRepeatsFromAfar) {
   for (int y = 0; y < size; ++y) {
     for (int k = -most; k <= most; ++k) {
       std::complex<double> sum = 0;
-      for (int x = 0; x < size; ++x)
+      for (int x = 0; x < size; ++x) {
         sum += (values[static_cast<std::size_t>(y * size + x)] - mean) *
                std::polar(1.0, -2 * std::numbers::pi * k * x / size);
+      }
       along[static_cast<std::size_t>((k + most) * size + y)] = sum;
     }
   }
@@ -96,9 +97,10 @@ TEST_P(Grounds, ShowNoRepeatsFromAfar) {
   for (int k = -most; k <= most; ++k) {
     for (int l = -most; l <= most; ++l) {
       std::complex<double> sum = 0;
-      for (int y = 0; y < size; ++y)
+      for (int y = 0; y < size; ++y) {
         sum += along[static_cast<std::size_t>((k + most) * size + y)] *
                std::polar(1.0, -2 * std::numbers::pi * l * y / size);
+      }
       low += std::norm(sum / static_cast<double>(size * size));
     }
   }

@@ -73,7 +73,7 @@ CellRows::Row defined_row(const std::vector<Cells::Point>& points, Lattice latti
     std::vector<std::pair<float, Cells::Point>> found;
     for (const Cells::Point& each : points) {
       const Cells::Point& p = each;
-      found.push_back({(p.x - at_x) * (p.x - at_x) + (p.y - at_y) * (p.y - at_y), p});
+      found.emplace_back((p.x - at_x) * (p.x - at_x) + (p.y - at_y) * (p.y - at_y), p);
     }
     std::partial_sort(found.begin(), found.begin() + 2, found.end(),
                       [](const auto& a, const auto& b) { return a.first < b.first; });

@@ -52,7 +52,7 @@ constexpr int default_paths = 6;
 
 /// The number of paths in the worlds of a preset; the environment may ask for more.
 int number_of_paths() {
-  const char* given = std::getenv("SEEDMESH_WORLD_PATHS");
+  const char* given = std::getenv("SEEDMESH_WORLD_PATHS");  // NOLINT(concurrency-mt-unsafe)
   return given ? std::max(1, std::atoi(given)) : default_paths;
 }
 
@@ -89,9 +89,10 @@ TEST(WorldErrors, AreNotBelowThoseOfTheGroundInAnyPreset) {
     std::sort(ratios.begin(), ratios.end());
     // Two, with the spread of a median over few tiles.
     EXPECT_LE(ratios[ratios.size() / 2], 2.1) << preset;
-    if (paths > default_paths)
+    if (paths > default_paths) {
       std::printf("%s: %zu tiles, median of declared by measured errors %.2f\n", preset, ratios.size(),
                   ratios[ratios.size() / 2]);
+    }
   }
   // Errors are estimated from samples: of 2,139 tiles one is declared four percent below the measured one.
   EXPECT_LE(low, tiles / 1000);
