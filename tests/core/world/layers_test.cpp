@@ -266,7 +266,8 @@ TEST(WorldLayers, PlantsKeepTheirSpacingAcrossBorders) {
     const double west = 64.0 * (509 * k % 3000), south = 64.0 * (797 * k % 3000);
     std::size_t near_border = 0, inside = 0;
     for (int tile = 0; tile < 64; ++tile) {
-      const double east = west + 64 * (tile % 8), north = south + 64 * (tile / 8);
+      const int column = tile % 8, row = tile / 8;
+      const double east = west + 64 * column, north = south + 64 * row;
       for (const auto& [x, y] : feet_of(world, {east, north, east + 64, north + 64}, thinning_rounds)) {
         feet.emplace_back(x, y);
         const double u = std::min(x - east, east + 64 - x), v = std::min(y - north, north + 64 - y);
