@@ -135,10 +135,8 @@ class AreaFinder {
     double tallest = -1;
     for_areas_of(i, j, [&](Area& area, int, int) {
       if (area.plant_height >= tallest_class_) return;
-      if (tallest < 0) {
-        tallest = tallest_growing(world_, sample, frame_.west + i * spacing_, frame_.south + j * spacing_,
-                                  plant_stride_ * spacing_);
-      }
+      const double east = frame_.west + i * spacing_, north = frame_.south + j * spacing_;
+      if (tallest < 0) tallest = tallest_growing(world_, sample, east, north, plant_stride_ * spacing_);
       area.plant_height = std::max(area.plant_height, tallest);
     });
   }
