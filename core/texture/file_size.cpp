@@ -66,11 +66,11 @@ constexpr KindSize kind_sizes[] = {KindSize{"oak_bark", 0.54F, 1.91F, 0.29F},
                                    {"ashlar_bay", 0.12F, 0.50F, 0.01F},
                                    {"grass_ground", 0.57F, 2.37F, 0.22F},
                                    {"soil_ground", 0.36F, 1.63F, 0.16F},
-                                   {"rock_ground", 0.38F, 1.97F, 0.20F},
+                                   {"rock_ground", 0.43F, 1.71F, 0.16F},
                                    {"scree_ground", 0.38F, 1.87F, 0.16F},
                                    {"sand_ground", 0.30F, 1.14F, 0.11F},
                                    {"snow_ground", 0.23F, 1.49F, 0.11F},
-                                   {"litter_ground", 0.45F, 2.0F, 0.2F}};
+                                   {"litter_ground", 0.44F, 2.18F, 0.21F}};
 constexpr double measured_size = 512;
 constexpr double fall = 0.4;  ///< larger images need fewer bytes a texel: their exponent
 
