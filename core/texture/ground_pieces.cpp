@@ -76,19 +76,34 @@ glm::vec2 direction(float turns) {
   return {static_cast<float>(turn.cos), static_cast<float>(turn.sin)};
 }
 
-/// Returns the numbers of the pieces from the highest to the lowest. Each texel shows its highest piece, so the order
-/// changes nothing but the time: most texels of the lower pieces are hidden already.
-template <class Piece>
-std::vector<std::uint32_t> from_the_highest(const std::vector<Piece>& pieces) {
-  std::vector<std::uint32_t> order(pieces.size());
-  for (std::uint32_t i = 0; i < order.size(); ++i) order[i] = i;
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::uint32_t a, std::uint32_t b) { return pieces[a].high > pieces[b].high; });
-  return order;
-}
-
 float draw(Rng& rng, float low, float high) {
   return static_cast<float>(rng.uniform(static_cast<double>(low), static_cast<double>(high)));
+}
+
+/// A patch without a size, at a random position and in a random direction.
+Patch placed(Rng& own) {
+  Patch patch;
+  const float x = draw(own, 0, 1);
+  patch.at = {x, draw(own, 0, 1)};
+  patch.along = direction(draw(own, 0, 1));
+  return patch;
+}
+
+/// Makes the pieces by `make(own)` and draws them by `body(piece, x, y, a, b)` for each of their texels, from the highest
+/// piece to the lowest. Each texel shows its highest piece, so the order changes nothing but the time: most texels of the
+/// lower pieces are hidden already.
+template <class Make, class Body>
+void draw_pieces(int count, int size, const Rng& rng, const Job& job, const Make& make, const Body& body) {
+  std::vector<decltype(make(rng))> pieces;
+  pieces.reserve(static_cast<std::size_t>(count));
+  for (int i = 0; i < count; ++i) pieces.push_back(make(rng.at(static_cast<std::uint64_t>(i))));
+  std::stable_sort(pieces.begin(), pieces.end(),
+                   [](const auto& a, const auto& b) { return a.high > b.high; });
+  int drawn = 0;
+  for (const auto& piece : pieces) {
+    if (drawn++ % pieces_a_look == 0) job.check();
+    each_texel(piece.patch, size, [&](int x, int y, float a, float b) { body(piece, x, y, a, b); });
+  }
 }
 
 struct Blade {
@@ -98,10 +113,7 @@ struct Blade {
 
 Blade blade_of(const Pieces& pieces, const Field& clumps, Rng own) {
   Blade blade;
-  Patch& patch = blade.patch;
-  const float x = draw(own, 0, 1);
-  patch.at = {x, draw(own, 0, 1)};
-  patch.along = direction(draw(own, 0, 1));
+  Patch& patch = blade.patch = placed(own);
   patch.half_length = 0.5F * draw(own, pieces.shortest, pieces.longest);
   patch.half_width = patch.half_length * pieces.width;
   blade.high = draw(own, pieces.low, pieces.high);
@@ -119,10 +131,7 @@ struct Stone {
 
 Stone stone_of(const Pieces& pieces, Rng own) {
   Stone stone;
-  Patch& patch = stone.patch;
-  const float x = draw(own, 0, 1);
-  patch.at = {x, draw(own, 0, 1)};
-  patch.along = direction(draw(own, 0, 1));
+  Patch& patch = stone.patch = placed(own);
   const float random = draw(own, 0, 1);  // small ones are more frequent
   patch.half_length =
       0.5F * (pieces.shortest + (pieces.longest - pieces.shortest) * random * random * random);
@@ -146,10 +155,7 @@ struct Leaf {
 
 Leaf leaf_of(const Pieces& pieces, Rng own) {
   Leaf leaf;
-  Patch& patch = leaf.patch;
-  const float x = draw(own, 0, 1);
-  patch.at = {x, draw(own, 0, 1)};
-  patch.along = direction(draw(own, 0, 1));
+  Patch& patch = leaf.patch = placed(own);
   patch.half_length = 0.5F * draw(own, pieces.shortest, pieces.longest);
   patch.half_width = patch.half_length * pieces.width * draw(own, 0.75F, 1.25F);
   const float tilt_along = draw(own, -0.09F, 0.09F);
@@ -163,86 +169,63 @@ Leaf leaf_of(const Pieces& pieces, Rng own) {
 }  // namespace
 
 void add_blades(Relief& relief, const Pieces& pieces, const Field& clumps, Rng rng, const Job& job) {
-  const int size = relief.height.size();
-  std::vector<Blade> blades;
-  blades.reserve(static_cast<std::size_t>(pieces.count));
-  for (int i = 0; i < pieces.count; ++i)
-    blades.push_back(blade_of(pieces, clumps, rng.at(static_cast<std::uint64_t>(i))));
-  int drawn = 0;
-  for (const std::uint32_t i : from_the_highest(blades)) {
-    if (drawn++ % pieces_a_look == 0) job.check();
-    const float middle = blades[i].high, tone = blades[i].tone;
-    each_texel(blades[i].patch, size, [&](int x, int y, float a, float b) {
-      float& there = relief.height.at(x, y);
-      if (middle <= there) return;
-      const float across = std::abs(b) / std::max(0.25F, 1 - 0.7F * std::max(a, 0.0F));
-      if (across > 1) return;
-      const float height =
-          middle * (0.55F + 0.45F * (1 - 0.5F * (1 - a) * (1 - a) * 0.5F)) * (1 - 0.3F * across);
-      if (height <= there) return;
-      there = height;
-      relief.tone.at(x, y) = tone + 0.12F * a - 0.08F * across - 0.42F * (1 - middle);
-    });
-  }
+  const auto make = [&](Rng own) { return blade_of(pieces, clumps, own); };
+  draw_pieces(pieces.count, relief.height.size(), rng, job, make,
+              [&](const Blade& blade, int x, int y, float a, float b) {
+                const float middle = blade.high;
+                float& there = relief.height.at(x, y);
+                if (middle <= there) return;
+                const float across = std::abs(b) / std::max(0.25F, 1 - 0.7F * std::max(a, 0.0F));
+                if (across > 1) return;
+                const float height =
+                    middle * (0.55F + 0.45F * (1 - 0.5F * (1 - a) * (1 - a) * 0.5F)) * (1 - 0.3F * across);
+                if (height <= there) return;
+                there = height;
+                relief.tone.at(x, y) = blade.tone + 0.12F * a - 0.08F * across - 0.42F * (1 - middle);
+              });
 }
 
 void add_stones(Relief& relief, const Pieces& pieces, Rng rng, const Job& job) {
-  const int size = relief.height.size();
-  std::vector<Stone> stones;
-  stones.reserve(static_cast<std::size_t>(pieces.count));
-  for (int i = 0; i < pieces.count; ++i)
-    stones.push_back(stone_of(pieces, rng.at(static_cast<std::uint64_t>(i))));
-  int drawn = 0;
-  for (const std::uint32_t i : from_the_highest(stones)) {
-    if (drawn++ % pieces_a_look == 0) job.check();
-    const Stone& stone = stones[i];
-    const float rise = stone.high - pieces.low;
-    each_texel(stone.patch, size, [&](int x, int y, float a, float b) {
-      float& there = relief.height.at(x, y);
-      if (stone.high <= there) return;
-      float up = std::sqrt(std::max(0.0F, 1 - a * a - b * b));
-      // Cuts only make a stone lower.
-      if (up <= 0 || pieces.low + rise * up <= there) return;
-      float facet = 0;
-      for (const glm::vec3& plane : stone.planes) {
-        const float bound = (plane.z * 1.25F - a * plane.x - b * plane.y) * 1.6F;
-        if (bound < up) {
-          up = bound;
-          facet = plane.x;
-        }
-      }
-      const float height = pieces.low + rise * up;
-      if (up <= 0 || height <= there) return;
-      there = height;
-      relief.tone.at(x, y) = stone.tone + 0.1F * facet - 0.25F * (1 - std::min(1.0F, 2 * up));
-    });
-  }
+  const auto make = [&](Rng own) { return stone_of(pieces, own); };
+  draw_pieces(pieces.count, relief.height.size(), rng, job, make,
+              [&](const Stone& stone, int x, int y, float a, float b) {
+                float& there = relief.height.at(x, y);
+                if (stone.high <= there) return;
+                const float rise = stone.high - pieces.low;
+                float up = std::sqrt(std::max(0.0F, 1 - a * a - b * b));
+                // Cuts only make a stone lower.
+                if (up <= 0 || pieces.low + rise * up <= there) return;
+                float facet = 0;
+                for (const glm::vec3& plane : stone.planes) {
+                  const float bound = (plane.z * 1.25F - a * plane.x - b * plane.y) * 1.6F;
+                  if (bound < up) {
+                    up = bound;
+                    facet = plane.x;
+                  }
+                }
+                const float height = pieces.low + rise * up;
+                if (up <= 0 || height <= there) return;
+                there = height;
+                relief.tone.at(x, y) = stone.tone + 0.1F * facet - 0.25F * (1 - std::min(1.0F, 2 * up));
+              });
 }
 
 void add_leaves(Relief& relief, const Pieces& pieces, Rng rng, const Job& job) {
-  const int size = relief.height.size();
-  std::vector<Leaf> leaves;
-  leaves.reserve(static_cast<std::size_t>(pieces.count));
-  for (int i = 0; i < pieces.count; ++i)
-    leaves.push_back(leaf_of(pieces, rng.at(static_cast<std::uint64_t>(i))));
-  int drawn = 0;
-  for (const std::uint32_t i : from_the_highest(leaves)) {
-    if (drawn++ % pieces_a_look == 0) job.check();
-    const Leaf& leaf = leaves[i];
-    each_texel(leaf.patch, size, [&](int x, int y, float a, float b) {
-      // The widest part is nearer to the base than to the tip.
-      const float half_width = (1 - a * a) * (1 - 0.35F * a), off = std::abs(b);
-      if (off > half_width) return;
-      float& there = relief.height.at(x, y);
-      const float rib = off < 0.07F ? 0.05F : 0;
-      const float height =
-          clamp_share(leaf.high + leaf.tilt.x * a + leaf.tilt.y * b + leaf.curl * b * b - rib);
-      if (height <= there) return;
-      there = height;
-      relief.tone.at(x, y) = leaf.tone + 0.9F * (leaf.tilt.x * a + leaf.tilt.y * b) + (rib > 0 ? 0.1F : 0) -
-                             0.35F * (1 - leaf.high);
-    });
-  }
+  const auto make = [&](Rng own) { return leaf_of(pieces, own); };
+  draw_pieces(pieces.count, relief.height.size(), rng, job, make,
+              [&](const Leaf& leaf, int x, int y, float a, float b) {
+                // The widest part is nearer to the base than to the tip.
+                const float half_width = (1 - a * a) * (1 - 0.35F * a), off = std::abs(b);
+                if (off > half_width) return;
+                float& there = relief.height.at(x, y);
+                const float rib = off < 0.07F ? 0.05F : 0;
+                const float height =
+                    clamp_share(leaf.high + leaf.tilt.x * a + leaf.tilt.y * b + leaf.curl * b * b - rib);
+                if (height <= there) return;
+                there = height;
+                relief.tone.at(x, y) = leaf.tone + 0.9F * (leaf.tilt.x * a + leaf.tilt.y * b) +
+                                       (rib > 0 ? 0.1F : 0) - 0.35F * (1 - leaf.high);
+              });
 }
 
 }  // namespace seedmesh::texture
