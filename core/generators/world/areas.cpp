@@ -38,9 +38,12 @@ class AreaFinder {
 
   Areas areas() {
     const bool is_coarse = spacing_ >= coarse_spacing;
-    if (is_coarse) add_land();
-    if (!is_coarse) add_samples();
-    if (!is_coarse) add_deviations();
+    if (is_coarse) {
+      add_land();
+    } else {
+      add_samples();
+      add_deviations();
+    }
     if (side_ <= widest_known_rivers) {
       add_water();
     } else {
@@ -65,6 +68,10 @@ class AreaFinder {
   Area& at(int column, int row) { return areas_[static_cast<std::size_t>(row * count_ + column)]; }
   Rectangle box() const {
     return {frame_.west, frame_.south, frame_.west + frame_.side, frame_.south + frame_.side};
+  }
+  Rectangle box_of(int column, int row) const {
+    const double west = frame_.west + column * side_, south = frame_.south + row * side_;
+    return {west, south, west + side_, south + side_};
   }
 
   /// Calls `visit` with the areas within `reach` of a rectangle.
@@ -220,8 +227,7 @@ class AreaFinder {
     for (int k = 0; k < count_ * count_; ++k) {
       job_.check();
       const int row = k / count_, column = k % count_;
-      const double west = frame_.west + column * side_, south = frame_.south + row * side_;
-      const Ground ground(world_, {west, south, west + side_, south + side_}, job_);
+      const Ground ground(world_, box_of(column, row), job_);
       Roughness& rough = at(column, row).rough;
       rough.measured_spacing = spacing_;
       for (const auto& [i, j] : most_bent_cells(grid_, column * cells_, row * cells_, cells_))
@@ -231,16 +237,15 @@ class AreaFinder {
 
   /// Of the classes that may grow by climate, others exclude heights, and small tiles often have no plant of rare ones.
   void leave_out_absent_plants() {
-    job_.check();
     for (int k = 0; k < count_ * count_; ++k) {
-      const int column = k % count_, row = k / count_;
-      const double west = frame_.west + column * side_, south = frame_.south + row * side_;
+      job_.check();
+      const int row = k / count_, column = k % count_;
       Area& area = at(column, row);
       // between samples, the ground differs by less than their distance
       const Growth growth{std::min(area.low, area.lowest) - spacing_,
                           std::max(area.high, area.highest) + spacing_, area.plant_height,
                           spacing_ >= coarse_spacing && area.rough.river > 0};
-      area.plant_height = tallest_present(world_, growth, {west, south, west + side_, south + side_});
+      area.plant_height = tallest_present(world_, growth, box_of(column, row));
     }
   }
 
@@ -380,21 +385,6 @@ int cells_a_link(const World& world, int root_level) {
 
 Areas areas_below(const World& world, const TileKey& root, int depth, Job& job) {
   return AreaFinder(world, root, depth, job).areas();
-}
-
-Area joined(const Area& sw, const Area& se, const Area& nw, const Area& ne) {
-  Area all = sw;
-  all.rough.met = {};
-  for (const Area* area : {&se, &nw, &ne}) {
-    all.low = std::min(all.low, area->low);
-    all.high = std::max(all.high, area->high);
-    all.lowest = std::min(all.lowest, area->lowest);
-    all.rough.add(area->rough);
-    all.plant_height = std::max(all.plant_height, area->plant_height);
-  }
-  all.borders = {std::min(sw.borders[0], nw.borders[0]), std::min(sw.borders[1], se.borders[1]),
-                 std::min(se.borders[2], ne.borders[2]), std::min(nw.borders[3], ne.borders[3])};
-  return all;
 }
 
 }  // namespace seedmesh::world

@@ -40,7 +40,4 @@ struct Areas {
 /// Returns the areas of the tiles `depth` levels below a tile.
 Areas areas_below(const World& world, const TileKey& root, int depth, Job& job);
 
-/// Returns the measurements of the square that four squares form.
-Area joined(const Area& sw, const Area& se, const Area& nw, const Area& ne);
-
 }  // namespace seedmesh::world

@@ -93,6 +93,22 @@ double error_of(const World& world, const TileFrame& frame, const Roughness& rou
   return std::max(ground, plants) + frame.step;
 }
 
+/// The measurements of the square that four squares form.
+Area joined(const Area& sw, const Area& se, const Area& nw, const Area& ne) {
+  Area all = sw;
+  all.rough.met = {};
+  for (const Area* area : {&se, &nw, &ne}) {
+    all.low = std::min(all.low, area->low);
+    all.high = std::max(all.high, area->high);
+    all.lowest = std::min(all.lowest, area->lowest);
+    all.rough.add(area->rough);
+    all.plant_height = std::max(all.plant_height, area->plant_height);
+  }
+  all.borders = {std::min(sw.borders[0], nw.borders[0]), std::min(sw.borders[1], se.borders[1]),
+                 std::min(se.borders[2], ne.borders[2]), std::min(nw.borders[3], ne.borders[3])};
+  return all;
+}
+
 /// Whether tiles show the sea.
 bool has_sea(const World& world) { return world.params.relief.sea && world.has(Layer::water); }
 
@@ -135,9 +151,12 @@ double draped_top(const World& world, const TileFrame& frame, const Area& area, 
 }
 
 /// Heights of boxes have few digits; those of small tiles, which are low, are finer.
+double digits_of(const TileFrame& frame) { return frame.side > 1024 ? 4 : 16; }
 double rounded_down(double height, const TileFrame& frame) {
-  const double by = frame.side > 1024 ? 4 : 16;
-  return std::floor(height * by) / by;
+  return std::floor(height * digits_of(frame)) / digits_of(frame);
+}
+double rounded_up(double height, const TileFrame& frame) {
+  return std::ceil(height * digits_of(frame)) / digits_of(frame);
 }
 
 /// The box of a tile of the lowest level of a block.
@@ -162,7 +181,7 @@ TileBounds link_bounds(const World& world, const TileKey& key, const Area& area,
   low = std::min(low, own_skirt(world, frame, area, below));
   TileBounds box = in_plan(world, key);
   box.low = rounded_down(low - 2 * frame.step, frame);
-  box.high = -rounded_down(-high - 2 * frame.step, frame);
+  box.high = rounded_up(high + 2 * frame.step, frame);
   box.geometric_error = is_leaf ? 0 : error_of(world, frame, area.rough, area.plant_height);
   return box;
 }
@@ -184,7 +203,7 @@ TileBounds bounds_above(const World& world, const TileKey& key, const Area& area
   }
   double top = draped_top(world, frame, area, above_samples);
   if (has_sea(world) && box.low < relief.sea_level) top = std::max(top, relief.sea_level + 2 * frame.step);
-  box.high = std::max(box.high, -rounded_down(-top, frame));
+  box.high = std::max(box.high, rounded_up(top, frame));
   box.low = rounded_down(box.low, frame);
   box.geometric_error = error_of(world, frame, area.rough, area.plant_height);
   for (const TileBounds* child : below)
