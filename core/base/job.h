@@ -159,6 +159,7 @@ class Job {
 
   /// Throws Stop for an issue that is found only while the request runs: with Code::limit where its kind is
   /// limit, else with Code::invalid. The issue's pointer is relative to the parameters of this job's request.
+  /// In a job of for_small_estimate(), an issue of this kind abandons the attempt instead.
   [[noreturn]] void refuse(Issue issue) const;
 
  private:
