@@ -81,6 +81,11 @@ Named read_world_name(std::string_view name, const Job::Options& options,
   }
   if (name.find('.') != std::string_view::npos) return preset_world(name, options, memory);
   Result<Token> token = read_token(name, largest_token_text);
+  if (!token && read_preset(name, {}, options.limits)) {
+    const std::string preset(name);
+    return problem(404, "\"" + preset + "\" is a preset; its worlds have a seed behind a dot, such as " +
+                            preset + ".1.");
+  }
   if (!token) return problem_of(token.error());
   const bool is_own = token->engine && *token->engine == engine_version();
   return named(is_own ? NamedWorld::Kind::own : NamedWorld::Kind::foreign,

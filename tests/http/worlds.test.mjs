@@ -137,6 +137,14 @@ test('a preset with a seed answers directly, and nothing of it is immutable', as
     is_problem(await server.get(`/v1/worlds/${bad}/tileset.json`), 404, 'not-found');
 });
 
+test('the name of a preset without a seed is explained', async () => {
+  for (const preset of ['alpine', 'temperate_land']) {
+    const answer = await server.get(`/v1/worlds/${preset}/tileset.json`);
+    is_problem(answer, 404, 'not-found');
+    assert.match(answer.json.detail, new RegExp(`such as ${preset}\\.1\\.`));
+  }
+});
+
 test('addresses outside the tree are 404, open to pages and not stored', async () => {
   for (const name of ['c/10/0/0.glb', 'c/3/8/0.glb', 'c/3/0/8.glb', 'c/-1/0/0.glb', 'c/01/0/0.glb', 'c/1/+1/0.glb', 'c/1.5/0/0.glb', 'c/3/4294967296/0.glb', 'c/18446744073709551616/0/0.glb', 'c/0/0/0', 'c/0/0/0/0.glb',
     'e/0/0/0.json', 'e/3/0/0.json', 'e/4/16/0.json', 's/4/0/0.subtree', 's/10/0/0.subtree', 's/0/0/0.json', 'a/0.bin', 'a/', 'q/0/0/0.glb', '', 'tileset']) {
