@@ -1,5 +1,6 @@
 #pragma once
-/// Sums by a key, in a table with open addressing. The order of the keys in the table is never visible.
+/// A sum for each key, in a hash table with open addressing. There is no iteration, so that no result depends on the
+/// order of the keys.
 #include <cstdint>
 #include <utility>
 
