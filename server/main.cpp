@@ -113,7 +113,8 @@ void add_tiles(CLI::App& command, TilesOptions& tiles, Texts& texts) {
       "first-last: 0 is the whole world, each level halves the side of tiles; all if omitted.");
   command.add_option("--box", tiles.box,
                      "west,south,east,north in metres from the middle of the world; all of it if omitted.");
-  command.add_option("--part", tiles.part, "index/count: one share of the files (0 to count - 1).");
+  command.add_option("--part", tiles.part,
+                     "index/count: make only this share of the files; index is 0 to count - 1.");
   command.add_flag("--quiet", tiles.quiet, "Do not print progress.");
   add_settings(command, texts, limits);
 }
@@ -229,7 +230,8 @@ int main(int count, char** words) {
   });
   app.require_subcommand(1);
   app.footer(
-      "Every flag is also an environment variable: --time-limit is SEEDMESH_TIME_LIMIT.\n"
+      "Environment variables can set every flag of serve, for all commands: SEEDMESH_TIME_LIMIT sets "
+      "--time-limit.\n"
       "Exit status: 0; 1 for a refused request, with the problem as JSON on standard error; 2 for wrong "
       "usage.");
   Texts texts;

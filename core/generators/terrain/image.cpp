@@ -155,8 +155,8 @@ Result<Field> of_picture(const TerrainImage& image, const texture::Decoded& deco
   std::string wrong = misfit(picture, image.encoding);
   if (wrong.empty() && decoded.is_lossy && packs_digits(image.encoding)) {
     wrong =
-        "found a JPEG or a WebP with losses, which changes the digits of heights; expected a PNG or a WebP "
-        "without loss";
+        "found lossy compression (JPEG or WebP), which changes the digits of heights; expected a PNG or a "
+        "lossless WebP";
   }
   if (!wrong.empty()) return invalid_input("/image/data", wrong);
   const std::int64_t colored = image.encoding == TerrainEncoding::grey

@@ -80,7 +80,8 @@ TEST(Hints, PointAtTheSizeThatABlueprintCannotStandOn) {
 TEST(Hints, PointAtTheRestrictionThatABlueprintBreaks) {
   BuildingParams params = house();
   params.restrict = BuildingRestrict::non_erasing;
-  EXPECT_THAT(error_of(params), HasSubstr("/restrict 0:0 the rules of the blueprint are not of this kind"));
+  EXPECT_THAT(error_of(params),
+              HasSubstr("/restrict 0:0 the rules of the blueprint do not satisfy this restriction"));
 }
 
 TEST(Hints, PointAtTheAttributeThatIsAText) {
@@ -120,10 +121,10 @@ TEST(Hints, ReportThatAFootprintWithoutAnAreaCrossesItself) {
 }
 
 TEST(Hints, AskWhetherAMaterialIsMisspelt) {
-  EXPECT_THAT(
-      warnings("A -->\n material(\"brik\") B."),
-      ElementsAre("/rules 2:2 there is no material `brik`, so that it becomes a new one; did you mean "
-                  "`brick`?"));
+  EXPECT_THAT(warnings("A -->\n material(\"brik\") B."),
+              ElementsAre("/rules 2:2 there is no material `brik`; the shape gets a plain material of this "
+                          "name; did you mean "
+                          "`brick`?"));
   EXPECT_THAT(warnings("A --> material(\"velvet\") B."), IsEmpty());
   BuildingParams params = with("A --> material(\"brik\") B.");
   params.materials["brik"] = {};
