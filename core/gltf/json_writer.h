@@ -16,8 +16,8 @@ void append_number(std::string& out, float value);
 /// Appends the shortest decimal that reads back as the same double: 22.521484375 and not 22.521484.
 void append_number(std::string& out, double value);
 
-/// Appends the same digits as append_number(float), with at least one digit after the point. Numbers from 0.0001 to 1e15 have no exponent. This is
-/// the form in which nlohmann/json prints a double.
+/// Appends the same digits as append_number(float), with at least one digit after the point. Numbers from 0.0001 to
+/// 1e15 have no exponent. This is the form in which nlohmann/json prints a double.
 void append_decimal(std::string& out, float value);
 
 void append_integer(std::string& out, long long value);

@@ -17,7 +17,8 @@ struct Frame {
   std::uint32_t shape = 0;  ///< the shape that is replaced
   std::uint64_t key = 0;    ///< key of the successor, for random numbers
   ShapeState before;        ///< the state when the rule or the bracket began, for center()
-  bool is_carried = false;  ///< new shapes descend from a face, edge or vertex of a closed solid; see collision.h
+  bool is_carried =
+      false;  ///< new shapes descend from a face, edge or vertex of a closed solid; see collision.h
 };
 
 /// The context of one step: its successor, and the key of its random numbers.

@@ -8,7 +8,8 @@ namespace seedmesh::building {
 /// Makes the geometry of a flat state an open solid at the low side of the scope along `axis`, the axis of its
 /// normal. The caller gives the scope its depth.
 void lift_face(Derivation& d, ShapeState& state, int axis);
-/// Sets the depth of the scope to 0 if all geometry lies in one plane at right angles to an axis. Does nothing otherwise.
+/// Sets the depth of the scope to 0 if all geometry lies in one plane at right angles to an axis. Does nothing
+/// otherwise.
 void lower_face(Derivation& d, ShapeState& state);
 
 }  // namespace seedmesh::building

@@ -22,7 +22,8 @@ Mesh empty_mesh(bool has_uv, const Job& job);
 void append(const BodySurface& surface, Mesh& mesh, const glm::dmat3& axes, const glm::dvec3& origin,
             const Texturing& texturing);
 
-/// Appends a mesh of an asset. Texture coordinates of `from` are in metres. Those of `to` are in tiles of `tile` metres.
+/// Appends a mesh of an asset. Texture coordinates of `from` are in metres. Those of `to` are in tiles of `tile`
+/// metres.
 void append_part(const Mesh& from, Mesh& to, const glm::dmat3& axes, const glm::dvec3& at,
                  const glm::dvec2* tile);
 

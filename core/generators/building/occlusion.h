@@ -4,8 +4,8 @@
 /// order.
 ///
 /// Only closed shapes with a volume can occlude. Shapes that rules have replaced occlude only if the target of the
-/// query is "all", "noparent" or a name. Ancestors and descendants of the querying shape never count. Boxes are tested as
-/// boxes; other closed solids (roofs, cut solids, cylinders) are cut to the box of the querying shape.
+/// query is "all", "noparent" or a name. Ancestors and descendants of the querying shape never count. Boxes are
+/// tested as boxes; other closed solids (roofs, cut solids, cylinders) are cut to the box of the querying shape.
 /// touches() tests boxes only. visible("street") is true if the shortest line from the middle of the querying
 /// shape to the nearest shape of that name is not blocked; flat shapes count as targets. Without such a shape
 /// it is false.

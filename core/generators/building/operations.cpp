@@ -255,7 +255,7 @@ constexpr OperationRow rows[] = {
      "too.",
      "A --> tag(\"wall\") comp(f){ isTagged(\"wall\"): B. }"},
     {"deleteTags", Op::delete_tags, "|t", Braces::absent, "name",
-     "Removes a tag and those below it, those of a pattern (? is one part between points, * any), or all.",
+     "Removes a tag and those below it, those of a pattern (? is one part between dots, * any), or all.",
      "A --> tag(\"wall\") deleteTags(\"w*\") B."},
     {"setTagsFromEdgeAttrs", Op::edge_tags, "|xx", Braces::absent, "prefix",
      "Has no effect, because footprints of a request have no attributes of edges.",

@@ -83,7 +83,8 @@ class Surface {
 
   const CityPlan& plan_;
   double wall_height_;
-  EdgeTable part_of_edge_;  ///< the edges of all parts; on level ground without town walls, of carriageways and water only
+  EdgeTable
+      part_of_edge_;  ///< the edges of all parts; on level ground without town walls, of carriageways and water only
   Tunnels tunnels_;
   std::vector<StreetStrips> strips_;  ///< strips of each edge
   EdgeTable divided_at_;              ///< indices into `divided_`, from the lesser end to the greater

@@ -39,7 +39,7 @@ class Drawing {
   struct Grown {
     double share = 1;
     int brackets = 0;  ///< number of growing brackets around the module
-    double heir = 1;   ///< share of the random values of Keys::own; the rest are of Keys::before
+    double heir = 1;   ///< weight of the random values of Keys::own; those of Keys::before have the rest
   };
   /// Draws a module that is partly grown. `step` is the depth for the width rule "decrement".
   void grow(const Module& module, double step, Grown grown);
@@ -120,7 +120,7 @@ class Drawing {
   std::vector<Turtle::Pose> shapes_;  ///< poses at which the open polygons of a growing module started
   std::vector<const LsystemSurface*> surfaces_;  ///< surfaces in the order of their names
   Angle yaw_, pitch_, roll_;
-  /// A cache by hash of the degrees: most angles given as arguments repeat.
+  /// A cache of sines and cosines, indexed by a hash of the angle, because most angles given as arguments repeat.
   std::array<Angle, 16> known_angles_{};
   std::uint64_t interpreted_ = 0;
   std::uint64_t open_polygons_ = 0, stray_closings_ = 0;

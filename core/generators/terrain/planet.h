@@ -32,7 +32,7 @@ void noise_sphere(Planet& planet, const NoisePlan& plan, Rng rng, const Job& job
 
 Range range_of(const Planet& planet);
 
-/// What is up on a planet, for its colours: away from the centre, or along +Y for a rock that lies on the ground.
+/// The upward direction by which a planet is coloured: away from the centre, or +Y for a rock that lies on the ground.
 enum class Upward { outward, along_y };
 
 /// Returns the mesh, with area-weighted mean normals. `ground_colors` may be null: no colours. Spends

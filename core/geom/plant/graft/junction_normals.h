@@ -21,10 +21,11 @@ struct LoopFace {
 /// Faces and their corner angles, sixteen at a time.
 struct FaceBlock {
   static constexpr std::size_t most = 16;
-  std::uint32_t corner[3 * most];       ///< input: 16 faces; the caller repeats one where there are fewer
-  FourFloats normal[most], unit[most];  ///< output: `normal` has the length of twice the area, `unit` the length 1
-  float size[most];                     ///< output: twice the area
-  float weight[3][most];                ///< output: the angle at each corner in radians, divided by `size`
+  std::uint32_t corner[3 * most];  ///< input: 16 faces; the caller repeats one where there are fewer
+  FourFloats normal[most],
+      unit[most];         ///< output: `normal` has the length of twice the area, `unit` the length 1
+  float size[most];       ///< output: twice the area
+  float weight[3][most];  ///< output: the angle at each corner in radians, divided by `size`
 };
 
 /// Fills a block. Angles are exact within 2e-5 radians. Reads one float beyond the end of each position, which must be
@@ -32,8 +33,8 @@ struct FaceBlock {
 void measure_faces(FaceBlock& block, const glm::vec3* position);
 
 /// Turns normals, each of which belongs to several faces, until none faces away from one of its faces. There are at
-/// most 24 passes over the faces. `normals` is indexed by group; entries of odd groups are not used. Linear time where no normal has to
-/// turn.
+/// most 24 passes over the faces. `normals` is indexed by group; entries of odd groups are not used. Linear time
+/// where no normal has to turn.
 void relax_normals(std::span<const LoopFace> faces, std::span<GroupNormal> normals);
 
 /// Computes the normals of all changed loops (BarkRounds::touched), as group normals.
