@@ -14,7 +14,7 @@ struct Drawing {
   std::size_t first = 0;      ///< its first vertex in Shown::vertices
 };
 
-/// Views of the model, items and surfaces, which outlive it.
+/// A scene refers to a model, its items and its surfaces. They must outlive the scene.
 struct Scene {
   const Model& model;
   const Items& items;

@@ -35,7 +35,7 @@ class Wavefront {
 
   Wavefront(const Plan& plan, const SkeletonOptions& options, const Job& job);
 
-  /// Runs to the end time. False: the outline does not close in the expected number of steps.
+  /// Runs to the end time. Returns false if the outline does not close in the expected number of steps.
   bool run();
 
   std::vector<Source> sources;  ///< one for each edge of the plan, then steps
