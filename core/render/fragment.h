@@ -18,7 +18,7 @@ struct Fragment {
 /// Reads fragments of a scene, one thread at a time. Neighbours of one triangle are cheaper.
 class FragmentReader {
  public:
-  explicit FragmentReader(const Shown& shown) : shown_(shown) {}
+  explicit FragmentReader(const ProjectedScene& shown) : shown_(shown) {}
 
   /// `number` is that of the triangle in its drawing, or of the vertex where lines or points are drawn. The
   /// position is in fixed-point numbers and inside of the triangle. Textures are
@@ -30,7 +30,7 @@ class FragmentReader {
   void take_triangle(std::uint32_t number);
   Fragment thin(std::uint32_t vertex) const;
 
-  const Shown& shown_;
+  const ProjectedScene& shown_;
   std::uint32_t drawing_ = ~0U, number_ = ~0U;
   const Drawing* of_ = nullptr;
   const Surface* surface_ = nullptr;

@@ -150,7 +150,7 @@ void Server::work() {
     open_ += served ? 1 : 0;
     lock.unlock();
     try {
-      served ? serve(socket, remote) : turn_away(socket, remote);
+      served ? serve(socket, remote) : refuse_connection(socket, remote);
     } catch (const std::exception&) {
       // No memory for this connection: it ends.
     }
@@ -214,7 +214,7 @@ bool Server::serve_one(Connection& connection, const std::string& remote) {
   if (!read_body(connection, given, request.body)) return false;
 
   EndWatch watched{watch_, connection.socket()};
-  request.gone = [&] {
+  request.disconnect_token = [&] {
     watched.started = true;
     return watch_.add(connection.socket());
   };
@@ -288,7 +288,7 @@ void Server::send(Connection& connection, const Request& request, const Response
 
 /// Answers 503 to a connection beyond the limit. Runs on the accepting thread, so it does not wait; with TLS
 /// there is no response, because a handshake would have to wait.
-void Server::turn_away(int socket, std::string remote) {
+void Server::refuse_connection(int socket, std::string remote) {
   Connection connection(socket, nullptr, {.timeout = Clock::duration::zero()});
   if (options_.tls) return;
   connection.read_more(Clock::now());  // closing with unread bytes would reset the connection

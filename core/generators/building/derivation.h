@@ -22,7 +22,7 @@ struct Frame {
 };
 
 /// The context of one step: its successor, and the key of its random numbers.
-struct Site {
+struct StepContext {
   const Frame& frame;
   std::uint64_t key;
 };

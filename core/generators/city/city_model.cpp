@@ -22,20 +22,20 @@
 namespace seedmesh::city {
 namespace {
 
-struct Look {
+struct PartMaterial {
   const char* name;
   std::array<std::uint8_t, 3> color;
   float roughness;
 };
-constexpr Look looks[] = {
+constexpr PartMaterial part_materials[] = {
     {"asphalt", {0x45, 0x46, 0x48}, 0.95F}, {"junction", {0x48, 0x49, 0x4b}, 0.95F},
     {"sidewalk", {0x9b, 0x98, 0x92}, 0.9F}, {"verge", {0x7f, 0x8a, 0x62}, 1.0F},
     {"park", {0x5f, 0x7d, 0x45}, 1.0F},     {"square", {0xa8, 0x9d, 0x88}, 0.9F},
     {"lot", {0x86, 0x8f, 0x6a}, 1.0F},      {"water", {0x35, 0x55, 0x66}, 0.2F},
 };
-constexpr Look marking_look = {"marking", {0xd8, 0xd8, 0xd2}, 0.8F};
+constexpr PartMaterial marking_material = {"marking", {0xd8, 0xd8, 0xd2}, 0.8F};
 
-Material material_of(const Look& look, const CityParams& params) {
+Material material_of(const PartMaterial& look, const CityParams& params) {
   Material material;
   material.name = look.name;
   material.base_color = {linear_of_srgb(look.color[0]), linear_of_srgb(look.color[1]),
@@ -55,7 +55,7 @@ Material material_of(const Look& look, const CityParams& params) {
 }
 
 /// The colour of a surface in the request, or its own.
-std::array<std::uint8_t, 3> color_of(const Look& look, const CityParams& params) {
+std::array<std::uint8_t, 3> color_of(const PartMaterial& look, const CityParams& params) {
   for (const auto& own : params.surfaces) {
     if (own.color && text_of(own.material) == std::string_view(look.name))
       return {own.color->red, own.color->green, own.color->blue};
@@ -67,8 +67,9 @@ std::array<std::uint8_t, 3> color_of(const Look& look, const CityParams& params)
 Material striped_material(const char* name, const std::array<int, 3>& stripes, const CityParams& params,
                           Model& model, const Job& job) {
   constexpr std::uint32_t height = 4;
-  const Look& asphalt = looks[static_cast<std::size_t>(PartKind::carriageway)];
-  const std::array<std::uint8_t, 3> plain = color_of(asphalt, params), paint = color_of(marking_look, params);
+  const PartMaterial& asphalt = part_materials[static_cast<std::size_t>(PartKind::carriageway)];
+  const std::array<std::uint8_t, 3> plain = color_of(asphalt, params),
+                                    paint = color_of(marking_material, params);
   std::vector<std::byte> pixels;
   for (std::uint32_t row = 0; row < height; ++row) {
     for (std::size_t stripe = 0; stripe < 3; ++stripe) {
@@ -187,14 +188,14 @@ void add_ground(Model& model, CityPlan& plan, Surface& surface, const CityParams
       meshes.weld_if_large(job);
       if (!keeps_outlines) plan.parts[n].rings = {};
     }
-    const Look& look = looks[static_cast<std::size_t>(piece.kind)];
+    const PartMaterial& look = part_materials[static_cast<std::size_t>(piece.kind)];
     const auto striped = [&](const char* name, const std::array<int, 3>& stripes) {
       return [&model, &params, &job, name, stripes] {
         return striped_material(name, stripes, params, model, job);
       };
     };
     add(
-        "markings", [&] { return material_of(marking_look, params); }, meshes.markings, piece.chunk);
+        "markings", [&] { return material_of(marking_material, params); }, meshes.markings, piece.chunk);
     add("crossings", striped("crossing", {16, 16, 0}), meshes.crossings, piece.chunk);
     add("lane_lines", striped("lane_line", {24, 16, 24}), meshes.lane_lines, piece.chunk);
     add(
@@ -247,7 +248,7 @@ void release_streets(CityPlan& plan) {
 
 void add_bridges_and_tunnels(Model& model, Mesh bridges, const Surface& surface, const CityParams& params,
                              Job& job) {
-  const auto add = [&](Mesh mesh, const char* name, const Look& look) {
+  const auto add = [&](Mesh mesh, const char* name, const PartMaterial& look) {
     if (mesh.elements() == 0) return;
     job.spend(Resource::triangles, mesh.elements());
     add_mesh(model, name, material_of(look, params), std::move(mesh), 0);

@@ -200,7 +200,7 @@ class MemoryCharge {
   MemoryCharge(const MemoryCharge&) = delete;
   MemoryCharge& operator=(const MemoryCharge&) = delete;
   ~MemoryCharge() {
-    if (budget_) budget_->give_back(bytes_);
+    if (budget_) budget_->release(bytes_);
   }
 
  private:

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "core/base/math.h"
-#include "core/generators/terrain/ease.h"
+#include "core/generators/terrain/smooth_step.h"
 
 namespace seedmesh::terrain {
 namespace {
@@ -48,7 +48,7 @@ float lump(float noise) { return std::abs(noise) - mean_size; }
 /// Returns how far a bed of rock with ledges is above an even one: steps of `thickness` with steep fronts.
 float ledge(float level, float thickness) {
   const float share = level / thickness - std::floor(level / thickness);
-  return thickness * (ease(0.25F, 0.7F, share) - share);
+  return thickness * (smooth_step(0.25F, 0.7F, share) - share);
 }
 
 /// Blocks of rock: flat facets of random height and tilt, one for each cell of a Voronoi diagram (Worley, "A cellular
@@ -84,8 +84,8 @@ class Blocks {
     }
     // Both sides have the same height where they meet.
     const float inside = std::sqrt(next) - std::sqrt(nearest);
-    const float own = 0.5F + 0.5F * ease(0, 0.16F, inside);
-    return neighbour + own * (facet - neighbour) - 0.35F * (1 - ease(0, 0.2F, inside));
+    const float own = 0.5F + 0.5F * smooth_step(0, 0.16F, inside);
+    return neighbour + own * (facet - neighbour) - 0.35F * (1 - smooth_step(0, 0.2F, inside));
   }
 
  private:
@@ -175,7 +175,7 @@ float RefinedGround::weight(double x, double z) const {
   const double border =
       std::min(std::min(x, (r.width - 1) * r.cell - x), std::min(z, (r.depth - 1) * r.cell - z));
   const auto inside = static_cast<float>(1 - std::sqrt(dx * dx + dz * dz) / reach);
-  return ease(0, 0.5F, inside) * ease(0, border_cells, static_cast<float>(border / r.cell));
+  return smooth_step(0, 0.5F, inside) * smooth_step(0, border_cells, static_cast<float>(border / r.cell));
 }
 
 /// The step at a distance, without jumps and never below that of the squares.
@@ -217,7 +217,7 @@ RefinedGround::Sampler::Waves RefinedGround::Sampler::waves(double x, double z, 
     return octave.value(east * octave.frequency(), south * octave.frequency());
   };
   const auto share = [step](double wavelength) {
-    return ease(least_steps * step, enough_steps * step, static_cast<float>(wavelength));
+    return smooth_step(least_steps * step, enough_steps * step, static_cast<float>(wavelength));
   };
   Waves all;
   for (std::size_t i = 0; i < octaves_.size(); ++i) {
@@ -268,7 +268,7 @@ RefinedGround::Sampler::Form RefinedGround::Sampler::form(const GroundShares& sh
   add(shares.of[GroundShares::scree], 0.3F * n9 + 0.25F * n4 + 0.12F * large + waves.wide,
       0.22F * middle + 0.22F * lump(n2) + 0.25F * lump(n1) + 0.15F * lump(n05));
   const float rock = shares.of[GroundShares::rock] + outcrop * (1 - shares.of[GroundShares::rock]);
-  const float steep = ease(0.3F, 0.9F, site.slope);
+  const float steep = smooth_step(0.3F, 0.9F, site.slope);
   // Beds of two thicknesses, which come and go.
   const float level = site.height + waves.along + 0.9F * n9 + 0.5F * n4 + 0.2F * n2;
   const auto& [thick, thin] = thicknesses;
@@ -303,7 +303,7 @@ RefinedPoint RefinedGround::Sampler::at(double x, double z) {
   // Rock comes out of steep ground rather than of gentle ground, and hardly of snow and sand.
   const float least = 0.28F - 0.45F * point.site.slope;
   const float covered = shares.of[GroundShares::snow] + shares.of[GroundShares::sand];
-  const float outcrop = (1 - covered) * ease(least, least + 0.2F, outcrop_noise(x, z));
+  const float outcrop = (1 - covered) * smooth_step(least, least + 0.2F, outcrop_noise(x, z));
   const bool is_stony = outcrop + shares.of[GroundShares::rock] + shares.of[GroundShares::scree] > 0;
   const Waves all = waves(x, z, ground_.step(std::sqrt(dx * dx + dz * dz)), is_stony);
   const Form both = form(shares, all, point.site, outcrop);
@@ -311,7 +311,7 @@ RefinedPoint RefinedGround::Sampler::at(double x, double z) {
   point.height += relief * (both.wide + both.small);
   point.small = point.weight * std::clamp(both.small / small_amplitude, -1.0F, 1.0F);
   // The tops of hummocks are worn here and there.
-  const float bare = (1 - covered) * ease(0.2F, 0.6F, all.noise[1] + 0.6F * all.noise[2]);
+  const float bare = (1 - covered) * smooth_step(0.2F, 0.6F, all.noise[1] + 0.6F * all.noise[2]);
   point.site.slope += point.weight * (0.85F * outcrop + 0.55F * bare + 0.12F * all.noise[1]);
   point.site.slope = std::max(point.site.slope, 0.0F);
   point.site.patch += point.weight * (0.5F * all.noise[0] + 0.4F * all.noise[1] + 0.3F * all.noise[2]);

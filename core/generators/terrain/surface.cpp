@@ -296,7 +296,7 @@ Mesh grid_mesh(const Field& field, const Window& part, const Array<glm::u8vec4>&
   return mesh;
 }
 
-void lean_back(Mesh& mesh, const Job& job) {
+void turn_normals_up(Mesh& mesh, const Job& job) {
   Array<float> least(job, mesh.position.size(), 0.0F);
   const Array<std::uint32_t>& index = mesh.index.wide;
   for (std::size_t i = 0; i < index.size(); i += 3) {
@@ -313,7 +313,8 @@ void lean_back(Mesh& mesh, const Job& job) {
     mesh.normal[i] = leaning_back(slope_of(mesh.normal[i]), least[i]);
 }
 
-Mesh reduced_mesh(const Field& field, Triangulation plan, ColorOf color_of, const Coarse& coarse, Job& job) {
+Mesh reduced_mesh(const Field& field, Triangulation plan, ColorOf color_of, const CoarseShading& coarse,
+                  Job& job) {
   if (!coarse.ordered) order_for_cache(plan, field, job);
   const std::size_t count = plan.samples.size();
   const Ground ground(field);
@@ -344,7 +345,7 @@ Mesh reduced_mesh(const Field& field, Triangulation plan, ColorOf color_of, cons
   if (coarse.shading == Shading::upright) {
     make_upright(mesh, job);
   } else {
-    lean_back(mesh, job);
+    turn_normals_up(mesh, job);
   }
   return mesh;
 }

@@ -7,10 +7,10 @@
 
 #include "core/base/math.h"
 #include "core/generators/child.h"
-#include "core/generators/terrain/dress.h"
-#include "core/generators/terrain/engines.h"
+#include "core/generators/terrain/build_model.h"
+#include "core/generators/terrain/displacement.h"
+#include "core/generators/terrain/game_engines.h"
 #include "core/generators/terrain/maps.h"
-#include "core/generators/terrain/onto.h"
 #include "core/generators/terrain/plan.h"
 #include "core/generators/terrain/profile.h"
 #include "core/generators/terrain/refinement.h"
@@ -147,7 +147,7 @@ Result<Model> generate(const TerrainParams& params, const GenerateContext& conte
   if (auto refused = refusal(params, job.limits())) return std::move(*refused);
   refuse_large_grid(params, job);
   job.progress("derive", 0);
-  if (params.shape == TerrainShape::sphere) return dressed_planet(params, context);
+  if (params.shape == TerrainShape::sphere) return build_planet_model(params, context);
   if (params.shape == TerrainShape::profile) return profile_model(params, job);
   const Result<Field> field = field_of(params, job);
   if (!field) return field.error();
@@ -156,12 +156,12 @@ Result<Model> generate(const TerrainParams& params, const GenerateContext& conte
     return no_rtin_of(*field);
   }
   job.progress("mesh", 0);
-  return with_voids(dressed_field(params, *field, context), *field);
+  return with_voids(build_field_model(params, *field, context), *field);
 }
 
 Result<Model> dressed(const TerrainParams& params, const Field& field, const GenerateContext& context) {
   if (params.mesh == TerrainMesh::rtin && !fits_rtin(field.width, field.depth)) return no_rtin_of(field);
-  return with_voids(dressed_field(params, field, context), field);
+  return with_voids(build_field_model(params, field, context), field);
 }
 
 Result<Json> derive(const TerrainParams& params, const GenerateContext& context) {

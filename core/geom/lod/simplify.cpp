@@ -106,7 +106,7 @@ class Net {
 
   /// Checks the deadline at each 4,096th call.
   void look() {
-    if (++looks_ % 4'096 == 0) job_.check();
+    if (++steps_ % 4'096 == 0) job_.check();
   }
 
   void read(std::span<Mesh* const> meshes, const std::vector<bool>& fixed) {
@@ -381,7 +381,7 @@ class Net {
   Array<CollapseCandidate> heap_{job_};
   Array<std::uint32_t> beside_{job_};  ///< by point: the last mark of the neighbours of a target
   std::uint32_t mark_ = 0;
-  std::size_t looks_ = 0;
+  std::size_t steps_ = 0;
   std::vector<std::pair<std::uint32_t, std::uint32_t>> heirs_;  ///< new vertex of each corner that moves
   std::vector<std::uint32_t> gone_, first_;                     ///< triangles; vertex of each mesh
   std::uint64_t left_ = 0;

@@ -7,7 +7,7 @@
 
 #include "core/generators/city/city.h"
 #include "core/generators/city/given.h"
-#include "core/generators/city/remarks.h"
+#include "core/generators/city/plan_warnings.h"
 #include "generated/params/city.h"
 
 namespace seedmesh::city {
@@ -219,7 +219,7 @@ TEST(GeoJsonOfCities, WarnsOfStreetsOutsideOfTheArea) {
   Job job(1, Job::Options{});
   const Result<CityPlan> plan = plan_of(params, job);
   ASSERT_TRUE(plan);
-  const std::vector<Warning> warnings = remarks_on(params, *plan);
+  const std::vector<Warning> warnings = plan_warnings(params, *plan);
   ASSERT_EQ(warnings.size(), 1U);
   EXPECT_EQ(warnings[0].pointer, "/given/streets");
 }

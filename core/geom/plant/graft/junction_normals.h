@@ -22,7 +22,7 @@ struct LoopFace {
 struct FaceBlock {
   static constexpr std::size_t most = 16;
   std::uint32_t corner[3 * most];  ///< input: 16 faces; the caller repeats one where there are fewer
-  FourFloats normal[most],
+  Float4 normal[most],
       unit[most];         ///< output: `normal` has the length of twice the area, `unit` the length 1
   float size[most];       ///< output: twice the area
   float weight[3][most];  ///< output: the angle at each corner in radians, divided by `size`

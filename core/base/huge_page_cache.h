@@ -9,15 +9,15 @@
 
 namespace seedmesh {
 
-class Reserve {
+class HugePageCache {
  public:
-  static constexpr std::size_t usual = std::size_t{128} << 20U;
+  static constexpr std::size_t default_capacity = std::size_t{128} << 20U;
 
   /// Keeps at most `most` bytes.
-  explicit Reserve(std::size_t most = usual);
-  ~Reserve() { clear(); }
-  Reserve(const Reserve&) = delete;
-  Reserve& operator=(const Reserve&) = delete;
+  explicit HugePageCache(std::size_t most = default_capacity);
+  ~HugePageCache() { clear(); }
+  HugePageCache(const HugePageCache&) = delete;
+  HugePageCache& operator=(const HugePageCache&) = delete;
 
   /// Returns `room` bytes in whole huge pages with unspecified content, or null if the reserve has no adjacent pages
   /// of this size.
