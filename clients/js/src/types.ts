@@ -2720,7 +2720,7 @@ export interface ValidationEstimate2 {
 export interface Validation {
   valid: true;
   warnings: WarningsItem[];
-  /** Null if the size cannot be computed cheaply. */
+  /** Null if the size cannot be computed cheaply. `exact` is true if the model has exactly `triangles`; `bytes` is always an approximation. */
   estimate: null | ValidationEstimate2;
 }
 

@@ -21,6 +21,9 @@ Model build_field_model(const TerrainParams& params, const Field& field, const G
 std::shared_ptr<const RefinedGround> refined_ground(const TerrainParams& params, const Field& field,
                                                     const Job& job);
 
+/// The kind of the textures of a planetoid with details.
+constexpr const char* rock_kind = "rock_ground";
+
 /// Returns the model of a planetoid. Level k has 2^k times fewer points along an edge of its cube.
 Model build_planet_model(const TerrainParams& params, const GenerateContext& context);
 

@@ -12,8 +12,6 @@
 namespace seedmesh::terrain {
 namespace {
 
-constexpr const char* rock_kind = "rock_ground";
-
 class PlanetModelBuilder {
  public:
   PlanetModelBuilder(const TerrainParams& params, const GenerateContext& context)

@@ -331,7 +331,8 @@ TEST(Output, HoldsTheBudgetOfWideFlatGround) {
 }
 
 TEST(Output, EstimatesTheBytesOfTerrainsWithTheirTextures) {
-  for (const char* preset : {"midpoint_hills", "mesas", "dunes", "lava_plain"}) {
+  for (const char* preset :
+       {"midpoint_hills", "mesas", "dunes", "lava_plain", "boulder", "mossy_rock", "layered_rock"}) {
     const Result<Request> request = read_request(request_of(preset, "{}"), Limits{});
     ASSERT_TRUE(request);
     const double estimated = json::parse(*validate(*request, {}))["estimate"]["bytes"].get<double>();
