@@ -59,6 +59,12 @@ TEST(StrictWeights, RefuseSumsOtherThanOneAtTheirRule) {
   EXPECT_EQ(error_of(params), "none");
 }
 
+TEST(Hints, PointAtTheCommentThatIsNotClosed) {
+  EXPECT_EQ(error_of(with("A --> B.\n  /* B --> C.\nD --> E.")),
+            "/rules 2:3 the comment that opens here is not closed");
+  EXPECT_THAT(warnings("A --> B. /* B --> C.\n*/"), IsEmpty());
+}
+
 TEST(Hints, ReportThatNothingIsDrawn) {
   const auto nothing = ElementsAre(HasSubstr("nothing is drawn"));
   EXPECT_THAT(warnings("A ~> Comp(\"edge\", 3){ B. }"), nothing);
