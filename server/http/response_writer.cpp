@@ -106,6 +106,7 @@ std::string response_head(const Request& request, const Response& response) {
   add_field(head, "X-Content-Type-Options", "nosniff");
   add_field(head, "X-Request-Id", request.id);
   if (response.close) add_field(head, "Connection", "close");
+  if (!response.close && request.minor == 0) add_field(head, "Connection", "keep-alive");
   return head += "\r\n";
 }
 

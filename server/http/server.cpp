@@ -238,8 +238,15 @@ bool Server::refuse(Connection& connection, const Request& request, const Refusa
 std::variant<RequestHead, Refusal> Server::read_head(Connection& connection) const {
   const auto deadline = Clock::now() + options_.head_time;
   std::size_t searched = 0;
+  bool is_first_line = true;
   while (true) {
-    const std::string_view text = connection.buffered();
+    std::string_view text = connection.buffered();
+    if (is_first_line && text.size() >= 2) {
+      is_first_line = false;
+      // Some clients send an empty line after a body (RFC 9112 section 2.2).
+      if (text.starts_with("\r\n")) connection.consume(2);
+      text = connection.buffered();
+    }
     const auto end = text.find("\r\n\r\n", searched);
     if (end != std::string_view::npos && end + 4 <= options_.limits.head) {
       auto head = parse_head(text.substr(0, end + 4), options_.limits);
