@@ -14,14 +14,6 @@ namespace {
 constexpr std::size_t digest_size = 32;
 constexpr std::size_t shortest_secret = 16;
 
-bool is_name(std::string_view text) {
-  const auto valid = [](char c) {
-    return (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || c == '-' ||
-           c == '_' || c == '.';
-  };
-  return !text.empty() && text.size() <= 64 && std::all_of(text.begin(), text.end(), valid);
-}
-
 template <class Number>
 bool read_number(std::string_view text, Number low, Number high, Number& value) {
   const auto number = http::parse_number<Number>(text);
@@ -34,7 +26,7 @@ std::string read_api_key(std::string_view element, ApiKey& key) {
   if (element.find(':') == std::string_view::npos)
     return "must have the form name:SHA-256";  // the text may be a key
   key.name = http::take_part(element, ':');
-  if (!is_name(key.name)) return "has a name with characters other than letters, digits, - _ and .";
+  if (!is_key_name(key.name)) return "has a name with characters other than letters, digits, - _ and .";
   const auto digest = from_hex(http::take_part(element, ':'));
   if (!digest || digest->size() != digest_size)
     return "must give the SHA-256 of " + key.name + " in 64 hexadecimal digits";
@@ -69,6 +61,14 @@ bool is_origin(std::string_view text) {
 }
 
 }  // namespace
+
+bool is_key_name(std::string_view text) {
+  const auto valid = [](char c) {
+    return (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || c == '-' ||
+           c == '_' || c == '.';
+  };
+  return !text.empty() && text.size() <= 64 && std::all_of(text.begin(), text.end(), valid);
+}
 
 std::vector<std::string> list_elements(std::string_view text) {
   std::vector<std::string> elements;
@@ -110,7 +110,7 @@ std::string read_signing_keys(std::string_view text, std::vector<SigningKey>& ke
       return "must have the form id:hex";  // the text may be a secret
     SigningKey key;
     key.id = http::take_part(rest, ':');
-    if (!is_name(key.id)) return "has an id with characters other than letters, digits, - _ and .";
+    if (!is_key_name(key.id)) return "has an id with characters other than letters, digits, - _ and .";
     const auto secret = from_hex(rest);
     if (!secret || secret->size() < shortest_secret)
       return "must give key " + key.id + " at least 32 hexadecimal digits";

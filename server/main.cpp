@@ -214,6 +214,15 @@ int run(const std::string& command, Arguments& arguments, const ConfigResult& lo
                                : derive_command(config, arguments.in);
 }
 
+/// Writes what is left of standard output. A full disk or a closed pipe must not pass for success, because what
+/// was printed is then cut.
+int finish_output(int status) {
+  const bool is_written = std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
+  if (is_written || status != 0) return status;
+  std::fprintf(stderr, "seedmesh: standard output could not be written completely\n");
+  return usage_error;
+}
+
 int no_command(const CLI::App& app, const char* word) {
   std::string all;
   for (const CLI::App* each : app.get_subcommands({})) all += (all.empty() ? "" : ", ") + each->get_name();
@@ -241,10 +250,11 @@ int main(int count, char** words) {
     app.parse(count, words);
   } catch (const CLI::ParseError& error) {
     if (count > 1 && words[1][0] != '-' && app.get_subcommands().empty()) return no_command(app, words[1]);
-    return app.exit(error) == 0 ? 0 : usage_error;
+    return finish_output(app.exit(error) == 0 ? 0 : usage_error);
   }
   const CLI::App& chosen = *app.get_subcommands().front();
   const ConfigResult loaded = load_config(process_environment(), given_flags(chosen, texts));
   for (const std::string& error : loaded.errors) std::fprintf(stderr, "seedmesh: %s\n", error.c_str());
-  return loaded.errors.empty() ? run(chosen.get_name(), arguments, loaded) : usage_error;
+  if (!loaded.errors.empty()) return usage_error;
+  return finish_output(run(chosen.get_name(), arguments, loaded));
 }
