@@ -329,6 +329,7 @@ std::optional<Error> estimate_contents(Estimate& estimate, const Surface& surfac
   Demand demand;
   demand.lods = level_count(view, context.demand);
   texture::TextureSizes textures;
+  add_ground_textures(textures, surface, params);
   const auto measured = [&](Result<Model> made) {
     const ModelCounts counts = count(*made);
     for (const Material& material : made->materials) textures.add(material);
