@@ -51,35 +51,33 @@ float ledge(float level, float thickness) {
   return thickness * (smooth_step(0.25F, 0.7F, share) - share);
 }
 
+}  // namespace
+
 /// Blocks of rock: flat facets of random height and tilt, one for each cell of a Voronoi diagram (Worley, "A cellular
-/// texture basis function", 1996), with cracks between them.
-class Blocks {
+/// texture basis function", 1996), with cracks between them. Keeps the facets around the last position, because most
+/// positions follow one in the same square.
+class RefinedGround::Sampler::Blocks {
  public:
   Blocks(std::uint64_t key, float size) : key_(key), size_(size) {}
 
   /// Returns about -1 to 1 for a position in metres.
-  float at(double x, double z) const {
+  float at(double x, double z) {
     const double across = x / static_cast<double>(size_), down = z / static_cast<double>(size_);
     const double left = std::floor(across), top = std::floor(down);
+    if (left != left_ || top != top_) take_square(left, top);
     const auto u = static_cast<float>(across - left), v = static_cast<float>(down - top);
     float nearest = 9, next = 9, facet = 0, neighbour = 0;
-    for (int j = -1; j <= 1; ++j) {
-      const std::uint64_t row = key_at(key_, static_cast<std::uint64_t>(math::to_int64(top) + j));
-      for (int i = -1; i <= 1; ++i) {
-        const std::uint64_t bits = key_at(row, static_cast<std::uint64_t>(math::to_int64(left) + i));
-        const float dx = u - (static_cast<float>(i) + part(bits, 0)),
-                    dz = v - (static_cast<float>(j) + part(bits, 1));
-        const float distance = dx * dx + dz * dz;
-        if (distance >= next) continue;
-        const float height = (part(bits, 2) - 0.5F) * 1.6F + (part(bits, 3) - 0.5F) * 1.5F * dx +
-                             (part(bits, 4) - 0.5F) * 1.5F * dz;
-        if (distance < nearest) {
-          next = std::exchange(nearest, distance);
-          neighbour = std::exchange(facet, height);
-        } else {
-          next = distance;
-          neighbour = height;
-        }
+    for (const Facet& each : facets_) {
+      const float dx = u - each.x, dz = v - each.z;
+      const float distance = dx * dx + dz * dz;
+      if (distance >= next) continue;
+      const float height = each.height + each.tilt_x * dx + each.tilt_z * dz;
+      if (distance < nearest) {
+        next = std::exchange(nearest, distance);
+        neighbour = std::exchange(facet, height);
+      } else {
+        next = distance;
+        neighbour = height;
       }
     }
     // Both sides have the same height where they meet.
@@ -89,14 +87,38 @@ class Blocks {
   }
 
  private:
+  /// A facet with its middle, relative to the corner of the square.
+  struct Facet {
+    float x, z, height, tilt_x, tilt_z;
+  };
+
   /// One of five random numbers 0 .. 1 of 12 bits.
   static float part(std::uint64_t bits, unsigned number) {
     return static_cast<float>(bits >> (12U * number) & 0xFFFU) * 0x1p-12F;
   }
 
+  void take_square(double left, double top) {
+    left_ = left;
+    top_ = top;
+    Facet* out = facets_.data();
+    for (int j = -1; j <= 1; ++j) {
+      const std::uint64_t row = key_at(key_, static_cast<std::uint64_t>(math::to_int64(top) + j));
+      for (int i = -1; i <= 1; ++i) {
+        const std::uint64_t bits = key_at(row, static_cast<std::uint64_t>(math::to_int64(left) + i));
+        *out++ = {static_cast<float>(i) + part(bits, 0), static_cast<float>(j) + part(bits, 1),
+                  (part(bits, 2) - 0.5F) * 1.6F, (part(bits, 3) - 0.5F) * 1.5F,
+                  (part(bits, 4) - 0.5F) * 1.5F};
+      }
+    }
+  }
+
   std::uint64_t key_;
   float size_;
+  double left_ = 0.5, top_ = 0.5;  ///< of the square; no square begins at a half
+  std::array<Facet, 9> facets_;
 };
+
+namespace {
 
 /// Ripples: crests that rise over three quarters of their length.
 float ripple(float phase) {
@@ -194,10 +216,16 @@ RefinedGround::Sampler::Sampler(const RefinedGround& ground) : ground_(ground) {
   for (std::size_t i = 0; i < wavelengths.size(); ++i) add(octaves_, ground.rng_.at(i), wavelengths[i]);
   for (std::size_t i = 0; i < outcrop_wavelengths.size(); ++i)
     add(outcrops_, ground.rng_.at("outcrops").at(i), outcrop_wavelengths[i]);
+  blocks_.reserve(block_sizes.size());
+  const Rng blocks = ground.rng_.at("blocks");
+  for (std::size_t i = 0; i < block_sizes.size(); ++i)
+    blocks_.emplace_back(blocks.at(i).key(), static_cast<float>(block_sizes[i]));
   std::uint64_t number = 0;
   for (double length = 2 * wavelengths[0]; length <= 2 * ground.refinement_.cell; length *= 2)
     add(wide_, ground.rng_.at("wide").at(number++), length);
 }
+
+RefinedGround::Sampler::~Sampler() = default;
 
 /// Noise whose highest parts are outcrops of rock.
 float RefinedGround::Sampler::outcrop_noise(double x, double z) {
@@ -236,9 +264,7 @@ RefinedGround::Sampler::Waves RefinedGround::Sampler::waves(double x, double z, 
     const double bend_x = 0.7 * static_cast<double>(all.noise[1]) + 0.3 * static_cast<double>(all.noise[2]),
                  bend_z = 0.5 * static_cast<double>(all.noise[0] - all.noise[2]);
     if (complete > 0) {
-      all.blocks[i] =
-          complete * Blocks(ground_.rng_.at("blocks").at(i).key(), static_cast<float>(block_sizes[i]))
-                         .at(east + bend_x, south + bend_z);
+      all.blocks[i] = complete * blocks_[i].at(east + bend_x, south + bend_z);
     }
   }
   // Both thicknesses divide the cycle.
