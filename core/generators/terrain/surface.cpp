@@ -160,13 +160,18 @@ void fill_band(const Field& field, const Window& part, std::int32_t first, std::
       const std::uint32_t corner = static_cast<std::uint32_t>(j) * wide + static_cast<std::uint32_t>(i);
       const auto nw = static_cast<Index>(corner), ne = static_cast<Index>(corner + 1),
                  sw = static_cast<Index>(corner + wide), se = static_cast<Index>(corner + wide + 1);
+      // Without branches, which the processor could not predict.
       const bool falls = falls_to_south_east(north[i], north[i + 1], south[i], south[i + 1]);
+      const auto mask = static_cast<Index>(-static_cast<std::int32_t>(falls));
+      const auto either = [mask](Index falling, Index rising) {
+        return static_cast<Index>(rising ^ ((rising ^ falling) & mask));
+      };
       out[0] = nw;
       out[1] = sw;
-      out[2] = falls ? se : ne;
-      out[3] = falls ? nw : ne;
-      out[4] = falls ? se : sw;
-      out[5] = falls ? ne : se;
+      out[2] = either(se, ne);
+      out[3] = either(nw, ne);
+      out[4] = either(se, sw);
+      out[5] = either(ne, se);
     }
   }
 }
