@@ -636,7 +636,7 @@ TEST(CityModel, GroundsRepeatTheirTexturesByTheSizeOfTheTexture) {
   Demand demand;
   demand.textures = 512;
   const Model model = model_with(params_of(R"({"area": {"size": [300, 300]}, "surfaces": [
-      {"material": "sidewalk", "roughness": 0.5}, {"material": "lot", "color": "#336633"}]})"),
+      {"name": "sidewalk", "roughness": 0.5}, {"name": "lot", "color": "#336633"}]})"),
                                  3, demand);
   std::map<std::string, std::string> kinds;
   for (const Material& material : model.materials) kinds[material.name] = material.recipe.kind;
