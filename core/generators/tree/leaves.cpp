@@ -153,10 +153,8 @@ CoarserLeaves coarser(const Leaves& leaves, TreeLevels& levels, const TreeLevels
       const Mesh card = with_back(far_leaf(leaves.params, LeafDetail::triangle, plan.level, job), true);
       for (const Foliage& all : place(leaves.organs, card, options, job))
         made.gain = gain_of(all.mesh, part.mesh, job) * of_shadows(plan);
-      // Light leaves that the material cannot make bright enough get the rest from the colours of vertices, and so do
-      // needles. Other leaves would become too bright: the level before has shadows that are missing here.
-      if (are_light(leaves.params) || plan.leaves == LeafDetail::one_card)
-        brighter = std::max(1.0F, made.gain / most);
+      // Light leaves that the material cannot make bright enough get the rest from the colours of vertices.
+      brighter = std::max(1.0F, made.gain / most);
     }
     dim(part.mesh, dimming(plan.share) * brighter);
   }

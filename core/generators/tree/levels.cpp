@@ -19,6 +19,8 @@ constexpr std::array<double, most_levels> level_shares{1, 0.4, 0.15, 0.05, 0.03}
 constexpr std::array<double, most_levels> bark_shares{1, 0.3, 0.3, 0.1, 0.1};
 // A build of leaves is used if at least this share of them can remain. Otherwise leaves get fewer triangles.
 constexpr double fullest = 0.7;
+// The brightest linear colour of leaves that can become brighter by the factors of single triangles.
+constexpr float most_to_brighten = 0.65F;
 // The triangles of a level by those of its plan. Forks add some to the bark, but few limbs may need less.
 constexpr double most_of_plan = 1.1, least_of_plan = 0.7;
 // The least share of the leaves that remains.
@@ -27,7 +29,9 @@ constexpr double least_leaves = 0.2;
 /// Single triangles get a brighter colour in place of the light on backs, up to twice as bright. White has none unless
 /// the colours of vertices are darker.
 bool is_too_bright(const TreeParams& params) {
-  return are_light(params) && params.leaf.tint == 0 && params.leaf.hue == 0 && params.leaf.occlusion == 0;
+  const glm::vec3 color = color_of_leaves(params);
+  if (params.leaf.tint > 0 || params.leaf.hue > 0 || params.leaf.occlusion > 0) return false;
+  return std::max({color.x, color.y, color.z}) > most_to_brighten;
 }
 
 }  // namespace

@@ -230,12 +230,6 @@ LeafMaterials add_leaf_materials(Model& model, const TreeParams& params, const G
   return result;
 }
 
-bool are_light(const TreeParams& params) {
-  constexpr float most_to_brighten = 0.65F;
-  const glm::vec3 color = color_of_leaves(params);
-  return std::max({color.x, color.y, color.z}) > most_to_brighten;
-}
-
 float most_gain(const TreeParams& params, const Demand& demand) {
   const glm::vec3 color = color_of_leaves(params),
                   most = linear(brightest(params.leaf, demand.lods > 1 ? far_headroom : 1));

@@ -54,9 +54,6 @@ struct LeafMaterials {
 /// Adds the materials of leaves and their variants. Throws Stop (Code::invalid) for a damaged image.
 LeafMaterials add_leaf_materials(Model& model, const TreeParams& params, const GenerateContext& context);
 
-/// Whether a component of the colour of the leaves is above 0.65 (linear). Single triangles of such leaves, as of
-/// blossoms, need more light than white reflects.
-bool are_light(const TreeParams& params);
 /// The largest factor that the colour of the materials can have in the season of the request. Images and colours end at
 /// white.
 float most_gain(const TreeParams& params, const Demand& demand);
