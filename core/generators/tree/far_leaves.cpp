@@ -30,9 +30,9 @@ constexpr std::int32_t flat = 4;
 
 /// Replaces each square of two triangles and four vertices by one triangle in its plane. The vertices of a square
 /// differ in the texture coordinates alone, which are 0 or 1.
-Mesh as_triangles(const Mesh& squares, const Job& job) {
+Mesh as_triangles(const Mesh& squares, std::size_t begin, std::size_t end, const Job& job) {
   Mesh mesh = empty_sheet(job);
-  for (std::size_t first = 0; first < squares.position.size(); first += 4) {
+  for (std::size_t first = begin; first < end; first += 4) {
     std::array<glm::vec3, 4> at;
     for (std::size_t i = first; i < first + 4; ++i) {
       const glm::vec2 uv = squares.uv[0][i];
@@ -69,22 +69,6 @@ glm::vec3 face_of(const Mesh& mesh, std::size_t corner) {
   const glm::vec3& a = mesh.position[mesh.index.at(corner)];
   return glm::cross(mesh.position[mesh.index.at(corner + 1)] - a,
                     mesh.position[mesh.index.at(corner + 2)] - a);
-}
-
-/// The triangles with these corners, which share no vertices.
-Mesh with_corners(const Mesh& mesh, const Array<std::uint32_t>& kept, const Job& job) {
-  Mesh made;
-  take(mesh.position, kept.span(), made.position, job);
-  take(mesh.normal, kept.span(), made.normal, job);
-  for (std::size_t set = 0; set < mesh.uv.size(); ++set) take(mesh.uv[set], kept.span(), made.uv[set], job);
-  take(mesh.color, kept.span(), made.color, job);
-  take(mesh.tangent, kept.span(), made.tangent, job);
-  take(mesh.bone, kept.span(), made.bone, job);
-  made.index.wide = Array<std::uint32_t>(job, kept.size());
-  for (std::size_t i = 0; i < kept.size(); ++i) made.index.wide[i] = static_cast<std::uint32_t>(i);
-  made.cache_ordered = mesh.cache_ordered;
-  made.no_minus_zero = mesh.no_minus_zero;
-  return made;
 }
 
 /// The axes of a level view: right and towards the viewer; the third is up.
@@ -186,7 +170,9 @@ Mesh far_leaf(const TreeParams& params, LeafDetail detail, int level, const Job&
   Mesh squares = leaf_of(coarse, level, job);
   raise_to_mean(squares, params);
   if (detail == LeafDetail::square) return squares;
-  return as_triangles(squares, job);
+  // The first of crossed cards is level where the upper sides of leaves face up; from aside one sees the second.
+  const bool has_second = detail == LeafDetail::one_card && squares.position.size() > 4;
+  return as_triangles(squares, has_second ? 4 : 0, has_second ? 8 : squares.position.size(), job);
 }
 
 Mesh outer_sides(const Mesh& mesh, const Mesh& leaf, const glm::vec3& middle, const Job& job) {
@@ -201,27 +187,18 @@ Mesh outer_sides(const Mesh& mesh, const Mesh& leaf, const glm::vec3& middle, co
       for (std::size_t corner = side; corner < side + 3; ++corner) kept.push_back(mesh.index.at(corner));
     }
   }
-  return with_corners(mesh, kept, job);
-}
-
-Mesh widest_cards(const Mesh& mesh, std::size_t cards, const Job& job) {
-  Array<std::uint32_t> kept(job);
-  kept.reserve(mesh.index.size() / cards);
-  for (std::size_t first = 0; first < mesh.index.size(); first += 3 * cards) {
-    if (first % 65'536 == 0) job.check();
-    std::size_t widest = first;
-    float most = -1;
-    for (std::size_t corner = first; corner < first + 3 * cards; corner += 3) {
-      const glm::vec3 face = face_of(mesh, corner);
-      const float aside = face.x * face.x + face.z * face.z;
-      if (aside > most) {
-        most = aside;
-        widest = corner;
-      }
-    }
-    for (std::size_t corner = widest; corner < widest + 3; ++corner) kept.push_back(mesh.index.at(corner));
-  }
-  return with_corners(mesh, kept, job);
+  Mesh outer;
+  take(mesh.position, kept.span(), outer.position, job);
+  take(mesh.normal, kept.span(), outer.normal, job);
+  for (std::size_t set = 0; set < mesh.uv.size(); ++set) take(mesh.uv[set], kept.span(), outer.uv[set], job);
+  take(mesh.color, kept.span(), outer.color, job);
+  take(mesh.tangent, kept.span(), outer.tangent, job);
+  take(mesh.bone, kept.span(), outer.bone, job);
+  outer.index.wide = Array<std::uint32_t>(job, kept.size());
+  for (std::size_t i = 0; i < kept.size(); ++i) outer.index.wide[i] = static_cast<std::uint32_t>(i);
+  outer.cache_ordered = mesh.cache_ordered;
+  outer.no_minus_zero = mesh.no_minus_zero;
+  return outer;
 }
 
 }  // namespace seedmesh::tree

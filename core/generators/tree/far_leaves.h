@@ -14,7 +14,7 @@ enum class LeafDetail {
   square,    ///< flat cards: two triangles for each side
   triangle,  ///< one triangle for each side; it contains the visible part of the texture, which is not repeated
   single,    ///< the same triangle for both sides, in a double-sided material
-  one_card,  ///< the same, for the one of crossed cards that is widest from the side (widest_cards())
+  one_card,  ///< the same, for one of crossed cards
 };
 
 /// Whether a leaf has only one triangle for both sides of a card.
@@ -24,17 +24,13 @@ inline bool is_single(LeafDetail detail) { return detail >= LeafDetail::single; 
 /// output contains.
 bool has_far_leaves(const TreeParams& params, const GenerateContext& context);
 
-/// Returns the mesh of a leaf of length 1 at a level, with faces on one side; with `one_card`, all of its cards.
+/// Returns the mesh of a leaf of length 1 at a level, with faces on one side.
 Mesh far_leaf(const TreeParams& params, LeafDetail detail, int level, const Job& job);
 
 /// Keeps one triangle of each pair of a front and a back: the side that faces away from the vertical axis through
 /// `middle`, which is the visible one from outside the crown. `mesh` consists of copies of `leaf`. In `leaf`,
 /// all front triangles come before all back triangles, and triangles share no vertices.
 Mesh outer_sides(const Mesh& mesh, const Mesh& leaf, const glm::vec3& middle, const Job& job);
-
-/// Keeps one of each `cards` triangles in turn, which are the crossed cards of a leaf: the largest one in horizontal
-/// views from all azimuths. Triangles share no vertices. How leaves are turned decides which card that is.
-Mesh widest_cards(const Mesh& mesh, std::size_t cards, const Job& job);
 
 /// Returns the factor for the brightness of the texture of single triangles. It makes the crown as bright as
 /// with leaves that have two sides. It is needed because renderers flip the normals of back faces, which then

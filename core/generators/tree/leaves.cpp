@@ -113,18 +113,18 @@ std::vector<Foliage> place(const Organs& organs, const Mesh& leaf, FoliageOption
   return place_organs(organs, options, job);
 }
 
-/// Multiplies the colours of all vertices, which end at white.
+/// Multiplies the colours of all vertices.
 void dim(Mesh& mesh, float factor) {
   const auto parts = static_cast<std::uint32_t>(math::to_int32(256 * static_cast<double>(factor)));
   const auto dimmed = [&](std::uint8_t value) {
-    return static_cast<std::uint8_t>(std::min((value * parts + 128) / 256, 255U));
+    return static_cast<std::uint8_t>((value * parts + 128) / 256);
   };
   for (glm::u8vec4& color : mesh.color) color = {dimmed(color.r), dimmed(color.g), dimmed(color.b), color.a};
 }
 
 /// Far leaves have fewer shadows of each other than gain_of() assumes. Measured with the presets.
 float of_shadows(const TreeLevels::Plan& plan) {
-  if (plan.leaves == LeafDetail::one_card) return 0.77F;
+  if (plan.leaves == LeafDetail::one_card) return 0.89F;
   return plan.level >= 3 ? 0.96F : 1.0F;
 }
 
@@ -143,20 +143,13 @@ CoarserLeaves coarser(const Leaves& leaves, TreeLevels& levels, const TreeLevels
   const FoliageOptions options = options_of(leaves, context);
   CoarserLeaves made;
   made.parts = place(fewer, leaf, options, job);
-  const float most = most_gain(leaves.params, context.demand);
   for (Foliage& part : made.parts) {
-    float brighter = 1;
-    if (is_single(plan.leaves) && has_back) part.mesh = outer_sides(part.mesh, leaf, *options.crown, job);
-    if (plan.leaves == LeafDetail::one_card)
-      part.mesh = widest_cards(part.mesh, leaf.elements() / (has_back ? 2 : 1), job);
-    if (is_single(plan.leaves) && has_back) {
-      const Mesh card = with_back(far_leaf(leaves.params, LeafDetail::triangle, plan.level, job), true);
-      for (const Foliage& all : place(leaves.organs, card, options, job))
-        made.gain = gain_of(all.mesh, part.mesh, job) * of_shadows(plan);
-      // Light leaves that the material cannot make bright enough get the rest from the colours of vertices.
-      brighter = std::max(1.0F, made.gain / most);
-    }
-    dim(part.mesh, dimming(plan.share) * brighter);
+    dim(part.mesh, dimming(plan.share));
+    if (!is_single(plan.leaves) || !has_back) continue;
+    part.mesh = outer_sides(part.mesh, leaf, *options.crown, job);
+    const Mesh card = with_back(far_leaf(leaves.params, LeafDetail::triangle, plan.level, job), true);
+    for (const Foliage& all : place(leaves.organs, card, options, job))
+      made.gain = gain_of(all.mesh, part.mesh, job) * of_shadows(plan);
   }
   return made;
 }
@@ -177,7 +170,9 @@ void add_merged(Model& model, const Leaves& leaves, TreeLevels& levels, const Le
     } else {
       const TreeLevels::Plan plan = levels.plan(level, bark);
       CoarserLeaves made = coarser(leaves, levels, plan, context);
-      if (made.gain > 0) far = double_sided(model, materials, made.gain, "_LOD" + std::to_string(level));
+      const bool is_sparse = plan.leaves == LeafDetail::one_card;
+      if (made.gain > 0)
+        far = double_sided(model, materials, {made.gain, is_sparse, "_LOD" + std::to_string(level)});
       parts = std::move(made.parts);
     }
     const LeafMaterials& used = far.material >= 0 ? far : materials;

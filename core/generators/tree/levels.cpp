@@ -16,7 +16,7 @@ constexpr float filled_card = 0.7F;
 constexpr std::array<double, most_levels> level_shares{1, 0.4, 0.15, 0.05, 0.03};
 // Share of the triangles of a level that bark may have where leaves need the others. Far away, twigs are too thin to
 // be seen.
-constexpr std::array<double, most_levels> bark_shares{1, 0.3, 0.3, 0.1, 0.1};
+constexpr std::array<double, most_levels> bark_shares{1, 0.3, 0.3, 0.2, 0.2};
 // A build of leaves is used if at least this share of them can remain. Otherwise leaves get fewer triangles.
 constexpr double fullest = 0.7;
 // The brightest linear colour of leaves that can become brighter by the factors of single triangles.
@@ -26,11 +26,9 @@ constexpr double most_of_plan = 1.1, least_of_plan = 0.7;
 // The least share of the leaves that remains.
 constexpr double least_leaves = 0.2;
 
-/// Single triangles get a brighter colour in place of the light on backs, up to twice as bright. White has none unless
-/// the colours of vertices are darker.
+/// Single triangles get a brighter colour in place of the light on backs, up to twice as bright. White has none.
 bool is_too_bright(const TreeParams& params) {
   const glm::vec3 color = color_of_leaves(params);
-  if (params.leaf.tint > 0 || params.leaf.hue > 0 || params.leaf.occlusion > 0) return false;
   return std::max({color.x, color.y, color.z}) > most_to_brighten;
 }
 
@@ -51,9 +49,8 @@ TreeLevels::TreeLevels(const Skeleton& skeleton, const TreeParams& params, const
     for (const LeafDetail detail :
          {LeafDetail::square, LeafDetail::triangle, LeafDetail::single, LeafDetail::one_card}) {
       if (is_single(detail) && sides == 2 && is_too_bright(params)) break;
-      const std::uint64_t all = far_leaf(params, detail, 1, job).elements();
       const std::uint64_t triangles =
-          detail == LeafDetail::one_card ? 1 : all * (is_single(detail) ? 1 : sides);
+          far_leaf(params, detail, 1, job).elements() * (is_single(detail) ? 1 : sides);
       if (triangles < (builds_.empty() ? of_leaf_ + 1 : builds_.back().triangles))
         builds_.push_back({detail, triangles});
     }

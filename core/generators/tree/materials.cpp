@@ -14,6 +14,8 @@ namespace {
 // Leaves of coarse levels are up to 1.45 times as bright, which is a factor of 1.18 for sRGB values. Images have brighter
 // texels than their main colour, so that one stays well below 255.
 constexpr double far_headroom = 1.18, highest_with_headroom = 216;
+// Share of the alpha cutoff for sparse leaves far away.
+constexpr float sparse_cutoff = 0.5F;
 constexpr float bark_roughness = 0.95F, leaf_roughness = 0.65F;
 constexpr Color plain_bark{107, 84, 64};
 // The colour of young leaves is mixed with this share of a light yellow green.
@@ -230,21 +232,18 @@ LeafMaterials add_leaf_materials(Model& model, const TreeParams& params, const G
   return result;
 }
 
-float most_gain(const TreeParams& params, const Demand& demand) {
-  const glm::vec3 color = color_of_leaves(params),
-                  most = linear(brightest(params.leaf, demand.lods > 1 ? far_headroom : 1));
-  const glm::vec3 gain = has_leaf_texture(params) ? most / color : 1.0F / color;
-  return std::max(1.0F, std::min({gain.x, gain.y, gain.z}));
-}
-
-LeafMaterials double_sided(Model& model, const LeafMaterials& materials, float gain,
-                           const std::string& suffix) {
+LeafMaterials double_sided(Model& model, const LeafMaterials& materials, const FarLeafMaterial& look) {
   const auto add_copy = [&](int original) {
     Material copy = model.materials[static_cast<std::size_t>(original)];
-    copy.name += suffix;
+    copy.name += look.name;
     copy.double_sided = true;
-    copy.base_color = glm::vec4(glm::min(glm::vec3(copy.base_color) * gain, glm::vec3(1)), copy.base_color.w);
-    copy.recipe.factor = glm::min(copy.recipe.factor * gain, glm::vec3(1));
+    copy.base_color =
+        glm::vec4(glm::min(glm::vec3(copy.base_color) * look.gain, glm::vec3(1)), copy.base_color.w);
+    copy.recipe.factor = glm::min(copy.recipe.factor * look.gain, glm::vec3(1));
+    if (look.is_sparse) {
+      copy.alpha_mode = AlphaMode::mask;
+      copy.alpha_cutoff = sparse_cutoff * texture::leaf_cutoff(copy.recipe.kind);
+    }
     model.materials.push_back(std::move(copy));
     return static_cast<int>(model.materials.size()) - 1;
   };

@@ -1,6 +1,5 @@
 #pragma once
 /// Materials of bark and leaves: generated textures, images of the request, or a plain colour.
-#include <string>
 #include <vector>
 
 #include "core/generators/api.h"
@@ -54,11 +53,13 @@ struct LeafMaterials {
 /// Adds the materials of leaves and their variants. Throws Stop (Code::invalid) for a damaged image.
 LeafMaterials add_leaf_materials(Model& model, const TreeParams& params, const GenerateContext& context);
 
-/// The largest factor that the colour of the materials can have in the season of the request. Images and colours end at
-/// white.
-float most_gain(const TreeParams& params, const Demand& demand);
-/// Adds double-sided copies of the materials of leaves. `gain`: factor of the colour; `suffix`: end of the names.
-LeafMaterials double_sided(Model& model, const LeafMaterials& materials, float gain,
-                           const std::string& suffix);
+/// The appearance of leaves that have one double-sided face.
+struct FarLeafMaterial {
+  float gain = 1;          ///< factor of the colour
+  bool is_sparse = false;  ///< few are left: a lower alpha cutoff makes leaves and needles wider
+  std::string name;        ///< end of the names of the materials
+};
+/// Adds double-sided copies of the materials of leaves.
+LeafMaterials double_sided(Model& model, const LeafMaterials& materials, const FarLeafMaterial& look);
 
 }  // namespace seedmesh::tree
