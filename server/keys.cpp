@@ -42,6 +42,7 @@ std::string read_api_key(std::string_view element, ApiKey& key) {
 template <class Item>
 bool has_duplicate(const std::vector<Item>& items, std::string Item::*name) {
   std::vector<std::string> names;
+  names.reserve(items.size());
   for (const Item& item : items) names.push_back(item.*name);
   std::sort(names.begin(), names.end());
   return std::adjacent_find(names.begin(), names.end()) != names.end();
@@ -134,7 +135,10 @@ std::string read_generators(std::string_view text, std::vector<std::string>& gen
   for (const std::string& name : generators) {
     if (std::find(known.begin(), known.end(), name) != known.end()) continue;
     std::string all;
-    for (const std::string_view each : known) all += (all.empty() ? "" : ", ") + std::string(each);
+    for (const std::string_view each : known) {
+      if (!all.empty()) all += ", ";
+      all += each;
+    }
     return "contains \"" + name + "\", which is not a generator; the generators are " + all;
   }
   return {};

@@ -63,9 +63,10 @@ ShapemlText::ShapemlText(ForeignText& source) : source_(source), text_(without_c
     partner_[open.back()] = i;
     open.pop_back();
   }
-  if (!open.empty() && source_.error_count() == 0)
+  if (!open.empty() && source_.error_count() == 0) {
     error(open.back(), "found " + in_quotes(at(open.back())) + " without its `" +
                            std::string(closing_of(at(open.back()).text)) + "`");
+  }
 }
 
 std::size_t ShapemlText::find(std::size_t i, std::string_view symbol) const {

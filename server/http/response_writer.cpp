@@ -18,7 +18,7 @@ constexpr std::string_view phrases =
 
 /// "404 Not Found"; the code and a space where there is no phrase for it.
 std::string status_text(int status) {
-  const std::string code = std::to_string(status) + " ";
+  std::string code = std::to_string(status) + " ";
   const auto found = phrases.find(code);
   if (found == std::string_view::npos) return code;
   return std::string(phrases.substr(found, phrases.find('|', found) - found));

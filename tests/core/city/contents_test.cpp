@@ -1,4 +1,5 @@
 /// What stands in a city: houses and their requests, landmarks, furniture, trees and borders.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>

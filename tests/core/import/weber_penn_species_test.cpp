@@ -131,7 +131,7 @@ TEST(TreeGen, ReadsPresetsOfSapling) {
                                " 'bevel': True, 'handleType': '0', 'seed': 12, 'leaves': 11}");
   ASSERT_TRUE(result) << reports(result)[0];
   const nlohmann::json request = nlohmann::json::parse(result->request.canonical());
-  const nlohmann::json parameters = request.at("parameters");
+  const nlohmann::json& parameters = request.at("parameters");
   EXPECT_EQ(request.at("seed"), 12);
   EXPECT_EQ(parameters.at("Shape"), 4);
   EXPECT_EQ(parameters.at("Scale"), 7.5);
