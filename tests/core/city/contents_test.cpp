@@ -637,13 +637,15 @@ TEST(CityModel, GroundsRepeatTheirTexturesByTheSizeOfTheTexture) {
   Demand demand;
   demand.textures = 512;
   const Model model = model_with(params_of(R"({"area": {"size": [300, 300]}, "surfaces": [
-      {"name": "sidewalk", "roughness": 0.5}, {"name": "lot", "color": "#336633"}]})"),
+      {"name": "sidewalk", "roughness": 0.5}, {"name": "lot", "color": "#336633"},
+      {"name": "junction", "color": "#f0f0f0"}]})"),
                                  3, demand);
   std::map<std::string, std::string> kinds;
   for (const Material& material : model.materials) kinds[material.name] = material.recipe.kind;
   EXPECT_EQ(kinds.at("asphalt"), "asphalt_ground");
   EXPECT_EQ(kinds.at("lot"), "grass_ground");
   EXPECT_EQ(kinds.at("sidewalk"), "") << "its roughness would be that of the texture";
+  EXPECT_EQ(kinds.at("junction"), "") << "its colour is brighter than the texture";
   for (const MeshGroup& group : model.meshes) {
     for (const Primitive& primitive : group.primitives) {
       const Material& material = model.materials[static_cast<std::size_t>(primitive.material)];
