@@ -62,7 +62,7 @@ std::string_view named_parameter(std::string_view method) {
   return method == "resources/read" ? "uri" : "";
 }
 
-/// Checks that the fields of a stateless message repeat what its body says.
+/// Checks that the fields of a stateless message agree with its body.
 std::optional<Failure> check_fields(const http::Request& request, const Json& body) {
   const auto differs = [](std::string_view field, const std::string& expected) {
     return Failure{Code::header_mismatch,

@@ -10,8 +10,8 @@
 namespace seedmesh {
 namespace {
 
-constexpr double near_enough = 0.9;    ///< of the wanted triangles: a level of the model is used as it is
-constexpr double too_many = 1.02;      ///< times the wanted triangles: worth a warning
+constexpr double near_enough = 0.9;    ///< of the requested triangles: a level of the model is used as it is
+constexpr double too_many = 1.02;      ///< times the requested triangles, above which there is a warning
 constexpr double most_of_level = 0.9;  ///< a level may have this share of the triangles of the one before
 /// Smaller meshes keep their triangles as long as others suffice: simplification would collapse a box.
 constexpr std::uint64_t least_simplified = 64;

@@ -31,7 +31,7 @@ void set_format(Product& product, std::string_view name) {
   product.extension = format.extension;
 }
 
-/// The generator's own format that the request asks for; null where it asks for a model.
+/// The generator's own format that the request selects; null where it selects a model.
 const OwnFormat* own_format_of(const Request& request) {
   for (const OwnFormat& form : request.body().generator->formats) {
     if (form.format == request.format()) return &form;

@@ -103,7 +103,7 @@ std::string collision_name(const std::string& mesh, CollisionShape shape, std::s
   return mesh + "_collision" + numbered(number) + "-convcolonly";
 }
 
-/// The convention that `output.collision` asked for, read from the name that the generator chose.
+/// The convention that `output.collision` selects, read from the name that the generator chose.
 CollisionNames convention_of(std::string_view name) {
   if (name.starts_with("UCX_")) return CollisionNames::unreal;
   if (name.ends_with("-convcolonly")) return CollisionNames::godot;

@@ -22,7 +22,7 @@ std::string_view stem_of(std::string_view path) {
   return path;
 }
 
-/// What a file says about its place among the others.
+/// The declarations by which a file refers to the others.
 struct FileNotes {
   std::vector<std::string> imports;  ///< paths
   std::set<std::string, std::less<>> rules;

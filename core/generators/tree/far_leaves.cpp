@@ -170,7 +170,7 @@ Mesh far_leaf(const TreeParams& params, LeafDetail detail, int level, const Job&
   Mesh squares = leaf_of(coarse, level, job);
   raise_to_mean(squares, params);
   if (detail == LeafDetail::square) return squares;
-  // The first of crossed cards is level where the upper sides of leaves face up; from aside one sees the second.
+  // The first of crossed cards is level where the upper sides of leaves face up; from the side the second is visible.
   const bool has_second = detail == LeafDetail::one_card && squares.position.size() > 4;
   return as_triangles(squares, has_second ? 4 : 0, has_second ? 8 : squares.position.size(), job);
 }

@@ -72,7 +72,7 @@ double estimated_deviation(const World& world, double spacing, const Roughness& 
 }
 
 /// What cells with an edge of this length lack of the bed of a river on level ground, which is the only water of
-/// some tiles. Boxes and skirts know the heights of water.
+/// some tiles. Boxes and skirts include the heights of water.
 double bed_error(double spacing, const Roughness& rough) {
   constexpr double bank = 0.17;      ///< slope from samples on both sides to the bed
   constexpr double depth = 2.3;      ///< metres of the land beside a narrow river above its bed

@@ -47,7 +47,7 @@ double tallest_growing(const World& world, const GroundSample& sample, double ea
 /// What is known of a square: bounds of its heights, and of the heights of its plants.
 struct Growth {
   double low = 0, high = 0, tallest = 0;
-  bool has_river = false;  ///< a river beside which `tallest` does not know of the moist ground
+  bool has_river = false;  ///< a river beside which `tallest` does not include the moist ground
 };
 /// Returns the height of the tallest class, among those of at most `growth.tallest` metres, that grows at such heights and,
 /// in squares of up to 256 m, has a candidate in [west, east) x [south, north); 0 without one.
