@@ -29,8 +29,8 @@ bool is_loopback(const std::string& host) {
   return host == "localhost" || host == "127.0.0.1" || host == "[::1]" || host == "::1";
 }
 
-/// Pages of other origins must not use a service that only listens on this machine (DNS rebinding), and no
-/// service at all unless its settings allow their origin.
+/// Pages of other origins must not use a service unless its settings allow their origin. A service that listens only
+/// on this machine also checks the host (DNS rebinding).
 std::optional<Problem> check_origin(const RequestContext& call) {
   const Config& config = call.service.config;
   const std::string host = host_in(call.request.header("Host"));

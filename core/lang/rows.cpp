@@ -11,8 +11,8 @@
 namespace seedmesh::lang {
 namespace {
 
-/// Cells that one step of a loop reads before it writes any, so that the result may overwrite an operand, and compilers
-/// use vector instructions nevertheless.
+/// Cells that one step of a loop reads before it writes any. The result may therefore overwrite an operand, and
+/// compilers still use vector instructions.
 constexpr std::size_t lane = 8;
 static_assert(RowEvaluator::width % lane == 0);
 

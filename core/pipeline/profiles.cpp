@@ -110,9 +110,9 @@ CollisionNames convention_of(std::string_view name) {
   return CollisionNames::plain;
 }
 
-/// Generators number the shapes of one model from 1. In a file of several models, a suffix that makes a name
-/// unique would hide the suffix that Godot reads, and Unreal would search for a mesh of that name. So the
-/// numbers count through the file, and Unreal's names contain the mesh's name in this file.
+/// Generators number the shapes of one model from 1. In a file of several models, a further suffix would make names
+/// unique. It would hide the suffix that Godot reads, however, and Unreal would search for a mesh of that name. So
+/// the numbers count through the file, and Unreal's names contain the mesh's name in this file.
 void name_collisions(Model& model, OutputProfile profile) {
   const bool is_engine = profile == OutputProfile::unreal || profile == OutputProfile::godot;
   std::map<std::string, std::size_t> shapes;  // of each visible mesh

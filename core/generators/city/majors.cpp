@@ -1,5 +1,5 @@
-// Major streets on a net whose crossings and links are drawn by position, so that each link is built or not
-// whatever the order in which growth reaches it.
+// Major streets on a net. The random choices of crossings and links depend on their position, so the order of growth
+// has no effect on them.
 #include <algorithm>
 #include <array>
 #include <cmath>

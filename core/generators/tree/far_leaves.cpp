@@ -1,6 +1,6 @@
-// A card of one triangle: the twigs of core/geom/plant/leafy_twig.h and needle_twig.h are widest at two fifths of their
-// length from the tip and end in points, so a triangle holds nearly all of a twig with 0.6 of the area that the smallest
-// triangle around the whole square has. Texture coordinates outside 0..1 are those of the transparent margin.
+// A card of one triangle. The twigs of core/geom/plant/leafy_twig.h and needle_twig.h are widest at two fifths of their
+// length from the tip, and end in points. A triangle around nearly all of a twig therefore has only 0.6 of the area of
+// the smallest triangle around the whole square. Texture coordinates outside 0..1 are those of the transparent margin.
 #include "core/generators/tree/far_leaves.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-/// Courses of rivers: where they flow and how high. The ground beside a river is the valley of the lowest water nearby,
-/// so a river that stayed higher than the valley of another would stand on a dyke.
+/// Courses of rivers: where they flow and how high. The ground beside a river is the valley of the lowest water nearby.
+/// A river above the valley of another would therefore lie on a dyke.
 #include "core/generators/world/courses.h"
 
 #include <algorithm>

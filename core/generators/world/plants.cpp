@@ -257,7 +257,7 @@ struct Climates {
 };
 
 /// Whether one of the biomes of a class has a climate of the range. A biome has the climates between two temperatures and
-/// two moistures, the lower included, so the lower ends and the limits inside of the range meet all biomes of it.
+/// two moistures, the lower ones included. The lower ends of the range and the limits inside it thus meet all its biomes.
 bool has_biome(const WorldClass& plant, const Climates& range) {
   if (plant.biomes.empty()) return true;
   std::vector<double> moistures{range.moisture[0]}, temperatures{range.temperature[0]};

@@ -50,8 +50,8 @@ bool is_worth_parting(const GraftInput& in, Job& job) {
   return triangles < left && most_bytes_a_triangle * triangles < job.limits().memory_bytes / 2;
 }
 
-/// As many parts as threads; no parts where they would write too much twice, as in trees whose stems are
-/// stored one after the other, each with all that grows from it.
+/// As many parts as threads; no parts where they would write too much twice. This happens in trees whose stems
+/// are stored one after the other, each with all that grows from it.
 PartPlan plan_parts(const GraftInput& in, const Job& job) {
   const Array<std::uint32_t>& head = in.chains.head;
   const std::size_t wanted = std::min<std::size_t>(most_parts, static_cast<std::size_t>(job.threads()));
