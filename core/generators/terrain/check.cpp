@@ -295,15 +295,12 @@ class Check {
             "found " + Json(params_.smooth).dump() + " %, which reads samples farther than " +
                 std::to_string(farthest_smooth) + " samples away; expected at most 93.7 % for a tile");
     }
-    error_if(
-        params_.normalise && !params_.normalise->from, IssueKind::missing, "/normalise",
-        "\"from\" is missing; a tile needs it, because it is computed without the heights of other tiles");
-    error_if(
-        params_.terraces && !params_.terraces->from, IssueKind::missing, "/terraces",
-        "\"from\" is missing; a tile needs it, because it is computed without the heights of other tiles");
-    error_if(
-        params_.island && !params_.island->floor, IssueKind::missing, "/island",
-        "\"floor\" is missing; a tile needs it, because it is computed without the heights of other tiles");
+    error_if(params_.normalise && !params_.normalise->from, IssueKind::missing, "/normalise",
+             "\"from\" is missing; a tile needs it, as it does not depend on other tiles");
+    error_if(params_.terraces && !params_.terraces->from, IssueKind::missing, "/terraces",
+             "\"from\" is missing; a tile needs it, as it does not depend on other tiles");
+    error_if(params_.island && !params_.island->floor, IssueKind::missing, "/island",
+             "\"floor\" is missing; a tile needs it, as it does not depend on other tiles");
     error_if(params_.island && !faults && !params_.tile->across, IssueKind::missing, "/tile",
              "\"across\" is missing; an island needs the number of its tiles along a side");
     if (params_.hydraulic) hydraulic_tile();
