@@ -5,6 +5,7 @@
 
 #include "core/model/build.h"
 #include "core/model/index_width.h"
+#include "core/model/levels.h"
 #include "core/pipeline/fit.h"
 
 namespace seedmesh {
@@ -122,20 +123,6 @@ void drop_level(Model& model, std::size_t level) {
   }
 }
 
-/// Empties the meshes that no node shows.
-void empty_hidden(Model& model) {
-  std::vector<bool> shown(model.meshes.size(), false);
-  for (const Node& node : model.nodes) {
-    if (node.mesh >= 0) shown[static_cast<std::size_t>(node.mesh)] = true;
-    for (const int lod : node.lods) {
-      if (lod >= 0) shown[static_cast<std::size_t>(lod)] = true;
-    }
-  }
-  for (std::size_t i = 0; i < shown.size(); ++i) {
-    if (!shown[i]) model.meshes[i].primitives.clear();
-  }
-}
-
 /// A level is shown where the triangles on a piece of the screen are as many as those of the finest level that fills
 /// it: the size falls with the root of the triangles.
 void set_screen(Model& model, const std::vector<std::uint64_t>& drawn) {
@@ -192,7 +179,7 @@ std::optional<Issue> fit_levels(Model& model, const std::vector<std::uint64_t>& 
                  "found " + std::to_string(triangles.size()) +
                      " levels of detail; this model has one and cannot be simplified"};
   }
-  empty_hidden(model);
+  empty_hidden_meshes(model);
   set_screen(model, drawn);
   return std::nullopt;
 }
