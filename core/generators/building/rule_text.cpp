@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <set>
 
+#include "core/base/json_pointer.h"
 #include "core/lang/lexer.h"
 
 namespace seedmesh::building {
@@ -92,13 +93,6 @@ std::string without_comments(std::string_view text, std::optional<std::size_t>* 
   return out;
 }
 
-std::string pointer_token(std::string_view name) {
-  std::string out;
-  for (const char c : name)
-    out += c == '~' ? std::string("~0") : c == '/' ? std::string("~1") : std::string(1, c);
-  return out;
-}
-
 const RuleText::Part& RuleText::part_at(std::size_t offset) const {
   const Part* found = &parts.front();
   for (const Part& part : parts) {
@@ -173,7 +167,7 @@ RuleText rule_text(const std::map<std::string, std::string>& files, std::string_
 
 Issue issue_at(IssueKind kind, const RuleText& text, std::size_t offset, std::string message) {
   const RuleText::Part& part = text.part_at(offset);
-  return seedmesh::issue_at(kind, part.name.empty() ? "/rules" : "/rules/" + pointer_token(part.name),
+  return seedmesh::issue_at(kind, part.name.empty() ? "/rules" : "/rules" + pointer_token(part.name),
                             text.text_of(part), std::min(offset - part.first, part.count),
                             std::move(message));
 }
