@@ -171,7 +171,9 @@ Plan plan_of(const Instructions& instructions, const Element& element, int round
 }
 
 void add_pieces(Model& model, int parent, const Instructions& instructions, const Element& element,
-                int rounds, double size, Job& job) {
+                const Copies& given, Job& job) {
+  const int rounds = given.rounds;
+  const double size = given.size;
   const Plan plan = plan_of(instructions, element, rounds, job);
   job.spend(Resource::triangles, whole(plan.pieces) * element.elements);
   MeshGroup group;

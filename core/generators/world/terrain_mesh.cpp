@@ -60,7 +60,7 @@ TileVertex vertex_of(const World& world, const GroundColors& colors, const TileF
   vertex.normal[2] = byte(seen.north);
   // as tiles with the usual number of cells
   const double resolved = frame.side / tile_cells;
-  const auto color = ground_color(world, colors, sample, east, north, steepness, resolved);
+  const auto color = ground_color(world, colors, sample, {east, north}, steepness, resolved);
   std::copy(color.begin(), color.end(), vertex.color);
   return vertex;
 }
