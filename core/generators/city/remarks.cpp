@@ -6,6 +6,7 @@
 
 #include "core/generators/city/geojson.h"
 #include "core/generators/city/landmarks.h"
+#include "core/generators/city/missing_streets.h"
 #include "core/generators/city/zoning.h"
 #include "core/generators/unused.h"
 #include "generated/params/city.h"
@@ -126,6 +127,10 @@ std::vector<Warning> remarks_on(const CityParams& params, const CityPlan& plan) 
   std::vector<Warning> warnings = warnings_of(unused_parameters(params));
   add_unused(params, plan, warnings);
   add_unused_geometries(params, plan, warnings);
+  std::vector<CrossSection> sections = classes_of(params);
+  std::vector<Issue> issues;  // the plan was made, so that there are none
+  const std::vector<GivenLine> lines = given_lines(params, sections, issues);
+  for (Warning& each : missing_streets(lines, plan)) warnings.push_back(std::move(each));
   if (!is_covered(plan)) {
     warnings.push_back(
         {"/terrain",

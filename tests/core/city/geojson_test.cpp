@@ -224,5 +224,42 @@ TEST(GeoJsonOfCities, WarnsOfStreetsOutsideOfTheArea) {
   EXPECT_EQ(warnings[0].pointer, "/given/streets");
 }
 
+std::vector<Warning> warnings_for(const Json& streets, const char* method) {
+  IssueList errors;
+  const CityParams params = read_city({{"area", {{"size", {200, 200}}}},
+                                       {"streets", {{"method", method}}},
+                                       {"given", {{"streets", streets}}}},
+                                      "", errors);
+  Job job(1, Job::Options{});
+  const Result<CityPlan> plan = plan_of(params, job);
+  EXPECT_TRUE(plan);
+  return remarks_on(params, *plan);
+}
+
+// The line x + y = 198 is 2.8 m long within the corner of the area at 100, 100.
+TEST(GeoJsonOfCities, WarnsOfEachStreetThatIsLeftOut) {
+  const Json streets = Json::parse(R"({"type":"FeatureCollection","features":[
+    {"type":"Feature","properties":{},"geometry":{"type":"LineString","coordinates":[[-90,0],[90,0]]}},
+    {"type":"Feature","properties":{},"geometry":{"type":"LineString","coordinates":[[90,108],[108,90]]}},
+    {"type":"Feature","properties":{"level":1},"geometry":{"type":"LineString","coordinates":[[-50,50],[50,50]]}}]})");
+  const std::vector<Warning> warnings = warnings_for(streets, "given");
+  ASSERT_EQ(warnings.size(), 2U);
+  EXPECT_EQ(warnings[0].pointer, "/given/streets/features/1");
+  EXPECT_NE(warnings[0].message.find("at 99, 99 is left out"), std::string::npos) << warnings[0].message;
+  EXPECT_EQ(warnings[1].pointer, "/given/streets/features/2");
+  EXPECT_NE(warnings[1].message.find("at 0, 50 is left out"), std::string::npos) << warnings[1].message;
+}
+
+// A rest of 2 m at the border, parts outside of the area, and a bridge between streets give no warning.
+TEST(GeoJsonOfCities, DoesNotWarnOfStreetsThatAreBuilt) {
+  const Json streets = Json::parse(R"({"type":"FeatureCollection","features":[
+    {"type":"Feature","properties":{},"geometry":{"type":"LineString","coordinates":[[-50,0],[98,0],[150,0]]}},
+    {"type":"Feature","properties":{},"geometry":{"type":"LineString","coordinates":[[-50,0],[-50,60],[-50,150]]}},
+    {"type":"Feature","properties":{},"geometry":{"type":"LineString","coordinates":[[50,0],[50,60]]}},
+    {"type":"Feature","properties":{"level":1},"geometry":{"type":"LineString","coordinates":[[-50,60],[50,60]]}}]})");
+  EXPECT_TRUE(warnings_for(streets, "given").empty());
+  EXPECT_TRUE(warnings_for(streets, "growth").empty());
+}
+
 }  // namespace
 }  // namespace seedmesh::city
