@@ -172,17 +172,25 @@ std::optional<Error> refusal(const CityParams& params, const GenerateContext& co
 }  // namespace
 
 /// Lays out the streets and finds their heights. On hills, removes streets with deep cuts or fills, whose removal
-/// changes the heights of others, in up to 24 rounds.
+/// changes the heights of others, in up to 24 rounds. Networks that this separates stay until no street is too deep, or
+/// until half of the rounds are over. Then they are linked once.
 std::vector<BlockOutline> lay_out(CityPlan& plan, const GrowthInput& input, const CornerCut& cut, Job& job) {
   constexpr int most_rounds = 24;
+  bool may_link = input.streets.method != CityMethod::given;
   for (int round = 0;; ++round) {
     plan.parts.clear();
     std::vector<BlockOutline> blocks = lay_out_streets(plan, cut, job);
     plan.heights = street_heights(plan, *plan.landform, input.least_height, job);
-    if (!input.landform || round == most_rounds || !drop_deep_streets(input, plan.heights, plan.graph, job) ||
-        !has_streets(plan.graph)) {
-      return blocks;
-    }
+    if (!input.landform || round == most_rounds) return blocks;
+    const bool keeps = may_link && round <= most_rounds / 2;
+    const Separate separate = keeps ? Separate::kept : Separate::removed;
+    const bool was_deep = drop_deep_streets(input, plan.heights, separate, plan.graph, job);
+    const bool links =
+        may_link && round > 0 && (!was_deep || round == most_rounds / 2) && !is_one_network(plan.graph);
+    if ((!was_deep && !links) || !has_streets(plan.graph)) return blocks;
+    if (!links) continue;
+    link_networks(input, plan.graph, job);
+    may_link = false;
   }
 }
 

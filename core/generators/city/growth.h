@@ -111,9 +111,18 @@ void choose_lanes(StreetGraph& graph, double share, const Rng& rng);
 /// loose components have been removed.
 StreetGraph grow_streets(const GrowthInput& input, Job& job);
 
+/// What becomes of networks that are separate from the longest one and contain no given street. `kept`: those of at
+/// least 5 % of its length stay.
+enum class Separate : std::uint8_t { kept, removed };
+
 /// Removes grown streets whose cut or fill is deeper than 8 m, and streets that are loose without them. Returns false
 /// if no street has such a cut or fill. `input.landform` must not be null. Cost: linear.
-bool drop_deep_streets(const GrowthInput& input, const StreetHeights& heights, StreetGraph& graph, Job& job);
+bool drop_deep_streets(const GrowthInput& input, const StreetHeights& heights, Separate separate,
+                       StreetGraph& graph, Job& job);
+
+/// Links separate networks by minor streets. Networks that stay separate and contain no given street are removed,
+/// except the longest one. Cost: that of links_between_networks().
+void link_networks(const GrowthInput& input, StreetGraph& graph, Job& job);
 
 /// Returns one direction of a pattern at a position in centimetres, as a unit vector; the others are its quarter
 /// turns. A radial pattern has the direction away from `streets.centre`, any other pattern that of `streets.angle`.

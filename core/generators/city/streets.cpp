@@ -66,6 +66,12 @@ std::vector<StreetPiece> pieces_of(const StreetGraph& graph) {
   return pieces;
 }
 
+std::vector<BridgeLine> bridge_lines(const StreetGraph& graph) {
+  std::vector<BridgeLine> lines;
+  for (const Bridge& each : graph.bridges) lines.push_back({each.line, each.tag, each.level});
+  return lines;
+}
+
 /// The minor streets of all cells, in the order of the cells.
 CellStreets grow_cells(const GrowthInput& input, const StreetGraph& majors, Job& job) {
   const PlanarFaces faces = faces_of(majors.nodes, majors.edges, job);
@@ -197,7 +203,8 @@ StreetGraph grow_streets(const GrowthInput& input, Job& job) {
   return graph;
 }
 
-bool drop_deep_streets(const GrowthInput& input, const StreetHeights& heights, StreetGraph& graph, Job& job) {
+bool drop_deep_streets(const GrowthInput& input, const StreetHeights& heights, Separate separate,
+                       StreetGraph& graph, Job& job) {
   constexpr double deepest = 8;  // metres
   Route kept;
   bool is_any_deep = false;
@@ -214,13 +221,21 @@ bool drop_deep_streets(const GrowthInput& input, const StreetHeights& heights, S
     if (!is_deep) kept.pieces.push_back({graph.nodes[each.from], graph.nodes[each.to], each.tag});
   }
   if (!is_any_deep) return false;
-  for (const Bridge& bridge : graph.bridges) kept.bridges.push_back({bridge.line, bridge.tag, bridge.level});
+  kept.bridges = bridge_lines(graph);
   std::vector<CmPoint> ring_nodes = std::move(graph.ring_nodes);
   const bool has_branches = graph.has_branches;
-  graph = finished_graph(input, kept, largest_alone, job);
+  const double least_share = separate == Separate::kept ? share_of_a_network : largest_alone;
+  graph = finished_graph(input, kept, least_share, job);
   graph.ring_nodes = std::move(ring_nodes);
   graph.has_branches = has_branches;
   return true;
+}
+
+void link_networks(const GrowthInput& input, StreetGraph& graph, Job& job) {
+  const bool has_branches = graph.has_branches;
+  std::vector<BridgeLine> bridges = bridge_lines(graph);
+  graph = connected(input, std::move(graph), std::move(bridges), job);
+  graph.has_branches = has_branches;
 }
 
 }  // namespace seedmesh::city

@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <string>
 
 #include "core/pipeline.h"
 #include "core/schema/json.h"
@@ -114,6 +116,38 @@ TEST(CityStability, MovesNoStreetForLotsAndNoLotForBuildingsAndFurniture) {
   EXPECT_NE(geometry(before, "lot"), geometry(plan_of(lots, 7), "lot"));
   EXPECT_EQ(geometry(before, "street"), geometry(plan_of(houses, 7), "street"));
   EXPECT_EQ(geometry(before, "lot"), geometry(plan_of(houses, 7), "lot"));
+}
+
+// Streets with cuts above 8 m are left out of the middle of this town, and a ridge road in the south-east loses its
+// connection with the north-west.
+TEST(CityOnHills, LinksPartsThatDeepStreetsConnected) {
+  const Json hills =
+      Json::parse(R"({"area": {"size": [700, 700]}, "streets": {"pattern": "slope", "major_spacing": 160},
+    "terrain": {"generator": "terrain", "seed": 7,
+      "parameters": {"algorithm": "fbm", "size": 900, "resolution": 97, "wavelength": 540, "amplitude": 30}},
+    "lots": {"method": "none"}, "buildings": {"rules": []}})");
+  bool is_in_north_west = false, is_in_south_east = false;
+  std::map<std::string, std::string> network;  // by node: another node of its network
+  const auto find = [&](std::string node) {
+    while (network.contains(node) && network[node] != node) node = network[node];
+    return node;
+  };
+  std::set<std::string> nodes;
+  for (const Json& each : plan_of(hills, 7)) {
+    const Json& properties = each["properties"];
+    if (properties["kind"] != "street") continue;
+    const Json& start = each["geometry"]["coordinates"][0];
+    is_in_north_west |= start[0] < -200 && start[1] > 200;
+    is_in_south_east |= start[0] > 200 && start[1] < -200;
+    const std::string from = properties["from"], to = properties["to"];
+    nodes.insert({from, to});
+    network[find(from)] = find(to);
+  }
+  EXPECT_TRUE(is_in_north_west);
+  EXPECT_TRUE(is_in_south_east);
+  std::set<std::string> networks;
+  for (const std::string& each : nodes) networks.insert(find(each));
+  EXPECT_EQ(networks.size(), 1U);
 }
 
 TEST(BadCities, AreRefusedWithinATenthOfASecondWithTheirPointers) {
