@@ -4,8 +4,8 @@
 
 namespace seedmesh {
 
-std::variant<Admission::Ticket, Admission::Refused> Admission::enter(Clock::time_point deadline,
-                                                                     const std::stop_token& gone) {
+std::variant<Admission::Ticket, Admission::Refused> Admission::enter(
+    Clock::time_point deadline, const std::stop_token& disconnect_token) {
   std::unique_lock lock(mutex_);
   if (draining_) return Refused::draining;
   if (busy_ < workers_ && has_no_waiters()) {
@@ -15,15 +15,14 @@ std::variant<Admission::Ticket, Admission::Refused> Admission::enter(Clock::time
   if (waiting_.size() >= most_waiting_) return Refused::queue_full;
   Waiter self;
   waiting_.push_back(&self);
-  changed_.wait_until(lock, gone, deadline, [&] { return self.admitted; });
+  changed_.wait_until(lock, disconnect_token, deadline, [&] { return self.admitted; });
   if (self.admitted) return Ticket(*this, share());
   waiting_.erase(std::find(waiting_.begin(), waiting_.end(), &self));
-  return gone.stop_requested() ? Refused::client_gone : Refused::deadline_passed;
+  return disconnect_token.stop_requested() ? Refused::client_gone : Refused::deadline_passed;
 }
 
-std::variant<Admission::Ticket, Admission::Refused> Admission::enter_tile(int level,
-                                                                          Clock::time_point deadline,
-                                                                          const std::stop_token& gone) {
+std::variant<Admission::Ticket, Admission::Refused> Admission::enter_tile(
+    int level, Clock::time_point deadline, const std::stop_token& disconnect_token) {
   std::unique_lock lock(mutex_);
   if (busy_ < workers_ && has_no_waiters()) {
     ++busy_;
@@ -32,10 +31,10 @@ std::variant<Admission::Ticket, Admission::Refused> Admission::enter_tile(int le
   Waiter self;
   const Tiles::key_type place{level, tiles_seen_++};
   waiting_tiles_.emplace(place, &self);
-  changed_.wait_until(lock, gone, deadline, [&] { return self.admitted; });
+  changed_.wait_until(lock, disconnect_token, deadline, [&] { return self.admitted; });
   if (self.admitted) return Ticket(*this, 1);
   waiting_tiles_.erase(place);
-  return gone.stop_requested() ? Refused::client_gone : Refused::deadline_passed;
+  return disconnect_token.stop_requested() ? Refused::client_gone : Refused::deadline_passed;
 }
 
 void Admission::leave() {

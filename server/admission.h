@@ -47,13 +47,13 @@ class Admission {
 
   enum class Refused { queue_full, deadline_passed, draining, client_gone };
 
-  /// Waits for a worker until `deadline` or until `gone` is set, which means that the client has left.
-  std::variant<Ticket, Refused> enter(Clock::time_point deadline, const std::stop_token& gone);
+  /// Waits for a worker until `deadline` or until `disconnect_token` is set, which means that the client has left.
+  std::variant<Ticket, Refused> enter(Clock::time_point deadline, const std::stop_token& disconnect_token);
 
   /// The same for a tile of this level of a world. It is not refused for a full queue or while the service
   /// drains.
   std::variant<Ticket, Refused> enter_tile(int level, Clock::time_point deadline,
-                                           const std::stop_token& gone);
+                                           const std::stop_token& disconnect_token);
 
   /// Refuses all further requests except tiles. Requests that already wait are served.
   void drain();

@@ -10,33 +10,35 @@ Problem client_gone() { return problem(499, "The client closed the connection.")
 
 }  // namespace
 
-Cache::Answer Cache::get(const std::string& key, const Gone& gone, const Make& make) {
+Cache::Lookup Cache::get(const std::string& key, const GetDisconnectToken& disconnect_token,
+                         const Make& make) {
   std::unique_lock lock(mutex_);
   while (true) {
     if (Entry entry = models_.find(key)) {
-      ++figures_.hits;
+      ++counters_.hits;
       return {std::move(entry), true};
     }
     const auto found = flights_.find(key);
     if (found == flights_.end()) break;
     const std::shared_ptr<Flight> flight = found->second;
-    ++figures_.joins;
-    if (auto outcome = join(lock, flight, gone)) return {std::move(*outcome), true};
+    ++counters_.joins;
+    if (auto outcome = join(lock, flight, disconnect_token)) return {std::move(*outcome), true};
   }
-  ++figures_.misses;
+  ++counters_.misses;
   auto flight = std::make_shared<Flight>();
   flights_.emplace(key, flight);
   lock.unlock();
-  return {run(key, flight, gone, make), false};
+  return {run(key, flight, disconnect_token, make), false};
 }
 
 /// Waits for the work of another request. Returns nothing where that work was stopped because all other
 /// clients had left; the caller tries again.
 std::optional<Cache::Outcome> Cache::join(std::unique_lock<std::mutex>& lock,
-                                          const std::shared_ptr<Flight>& flight, const Gone& gone) {
+                                          const std::shared_ptr<Flight>& flight,
+                                          const GetDisconnectToken& disconnect_token) {
   ++flight->waiting;
   lock.unlock();
-  const std::stop_token left = gone();  // not under the lock: it may call back at once
+  const std::stop_token left = disconnect_token();  // not under the lock: it may call back at once
   lock.lock();
   flight->ended.wait(lock, left, [&] { return flight->outcome.has_value(); });
   if (--flight->waiting == 0 && !flight->outcome) flight->stop.request_stop();
@@ -46,8 +48,8 @@ std::optional<Cache::Outcome> Cache::join(std::unique_lock<std::mutex>& lock,
   return flight->outcome;
 }
 
-Cache::Outcome Cache::run(const std::string& key, const std::shared_ptr<Flight>& flight, const Gone& gone,
-                          const Make& make) {
+Cache::Outcome Cache::run(const std::string& key, const std::shared_ptr<Flight>& flight,
+                          const GetDisconnectToken& disconnect_token, const Make& make) {
   const auto end = [&](const Outcome& outcome) {
     const std::lock_guard lock(mutex_);
     flight->outcome = outcome;
@@ -56,7 +58,7 @@ Cache::Outcome Cache::run(const std::string& key, const std::shared_ptr<Flight>&
     flight->ended.notify_all();
   };
   try {
-    const std::stop_token own = gone();
+    const std::stop_token own = disconnect_token();
     const std::stop_callback leave(own, [&] {
       const std::lock_guard lock(mutex_);
       if (--flight->waiting == 0) flight->stop.request_stop();
@@ -86,13 +88,13 @@ void Cache::put(const std::string& key, const Entry& entry) {
   keep(key, entry);
 }
 
-Cache::Figures Cache::figures() const {
+Cache::Counters Cache::counters() const {
   const std::lock_guard lock(mutex_);
-  Figures figures = figures_;
-  figures.bytes = models_.bytes();
-  figures.entries = models_.size();
-  figures.evictions = models_.evictions();
-  return figures;
+  Counters counters = counters_;
+  counters.bytes = models_.bytes();
+  counters.entries = models_.size();
+  counters.evictions = models_.evictions();
+  return counters;
 }
 
 }  // namespace seedmesh

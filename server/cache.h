@@ -31,24 +31,24 @@ class Cache {
   using Entry = std::shared_ptr<const CachedModel>;
   using Outcome = std::variant<Entry, Problem>;
   using Make = std::function<Outcome(const std::stop_token& stop)>;
-  using Gone = std::function<std::stop_token()>;
+  using GetDisconnectToken = std::function<std::stop_token()>;
 
   explicit Cache(std::uint64_t capacity) : models_(capacity) {}
 
-  struct Answer {
+  struct Lookup {
     Outcome outcome;
     bool hit = false;  ///< the model was in memory, or another request was generating it
   };
 
   /// The entry at `key`, or the result of `make`. The first request calls `make`; equal requests wait for it.
-  /// `gone` is called only where there is something to wait for. The work stops when the clients of all these
+  /// `disconnect_token` is called only where there is something to wait for. The work stops when the clients of all these
   /// requests have left. A Problem goes to all of them and is not kept.
-  Answer get(const std::string& key, const Gone& gone, const Make& make);
+  Lookup get(const std::string& key, const GetDisconnectToken& disconnect_token, const Make& make);
 
-  struct Figures {
+  struct Counters {
     std::uint64_t bytes = 0, entries = 0, hits = 0, misses = 0, joins = 0, evictions = 0;
   };
-  Figures figures() const;
+  Counters counters() const;
 
   /// Returns the entry at `key`, or null. Not counted as a hit or a miss.
   Entry find(const std::string& key);
@@ -66,15 +66,15 @@ class Cache {
   };
 
   void keep(const std::string& key, const Entry& entry);
-  Outcome run(const std::string& key, const std::shared_ptr<Flight>& flight, const Gone& gone,
-              const Make& make);
+  Outcome run(const std::string& key, const std::shared_ptr<Flight>& flight,
+              const GetDisconnectToken& disconnect_token, const Make& make);
   std::optional<Outcome> join(std::unique_lock<std::mutex>& lock, const std::shared_ptr<Flight>& flight,
-                              const Gone& gone);
+                              const GetDisconnectToken& disconnect_token);
 
   mutable std::mutex mutex_;
   LruMap<Entry> models_;
   std::unordered_map<std::string, std::shared_ptr<Flight>> flights_;
-  Figures figures_;
+  Counters counters_;
 };
 
 }  // namespace seedmesh

@@ -5,7 +5,7 @@
 
 namespace seedmesh {
 
-std::string cache_control(const Call& call, Caching caching) {
+std::string cache_control(const RequestContext& call, Caching caching) {
   constexpr std::int64_t year = 31'536'000;
   const Grant& grant = call.grant;
   const char* owner = grant.by == Grant::By::key ? "private" : "public";
@@ -15,7 +15,7 @@ std::string cache_control(const Call& call, Caching caching) {
          ", immutable";
 }
 
-std::string varies(const Call& call, const char* fields) {
+std::string varies(const RequestContext& call, const char* fields) {
   return call.service.access.closed() ? std::string(fields) + ", Authorization, X-Api-Key" : fields;
 }
 

@@ -10,9 +10,9 @@ namespace seedmesh {
 enum class Caching { immutable, revalidate };
 
 /// Returns the Cache-Control field. A response to an API key is private, because caches do not check keys.
-std::string cache_control(const Call& call, Caching caching);
+std::string cache_control(const RequestContext& call, Caching caching);
 
 /// Returns the Vary field: `fields`, and also Authorization and X-Api-Key if the service requires a key or a signature.
-std::string varies(const Call& call, const char* fields);
+std::string varies(const RequestContext& call, const char* fields);
 
 }  // namespace seedmesh

@@ -33,11 +33,11 @@ class Slot {
 };
 
 /// Whether a response may be sent without coding.
-bool takes_identity(const Call& call) {
+bool takes_identity(const RequestContext& call) {
   return choose_coding(call.request.header("Accept-Encoding"), {}).has_value();
 }
 
-bool stays_plain(const Call& call, const Payload& payload, Coding best) {
+bool stays_plain(const RequestContext& call, const Payload& payload, Coding best) {
   if (best == Coding::identity) return true;
   if (!takes_identity(call)) return false;
   const Config& config = call.service.config;
@@ -46,7 +46,7 @@ bool stays_plain(const Call& call, const Payload& payload, Coding best) {
 }
 
 /// The model encoded into memory, or null where that does not save enough.
-Cache::Entry encoded(const Call& call, const Cache::Entry& model, Coding coding) {
+Cache::Entry encoded(const RequestContext& call, const Cache::Entry& model, Coding coding) {
   const Slot slot(call.service);
   std::string bytes = encode(coding, model->payload->pieces(), Effort::fast);
   const double limit = (1 - least_saving) * static_cast<double>(model->payload->size());
@@ -100,7 +100,7 @@ void Encoding::run(const http::Write& write) const {
 }
 
 /// The plain model as a body.
-std::optional<CodedBody> plain_body(const Call& call, const std::shared_ptr<const Payload>& payload,
+std::optional<CodedBody> plain_body(const RequestContext& call, const std::shared_ptr<const Payload>& payload,
                                     Coding coding) {
   auto held = call.service.in_flight_memory.hold(payload);
   if (!held) return std::nullopt;
@@ -110,8 +110,8 @@ std::optional<CodedBody> plain_body(const Call& call, const std::shared_ptr<cons
 
 }  // namespace
 
-std::optional<CodedBody> coded_body(const Call& call, const TaggedRequest& wanted, const Cache::Entry& model,
-                                    Coding best) {
+std::optional<CodedBody> coded_body(const RequestContext& call, const TaggedRequest& wanted,
+                                    const Cache::Entry& model, Coding best) {
   Service& service = call.service;
   const std::shared_ptr<const Payload>& plain = model->payload;
   if (stays_plain(call, *plain, best)) return plain_body(call, plain, Coding::identity);

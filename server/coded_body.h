@@ -16,8 +16,8 @@ struct CodedBody {
 /// would be exceeded. The model is not encoded if it is small, or if compression would save less than 15 %.
 /// It is also not encoded if the request has a Range, or if a setting excludes it. Small models are encoded
 /// here, large ones while they are sent. The cache keeps the encoded form of models up to 64 MiB.
-std::optional<CodedBody> coded_body(const Call& call, const TaggedRequest& wanted, const Cache::Entry& model,
-                                    Coding best);
+std::optional<CodedBody> coded_body(const RequestContext& call, const TaggedRequest& wanted,
+                                    const Cache::Entry& model, Coding best);
 
 /// Whether an IP address, as text, belongs to this machine or to a private network (RFC 1918, RFC 4193,
 /// link-local).

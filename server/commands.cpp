@@ -14,6 +14,7 @@
 #include "core/pipeline.h"
 #include "server/files.h"
 #include "server/http/text.h"
+#include "server/keys.h"
 #include "server/problem.h"
 #include "server/service.h"
 #include "server/signature.h"
@@ -159,13 +160,30 @@ int import_command(const Config& config, const ImportFiles& files) {
   return write_file(files.out, payload) ? 0 : print_file_error(files.out);
 }
 
+/// Whether a client can send these characters as path and query. White space ends a request line, and a fragment
+/// is never sent.
+static bool is_sendable(const std::string& target) {
+  return std::all_of(target.begin(), target.end(), [](char c) { return c > 0x20 && c < 0x7F && c != '#'; });
+}
+
 int sign_command(const Config& config, const std::string& target, double valid_for) {
+  constexpr double longest = 1e10;  // seconds, as for the setting link-lifetime
   if (config.signing_keys.empty()) {
     std::fputs("seedmesh: the setting signing-keys is empty\n", stderr);
     return 2;
   }
   if (target.empty() || target.front() != '/') {
     std::fputs("seedmesh: the target has to begin with a slash\n", stderr);
+    return 2;
+  }
+  if (!is_sendable(target)) {
+    std::fputs(
+        "seedmesh: the target contains white space, a fragment or characters without percent encoding\n",
+        stderr);
+    return 2;
+  }
+  if (!(valid_for >= 0 && valid_for <= longest)) {
+    std::fprintf(stderr, "seedmesh: --valid-for is \"%g\": it must be a number from 0 to 1e10\n", valid_for);
     return 2;
   }
   std::optional<std::int64_t> expires;
@@ -175,6 +193,13 @@ int sign_command(const Config& config, const std::string& target, double valid_f
 }
 
 int key_command(const std::string& name) {
+  if (!is_key_name(name)) {
+    std::fprintf(stderr,
+                 "seedmesh: found the name \"%s\", expected 1 to 64 letters, digits, - _ and .; the settings "
+                 "would refuse the key\n",
+                 name.c_str());
+    return 2;
+  }
   const std::string key = base64url(secret_bytes(24));
   std::printf("API key      %s\n", key.c_str());
   std::printf("api-keys     %s:%s\n", name.c_str(), http::hex(sha256(key)).c_str());

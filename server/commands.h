@@ -26,10 +26,11 @@ struct ImportFiles {
 int import_command(const Config& config, const ImportFiles& files);
 
 /// Prints the target with a signature that is valid for `valid_for` seconds; 0: it does not expire. Returns 2
-/// without signing keys.
+/// without signing keys, for a target that no client can send, and for a time outside 0 to 1e10.
 int sign_command(const Config& config, const std::string& target, double valid_for);
 
-/// Prints a new API key, and the lines for the settings `api-keys` and `signing-keys`.
+/// Prints a new API key, and the lines for the settings `api-keys` and `signing-keys`. Returns 2 for a name that
+/// these settings refuse.
 int key_command(const std::string& name);
 
 /// Prints all names with titles, or the request of one preset.

@@ -28,7 +28,7 @@ struct Mailbox {
   std::mutex mutex;
   std::condition_variable filled;
   std::optional<Progress> progress;
-  std::optional<Cache::Answer> end;
+  std::optional<Cache::Lookup> end;
 
   bool wait(std::unique_lock<std::mutex>& lock) {
     return filled.wait_for(lock, heartbeat, [this] { return progress || end; });
@@ -44,7 +44,7 @@ std::string event(std::string_view name, const std::string& data) {
   return text;
 }
 
-std::string done_event(const Call& call, const TaggedRequest& wanted, const CachedModel& made) {
+std::string done_event(const RequestContext& call, const TaggedRequest& wanted, const CachedModel& made) {
   const Statistics& statistics = made.product.statistics;
   Json data = {{"permalink", nullptr},
                {"etag", "\"" + wanted.tag + "\""},
@@ -66,7 +66,8 @@ std::string done_event(const Call& call, const TaggedRequest& wanted, const Cach
 
 /// A generation whose progress is being written. The destructor waits for the end of the work.
 struct Generation {
-  Generation(Call given, TaggedRequest request) : call(std::move(given)), wanted(std::move(request)) {}
+  Generation(RequestContext given, TaggedRequest request)
+      : call(std::move(given)), wanted(std::move(request)) {}
   ~Generation() {
     if (worker.joinable()) worker.join();
   }
@@ -78,7 +79,7 @@ struct Generation {
         mailbox.progress = Progress{std::string(stage), share};
         mailbox.filled.notify_one();
       };
-      Cache::Answer answer;
+      Cache::Lookup answer;
       try {
         answer = model_of(call, wanted, report);
       } catch (const std::exception& error) {
@@ -113,7 +114,7 @@ struct Generation {
     }
   }
 
-  Call call;
+  RequestContext call;
   TaggedRequest wanted;
   Mailbox mailbox;
   bool silent = false;  ///< the first comment is already due
@@ -122,7 +123,7 @@ struct Generation {
 
 }  // namespace
 
-http::Response generate_events(Call& call, const TaggedRequest& wanted) {
+http::Response generate_events(RequestContext& call, const TaggedRequest& wanted) {
   auto generation = std::make_shared<Generation>(call, wanted);
   generation->start();
   {

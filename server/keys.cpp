@@ -14,14 +14,6 @@ namespace {
 constexpr std::size_t digest_size = 32;
 constexpr std::size_t shortest_secret = 16;
 
-bool is_name(std::string_view text) {
-  const auto valid = [](char c) {
-    return (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || c == '-' ||
-           c == '_' || c == '.';
-  };
-  return !text.empty() && text.size() <= 64 && std::all_of(text.begin(), text.end(), valid);
-}
-
 template <class Number>
 bool read_number(std::string_view text, Number low, Number high, Number& value) {
   const auto number = http::parse_number<Number>(text);
@@ -34,7 +26,7 @@ std::string read_api_key(std::string_view element, ApiKey& key) {
   if (element.find(':') == std::string_view::npos)
     return "must have the form name:SHA-256";  // the text may be a key
   key.name = http::take_part(element, ':');
-  if (!is_name(key.name)) return "has a name with characters other than letters, digits, - _ and .";
+  if (!is_key_name(key.name)) return "has a name with characters other than letters, digits, - _ and .";
   const auto digest = from_hex(http::take_part(element, ':'));
   if (!digest || digest->size() != digest_size)
     return "must give the SHA-256 of " + key.name + " in 64 hexadecimal digits";
@@ -50,6 +42,7 @@ std::string read_api_key(std::string_view element, ApiKey& key) {
 template <class Item>
 bool has_duplicate(const std::vector<Item>& items, std::string Item::*name) {
   std::vector<std::string> names;
+  names.reserve(items.size());
   for (const Item& item : items) names.push_back(item.*name);
   std::sort(names.begin(), names.end());
   return std::adjacent_find(names.begin(), names.end()) != names.end();
@@ -69,6 +62,14 @@ bool is_origin(std::string_view text) {
 }
 
 }  // namespace
+
+bool is_key_name(std::string_view text) {
+  const auto valid = [](char c) {
+    return (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || c == '-' ||
+           c == '_' || c == '.';
+  };
+  return !text.empty() && text.size() <= 64 && std::all_of(text.begin(), text.end(), valid);
+}
 
 std::vector<std::string> list_elements(std::string_view text) {
   std::vector<std::string> elements;
@@ -110,7 +111,7 @@ std::string read_signing_keys(std::string_view text, std::vector<SigningKey>& ke
       return "must have the form id:hex";  // the text may be a secret
     SigningKey key;
     key.id = http::take_part(rest, ':');
-    if (!is_name(key.id)) return "has an id with characters other than letters, digits, - _ and .";
+    if (!is_key_name(key.id)) return "has an id with characters other than letters, digits, - _ and .";
     const auto secret = from_hex(rest);
     if (!secret || secret->size() < shortest_secret)
       return "must give key " + key.id + " at least 32 hexadecimal digits";
@@ -134,7 +135,10 @@ std::string read_generators(std::string_view text, std::vector<std::string>& gen
   for (const std::string& name : generators) {
     if (std::find(known.begin(), known.end(), name) != known.end()) continue;
     std::string all;
-    for (const std::string_view each : known) all += (all.empty() ? "" : ", ") + std::string(each);
+    for (const std::string_view each : known) {
+      if (!all.empty()) all += ", ";
+      all += each;
+    }
     return "contains \"" + name + "\", which is not a generator; the generators are " + all;
   }
   return {};

@@ -24,6 +24,9 @@ std::vector<std::string> list_elements(std::string_view text);
 /// else to the setting itself. Returns false where the file cannot be read.
 bool read_indirect(std::string_view given, std::string& text);
 
+/// Whether the text can be the name of a key: 1 to 64 letters, digits, - _ and .
+bool is_key_name(std::string_view text);
+
 /// Reads API keys such as "alice:<64 hex digits>" or "alice:<64 hex digits>:10:2". The parts are the name,
 /// the SHA-256 of the key, the rate and the concurrency.
 std::string read_api_keys(std::string_view text, std::vector<ApiKey>& keys);

@@ -2,7 +2,7 @@
 #include <chrono>
 #include <exception>
 
-#include "core/base/reserve.h"
+#include "core/base/huge_page_cache.h"
 #include "core/pipeline.h"
 #include "server/model_source.h"
 #include "server/negotiate.h"
@@ -11,9 +11,9 @@
 namespace seedmesh {
 namespace {
 
-SourceAnswer refusal(const Error& error) {
-  SourceAnswer answer;
-  answer.kind = error.code == Code::cancelled ? SourceAnswer::Kind::stopped : SourceAnswer::Kind::refused;
+SourceResponse refusal(const Error& error) {
+  SourceResponse answer;
+  answer.kind = error.code == Code::cancelled ? SourceResponse::Kind::stopped : SourceResponse::Kind::refused;
   answer.issues = error.issues;
   return answer;
 }
@@ -24,8 +24,8 @@ class LocalSource final : public ModelSource {
 
   SourceEngine engine() override { return {std::string(engine_version()), ""}; }
 
-  SourceAnswer make(const std::string& text, const std::string& known, int threads,
-                    const std::stop_token& stop) override {
+  SourceResponse make(const std::string& text, const std::string& known, int threads,
+                      const std::stop_token& stop) override {
     Job::Options options;
     options.limits = config_.limits;
     options.threads = threads;
@@ -35,10 +35,10 @@ class LocalSource final : public ModelSource {
                                                std::chrono::duration<double>(config_.time_limit));
     const Result<Request> request = read_request(text, options);
     if (!request) return refusal(request.error());
-    SourceAnswer answer;
+    SourceResponse answer;
     answer.etag = etag(tag_of(request->canonical(), engine_version()), Coding::identity);
     if (answer.etag == known) {
-      answer.kind = SourceAnswer::Kind::same;
+      answer.kind = SourceResponse::Kind::same;
       return answer;
     }
     Result<Product> product = produced(*request, options);
@@ -58,7 +58,7 @@ class LocalSource final : public ModelSource {
 
   const Config& config_;
   TextureCache textures_;
-  const std::shared_ptr<Reserve> reserve_ = std::make_shared<Reserve>();
+  const std::shared_ptr<HugePageCache> reserve_ = std::make_shared<HugePageCache>();
 };
 
 }  // namespace

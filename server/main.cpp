@@ -113,7 +113,8 @@ void add_tiles(CLI::App& command, TilesOptions& tiles, Texts& texts) {
       "first-last: 0 is the whole world, each level halves the side of tiles; all if omitted.");
   command.add_option("--box", tiles.box,
                      "west,south,east,north in metres from the middle of the world; all of it if omitted.");
-  command.add_option("--part", tiles.part, "index/count: one share of the files (0 to count - 1).");
+  command.add_option("--part", tiles.part,
+                     "index/count: make only this share of the files; index is 0 to count - 1.");
   command.add_flag("--quiet", tiles.quiet, "Do not print progress.");
   add_settings(command, texts, limits);
 }
@@ -213,6 +214,15 @@ int run(const std::string& command, Arguments& arguments, const ConfigResult& lo
                                : derive_command(config, arguments.in);
 }
 
+/// Writes what is left of standard output. A full disk or a closed pipe must not pass for success, because what
+/// was printed is then cut.
+int finish_output(int status) {
+  const bool is_written = std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
+  if (is_written || status != 0) return status;
+  std::fprintf(stderr, "seedmesh: standard output could not be written completely\n");
+  return usage_error;
+}
+
 int no_command(const CLI::App& app, const char* word) {
   std::string all;
   for (const CLI::App* each : app.get_subcommands({})) all += (all.empty() ? "" : ", ") + each->get_name();
@@ -229,7 +239,8 @@ int main(int count, char** words) {
   });
   app.require_subcommand(1);
   app.footer(
-      "Every flag is also an environment variable: --time-limit is SEEDMESH_TIME_LIMIT.\n"
+      "Environment variables can set every flag of serve, for all commands: SEEDMESH_TIME_LIMIT sets "
+      "--time-limit.\n"
       "Exit status: 0; 1 for a refused request, with the problem as JSON on standard error; 2 for wrong "
       "usage.");
   Texts texts;
@@ -239,10 +250,11 @@ int main(int count, char** words) {
     app.parse(count, words);
   } catch (const CLI::ParseError& error) {
     if (count > 1 && words[1][0] != '-' && app.get_subcommands().empty()) return no_command(app, words[1]);
-    return app.exit(error) == 0 ? 0 : usage_error;
+    return finish_output(app.exit(error) == 0 ? 0 : usage_error);
   }
   const CLI::App& chosen = *app.get_subcommands().front();
   const ConfigResult loaded = load_config(process_environment(), given_flags(chosen, texts));
   for (const std::string& error : loaded.errors) std::fprintf(stderr, "seedmesh: %s\n", error.c_str());
-  return loaded.errors.empty() ? run(chosen.get_name(), arguments, loaded) : usage_error;
+  if (!loaded.errors.empty()) return usage_error;
+  return finish_output(run(chosen.get_name(), arguments, loaded));
 }

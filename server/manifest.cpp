@@ -16,7 +16,7 @@
 #include <stop_token>
 #include <thread>
 
-#include "core/base/reserve.h"
+#include "core/base/huge_page_cache.h"
 #include "core/pipeline.h"
 #include "server/files.h"
 #include "server/negotiate.h"
@@ -236,7 +236,7 @@ class ManifestRun {
   const std::vector<ManifestJob> jobs_;
   std::vector<Json> in_order_;  ///< the result of each job; each thread writes those of its jobs
   TextureCache textures_;
-  const std::shared_ptr<Reserve> reserve_ = std::make_shared<Reserve>();
+  const std::shared_ptr<HugePageCache> reserve_ = std::make_shared<HugePageCache>();
   Results earlier_;
   std::FILE* results_ = nullptr;
   std::stop_source stop_;

@@ -152,21 +152,21 @@ std::variant<std::string, Failure> describe_schema(const std::string& generator,
   return fitting(schema);
 }
 
-Json find_presets(const Access& access, const PresetQuestion& question) {
-  const std::vector<std::string> words = words_of(question.query);
+Json find_presets(const Access& access, const PresetQuery& preset_query) {
+  const std::vector<std::string> words = words_of(preset_query.query);
   std::vector<std::pair<int, const PresetInfo*>> found;
   for (const PresetInfo& preset : presets()) {
     const bool is_wanted =
         access.allows_generator(preset.generator) &&
-        (question.generator.empty() || preset.generator == question.generator) &&
-        (question.tag.empty() || std::ranges::find(preset.tags, question.tag) != preset.tags.end());
+        (preset_query.generator.empty() || preset.generator == preset_query.generator) &&
+        (preset_query.tag.empty() || std::ranges::find(preset.tags, preset_query.tag) != preset.tags.end());
     if (const int score = is_wanted ? score_of(preset, words) : 0; score > 0)
       found.emplace_back(score, &preset);
   }
   std::ranges::stable_sort(found, [](const auto& a, const auto& b) { return a.first > b.first; });
   Json list = Json::array();
   for (const auto& [score, preset] : found) {
-    if (list.size() == question.limit) break;
+    if (list.size() == preset_query.limit) break;
     list.push_back({{"name", preset->name},
                     {"generator", preset->generator},
                     {"title", preset->title},

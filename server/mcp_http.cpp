@@ -10,9 +10,9 @@ namespace seedmesh {
 namespace {
 
 using mcp::Code;
-using mcp::Era;
 using mcp::Failure;
 using mcp::Json;
+using mcp::ProtocolMode;
 
 /// The host of "http://host:80" or "host:80" in lower case; with its brackets for IPv6.
 std::string host_in(std::string_view text) {
@@ -31,7 +31,7 @@ bool is_loopback(const std::string& host) {
 
 /// Pages of other origins must not use a service that only listens on this machine (DNS rebinding), and no
 /// service at all unless its settings allow their origin.
-std::optional<Problem> check_origin(const Call& call) {
+std::optional<Problem> check_origin(const RequestContext& call) {
   const Config& config = call.service.config;
   const std::string host = host_in(call.request.header("Host"));
   if (is_loopback(config.host) && !host.empty() && !is_loopback(host))
@@ -85,16 +85,16 @@ std::optional<Failure> check_fields(const http::Request& request, const Json& bo
   return std::nullopt;
 }
 
-Era era_of(const http::Request& request, const Json& body) {
-  if (const auto era = mcp::era_of(body)) return *era;
+ProtocolMode protocol_mode_of(const http::Request& request, const Json& body) {
+  if (const auto protocol_mode = mcp::protocol_mode_of(body)) return *protocol_mode;
   const std::string version = request.header("MCP-Protocol-Version");
-  return version.empty() || mcp::has_handshake(version) ? Era::handshake : Era::stateless;
+  return version.empty() || mcp::has_handshake(version) ? ProtocolMode::handshake : ProtocolMode::stateless;
 }
 
 /// The HTTP status of an answer. Clients with a handshake read errors from the body alone.
-int status_of(const Failure& failure, Era era) {
+int status_of(const Failure& failure, ProtocolMode protocol_mode) {
   if (failure.code == Code::syntax || failure.code == Code::no_request) return 400;
-  if (era == Era::handshake) return 200;
+  if (protocol_mode == ProtocolMode::handshake) return 200;
   return failure.code == Code::unknown_method ? 404 : 400;
 }
 
@@ -109,23 +109,23 @@ http::Response json_response(int status, std::string text) {
 
 }  // namespace
 
-http::Response post_mcp(Call& call) {
+http::Response post_mcp(RequestContext& call) {
   if (const auto refused = check_origin(call)) return refuse(call, *refused);
   if (!is_json_type(call.request.header("Content-Type")))
     return refuse(call, problem(415, "expected the Content-Type application/json"));
-  mcp::Answer read = mcp::read_message(call.request.body);
+  mcp::RpcResult read = mcp::read_message(call.request.body);
   if (const auto* failure = std::get_if<Failure>(&read))
-    return json_response(status_of(*failure, Era::stateless), mcp::failure_text(nullptr, *failure));
+    return json_response(status_of(*failure, ProtocolMode::stateless), mcp::failure_text(nullptr, *failure));
   const Json body = std::get<Json>(std::move(read));
-  mcp::Context context{call, era_of(call.request, body), origin_of(call)};
+  mcp::Context context{call, protocol_mode_of(call.request, body), origin_of(call)};
   if (mcp::is_notification(body)) {
     http::Response accepted;
     accepted.status = 202;
     return accepted;
   }
-  mcp::Answer answer = Json();
+  mcp::RpcResult answer = Json();
   std::optional<Failure> failure;
-  if (context.era == Era::stateless) {
+  if (context.protocol_mode == ProtocolMode::stateless) {
     failure = check_fields(call.request, body);
     if (!failure) failure = mcp::check_meta(body);
   }
@@ -135,7 +135,7 @@ http::Response post_mcp(Call& call) {
     answer = mcp::answer_message(context, body);
     if (const auto* failed = std::get_if<Failure>(&answer)) failure = *failed;
   }
-  const int status = failure ? status_of(*failure, context.era) : 200;
+  const int status = failure ? status_of(*failure, context.protocol_mode) : 200;
   return json_response(status, mcp::response_text(context, body, std::move(answer)));
 }
 

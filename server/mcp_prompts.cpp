@@ -43,7 +43,7 @@ constexpr Prompt prompts[] = {
 
 }  // namespace
 
-Answer list_prompts(Context&, const Json&) {
+RpcResult list_prompts(Context&, const Json&) {
   Json list = Json::array();
   for (const Prompt& prompt : prompts) {
     list.push_back({{"name", prompt.name},
@@ -56,7 +56,7 @@ Answer list_prompts(Context&, const Json&) {
   return Json{{"prompts", std::move(list)}};
 }
 
-Answer get_prompt(Context&, const Json& parameters) {
+RpcResult get_prompt(Context&, const Json& parameters) {
   const std::string name = text_in(parameters, "name");
   const auto prompt = std::ranges::find_if(prompts, [&](const Prompt& each) { return each.name == name; });
   if (prompt == std::end(prompts))

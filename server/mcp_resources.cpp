@@ -31,7 +31,7 @@ std::optional<std::pair<std::string, std::string>> text_of(const Context& contex
   const std::string_view path = uri.substr(scheme.size());
   const std::string name(path.substr(std::min(path.find('/'), path.size() - 1) + 1));
   if (path == "presets") {
-    const PresetQuestion all{.query = {}, .generator = {}, .tag = {}, .limit = presets().size()};
+    const PresetQuery all{.query = {}, .generator = {}, .tag = {}, .limit = presets().size()};
     return {{find_presets(context.call.service.access, all).dump(), "application/json"}};
   }
   if (path == "vocabulary") return {{vocabulary_json(), "application/json"}};
@@ -49,7 +49,7 @@ std::optional<std::pair<std::string, std::string>> text_of(const Context& contex
 
 }  // namespace
 
-Answer list_resources(Context&, const Json&) {
+RpcResult list_resources(Context&, const Json&) {
   Json list = Json::array();
   list.push_back(resource("seedmesh://presets", "presets", "All presets with title, description and tags.",
                           "application/json"));
@@ -67,7 +67,7 @@ Answer list_resources(Context&, const Json&) {
   return Json{{"resources", std::move(list)}};
 }
 
-Answer list_templates(Context&, const Json&) {
+RpcResult list_templates(Context&, const Json&) {
   const auto row = [](const char* uri, const char* name, const char* text, const char* type) {
     return Json{{"uriTemplate", uri}, {"name", name}, {"description", text}, {"mimeType", type}};
   };
@@ -79,11 +79,11 @@ Answer list_templates(Context&, const Json&) {
         row("seedmesh://docs/{page}", "page", "A page of the documentation.", "text/markdown")}}};
 }
 
-Answer read_resource(Context& context, const Json& parameters) {
+RpcResult read_resource(Context& context, const Json& parameters) {
   const std::string uri = text_in(parameters, "uri");
   auto found = text_of(context, uri);
   if (!found) {
-    const bool is_old = context.era == Era::handshake;
+    const bool is_old = context.protocol_mode == ProtocolMode::handshake;
     return Failure{is_old ? Code::unknown_resource_of_handshake : Code::wrong_parameters,
                    "There is no resource \"" + uri.substr(0, 200) + "\".",
                    Json{{"uri", uri}}.dump(-1, ' ', false, Json::error_handler_t::replace)};

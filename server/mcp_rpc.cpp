@@ -14,29 +14,29 @@ constexpr std::string_view instructions =
     "with a seed. The same request always gives the same bytes. Find a preset with list_presets, learn its "
     "parameters with describe_generator, check with validate, and call generate for a link to the model.";
 
-Answer discover(Context&, const Json&);
-Answer initialize(Context&, const Json&);
-Answer ping(Context&, const Json&) { return Json::object(); }
+RpcResult discover(Context&, const Json&);
+RpcResult initialize(Context&, const Json&);
+RpcResult ping(Context&, const Json&) { return Json::object(); }
 
-enum class Eras { both, handshake, stateless };
+enum class ProtocolModes { both, handshake, stateless };
 
 struct Method {
   std::string_view name;
-  Answer (*answer)(Context&, const Json&);
-  Eras eras = Eras::both;
+  RpcResult (*answer)(Context&, const Json&);
+  ProtocolModes protocol_modes = ProtocolModes::both;
   bool is_cacheable = false;
 };
 
 constexpr Method methods[] = {
-    {"server/discover", discover, Eras::stateless, true},
-    {"initialize", initialize, Eras::handshake},
-    {"ping", ping, Eras::handshake},
-    {"tools/list", list_tools, Eras::both, true},
+    {"server/discover", discover, ProtocolModes::stateless, true},
+    {"initialize", initialize, ProtocolModes::handshake},
+    {"ping", ping, ProtocolModes::handshake},
+    {"tools/list", list_tools, ProtocolModes::both, true},
     {"tools/call", call_tool},
-    {"resources/list", list_resources, Eras::both, true},
-    {"resources/templates/list", list_templates, Eras::both, true},
-    {"resources/read", read_resource, Eras::both, true},
-    {"prompts/list", list_prompts, Eras::both, true},
+    {"resources/list", list_resources, ProtocolModes::both, true},
+    {"resources/templates/list", list_templates, ProtocolModes::both, true},
+    {"resources/read", read_resource, ProtocolModes::both, true},
+    {"prompts/list", list_prompts, ProtocolModes::both, true},
     {"prompts/get", get_prompt},
 };
 
@@ -52,13 +52,13 @@ Json supported_versions() {
   return list;
 }
 
-Answer discover(Context&, const Json&) {
+RpcResult discover(Context&, const Json&) {
   return Json{{"supportedVersions", supported_versions()},
               {"capabilities", capabilities()},
               {"instructions", instructions}};
 }
 
-Answer initialize(Context&, const Json& parameters) {
+RpcResult initialize(Context&, const Json& parameters) {
   const std::string wanted = text_in(parameters, "protocolVersion");
   return Json{{"protocolVersion", has_handshake(wanted) ? wanted : std::string(handshake_versions.front())},
               {"capabilities", capabilities()},
@@ -66,11 +66,12 @@ Answer initialize(Context&, const Json& parameters) {
               {"instructions", instructions}};
 }
 
-const Method* method_named(std::string_view name, Era era) {
+const Method* method_named(std::string_view name, ProtocolMode protocol_mode) {
   const auto found = std::ranges::find_if(methods, [&](const Method& each) { return each.name == name; });
   if (found == std::end(methods)) return nullptr;
-  const Eras other = era == Era::stateless ? Eras::handshake : Eras::stateless;
-  return found->eras == other ? nullptr : found;
+  const ProtocolModes other =
+      protocol_mode == ProtocolMode::stateless ? ProtocolModes::handshake : ProtocolModes::stateless;
+  return found->protocol_modes == other ? nullptr : found;
 }
 
 /// The parameters of a message; an empty object where it has none.
@@ -105,7 +106,7 @@ std::string text_in(const Json& object, std::string_view name) {
   return found != object.end() && found->is_string() ? found->get<std::string>() : std::string();
 }
 
-Answer read_message(const std::string& text) {
+RpcResult read_message(const std::string& text) {
   bool is_deep = false;
   const auto watch_depth = [&](int depth, Json::parse_event_t, Json&) {
     is_deep = is_deep || depth > deepest;
@@ -121,8 +122,8 @@ Answer read_message(const std::string& text) {
 
 bool is_notification(const Json& body) { return !body.contains("id"); }
 
-std::optional<Era> era_of(const Json& body) {
-  if (meta_of(body).contains(std::string(version_key))) return Era::stateless;
+std::optional<ProtocolMode> protocol_mode_of(const Json& body) {
+  if (meta_of(body).contains(std::string(version_key))) return ProtocolMode::stateless;
   return std::nullopt;
 }
 
@@ -142,19 +143,19 @@ std::optional<Failure> check_meta(const Json& body) {
   return std::nullopt;
 }
 
-Answer answer_message(Context& context, const Json& body) {
+RpcResult answer_message(Context& context, const Json& body) {
   const std::string name = text_in(body, "method");
-  const Method* method = method_named(name, context.era);
+  const Method* method = method_named(name, context.protocol_mode);
   if (!method) return Failure{Code::unknown_method, "There is no method \"" + name.substr(0, 100) + "\"."};
   return method->answer(context, parameters_of(body));
 }
 
-std::string response_text(const Context& context, const Json& body, Answer answer) {
+std::string response_text(const Context& context, const Json& body, RpcResult answer) {
   const Json& id = body.at("id");
   if (const auto* failure = std::get_if<Failure>(&answer)) return failure_text(id, *failure);
   Json& result = std::get<Json>(answer);
-  if (context.era == Era::stateless) {
-    const Method* method = method_named(text_in(body, "method"), context.era);
+  if (context.protocol_mode == ProtocolMode::stateless) {
+    const Method* method = method_named(text_in(body, "method"), context.protocol_mode);
     result["resultType"] = "complete";
     result["_meta"]["io.modelcontextprotocol/serverInfo"] = server_info();
     if (method->is_cacheable) {

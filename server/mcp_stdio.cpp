@@ -10,7 +10,7 @@ namespace {
 
 /// The response to a line; "" for a notification.
 std::string answer_line(Service& service, const std::string& line, const std::string& folder) {
-  Answer read = read_message(line);
+  RpcResult read = read_message(line);
   if (const auto* failure = std::get_if<Failure>(&read)) return failure_text(nullptr, *failure);
   const Json message = std::get<Json>(std::move(read));
   if (is_notification(message)) return "";
@@ -18,13 +18,13 @@ std::string answer_line(Service& service, const std::string& line, const std::st
   request.method = "POST";
   request.target = request.path = "/mcp";
   request.arrived = http::Request::Clock::now();
-  request.gone = [] { return std::stop_token(); };
-  Call call{service, request, {}, {}};
+  request.disconnect_token = [] { return std::stop_token(); };
+  RequestContext call{service, request, {}, {}};
   // Without a field for the version, a message names the stateless revision itself or is of an older one.
-  Context context{call, era_of(message).value_or(Era::handshake), {}, folder};
-  if (text_in(message, "method") == "server/discover") context.era = Era::stateless;
-  const auto failure = context.era == Era::stateless ? check_meta(message) : std::nullopt;
-  return response_text(context, message, failure ? Answer(*failure) : answer_message(context, message));
+  Context context{call, protocol_mode_of(message).value_or(ProtocolMode::handshake), {}, folder};
+  if (text_in(message, "method") == "server/discover") context.protocol_mode = ProtocolMode::stateless;
+  const auto failure = context.protocol_mode == ProtocolMode::stateless ? check_meta(message) : std::nullopt;
+  return response_text(context, message, failure ? RpcResult(*failure) : answer_message(context, message));
 }
 
 }  // namespace

@@ -94,7 +94,7 @@ Json statistics_of(const CachedModel& made) {
 
 /// A picture of the model as image content; nothing where it cannot be drawn, as for worlds.
 std::optional<Json> picture_content(Context& context, const Request& request) {
-  const Cache::Answer answer =
+  const Cache::Lookup answer =
       picture_of(context.call, request, {.width = picture_size, .height = picture_size});
   const auto* entry = std::get_if<Cache::Entry>(&answer.outcome);
   if (!entry) return std::nullopt;
@@ -108,7 +108,7 @@ Json generate(Context& context, const Json& arguments) {
   if (const auto* refusal = std::get_if<http::Response>(&read)) return refused(*refusal);
   TaggedRequest wanted = tagged(std::get<Request>(std::move(read)));
   wanted.token = token_of(wanted.request);
-  const Cache::Answer answer = model_of(context.call, wanted, {});
+  const Cache::Lookup answer = model_of(context.call, wanted, {});
   if (const auto* problem = std::get_if<Problem>(&answer.outcome)) return refused(context, *problem);
   const CachedModel& made = *std::get<Cache::Entry>(answer.outcome);
   const std::string address = address_of(context, arguments, wanted, made);
@@ -140,7 +140,7 @@ std::variant<std::string, Json> worked(Context& context, const Json& arguments,
   const Request request = std::get<Request>(std::move(read));
   std::optional<Result<std::string>> result;
   const auto run = [&](const Job::Options& options) { result = work(request, options); };
-  if (const auto problem = with_worker(context.call, context.call.request.gone(), run))
+  if (const auto problem = with_worker(context.call, context.call.request.disconnect_token(), run))
     return refused(context, *problem);
   if (!*result) return refused(context, problem_of(result->error()));
   return std::move(**result);
@@ -202,7 +202,7 @@ Json compare(Context& context, const Json& arguments) {
     const TaggedRequest wanted = tagged(std::get<Request>(std::move(read)));
     flat[i] = Json::parse(wanted.request.canonical()).flatten();
     tags[i] = wanted.tag;
-    const Cache::Answer answer = model_of(context.call, wanted, {});
+    const Cache::Lookup answer = model_of(context.call, wanted, {});
     if (const auto* problem = std::get_if<Problem>(&answer.outcome)) return refused(context, *problem);
     statistics[i] = statistics_of(*std::get<Cache::Entry>(answer.outcome));
   }
@@ -230,9 +230,9 @@ Json list_presets(Context& context, const Json& arguments) {
   if (!generator.empty()) {
     if (const auto unknown = unknown_generator_of(generator)) return refused(unknown->message);
   }
-  PresetQuestion question{text_in(arguments, "query"), generator, text_in(arguments, "tag")};
-  if (arguments.contains("limit")) question.limit = arguments["limit"].get<std::size_t>();
-  return result_of(find_presets(context.call.service.access, question));
+  PresetQuery preset_query{text_in(arguments, "query"), generator, text_in(arguments, "tag")};
+  if (arguments.contains("limit")) preset_query.limit = arguments["limit"].get<std::size_t>();
+  return result_of(find_presets(context.call.service.access, preset_query));
 }
 
 Json describe_generator(Context&, const Json& arguments) {
@@ -340,7 +340,7 @@ std::string argument_error(const Tool& tool, const Json& arguments) {
 
 }  // namespace
 
-Answer list_tools(Context& context, const Json&) {
+RpcResult list_tools(Context& context, const Json&) {
   Json list = Json::array();
   for (const Tool& tool : tools) {
     const bool writes = tool.run == generate && !context.folder.empty();
@@ -357,7 +357,7 @@ Answer list_tools(Context& context, const Json&) {
   return Json{{"tools", std::move(list)}};
 }
 
-Answer call_tool(Context& context, const Json& parameters) {
+RpcResult call_tool(Context& context, const Json& parameters) {
   const std::string name = text_in(parameters, "name");
   const auto tool = std::ranges::find_if(tools, [&](const Tool& each) { return each.name == name; });
   if (tool == std::end(tools))

@@ -42,8 +42,8 @@ class Metrics {
     std::uint64_t memory_in_flight = 0;
     std::uint64_t waiting = 0;
     int workers = 0, busy = 0;
-    Cache::Figures cache;
-    SharedCache::Figures shared;
+    Cache::Counters cache;
+    SharedCache::Counters shared;
   };
   /// Returns the response body for /metrics.
   std::string text(const Levels& levels);

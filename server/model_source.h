@@ -11,7 +11,7 @@
 
 namespace seedmesh {
 
-struct SourceAnswer {
+struct SourceResponse {
   enum class Kind {
     made,         ///< `payload` and `etag`
     same,         ///< the model is unchanged: it has the validator `etag`
@@ -39,8 +39,8 @@ class ModelSource {
   virtual SourceEngine engine() = 0;
   /// Returns the model of a request (JSON). `etag` is the validator of the file that already exists, or "".
   /// `threads` is the number of threads that this program may use for the model.
-  virtual SourceAnswer make(const std::string& request, const std::string& etag, int threads,
-                            const std::stop_token& stop) = 0;
+  virtual SourceResponse make(const std::string& request, const std::string& etag, int threads,
+                              const std::stop_token& stop) = 0;
 };
 
 /// Makes models here. `config` has to outlive the source.

@@ -32,7 +32,7 @@ bool wants_events(std::string_view accept);
 /// as JSON.
 bool is_json_type(std::string_view content_type);
 
-/// The same, or plain text in UTF-8, or application/octet-stream.
+/// Whether a body is of a type that is_json_type() accepts, or plain text in UTF-8, or application/octet-stream.
 bool is_text_or_json_type(std::string_view content_type);
 
 /// 32 hexadecimal digits that identify the result of a canonical request with an engine version.

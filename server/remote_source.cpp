@@ -98,24 +98,24 @@ class RemoteSource final : public ModelSource {
     return {"", origin_ + prefix_ + "/version returned " + issues_of(*answer).front().message};
   }
 
-  SourceAnswer make(const std::string& request, const std::string& known, int,
-                    const std::stop_token& stop) override {
+  SourceResponse make(const std::string& request, const std::string& known, int,
+                      const std::stop_token& stop) override {
     const std::string link = permalink_of(request);
     httplib::Result result =
         link.empty() ? ask("/v1/generate", &request, "", stop) : ask(link, nullptr, known, stop);
-    SourceAnswer answer;
+    SourceResponse answer;
     if (stop.stop_requested()) {
-      answer.kind = SourceAnswer::Kind::stopped;
+      answer.kind = SourceResponse::Kind::stopped;
     } else if (!result) {
-      answer.kind = SourceAnswer::Kind::unreachable;
+      answer.kind = SourceResponse::Kind::unreachable;
       answer.reason = reason_of(result);
     } else if (result->status == 304) {
-      answer.kind = SourceAnswer::Kind::same;
+      answer.kind = SourceResponse::Kind::same;
     } else if (result->status == 200) {
       answer.etag = result->get_header_value("ETag");
       answer.payload.add(std::move(result->body));
     } else {
-      answer.kind = SourceAnswer::Kind::refused;
+      answer.kind = SourceResponse::Kind::refused;
       answer.issues = issues_of(*result);
     }
     return answer;

@@ -17,7 +17,7 @@ enum class Query { refused, read, ignored };
 struct Route {
   std::string_view method;   ///< GET includes HEAD
   std::string_view pattern;  ///< "/{...}" at the end matches any one segment, "/{...*}" all that follows
-  http::Response (*answer)(Call&);
+  http::Response (*answer)(RequestContext&);
   Guard guard = Guard::open;
   Query query = Query::refused;
 };
@@ -67,7 +67,7 @@ bool allows(const Route& row, std::string_view method) {
 }
 
 /// Refuses a query on a route that reads none, as an unknown member of a body is refused.
-std::optional<http::Response> refuse_query(const Route& row, const Call& call) {
+std::optional<http::Response> refuse_query(const Route& row, const RequestContext& call) {
   if (row.query != Query::refused || call.query().empty()) return std::nullopt;
   auto query = parse_query(call);
   if (auto* refusal = std::get_if<http::Response>(&query)) return std::move(*refusal);
@@ -85,12 +85,12 @@ std::optional<http::Response> refuse_query(const Route& row, const Call& call) {
   return refuse(call, problem_of({Code::invalid, std::move(issues)}));
 }
 
-http::Response answer(const Route& row, Call& call) {
+http::Response answer(const Route& row, RequestContext& call) {
   if (auto refusal = refuse_query(row, call)) return std::move(*refusal);
   return row.answer(call);
 }
 
-http::Response admit_and_answer(const Route& row, Call& call) {
+http::Response admit_and_answer(const Route& row, RequestContext& call) {
   auto admitted = call.service.access.admit(call.request);
   if (const auto* denial = std::get_if<Denial>(&admitted)) return deny(call, *denial);
   call.grant = std::get<Grant>(std::move(admitted));
@@ -102,14 +102,14 @@ http::Response admit_and_answer(const Route& row, Call& call) {
   return response;
 }
 
-http::Response run(const Route& row, Call& call) {
+http::Response run(const Route& row, RequestContext& call) {
   http::Response response = row.guard == Guard::closed ? admit_and_answer(row, call) : answer(row, call);
   if (response.route.empty()) response.route = row.pattern;
   return response;
 }
 
 /// The response to a method that the route does not have.
-http::Response other_method(const Route& row, Call& call) {
+http::Response other_method(const Route& row, RequestContext& call) {
   const std::string allowed = row.method == "GET" ? "GET, HEAD, OPTIONS" : "POST, OPTIONS";
   http::Response response;
   if (call.request.method == "OPTIONS") {
@@ -126,7 +126,7 @@ http::Response other_method(const Route& row, Call& call) {
 }  // namespace
 
 http::Response route(Service& service, const http::Request& request) {
-  Call call{service, request, {}, {}};
+  RequestContext call{service, request, {}, {}};
   call.grant.target_size = request.target.size();
   for (const Route& row : table) {
     std::optional<std::string> name = match(row.pattern, request.path);
@@ -152,27 +152,27 @@ std::optional<Overrides> read_query(std::string_view query) {
     query.remove_prefix(std::min(end + 1, query.size()));
     if (pair.empty()) continue;
     const auto equals = std::min(pair.find('='), pair.size());
-    std::optional<std::string> key = http::percent_decode(pair.substr(0, equals), http::Plus::space);
+    std::optional<std::string> key = http::percent_decode(pair.substr(0, equals), http::PlusSign::space);
     std::optional<std::string> value =
-        http::percent_decode(pair.substr(std::min(equals + 1, pair.size())), http::Plus::space);
+        http::percent_decode(pair.substr(std::min(equals + 1, pair.size())), http::PlusSign::space);
     if (!key || !value) return std::nullopt;
     overrides.emplace_back(std::move(*key), std::move(*value));
   }
   return overrides;
 }
 
-std::variant<Overrides, http::Response> parse_query(const Call& call) {
+std::variant<Overrides, http::Response> parse_query(const RequestContext& call) {
   if (auto query = read_query(call.query())) return std::move(*query);
   return refuse(call, problem_of({Code::malformed,
                                   {{IssueKind::syntax, "", "The query has a malformed percent escape."}}}));
 }
 
-std::variant<Request, http::Response> read_text(Call& call, const std::string& text) {
+std::variant<Request, http::Response> read_text(RequestContext& call, const std::string& text) {
   std::optional<Result<Request>> request;
   const auto read = [&](const Job::Options& options) { request = read_request(text, options); };
   if (text.size() <= largest_without_worker) {
     read(options_without_worker(call));
-  } else if (const auto refused = with_worker(call, call.request.gone(), read)) {
+  } else if (const auto refused = with_worker(call, call.request.disconnect_token(), read)) {
     return refuse(call, *refused);
   }
   if (!*request) return refuse(call, problem_of(request->error()));
@@ -180,7 +180,7 @@ std::variant<Request, http::Response> read_text(Call& call, const std::string& t
   return std::move(**request);
 }
 
-std::variant<Request, http::Response> read_body(Call& call) {
+std::variant<Request, http::Response> read_body(RequestContext& call) {
   const std::string type = call.request.header("Content-Type");
   if (!is_json_type(type)) {
     http::Response response =

@@ -70,7 +70,7 @@ std::string page_of(const Request& request, const std::string& token, const std:
 
 }  // namespace
 
-http::Response get_card(Call& call) {
+http::Response get_card(RequestContext& call) {
   Result<Token> token = read_token(call.name, std::min(call.service.config.body_limit, largest_token_text));
   if (!token) return refuse(call, problem_of(token.error()));
   auto read = read_text(call, token->request);

@@ -10,19 +10,21 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 /// Runs derive() or validate() with a worker.
-http::Response answer_with(Call& call, Result<std::string> (*work)(const Request&, const Job::Options&)) {
+http::Response answer_with(RequestContext& call,
+                           Result<std::string> (*work)(const Request&, const Job::Options&)) {
   auto body = read_body(call);
   if (auto* refusal = std::get_if<http::Response>(&body)) return std::move(*refusal);
   const Request request = std::get<Request>(std::move(body));
   std::optional<Result<std::string>> result;
   const auto run = [&](const Job::Options& options) { result = work(request, options); };
-  if (const auto refused = with_worker(call, call.request.gone(), run)) return refuse(call, *refused);
+  if (const auto refused = with_worker(call, call.request.disconnect_token(), run))
+    return refuse(call, *refused);
   if (!*result) return refuse(call, problem_of(result->error()));
   return json_answer(call, std::move(**result));
 }
 
 /// The question of an import from its query; the response for an unknown key.
-std::variant<ImportInput, http::Response> import_question(Call& call, const Overrides& query) {
+std::variant<ImportInput, http::Response> import_question(RequestContext& call, const Overrides& query) {
   ImportInput question{{}, {}, call.request.body};
   std::vector<Issue> issues;
   for (const auto& [key, value] : query) {
@@ -65,16 +67,16 @@ std::string preset_list(const Access& access) {
 
 }  // namespace
 
-http::Response post_validate(Call& call) { return answer_with(call, validate); }
+http::Response post_validate(RequestContext& call) { return answer_with(call, validate); }
 
-http::Response post_derive(Call& call) {
+http::Response post_derive(RequestContext& call) {
   if (call.query().find_first_not_of('&') == std::string_view::npos) return answer_with(call, derive);
   auto body = read_body(call);
   if (auto* refusal = std::get_if<http::Response>(&body)) return std::move(*refusal);
   return derive_world(call, std::get<Request>(body));
 }
 
-http::Response post_import(Call& call) {
+http::Response post_import(RequestContext& call) {
   if (call.service.access.only_presets()) {
     return deny(call, {problem(403, "This service makes only presets, so imports are not available."),
                        "only_presets"});
@@ -92,7 +94,8 @@ http::Response post_import(Call& call) {
   const auto question = std::get<ImportInput>(asked);
   std::optional<Result<ImportedRequest>> imported;
   const auto read = [&](const Job::Options& options) { imported = import_request(question, options); };
-  if (const auto refused = with_worker(call, call.request.gone(), read)) return refuse(call, *refused);
+  if (const auto refused = with_worker(call, call.request.disconnect_token(), read))
+    return refuse(call, *refused);
   if (!*imported) {
     Problem problem = problem_of(imported->error());
     if (question.format.empty() && imported->error().code == Code::invalid)
@@ -102,12 +105,12 @@ http::Response post_import(Call& call) {
   return json_answer(call, std::move((*imported)->answer));
 }
 
-http::Response get_presets(Call& call) {
+http::Response get_presets(RequestContext& call) {
   return static_answer(call, "/v1/presets", "application/json",
                        [&] { return preset_list(call.service.access); });
 }
 
-http::Response get_schema(Call& call) {
+http::Response get_schema(RequestContext& call) {
   std::string name = call.name;
   for (std::string_view suffix : {".json", ".schema"}) {  // schemas refer to each other by file name
     if (name.size() > suffix.size() &&
@@ -121,11 +124,11 @@ http::Response get_schema(Call& call) {
                        [&] { return std::string(*text); });
 }
 
-http::Response get_vocabulary(Call& call) {
+http::Response get_vocabulary(RequestContext& call) {
   return static_answer(call, "/v1/vocabulary", "application/json", vocabulary_json);
 }
 
-http::Response get_openapi(Call& call) {
+http::Response get_openapi(RequestContext& call) {
   return static_answer(call, "/openapi.json", "application/json", [] { return std::string(openapi_json()); });
 }
 

@@ -25,7 +25,7 @@ std::string milliseconds(std::string_view name, double duration) {
 }
 
 /// Applies a Range field to a whole response (RFC 9110 section 14). Only models support ranges.
-void apply_range(const Call& call, http::Response& response, const std::string& validator) {
+void apply_range(const RequestContext& call, http::Response& response, const std::string& validator) {
   auto& slice = std::get<http::Slice>(response.body);
   response.set("Accept-Ranges", "bytes");
   const std::string condition = call.request.header("If-Range");
@@ -56,7 +56,7 @@ void describe(http::Response& response, const CachedModel& made) {
 }
 
 /// Adds the permalink as Content-Location, where it is not too long.
-void add_location(const Call& call, http::Response& response, const std::string& token,
+void add_location(const RequestContext& call, http::Response& response, const std::string& token,
                   std::string_view extension) {
   if (token.empty()) return;
   const std::string location = call.service.access.signed_for(call.grant, permalink(token, extension));
@@ -84,14 +84,14 @@ void point_at_overrides(const Overrides& overrides, std::vector<Issue>& issues) 
   }
 }
 
-Problem pointed(const Call& call, Problem problem) {
+Problem pointed(const RequestContext& call, Problem problem) {
   if (call.request.method == "POST") return problem;
   if (const std::optional<Overrides> overrides = read_query(call.query()))
     point_at_overrides(*overrides, problem.errors);
   return problem;
 }
 
-http::Response model_answer(Call& call, const TaggedRequest& wanted, Caching caching) {
+http::Response model_answer(RequestContext& call, const TaggedRequest& wanted, Caching caching) {
   const auto coding = choose_coding(call.request.header("Accept-Encoding"));
   if (!coding) return refuse(call, not_acceptable());
   const bool post = call.request.method == "POST";
@@ -108,7 +108,7 @@ http::Response model_answer(Call& call, const TaggedRequest& wanted, Caching cac
 
   if (!wait_for_memory(call)) return refuse(call, too_much_in_flight(call.service));
   const auto asked = Clock::now();
-  Cache::Answer answer = model_of(call, wanted, {});
+  Cache::Lookup answer = model_of(call, wanted, {});
   if (const auto* refused = std::get_if<Problem>(&answer.outcome))
     return refuse(call, pointed(call, *refused));
   const auto found = Clock::now();
@@ -153,7 +153,7 @@ Result<Request> in_format(const Request& request, std::string_view extension) {
 
 /// A preset with overrides; nothing where there is no such preset. Overrides of the output may be valid only in
 /// the format of the extension, so an error leads to a second attempt with that format.
-std::optional<Result<Request>> preset_in_format(const Call& call, const std::string& name,
+std::optional<Result<Request>> preset_in_format(const RequestContext& call, const std::string& name,
                                                 Overrides overrides, std::string_view extension) {
   auto read = read_preset(name, overrides, call.service.config.limits);
   if (!read || *read || extension.empty() || extension == "json") return read;
@@ -161,16 +161,16 @@ std::optional<Result<Request>> preset_in_format(const Call& call, const std::str
   return read_preset(name, overrides, call.service.config.limits);
 }
 
-http::Response picture_of_permalink(Call& call, const Request& request, Caching caching) {
+http::Response picture_of_permalink(RequestContext& call, const Request& request, Caching caching) {
   auto query = parse_query(call);
   if (auto* refusal = std::get_if<http::Response>(&query)) return std::move(*refusal);
-  auto picture = read_options(call, std::get<Overrides>(query), RestOfQuery::refused);
+  auto picture = read_options(call, std::get<Overrides>(query), OtherQueryKeys::refused);
   if (auto* refusal = std::get_if<http::Response>(&picture)) return std::move(*refusal);
   return picture_answer(call, request, std::get<PictureOptions>(picture), caching);
 }
 
-http::Response picture_of_preset(Call& call, const std::string& name, Overrides query) {
-  auto picture = read_options(call, query, RestOfQuery::kept);
+http::Response picture_of_preset(RequestContext& call, const std::string& name, Overrides query) {
+  auto picture = read_options(call, query, OtherQueryKeys::kept);
   if (auto* refusal = std::get_if<http::Response>(&picture)) return std::move(*refusal);
   auto read = read_preset(name, query, call.service.config.limits);
   if (!read) return refuse(call, problem(404, no_preset(name)));
@@ -179,7 +179,8 @@ http::Response picture_of_preset(Call& call, const std::string& name, Overrides 
   return picture_answer(call, **read, std::get<PictureOptions>(picture), Caching::revalidate);
 }
 
-http::Response redirect_to_own(const Call& call, const Request& request, const std::string& extension) {
+http::Response redirect_to_own(const RequestContext& call, const Request& request,
+                               const std::string& extension) {
   std::string own = permalink(write_token(request.canonical(), engine_version()), extension);
   if (extension == picture_extension && !call.query().empty()) own.append("?").append(call.query());
   http::Response response;
@@ -193,7 +194,7 @@ http::Response redirect_to_own(const Call& call, const Request& request, const s
 
 }  // namespace
 
-std::string server_timing(const Call& call, std::string_view cache_use, const CachedModel& made,
+std::string server_timing(const RequestContext& call, std::string_view cache_use, const CachedModel& made,
                           Clock::time_point asked, Clock::time_point found) {
   const auto between = [](Clock::time_point from, Clock::time_point to) {
     return std::chrono::duration<double, std::milli>(to - from).count();
@@ -214,7 +215,7 @@ std::string server_timing(const Call& call, std::string_view cache_use, const Ca
   return text + ", " + milliseconds("total", between(call.request.arrived, now));
 }
 
-http::Response post_generate(Call& call) {
+http::Response post_generate(RequestContext& call) {
   auto body = read_body(call);
   if (auto* refusal = std::get_if<http::Response>(&body)) return std::move(*refusal);
   if (is_world(std::get<Request>(body))) return post_world(call, std::get<Request>(body));
@@ -236,7 +237,7 @@ static std::string_view saved_program_of(std::string_view text) {
 }
 
 /// The request as a file of another program.
-static http::Response saved_file(Call& call, const Request& request, std::string_view program,
+static http::Response saved_file(RequestContext& call, const Request& request, std::string_view program,
                                  Caching caching) {
   Job::Options options;
   options.limits = call.service.config.limits;
@@ -248,7 +249,7 @@ static http::Response saved_file(Call& call, const Request& request, std::string
   return response;
 }
 
-http::Response get_model(Call& call) {
+http::Response get_model(RequestContext& call) {
   if (!call.query().empty() && !call.name.ends_with(".webp")) {
     return refuse(call,
                   problem_of({Code::invalid, {{IssueKind::unknown_key, "", "A permalink has no query."}}}));
@@ -289,7 +290,7 @@ http::Response get_model(Call& call) {
   return model_answer(call, wanted, caching);
 }
 
-http::Response get_preset(Call& call) {
+http::Response get_preset(RequestContext& call) {
   const auto [name, extension] = split_extension(call.name);
   const std::string target(call.target());
   if (auto remembered = call.service.targets.find(target))

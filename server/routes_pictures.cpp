@@ -7,7 +7,7 @@ namespace seedmesh {
 namespace {
 
 /// Refuses what is left of a query.
-http::Response refuse_keys(const Call& call, const Overrides& rest) {
+http::Response refuse_keys(const RequestContext& call, const Overrides& rest) {
   std::vector<Issue> issues;
   for (const auto& [key, value] : rest) {
     issues.push_back({IssueKind::unknown_key, "/" + key.substr(0, 40),
@@ -18,15 +18,15 @@ http::Response refuse_keys(const Call& call, const Overrides& rest) {
 
 }  // namespace
 
-std::variant<PictureOptions, http::Response> read_options(const Call& call, Overrides& query,
-                                                          RestOfQuery rest) {
+std::variant<PictureOptions, http::Response> read_options(const RequestContext& call, Overrides& query,
+                                                          OtherQueryKeys rest) {
   Result<PictureOptions> picture = read_picture_options(query);
   if (!picture) return refuse(call, problem_of(picture.error()));
-  if (rest == RestOfQuery::refused && !query.empty()) return refuse_keys(call, query);
+  if (rest == OtherQueryKeys::refused && !query.empty()) return refuse_keys(call, query);
   return *picture;
 }
 
-http::Response picture_answer(Call& call, const Request& request, const PictureOptions& picture,
+http::Response picture_answer(RequestContext& call, const Request& request, const PictureOptions& picture,
                               Caching caching) {
   const std::string tag = tag_of(request.canonical() + '\n' + picture.text(), engine_version());
   http::Response response;
@@ -38,7 +38,7 @@ http::Response picture_answer(Call& call, const Request& request, const PictureO
   }
   if (!wait_for_memory(call)) return refuse(call, too_much_in_flight(call.service));
   const auto asked = Clock::now();
-  const Cache::Answer answer = picture_of(call, request, picture);
+  const Cache::Lookup answer = picture_of(call, request, picture);
   const auto found = Clock::now();
   if (const auto* refused = std::get_if<Problem>(&answer.outcome)) return refuse(call, *refused);
   const Cache::Entry entry = std::get<Cache::Entry>(answer.outcome);

@@ -37,14 +37,14 @@ void add_page_headers(http::Response& response, const char* security) {
 
 }  // namespace
 
-http::Response get_healthz(Call&) { return status_answer(200, "ok"); }
+http::Response get_healthz(RequestContext&) { return status_answer(200, "ok"); }
 
-http::Response get_readyz(Call& call) {
+http::Response get_readyz(RequestContext& call) {
   if (!call.service.draining) return status_answer(200, "ready");
   return refuse(call, problem(503, "The service is shutting down."));
 }
 
-http::Response get_version(Call&) {
+http::Response get_version(RequestContext&) {
   http::Response response;
   response.type = "application/json";
   response.body =
@@ -55,7 +55,7 @@ http::Response get_version(Call&) {
   return response;
 }
 
-http::Response get_metrics(Call& call) {
+http::Response get_metrics(RequestContext& call) {
   Service& service = call.service;
   Metrics::Levels levels;
   levels.in_flight = service.in_flight;
@@ -63,8 +63,8 @@ http::Response get_metrics(Call& call) {
   levels.waiting = service.admission.waiting();
   levels.workers = service.admission.workers();
   levels.busy = service.admission.busy();
-  levels.cache = service.cache.figures();
-  levels.shared = service.shared.figures();
+  levels.cache = service.cache.counters();
+  levels.shared = service.shared.counters();
   http::Response response;
   response.type = "text/plain; version=0.0.4; charset=utf-8";
   response.body = service.metrics.text(levels);
@@ -72,14 +72,14 @@ http::Response get_metrics(Call& call) {
   return response;
 }
 
-http::Response get_docs(Call& call) {
+http::Response get_docs(RequestContext& call) {
   http::Response response =
       static_answer(call, "/docs", "text/html; charset=utf-8", [&] { return call.service.pages.docs(); });
   add_page_headers(response, docs_security);
   return response;
 }
 
-http::Response get_asset(Call& call) {
+http::Response get_asset(RequestContext& call) {
   const Asset& asset = *call.service.pages.find(call.request.path);
   const auto coding = choose_coding(call.request.header("Accept-Encoding"), asset_codings);
   if (!coding) return refuse(call, not_acceptable());

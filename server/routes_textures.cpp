@@ -21,7 +21,7 @@ http::Response redirect_to_own(const std::string& name) {
 
 }  // namespace
 
-http::Response get_texture(Call& call) {
+http::Response get_texture(RequestContext& call) {
   const auto dot = call.name.find('.');
   if (call.name.size() > longest_name || !call.name.ends_with(extension) || dot == std::string::npos ||
       dot + extension.size() >= call.name.size()) {
@@ -52,7 +52,7 @@ http::Response get_texture(Call& call) {
                                                    : problem_of(made.error());
     }
   };
-  if (auto busy = with_worker(call, call.request.gone(), work)) return refuse(call, *busy);
+  if (auto busy = with_worker(call, call.request.disconnect_token(), work)) return refuse(call, *busy);
   if (refused) return refuse(call, *refused);
   auto payload = std::make_shared<Payload>();
   payload->add(image, std::as_bytes(std::span(image->bytes)));

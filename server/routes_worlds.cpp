@@ -97,7 +97,7 @@ Result<WorldFile> made(const WantedFile& wanted, const Job::Options& options) {
 }
 
 /// The file from the cache, or made now.
-Cache::Answer file_of(const Call& call, const WantedFile& wanted, const std::string& key) {
+Cache::Lookup file_of(const RequestContext& call, const WantedFile& wanted, const std::string& key) {
   const auto make = [&](const std::stop_token& stop) {
     Cache::Outcome outcome;
     const auto work = [&](const Job::Options& options) {
@@ -119,13 +119,13 @@ Cache::Answer file_of(const Call& call, const WantedFile& wanted, const std::str
       return Cache::Outcome(*std::move(refused));
     return outcome;
   };
-  return call.service.cache.get(key, call.request.gone, make);
+  return call.service.cache.get(key, call.request.disconnect_token, make);
 }
 
 /// The payload in the coding; in no coding where the file is small, or a binary file on a private network that the
 /// settings except.
-std::shared_ptr<const Payload> encoded(const Call& call, const Cache::Entry& entry, const std::string& key,
-                                       Coding& coding) {
+std::shared_ptr<const Payload> encoded(const RequestContext& call, const Cache::Entry& entry,
+                                       const std::string& key, Coding& coding) {
   const Config& config = call.service.config;
   const bool stays = entry->product.media_type != "application/json" && config.plain_for_private &&
                      is_private_address(call.request.remote);
@@ -142,13 +142,13 @@ std::shared_ptr<const Payload> encoded(const Call& call, const Cache::Entry& ent
 }
 
 /// The payload as a body. A tile is not refused for memory: it is small, and connections bound the number.
-http::Slice body_of(const Call& call, std::shared_ptr<const Payload> payload) {
+http::Slice body_of(const RequestContext& call, std::shared_ptr<const Payload> payload) {
   const std::uint64_t size = payload->size();
   if (auto held = call.service.in_flight_memory.hold(payload)) return {std::move(held), 0, size};
   return {std::move(payload), 0, size};
 }
 
-http::Response file_answer(const Call& call, const WantedFile& wanted, Caching caching) {
+http::Response file_answer(const RequestContext& call, const WantedFile& wanted, Caching caching) {
   const auto accepted = choose_coding(call.request.header("Accept-Encoding"));
   if (!accepted) return refuse(call, not_acceptable());
   const std::string key = wanted.key();
@@ -162,7 +162,7 @@ http::Response file_answer(const Call& call, const WantedFile& wanted, Caching c
     return response;
   }
   call.service.in_flight_memory.wait(deadline_of(call));
-  Cache::Answer answer = file_of(call, wanted, key);
+  Cache::Lookup answer = file_of(call, wanted, key);
   if (const auto* refused = std::get_if<Problem>(&answer.outcome)) return refuse(call, *refused);
   const Cache::Entry entry = std::get<Cache::Entry>(answer.outcome);
   Coding coding = *accepted;
@@ -176,12 +176,12 @@ http::Response file_answer(const Call& call, const WantedFile& wanted, Caching c
 }
 
 /// "../<token>/<grant>/": from a root to the folder of the files below it.
-std::string prefix_of(const Call& call, const std::string& token, bool has_segment) {
+std::string prefix_of(const RequestContext& call, const std::string& token, bool has_segment) {
   return std::string(has_segment ? "../../" : "../") + token + "/" +
          call.service.access.world_segment(call.grant, token);
 }
 
-std::string address_of(const Call& call, const std::string& token, std::string_view file) {
+std::string address_of(const RequestContext& call, const std::string& token, std::string_view file) {
   return "/v1/worlds/" + token + "/" + call.service.access.world_segment(call.grant, token) +
          std::string(file);
 }
@@ -205,14 +205,14 @@ std::vector<Issue> keys_but(const Overrides& query, std::string_view known) {
 }
 
 /// Refuses the query of a file or a request that takes none.
-http::Response refuse_keys(const Call& call) {
+http::Response refuse_keys(const RequestContext& call) {
   auto query = parse_query(call);
   if (auto* refusal = std::get_if<http::Response>(&query)) return std::move(*refusal);
   return refuse(call, problem_of({Code::invalid, keys_but(std::get<Overrides>(query), "")}));
 }
 
 /// Reads the one parameter of a map's query.
-std::variant<WorldBox, http::Response> box_of(const Call& call, const OpenWorld& world) {
+std::variant<WorldBox, http::Response> box_of(const RequestContext& call, const OpenWorld& world) {
   auto query = parse_query(call);
   if (auto* refusal = std::get_if<http::Response>(&query)) return std::move(*refusal);
   const Overrides& given = std::get<Overrides>(query);
@@ -244,7 +244,7 @@ Parts parts_of(std::string_view path) {
   return parts;
 }
 
-http::Response redirect_to_own(const Call& call, const NamedWorld& world, std::string_view file) {
+http::Response redirect_to_own(const RequestContext& call, const NamedWorld& world, std::string_view file) {
   http::Response response;
   response.status = 307;
   response.set("Location", address_of(call, world.token, file));
@@ -254,7 +254,7 @@ http::Response redirect_to_own(const Call& call, const NamedWorld& world, std::s
 }
 
 /// The world of a URL, from memory or read now.
-std::variant<std::shared_ptr<const NamedWorld>, http::Response> world_of(const Call& call,
+std::variant<std::shared_ptr<const NamedWorld>, http::Response> world_of(const RequestContext& call,
                                                                          std::string_view name) {
   Worlds& worlds = call.service.worlds;
   const std::string key(name);
@@ -267,7 +267,8 @@ std::variant<std::shared_ptr<const NamedWorld>, http::Response> world_of(const C
   return world;
 }
 
-http::Response answer(const Call& call, const NamedWorld& world, const Parts& parts, const WorldPath& path) {
+http::Response answer(const RequestContext& call, const NamedWorld& world, const Parts& parts,
+                      const WorldPath& path) {
   if (!has_file(path, world.open.levels())) return refuse(call, problem(404, "The world has no such tile."));
   if (world.kind == NamedWorld::Kind::foreign) {
     if (path.is_root() && !world.token.empty()) return redirect_to_own(call, world, parts.file);
@@ -295,7 +296,7 @@ http::Response answer(const Call& call, const NamedWorld& world, const Parts& pa
 
 }  // namespace
 
-http::Response get_world(Call& call) {
+http::Response get_world(RequestContext& call) {
   const Parts parts = parts_of(call.name);
   auto admitted = call.service.access.admit_world(call.request, parts.name, parts.segment);
   if (const auto* denial = std::get_if<Denial>(&admitted)) return deny(call, *denial);
@@ -316,7 +317,7 @@ http::Response get_world(Call& call) {
   return response;
 }
 
-http::Response post_world(Call& call, const Request& request) {
+http::Response post_world(RequestContext& call, const Request& request) {
   Result<OpenWorld> open = open_world(request, call.service.worlds.memory());
   if (!open) return refuse(call, problem_of(open.error()));
   const NamedWorld world{NamedWorld::Kind::own, request, *std::move(open), world_token(request)};
@@ -331,7 +332,7 @@ http::Response post_world(Call& call, const Request& request) {
   return response;
 }
 
-http::Response derive_world(Call& call, const Request& request) {
+http::Response derive_world(RequestContext& call, const Request& request) {
   if (!is_world(request)) return refuse_keys(call);
   Result<OpenWorld> open = open_world(request, call.service.worlds.memory());
   if (!open) return refuse(call, problem_of(open.error()));

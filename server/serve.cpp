@@ -8,8 +8,8 @@
 
 #include "server/cors.h"
 #include "server/files.h"
-#include "server/give_back.h"
 #include "server/http/server.h"
+#include "server/memory_trimmer.h"
 #include "server/routes.h"
 #include "server/service.h"
 #include "server/trace.h"
@@ -113,7 +113,7 @@ std::string url_of(const Config& config, int port) {
 }  // namespace
 
 int serve(const Config& config, const std::vector<std::string>& warnings) {
-  keep_little_memory(config.threads);
+  configure_malloc(config.threads);
   ::signal(SIGPIPE, SIG_IGN);
   sigset_t ending;
   ::sigemptyset(&ending);
@@ -147,9 +147,9 @@ int serve(const Config& config, const std::vector<std::string>& warnings) {
              {"engine", engine_version()},
              {"threads", config.threads}});
 
-  const GiveBack give_back(
+  const MemoryTrimmer memory_trimmer(
       [&] {
-        return GiveBack::Activity{service.answered.load(), service.in_flight.load()};
+        return MemoryTrimmer::Activity{service.answered.load(), service.in_flight.load()};
       },
       [&] { service.reserve->clear(); });
   std::thread listening([&] { server.run(); });

@@ -10,7 +10,7 @@ namespace seedmesh {
 int serve(const Config& config, const std::vector<std::string>& warnings);
 
 /// Requests /healthz of the service on this machine that `config` describes. Returns the exit status: 0 if the
-/// response is 200, else 1.
+/// response is 200, else 1 after a message on standard error.
 int healthcheck(const Config& config);
 
 }  // namespace seedmesh

@@ -26,7 +26,7 @@ Problem not_admitted(Service& service, Admission::Refused why) {
 }
 
 /// Makes a product with a worker, and records its times.
-Cache::Outcome made_by(const Call& call, const std::stop_token& stop, std::string token,
+Cache::Outcome made_by(const RequestContext& call, const std::stop_token& stop, std::string token,
                        const std::function<Result<Product>(Job::Options)>& make) {
   Cache::Outcome outcome;
   const auto work = [&](Job::Options options) {
@@ -48,7 +48,7 @@ Cache::Outcome made_by(const Call& call, const std::stop_token& stop, std::strin
   return outcome;
 }
 
-Cache::Outcome generate(const Call& call, const TaggedRequest& wanted, const std::stop_token& stop,
+Cache::Outcome generate(const RequestContext& call, const TaggedRequest& wanted, const std::stop_token& stop,
                         const Job::Progress& progress) {
   SharedCache& shared = call.service.shared;
   if (Cache::Entry entry = shared.get(wanted.request.canonical(), token_of(wanted.request))) return entry;
@@ -64,7 +64,7 @@ Cache::Outcome generate(const Call& call, const TaggedRequest& wanted, const std
 }
 
 /// The fields of a response with a validator; 304 where the client has the body already.
-http::Response validated(const Call& call, const std::string& tag, Coding used,
+http::Response validated(const RequestContext& call, const std::string& tag, Coding used,
                          std::string_view cache_control) {
   http::Response response;
   response.set("ETag", etag(tag, used));
@@ -110,21 +110,21 @@ void TargetCache::insert(const std::string& target, const TaggedRequest& wanted)
   if (by_target_.emplace(target, wanted).second) bytes_ += bytes;
 }
 
-Clock::time_point deadline_of(const Call& call) {
+Clock::time_point deadline_of(const RequestContext& call) {
   return call.request.arrived + std::chrono::duration_cast<Clock::duration>(
                                     std::chrono::duration<double>(call.service.config.time_limit));
 }
 
-std::string origin_of(const Call& call) {
+std::string origin_of(const RequestContext& call) {
   const bool is_secure =
       call.service.config.tls || call.request.header("X-Forwarded-Proto").starts_with("https");
   return (is_secure ? "https://" : "http://") + call.request.header("Host");
 }
 
-Job::Options options_without_worker(const Call& call) {
+Job::Options options_without_worker(const RequestContext& call) {
   Job::Options options;
   options.limits = call.service.config.limits;
-  options.stop = call.request.gone();
+  options.stop = call.request.disconnect_token();
   options.deadline = deadline_of(call);
   return options;
 }
@@ -132,7 +132,7 @@ Job::Options options_without_worker(const Call& call) {
 using Entered = std::variant<Admission::Ticket, Admission::Refused>;
 
 /// Calls `work` with the worker of a ticket.
-static std::optional<Problem> with_ticket(const Call& call, const std::stop_token& stop,
+static std::optional<Problem> with_ticket(const RequestContext& call, const std::stop_token& stop,
                                           const std::function<Entered()>& enter,
                                           const std::function<void(Job::Options)>& work) {
   Service& service = call.service;
@@ -151,19 +151,19 @@ static std::optional<Problem> with_ticket(const Call& call, const std::stop_toke
   return std::nullopt;
 }
 
-std::optional<Problem> with_worker(const Call& call, const std::stop_token& stop,
+std::optional<Problem> with_worker(const RequestContext& call, const std::stop_token& stop,
                                    const std::function<void(Job::Options)>& work) {
   return with_ticket(
       call, stop, [&] { return call.service.admission.enter(deadline_of(call), stop); }, work);
 }
 
-std::optional<Problem> with_tile_worker(const Call& call, int level, const std::stop_token& stop,
+std::optional<Problem> with_tile_worker(const RequestContext& call, int level, const std::stop_token& stop,
                                         const std::function<void(Job::Options)>& work) {
   return with_ticket(
       call, stop, [&] { return call.service.admission.enter_tile(level, deadline_of(call), stop); }, work);
 }
 
-bool wait_for_memory(const Call& call) {
+bool wait_for_memory(const RequestContext& call) {
   constexpr std::chrono::seconds longest_wait{2};
   return call.service.in_flight_memory.wait(std::min(deadline_of(call), Clock::now() + longest_wait));
 }
@@ -173,15 +173,16 @@ Problem too_much_in_flight(Service& service) {
   return problem(503, "The responses that are being sent to other clients use all memory for responses.");
 }
 
-Cache::Answer model_of(const Call& call, const TaggedRequest& wanted, const Job::Progress& progress) {
+Cache::Lookup model_of(const RequestContext& call, const TaggedRequest& wanted,
+                       const Job::Progress& progress) {
   return call.service.cache.get(
-      wanted.request.canonical(), call.request.gone,
+      wanted.request.canonical(), call.request.disconnect_token,
       [&](const std::stop_token& stop) { return generate(call, wanted, stop, progress); });
 }
 
-Cache::Answer picture_of(const Call& call, const Request& request, const PictureOptions& picture) {
+Cache::Lookup picture_of(const RequestContext& call, const Request& request, const PictureOptions& picture) {
   // No canonical request ends with a line.
-  return call.service.cache.get(request.canonical() + '\n' + picture.text(), call.request.gone,
+  return call.service.cache.get(request.canonical() + '\n' + picture.text(), call.request.disconnect_token,
                                 [&](const std::stop_token& stop) {
                                   Cache::Outcome outcome = made_by(call, stop, {}, [&](Job::Options options) {
                                     return draw_picture(request, picture, options, &call.service.textures);
@@ -207,7 +208,7 @@ std::shared_ptr<const StaticText> StaticTexts::get(const std::string& path, Codi
   return text;
 }
 
-http::Response json_answer(const Call& call, std::string text, std::string_view type,
+http::Response json_answer(const RequestContext& call, std::string text, std::string_view type,
                            std::string_view cache_control) {
   const auto coding = choose_coding(call.request.header("Accept-Encoding"));
   if (!coding) return refuse(call, not_acceptable());
@@ -229,7 +230,7 @@ http::Response json_answer(const Call& call, std::string text, std::string_view 
   return response;
 }
 
-http::Response static_answer(const Call& call, const std::string& path, std::string_view type,
+http::Response static_answer(const RequestContext& call, const std::string& path, std::string_view type,
                              const std::function<std::string()>& make) {
   const auto coding = choose_coding(call.request.header("Accept-Encoding"), small_codings);
   if (!coding) return refuse(call, not_acceptable());
@@ -246,14 +247,14 @@ Problem not_acceptable() {
   return problem(406, "The client accepts neither gzip, br, zstd nor an unencoded response.");
 }
 
-http::Response refuse(const Call& call, const Problem& problem) {
+http::Response refuse(const RequestContext& call, const Problem& problem) {
   if (problem.status == 499) call.service.metrics.cancelled("client_gone");
   if (problem.status == 504) call.service.metrics.cancelled("deadline");
   if (problem.word == "limit-exceeded") call.service.metrics.limited(limit_of(problem));
   return to_response(problem, call.request.id);
 }
 
-http::Response deny(const Call& call, const Denial& denial) {
+http::Response deny(const RequestContext& call, const Denial& denial) {
   if (denial.problem.status == 429) {
     call.service.metrics.rejected(denial.reason);
   } else {
@@ -265,13 +266,13 @@ http::Response deny(const Call& call, const Denial& denial) {
   return response;
 }
 
-std::optional<http::Response> check_allowed(const Call& call, const Request& request) {
+std::optional<http::Response> check_allowed(const RequestContext& call, const Request& request) {
   const auto denial = call.service.access.forbid(request);
   if (!denial) return std::nullopt;
   return deny(call, *denial);
 }
 
-std::string_view Call::query() const {
+std::string_view RequestContext::query() const {
   const std::string_view whole = target();
   return whole.substr(std::min(std::min(whole.find('?'), whole.size()) + 1, whole.size()));
 }

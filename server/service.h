@@ -10,7 +10,7 @@
 #include <unordered_map>
 #include <variant>
 
-#include "core/base/reserve.h"
+#include "core/base/huge_page_cache.h"
 #include "core/pipeline.h"
 #include "server/access.h"
 #include "server/admission.h"
@@ -95,7 +95,7 @@ struct Service {
   Cache cache;
   TextureCache textures;
   Worlds worlds;
-  const std::shared_ptr<Reserve> reserve = std::make_shared<Reserve>();
+  const std::shared_ptr<HugePageCache> reserve = std::make_shared<HugePageCache>();
   Access access;
   SharedCache shared;
   Metrics metrics;
@@ -108,7 +108,7 @@ struct Service {
 };
 
 /// One request, and the data that its route needs.
-struct Call {
+struct RequestContext {
   Service& service;
   const http::Request& request;
   std::string name;  ///< the segment that matches {...} in the pattern
@@ -120,53 +120,55 @@ struct Call {
 };
 
 using Clock = std::chrono::steady_clock;
-Clock::time_point deadline_of(const Call& call);
+Clock::time_point deadline_of(const RequestContext& call);
 
 /// "https://host:port" as the client wrote it.
-std::string origin_of(const Call& call);
+std::string origin_of(const RequestContext& call);
 
 /// Returns the options of work without a worker: limits, stop and deadline of the request.
-Job::Options options_without_worker(const Call& call);
+Job::Options options_without_worker(const RequestContext& call);
 
 /// Waits for a worker, then calls `work` with all options except the progress callback. Returns a Problem where no
 /// worker became free; errors of the work itself are handled by `work`.
-std::optional<Problem> with_worker(const Call& call, const std::stop_token& stop,
+std::optional<Problem> with_worker(const RequestContext& call, const std::stop_token& stop,
                                    const std::function<void(Job::Options)>& work);
 
 /// The same for a file of a world. It waits as tiles do, by level (admission.h), and `work` gets one thread.
-std::optional<Problem> with_tile_worker(const Call& call, int level, const std::stop_token& stop,
+std::optional<Problem> with_tile_worker(const RequestContext& call, int level, const std::stop_token& stop,
                                         const std::function<void(Job::Options)>& work);
 
 /// Returns the model of a request, from a cache or generated now.
-Cache::Answer model_of(const Call& call, const TaggedRequest& wanted, const Job::Progress& progress);
+Cache::Lookup model_of(const RequestContext& call, const TaggedRequest& wanted,
+                       const Job::Progress& progress);
 
 /// Returns a picture of the model of a request, from the cache or drawn now.
-Cache::Answer picture_of(const Call& call, const Request& request, const PictureOptions& picture);
+Cache::Lookup picture_of(const RequestContext& call, const Request& request, const PictureOptions& picture);
 
 /// Waits until the memory of responses in flight is below its limit. False after two seconds or the deadline.
-bool wait_for_memory(const Call& call);
+bool wait_for_memory(const RequestContext& call);
 
 /// 503: too many responses are being sent to clients that read slowly.
 Problem too_much_in_flight(Service& service);
 
 /// Returns a response with an ETag: 304 where the client has the text already, else the text in the best coding.
-http::Response json_answer(const Call& call, std::string text, std::string_view type = "application/json",
+http::Response json_answer(const RequestContext& call, std::string text,
+                           std::string_view type = "application/json",
                            std::string_view cache_control = "no-cache");
 
 /// The same for the static text at `path`. Calls `make` at most once for each coding.
-http::Response static_answer(const Call& call, const std::string& path, std::string_view type,
+http::Response static_answer(const RequestContext& call, const std::string& path, std::string_view type,
                              const std::function<std::string()>& make);
 
 /// 406: the client accepts none of the codings.
 Problem not_acceptable();
 
 /// Returns the response for an error. Counts it in the metrics.
-http::Response refuse(const Call& call, const Problem& problem);
+http::Response refuse(const RequestContext& call, const Problem& problem);
 
 /// Returns the response for a request that was not admitted. Counts it by its reason.
-http::Response deny(const Call& call, const Denial& denial);
+http::Response deny(const RequestContext& call, const Denial& denial);
 
 /// Returns the response for a request that Access::forbid denies; nothing for an allowed request.
-std::optional<http::Response> check_allowed(const Call& call, const Request& request);
+std::optional<http::Response> check_allowed(const RequestContext& call, const Request& request);
 
 }  // namespace seedmesh

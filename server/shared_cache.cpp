@@ -123,7 +123,7 @@ Cache::Entry SharedCache::get(const std::string& canonical, const std::string& t
   Cache::Entry entry;
   if (reply->type == REDIS_REPLY_STRING) entry = unpack(reply, {reply->str, reply->len}, token);
   const std::lock_guard lock(mutex_);
-  ++(entry ? figures_.hits : reply->type == REDIS_REPLY_ERROR ? figures_.errors : figures_.misses);
+  ++(entry ? counters_.hits : reply->type == REDIS_REPLY_ERROR ? counters_.errors : counters_.misses);
   return entry;
 }
 
@@ -134,7 +134,7 @@ void SharedCache::put(const std::string& canonical, const Cache::Entry& entry) {
   {
     const std::lock_guard lock(mutex_);
     if (failing_ || queued_bytes_ + bytes > most_queued) {
-      ++figures_.skips;
+      ++counters_.skips;
       return;
     }
     queued_bytes_ += bytes;
@@ -146,7 +146,7 @@ void SharedCache::put(const std::string& canonical, const Cache::Entry& entry) {
 SharedCache::Connection SharedCache::take() {
   const std::lock_guard lock(mutex_);
   if (ready_.empty()) {
-    ++figures_.skips;
+    ++counters_.skips;
     return nullptr;
   }
   Connection connection = std::move(ready_.back());
@@ -164,7 +164,7 @@ void SharedCache::count_error(const std::string& what) {
   bool first = false;
   {
     const std::lock_guard lock(mutex_);
-    ++figures_.errors;
+    ++counters_.errors;
     open_ -= 1 + ready_.size();
     ready_.clear();
     first = !std::exchange(failing_, true);
@@ -217,7 +217,7 @@ void SharedCache::maintain() {
         own.reset();
         writes_.clear();
         queued_bytes_ = 0;
-        ++figures_.errors;
+        ++counters_.errors;
         changed_.wait_for(lock, pause, [this] { return ending_; });
         continue;
       }
@@ -247,16 +247,16 @@ void SharedCache::maintain() {
     const bool lost = own->err != 0;  // else Redis refused, for example without memory
     if (lost) own.reset();
     lock.lock();
-    ++(written ? figures_.writes : figures_.errors);
+    ++(written ? counters_.writes : counters_.errors);
     if (lost) failing_ = true;
   }
 }
 
-SharedCache::Figures SharedCache::figures() const {
+SharedCache::Counters SharedCache::counters() const {
   const std::lock_guard lock(mutex_);
-  Figures figures = figures_;
-  figures.connections = open_;
-  return figures;
+  Counters counters = counters_;
+  counters.connections = open_;
+  return counters;
 }
 
 }  // namespace seedmesh

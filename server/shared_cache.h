@@ -41,10 +41,10 @@ class SharedCache {
 
   /// Counts since the start. `skips`: reads without a ready connection, and writes dropped by a full queue or a
   /// failing Redis.
-  struct Figures {
+  struct Counters {
     std::uint64_t hits = 0, misses = 0, writes = 0, errors = 0, skips = 0, connections = 0;
   };
-  Figures figures() const;
+  Counters counters() const;
 
  private:
   struct Close {
@@ -77,7 +77,7 @@ class SharedCache {
   std::size_t open_ = 0;  ///< ready and in use
   std::deque<Write> writes_;
   std::uint64_t queued_bytes_ = 0;
-  Figures figures_;
+  Counters counters_;
   bool failing_ = false;  ///< the last command or connection failed; limits the log to one report
   bool ending_ = false;
   std::thread thread_;

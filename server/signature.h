@@ -39,7 +39,7 @@ SignatureCheck check_signature(std::string_view target, const std::vector<Signin
 /// expire.
 std::string sign_target(std::string_view target, const SigningKey& key, std::optional<std::int64_t> expires);
 
-/// Digests of 32 bytes.
+/// Returns the SHA-256 digest, 32 bytes.
 std::string sha256(std::string_view bytes);
 std::string sha256(const Payload& payload);
 std::string hmac_sha256(std::string_view secret, std::string_view bytes);

@@ -26,7 +26,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
-using Kind = SourceAnswer::Kind;
+using Kind = SourceResponse::Kind;
 
 constexpr std::chrono::milliseconds signal_interval{100};  ///< between two looks for SIGINT and SIGTERM
 constexpr std::chrono::seconds lock_interval{1};  ///< between two writes of the lock file during a run
@@ -206,8 +206,8 @@ class SyncRun {
       return {Kind::refused, {}, {task.file->path + ":1:1: does not make " + task.output}, ""};
     const std::string path = path_in(options_.directory, folder_of(task.file->key) + task.output);
     const bool is_there = task.known && task.known->engine == engine && has_digest(path, task.known->sha256);
-    SourceAnswer answer = source_.make(output->request, is_there ? task.known->etag : "", threads_of_model(),
-                                       stop_.get_token());
+    SourceResponse answer = source_.make(output->request, is_there ? task.known->etag : "",
+                                         threads_of_model(), stop_.get_token());
     switch (answer.kind) {
       case Kind::same:
         return {Kind::same, *task.known, {}, ""};

@@ -5,8 +5,8 @@
 #include <new>
 
 #include "core/base/heap.h"
+#include "core/base/huge_page_cache.h"
 #include "core/base/pages.h"
-#include "core/base/reserve.h"
 
 namespace seedmesh {
 
@@ -54,7 +54,7 @@ Block& Block::operator=(Block&& other) noexcept {
 Block::~Block() {
   if (size_ == 0) return;
   release();
-  if (budget_) budget_->give_back(size_);
+  if (budget_) budget_->release(size_);
 }
 
 std::size_t Block::mapped_size(std::size_t bytes, Backing backing) {
@@ -93,7 +93,7 @@ void Block::release() {
     std::free(data_);
   } else {
     unmap_or_recycle(data_, mapped_size(size_, backing_));
-    if (budget_) budget_->give_back_slack(mapped_size(size_, backing_) - size_);
+    if (budget_) budget_->release_slack(mapped_size(size_, backing_) - size_);
   }
   backing_ = Backing::heap;
 }
@@ -107,7 +107,7 @@ void Block::change(std::size_t bytes) {
                 : backing_ != Backing::heap && backing != Backing::heap) {
     if (after > before) data_ = remap(data_, before, after);
     if (after < before) unmap_or_recycle(data_ + after, before - after);
-    if (budget_) budget_->give_back_slack(mapped_size(size_, backing_) - size_);
+    if (budget_) budget_->release_slack(mapped_size(size_, backing_) - size_);
   } else if (backing_ == backing && backing == Backing::heap) {
     data_ = heap(data_, bytes);
   } else {
@@ -134,7 +134,7 @@ void Block::resize(std::size_t bytes) {
   } else {
     change(bytes);
   }
-  if (bytes < before && budget_) budget_->give_back(before - bytes);
+  if (bytes < before && budget_) budget_->release(before - bytes);
   size_ = bytes;
 }
 

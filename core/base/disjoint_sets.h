@@ -28,7 +28,7 @@ class DisjointSets {
     return i;
   }
 
-  /// Joins two sets; false if both numbers are in one set already.
+  /// Joins the sets of two numbers. Returns false if both are in one set already.
   bool join(std::uint32_t a, std::uint32_t b) {
     a = of(a);
     b = of(b);

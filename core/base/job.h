@@ -50,25 +50,25 @@ class Stop : public std::exception {
   Issue issue_;
 };
 
-class Reserve;
+class HugePageCache;
 
 /// Counts the bytes of all arrays of one request. The arrays share it, because those of the finished model
 /// outlive the Job.
 class MemoryBudget {
  public:
-  explicit MemoryBudget(std::uint64_t limit, std::shared_ptr<Reserve> reserve = nullptr)
+  explicit MemoryBudget(std::uint64_t limit, std::shared_ptr<HugePageCache> reserve = nullptr)
       : limit_(limit), reserve_(std::move(reserve)) {}
   /// Returns the store that keeps the memory of big arrays for later requests; may be null.
-  Reserve* reserve() const { return reserve_.get(); }
+  HugePageCache* reserve() const { return reserve_.get(); }
   void take(std::uint64_t bytes);  ///< throws Stop before the limit is exceeded
-  void give_back(std::uint64_t bytes) { used_.fetch_sub(bytes, std::memory_order_relaxed); }
+  void release(std::uint64_t bytes) { used_.fetch_sub(bytes, std::memory_order_relaxed); }
   std::uint64_t used() const { return used_.load(std::memory_order_relaxed); }
   std::uint64_t peak() const { return peak_.load(std::memory_order_relaxed); }  ///< the most that was used
 
   /// Bytes that blocks leave empty at the ends of their last pages. Not counted as used.
   std::uint64_t slack() const { return slack_.load(std::memory_order_relaxed); }
   void take_slack(std::uint64_t bytes) { slack_.fetch_add(bytes, std::memory_order_relaxed); }
-  void give_back_slack(std::uint64_t bytes) { slack_.fetch_sub(bytes, std::memory_order_relaxed); }
+  void release_slack(std::uint64_t bytes) { slack_.fetch_sub(bytes, std::memory_order_relaxed); }
 
   /// From now on, large arrays take only the pages that they need. Once the request uses 8 MiB (saves_memory()), a
   /// freed array also returns its memory to the system, so that later arrays cause page faults again. Meant for
@@ -81,7 +81,7 @@ class MemoryBudget {
   std::atomic<std::uint64_t> used_{0}, peak_{0};
   std::atomic<bool> saves_memory_{false}, prefers_low_memory_{false};
   std::uint64_t limit_;
-  std::shared_ptr<Reserve> reserve_;
+  std::shared_ptr<HugePageCache> reserve_;
   std::atomic<std::uint64_t> slack_{0};
 };
 
@@ -96,7 +96,7 @@ class Job {
     int threads = 1;            ///< how many threads the work may use; never changes the result
     std::stop_token stop = {};  ///< set when the caller has gone or the service drains
     Clock::time_point deadline = Clock::time_point::max();
-    std::shared_ptr<Reserve> reserve = {};  ///< memory of earlier requests, for this and later ones
+    std::shared_ptr<HugePageCache> reserve = {};  ///< memory of earlier requests, for this and later ones
     Progress progress = {};  ///< called for each stage with a share 0..1, from one thread at a time
   };
 

@@ -14,7 +14,7 @@ constexpr bool can_map = false;
 constexpr std::size_t huge_page = 1, largest_page = 1;
 #endif
 
-/// Returns the smallest multiple of `to` that is at least `bytes`.
+/// Returns the smallest multiple of `to` that is at least `bytes`. `to` is greater than 0.
 constexpr std::size_t rounded(std::size_t bytes, std::size_t to) { return (bytes + to - 1) / to * to; }
 
 /// Maps `bytes` bytes, a multiple of the page size. Mappings of at least huge_page bytes are advised to use

@@ -13,7 +13,7 @@ namespace seedmesh {
 /// Calls body(begin, end, index) once for every chunk [index * chunk, min((index + 1) * chunk, count)). It
 /// uses at most job.threads() threads, and at most one for each core. The order of the calls is not defined.
 /// The first exception of a body (Stop) ends the loop and is rethrown to the caller; chunks that have not
-/// begun are left out. Runs on the caller alone where has_threads(job) is false.
+/// begun are left out. The calling thread runs all chunks if has_threads(job) is false.
 /// Cost: about 10 microseconds, and 0.1 ms until a sleeping thread helps.
 void parallel_for(const Job& job, std::size_t count, std::size_t chunk,
                   const std::function<void(std::size_t begin, std::size_t end, std::size_t index)>& body);

@@ -45,7 +45,7 @@ enum class IssueKind : std::uint8_t {
   internal,        ///< a defect of this program
 };
 
-/// "unknown_key" and so on: the name of the enumerator.
+/// Returns the name of the enumerator, such as "unknown_key".
 std::string_view word_of(IssueKind kind);
 
 /// What a limit is about. Job counts the first four while a request runs.
@@ -67,7 +67,7 @@ enum class Resource : std::uint8_t {
   steps,  ///< steps of loops that rules control: rule applications, matches, cells
 };
 
-/// "memory_bytes" and so on: the name of the enumerator.
+/// Returns the name of the enumerator, such as "memory_bytes".
 std::string_view word_of(Resource resource);
 
 struct Limit {
@@ -95,7 +95,7 @@ struct Issue {
   friend bool operator==(const Issue&, const Issue&) = default;
 };
 
-/// A remark on the request that does not refuse it.
+/// A remark about a request that is accepted all the same.
 struct Warning {
   std::string pointer;
   std::string message;

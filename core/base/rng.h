@@ -30,7 +30,7 @@ class Rng {
  public:
   explicit constexpr Rng(std::uint64_t key) : key_(key) {}
 
-  /// The stream of a request's seed.
+  /// Returns the stream for the seed of a request.
   static constexpr Rng of_seed(std::uint64_t seed) { return Rng(mix(seed ^ 0x5EED5EED5EED5EEDU)); }
 
   /// Returns a child stream, e.g. rng.at("limb").at(limb_index).

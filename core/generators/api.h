@@ -76,8 +76,8 @@ struct Generator {
   bool repeats_parts = false;  ///< repeats parts of one object; beyond 400 copies they are merged by material
   bool prefers_simplification =
       false;  ///< simplification fits a triangle budget better than a level of detail does
-  /// How a request gives its model its own levels of detail: appended to warnings about missing levels.
-  /// Empty: the model always has them, or never.
+  /// A sentence on how a request can give its model levels of detail. It is appended to warnings about missing levels.
+  /// Empty if models of the generator always have levels, or never.
   std::string_view own_levels = {};
 
   /// Reads JSON at `pointer` and adds what is wrong to `errors`. Always returns parameters: refused members

@@ -59,11 +59,13 @@ std::vector<std::string_view> names_in(std::string_view message) {
 }
 
 /// Whether an error is a conflict with the default of a member beside it: the schema has refused the value of that
-/// member, or its name is spelled wrongly.
+/// member, or its name is spelled wrongly. A missing member that only the default of a refused one needs counts too.
 bool is_conflict_with_default(const Issue& issue, const IssueList& errors) {
   constexpr std::size_t shortest = 5;  // shorter names are similar to too many words
-  if (issue.kind != IssueKind::conflict || errors.empty()) return false;
-  const std::string_view object = std::string_view(issue.pointer).substr(0, issue.pointer.rfind('/') + 1);
+  const bool is_missing = issue.kind == IssueKind::missing;
+  if ((issue.kind != IssueKind::conflict && !is_missing) || errors.empty()) return false;
+  const std::string object =
+      is_missing ? issue.pointer + "/" : issue.pointer.substr(0, issue.pointer.rfind('/') + 1);
   const std::vector<std::string_view> names = names_in(issue.message);
   std::vector<std::string_view> long_names;
   std::ranges::copy_if(names, std::back_inserter(long_names),
@@ -73,7 +75,7 @@ bool is_conflict_with_default(const Issue& issue, const IssueList& errors) {
     if (!at.starts_with(object) || at.find('/', object.size()) != std::string_view::npos) return false;
     const std::string_view member = at.substr(object.size());
     return std::ranges::find(names, member) != names.end() ||
-           (member.size() >= shortest && !schema::nearest_word(member, long_names).empty());
+           (!is_missing && member.size() >= shortest && !schema::nearest_word(member, long_names).empty());
   });
 }
 

@@ -35,11 +35,12 @@ Result<Model> generate_prepared(const Child& child, const std::string& pointer, 
                                 const GenerateContext& around, const Demand& demand,
                                 Generator::Prepared prepared);
 
-/// The same for the result of derive(). The pointers of its warnings stay relative to the child.
+/// Returns the result of derive() for the child, under the rules of generate_child(). The pointers of its warnings stay
+/// relative to the child.
 Result<Json> derive_child(const Child& child, const std::string& pointer, Rng stream,
                           const GenerateContext& around);
 
-/// The same for the appraisal.
+/// Returns the appraisal of the child, under the rules of generate_child().
 Result<Appraisal> appraise_child(const Child& child, const std::string& pointer, Rng stream,
                                  const GenerateContext& around);
 

@@ -107,7 +107,7 @@ void Bin::arrange(Packing packing) {
   std::iota(order_.begin(), order_.end(), std::size_t{0});
   std::stable_sort(order_.begin(), order_.end(),
                    [this](std::size_t a, std::size_t b) { return items_[a].pool < items_[b].pool; });
-  places_.resize(items_.size());
+  locations_.resize(items_.size());
   for (const std::size_t number : order_) {
     const Item& item = items_[number];
     const std::uint64_t bytes = item.slice.size();
@@ -119,7 +119,7 @@ void Bin::arrange(Packing packing) {
       if (target_of(item.pool) == array_buffer) views_.back().stride = stride_of(item.pool);
     }
     View& view = views_.back();
-    places_[number] = {static_cast<int>(views_.size()) - 1, size_ - view.offset};
+    locations_[number] = {static_cast<int>(views_.size()) - 1, size_ - view.offset};
     view.length = size_ - view.offset + bytes;
     size_ += bytes;
   }
@@ -129,7 +129,7 @@ void Bin::arrange(Packing packing) {
 std::vector<std::vector<Slice>> Bin::slices() const {
   std::vector<std::vector<Slice>> inside(views_.size());
   for (const std::size_t number : order_) {
-    inside[static_cast<std::size_t>(places_[number].view)].push_back(items_[number].slice);
+    inside[static_cast<std::size_t>(locations_[number].view)].push_back(items_[number].slice);
   }
   return inside;
 }

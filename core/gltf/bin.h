@@ -45,7 +45,7 @@ enum class Packing { aligned, tight };
 class Bin {
  public:
   /// The location of an array, for its accessor or image.
-  struct Place {
+  struct Location {
     int view = -1;
     std::uint64_t offset = 0;  ///< within the view; below 1 MiB
   };
@@ -65,7 +65,7 @@ class Bin {
   /// array is larger.
   void arrange(Packing packing = Packing::aligned);
 
-  Place place(int number) const { return places_[static_cast<std::size_t>(number)]; }
+  Location location(int number) const { return locations_[static_cast<std::size_t>(number)]; }
   const std::vector<View>& views() const { return views_; }
   std::uint64_t size() const { return size_; }  ///< a multiple of 4
 
@@ -86,7 +86,7 @@ class Bin {
     Slice slice;
   };
   std::vector<Item> items_;
-  std::vector<Place> places_;
+  std::vector<Location> locations_;
   std::vector<std::size_t> order_;  ///< numbers of the items in buffer order
   std::vector<View> views_;
   std::uint64_t size_ = 0;

@@ -13,11 +13,11 @@ namespace seedmesh::gltf {
 /// finite; -0 becomes 0. Does not depend on the locale.
 void append_number(std::string& out, float value);
 
-/// The same for a double: 22.521484375 and not 22.521484.
+/// Appends the shortest decimal that reads back as the same double: 22.521484375 and not 22.521484.
 void append_number(std::string& out, double value);
 
-/// The same, with at least one digit after the point. Numbers from 0.0001 to 1e15 have no exponent. This is
-/// the form in which nlohmann/json prints a double.
+/// Appends the same digits as append_number(float), with at least one digit after the point. Numbers from 0.0001 to
+/// 1e15 have no exponent. This is the form in which nlohmann/json prints a double.
 void append_decimal(std::string& out, float value);
 
 void append_integer(std::string& out, long long value);
@@ -68,8 +68,8 @@ class JsonWriter {
     value(given);
   }
 
-  /// Write an object or an array, whose members or values the argument writes. The forms without a name write a
-  /// value of a list, the others a member.
+  /// These functions write an object or an array; the argument is called to write its members or values. Functions
+  /// with a `name` write a member, the others a value of a list.
   template <class Members>
   void object(const Members& write_members) {
     open('{');

@@ -20,7 +20,7 @@ class Payload {
   void append(Payload other);  ///< adds all pieces of `other` at the end
   std::uint64_t size() const { return size_; }
   const std::vector<std::span<const std::byte>>& pieces() const { return pieces_; }
-  std::string text() const;  ///< all of it in one string; copies
+  std::string text() const;  ///< a copy of all bytes in one string
 
  private:
   std::vector<std::shared_ptr<const void>> owners_;

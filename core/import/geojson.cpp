@@ -215,6 +215,10 @@ class GeoJsonReader {
     }
     if (++positions_ % 1024 == 0) options_.check();
     p = {json[0].get<double>(), json[1].get<double>()};
+    if (!has_altitudes_ && json.size() > 2 && json[2].is_number() && json[2].get<double>() != 0) {
+      has_altitudes_ = true;
+      data_.warnings.add("altitudes of positions are left out; the map is flat", {0, pointer});
+    }
     constexpr double most = 1e8;
     if (!(std::abs(p.x) <= most && std::abs(p.y) <= most)) {
       report(IssueKind::out_of_range, pointer, "found a position beyond 100,000 km");
@@ -317,7 +321,7 @@ class GeoJsonReader {
   std::size_t positions_ = 0, features_ = 0;
   MapData data_;
   std::vector<Issue> issues_;
-  bool is_stated_ = false, is_beyond_degrees_ = false, is_plan_ = false;
+  bool is_stated_ = false, is_beyond_degrees_ = false, has_altitudes_ = false, is_plan_ = false;
 };
 
 /// Whether the lines of a text are features of their own, as GeoJSON text sequences (RFC 8142) and newline-delimited

@@ -67,7 +67,7 @@ class HoudiniReader {
         key.substr(0, 4) == "rule" &&
         std::all_of(key.begin() + static_cast<std::ptrdiff_t>(std::min<std::size_t>(4, key.size())),
                     key.end(), is_digit);
-    if (colon < line.to && key == "premise") {
+    if (colon < line.to && (key == "premise" || key == "axiom")) {
       if (premise_) source_.report(line.from, "found a second premise");
       premise_ = rest;
     } else if (colon < line.to && key == "contextignore") {

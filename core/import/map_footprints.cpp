@@ -67,7 +67,7 @@ std::vector<MapBody> bodies_of(MapConversion& map, const MapData& data, std::vec
     for (const std::vector<MapRing>& polygon : feature.polygons) {
       const std::vector<PlanRing> rings = map.outline(polygon, "a footprint", feature.position);
       if (rings.empty()) continue;
-      SoundPlans sound = sound_plans(rings, &map.job);
+      ValidPlans sound = valid_plans(rings, &map.job);
       if (sound.lost_holes > 0) {
         map.warnings.add("a courtyard crosses other edges of its footprint; it is left out",
                          feature.position);

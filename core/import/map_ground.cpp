@@ -254,7 +254,7 @@ class GroundWriter {
     for (const std::vector<MapRing>& polygon : feature.polygons) {
       const std::vector<PlanRing> rings = map_.outline(polygon, "an area", feature.position);
       if (rings.empty()) continue;
-      const SoundPlans sound = sound_plans(rings, &map_.job);
+      const ValidPlans sound = valid_plans(rings, &map_.job);
       if (sound.has_crossing) {
         map_.warnings.add("an area crosses itself; it is left out in part or whole", feature.position);
       } else if (sound.is_divided) {

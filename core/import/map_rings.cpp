@@ -126,7 +126,7 @@ std::size_t loop_around(const std::vector<PlanRing>& loops, std::size_t i) {
 bool has_errors(const Plan& plan, const Job* job) { return !defects_of(plan, job).empty(); }
 
 /// Adds the holes that lie in the outer ring. Those with errors become smaller, and are left out if that does not help.
-Plan with_holes(PlanRing outer, const std::vector<PlanRing>& holes, const Job* job, SoundPlans& made) {
+Plan with_holes(PlanRing outer, const std::vector<PlanRing>& holes, const Job* job, ValidPlans& made) {
   Plan plan = read_plan({std::move(outer)});
   Plan alone = plan;
   for (const PlanRing& hole : holes) {
@@ -163,8 +163,8 @@ Plan with_holes(PlanRing outer, const std::vector<PlanRing>& holes, const Job* j
 
 }  // namespace
 
-SoundPlans sound_plans(const std::vector<PlanRing>& rings, const Job* job) {
-  SoundPlans made;
+ValidPlans valid_plans(const std::vector<PlanRing>& rings, const Job* job) {
+  ValidPlans made;
   if (rings.empty()) return made;
   const PlanRing whole = clean(rings[0]);
   std::vector<PlanRing> loops, found = loops_of(whole);

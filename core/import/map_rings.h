@@ -7,7 +7,7 @@
 
 namespace seedmesh {
 
-struct SoundPlans {
+struct ValidPlans {
   std::vector<Plan> plans;     ///< none if the outer ring has no area or cannot be divided
   std::size_t lost_holes = 0;  ///< holes left out because of an error or their size
   bool is_divided = false;     ///< the outer ring crosses itself and is divided where it does
@@ -19,7 +19,7 @@ struct SoundPlans {
 /// the tip of a spike are left out. An outer ring that touches or crosses itself is divided there, by the
 /// nonzero winding rule. Holes that touch another ring become smaller by a centimetre. Cost: that of
 /// defects_of(). Checks stop and deadline if `job` is not null.
-SoundPlans sound_plans(const std::vector<PlanRing>& rings, const Job* job = nullptr);
+ValidPlans valid_plans(const std::vector<PlanRing>& rings, const Job* job = nullptr);
 
 /// Joins lines end to end to rings, without repeated first points. Adds the number of the lines that are left to `open`.
 std::vector<std::vector<glm::dvec2>> joined_rings(std::vector<std::vector<glm::dvec2>> lines,

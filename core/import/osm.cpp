@@ -38,7 +38,7 @@ class OsmXmlReader {
     if (const pugi::xml_node change = document.child("osmChange")) {
       return Error{
           Code::invalid,
-          {issue_at(IssueKind::not_available, "", text_, place_of(change).offset,
+          {issue_at(IssueKind::not_available, "", text_, location_of(change).offset,
                     "found a list of changes (<osmChange>), which is no map; expected the element <osm> "
                     "of OpenStreetMap")}};
     }
@@ -61,7 +61,7 @@ class OsmXmlReader {
       if (name == "bounds") read_bounds(element);
       if (name == "remark") {
         if (std::optional<Error> error =
-                stopped_query(file_, element.child_value(), place_of(element), text_)) {
+                stopped_query(file_, element.child_value(), location_of(element), text_)) {
           return *std::move(error);
         }
       }
@@ -71,14 +71,14 @@ class OsmXmlReader {
   }
 
  private:
-  static MapPosition place_of(const pugi::xml_node& element) {
+  static MapPosition location_of(const pugi::xml_node& element) {
     return {static_cast<std::size_t>(std::max<std::ptrdiff_t>(element.offset_debug(), 0)), ""};
   }
 
   void report(const pugi::xml_node& element, std::string message) {
     if (issues_.size() < most_errors) {
       issues_.push_back(
-          issue_at(IssueKind::invalid_value, "", text_, place_of(element).offset, std::move(message)));
+          issue_at(IssueKind::invalid_value, "", text_, location_of(element).offset, std::move(message)));
     }
   }
 
@@ -117,9 +117,9 @@ class OsmXmlReader {
 
   void read_node(const pugi::xml_node& element) {
     OsmNode node;
-    node.place = place_of(element);
+    node.location = location_of(element);
     if (!element.attribute("lon") && !element.attribute("lat")) {
-      file_.warnings.add("a node without a position is left out", node.place);
+      file_.warnings.add("a node without a position is left out", node.location);
       return;
     }
     if (!attribute(element, "id", node.id) || !position(element, node.position)) return;
@@ -151,7 +151,7 @@ class OsmXmlReader {
     }
     way.inline_points = inline_points(element);
     way.tags = tags_of(element);
-    way.place = place_of(element);
+    way.location = location_of(element);
     file_.ways.push_back(std::move(way));
   }
 
@@ -167,7 +167,7 @@ class OsmXmlReader {
       relation.members.push_back(std::move(member));
     }
     relation.tags = tags_of(element);
-    relation.place = place_of(element);
+    relation.location = location_of(element);
     file_.relations.push_back(std::move(relation));
   }
 

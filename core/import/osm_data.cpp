@@ -119,7 +119,7 @@ class Assembler {
     if (node.tags.all().empty()) return;
     MapFeature feature;
     feature.name = "node/" + std::to_string(node.id);
-    feature.position = node.place;
+    feature.position = node.location;
     feature.tags = node.tags;
     feature.points.push_back(node.position);
     features_.push_back(std::move(feature));
@@ -131,10 +131,10 @@ class Assembler {
     warn(
         "an element has no geometry but a centre (`out center`), which is its position; `out geom` gives "
         "outlines",
-        element.place);
+        element.location);
     MapFeature feature;
     feature.name = type + std::to_string(element.id);
-    feature.position = element.place;
+    feature.position = element.location;
     feature.tags = element.tags;
     feature.points.push_back(*element.center);
     features_.push_back(std::move(feature));
@@ -150,12 +150,12 @@ class Assembler {
     const bool wants_area = is_area(way.tags);
     MapFeature feature;
     feature.name = "way/" + std::to_string(way.id);
-    feature.position = way.place;
+    feature.position = way.location;
     feature.tags = way.tags;
     if (read.missing > 0) {
       warn(wants_area ? "an area refers to nodes that the file lacks; it is left out"
                       : "a line refers to nodes that the file lacks; it ends there",
-           way.place);
+           way.location);
     }
     if (wants_area && is_closed && read.missing == 0) {
       read.runs[0].pop_back();
@@ -166,7 +166,7 @@ class Assembler {
       }
       if (feature.lines.empty()) return;
     } else if (wants_area && read.missing == 0) {
-      warn("an area is not closed; it is left out", way.place);
+      warn("an area is not closed; it is left out", way.location);
       return;
     } else {
       return;
@@ -230,10 +230,11 @@ class Assembler {
     MapTags tags = tags_of(relation);
     if (tags.is("boundary", "administrative")) return;
     Lines lines = lines_of(relation, tags);
-    if (lines.missing > 0) warn("a multipolygon refers to ways or nodes that the file lacks", relation.place);
+    if (lines.missing > 0)
+      warn("a multipolygon refers to ways or nodes that the file lacks", relation.location);
     MapFeature feature;
     feature.name = "relation/" + std::to_string(relation.id);
-    feature.position = relation.place;
+    feature.position = relation.location;
     feature.tags = std::move(tags);
     std::size_t open = 0;
     std::vector<MapRing> outer = joined_rings(std::move(lines.outer), open),
@@ -241,7 +242,7 @@ class Assembler {
     if (lines.has_unknown) take_inner(outer, inner);
     for (MapRing& ring : outer) feature.polygons.push_back({std::move(ring)});
     for (MapRing& ring : inner) add_hole(feature, std::move(ring));
-    if (open > 0) warn("a ring of a multipolygon is not closed; it is left out", relation.place);
+    if (open > 0) warn("a ring of a multipolygon is not closed; it is left out", relation.location);
     if (!feature.polygons.empty()) features_.push_back(std::move(feature));
   }
 
@@ -264,10 +265,10 @@ class Assembler {
     for (MapRing& ring : joined_rings(std::move(lines), open)) feature.polygons.push_back({std::move(ring)});
     if (feature.polygons.empty()) {
       return warn("a relation `building` refers to an outline that the file lacks; it is left out",
-                  relation.place);
+                  relation.location);
     }
     feature.name = "relation/" + std::to_string(relation.id);
-    feature.position = relation.place;
+    feature.position = relation.location;
     feature.tags = relation.tags;
     features_.push_back(std::move(feature));
   }

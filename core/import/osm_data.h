@@ -25,7 +25,7 @@ struct OsmNode {
   std::int64_t id = 0;
   glm::dvec2 position{0};  ///< longitude and latitude in degrees
   MapTags tags;
-  MapPosition place;
+  MapPosition location;
 };
 
 struct OsmWay {
@@ -35,7 +35,7 @@ struct OsmWay {
       inline_points;                 ///< of `out geom`: by node, or unknown; empty: the nodes are elements
   std::optional<glm::dvec2> center;  ///< of `out center`
   MapTags tags;
-  MapPosition place;
+  MapPosition location;
 };
 
 struct OsmMember {
@@ -49,7 +49,7 @@ struct OsmRelation {
   std::vector<OsmMember> members;    ///< its ways
   std::optional<glm::dvec2> center;  ///< of `out center`
   MapTags tags;
-  MapPosition place;
+  MapPosition location;
 };
 
 struct OsmFile {

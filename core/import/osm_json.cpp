@@ -150,9 +150,9 @@ class OsmJsonReader {
 
   void read_node(const Json& json, const std::string& pointer) {
     OsmNode node;
-    node.place.pointer = pointer;
+    node.location.pointer = pointer;
     if (!json.contains("lon") && !json.contains("lat")) {
-      file_.warnings.add("a node without a position is left out", node.place);
+      file_.warnings.add("a node without a position is left out", node.location);
       return;
     }
     if (!identity(json, "id", pointer, node.id) || !position(json, pointer, node.position)) return;
@@ -172,7 +172,7 @@ class OsmJsonReader {
     way.inline_points = geometry_of(json, pointer);
     way.center = center_of(json, pointer);
     way.tags = tags_of(json);
-    way.place.pointer = pointer;
+    way.location.pointer = pointer;
     file_.ways.push_back(std::move(way));
   }
 
@@ -195,7 +195,7 @@ class OsmJsonReader {
     }
     relation.center = center_of(json, pointer);
     relation.tags = tags_of(json);
-    relation.place.pointer = pointer;
+    relation.location.pointer = pointer;
     file_.relations.push_back(std::move(relation));
   }
 

@@ -9,6 +9,22 @@ namespace {
 
 constexpr int deepest = 100;  ///< nested braces
 
+/// Plans that replace the mesh. The other operations of the rule stand in the braces behind them. The widths of ShapeML are
+/// those at the back and on the left (L), on the right (U), and left, horizontal, right, and the position (H).
+struct ShapemlPlan {
+  std::string_view name;
+  std::size_t arguments;
+  std::string_view rules, end;
+};
+constexpr ShapemlPlan plans[] = {
+    {"shapeL", 2, "primitiveQuad() shapeO(0, 0, $1, $2) { shape :", " }"},
+    {"shapeU", 3, "primitiveQuad() shapeO(0, $3, $1, $2) { shape :", " }"},
+    {"shapeH", 4,
+     "primitiveQuad() shapeO(0, $3, ($4) * (scope.sz - ($2)) + ($2), $1) { shape : shapeO($2, $3, 0, $1) { "
+     "shape :",
+     " } }"},
+};
+
 }  // namespace
 
 using lang::Token;
@@ -30,6 +46,14 @@ void ShapemlReader::operations(std::size_t from, std::size_t to, int depth) {
       error(i, "found " + in_quotes(token) + ", expected an operation or the name of a rule" +
                    (is(i, "^") ? "; no operations have this name" : ""));
       i = behind;
+    } else if (const auto plan = std::ranges::find(plans, token.text, &ShapemlPlan::name);
+               plan != std::end(plans) && arguments(i).size() == plan->arguments) {
+      write_as(i, plan->rules, arguments(i));
+      i = behind;
+      while (i < to && !is(i, "]")) i = is(i, "(") || is(i, "{") || is(i, "[") ? partner_[i] + 1 : i + 1;
+      i = std::min(i, to);
+      whole(behind, i, depth + 1);
+      rules_.write(plan->end, at(i).offset);
     } else {
       step(i, depth);
       i = behind;

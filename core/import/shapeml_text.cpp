@@ -29,6 +29,10 @@ std::string without_comments_of(std::string_view text) {
   return out;
 }
 
+std::string_view closing_of(std::string_view opening) {
+  return opening == "(" ? ")" : opening == "{" ? "}" : "]";
+}
+
 }  // namespace
 
 ShapemlText::ShapemlText(ForeignText& source) : source_(source), text_(without_comments_of(source.text())) {
@@ -51,10 +55,17 @@ ShapemlText::ShapemlText(ForeignText& source) : source_(source), text_(without_c
   std::vector<std::size_t> open;
   for (std::size_t i = 0; i < tokens_.size(); ++i) {
     if (is(i, "(") || is(i, "{") || is(i, "[")) open.push_back(i);
-    if ((is(i, ")") || is(i, "}") || is(i, "]")) && !open.empty()) {
-      partner_[open.back()] = i;
-      open.pop_back();
-    }
+    if (!is(i, ")") && !is(i, "}") && !is(i, "]")) continue;
+    const bool fits = !open.empty() && closing_of(at(open.back()).text) == at(i).text;
+    if (!fits && source_.error_count() == 0)
+      error(i, "found " + in_quotes(at(i)) + " without its opening bracket");
+    if (open.empty()) continue;
+    partner_[open.back()] = i;
+    open.pop_back();
+  }
+  if (!open.empty() && source_.error_count() == 0) {
+    error(open.back(), "found " + in_quotes(at(open.back())) + " without its `" +
+                           std::string(closing_of(at(open.back()).text)) + "`");
   }
 }
 

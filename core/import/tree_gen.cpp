@@ -5,12 +5,12 @@
 ///   {'shape': '7', 'scale': 13.0, 'branches': (0, 50, 30, 10), ...}     Sapling
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <optional>
 #include <set>
 #include <span>
 
+#include "core/import/dictionary.h"
 #include "core/import/formats.h"
 #include "core/import/weber_penn_species.h"
 #include "core/lang/lexer.h"
@@ -18,138 +18,10 @@
 namespace seedmesh {
 namespace {
 
-constexpr std::size_t most_values = 10'000;
-
-/// A value of the dictionary: numbers (True is 1), one without brackets.
-struct Entry {
-  std::string name;
-  std::size_t name_at = 0;
-  std::vector<double> numbers;
-  std::vector<std::size_t> at;  ///< of the numbers
-  bool is_list = false;
-};
-
-/// Reads the dictionary. Texts count as the number that they hold, or as nothing.
-class DictionaryReader {
- public:
-  explicit DictionaryReader(ForeignText& source) : source_(source), text_(source.text()) {}
-
-  std::vector<Entry> read() {
-    std::vector<Entry> entries;
-    at_ = open_of_dictionary();
-    if (at_ == text_.size()) {
-      source_.report(0, "found no dictionary; expected `{'shape': 7, ...}`");
-      return entries;
-    }
-    ++at_;
-    for (skip(); at_ < text_.size() && text_[at_] != '}' && entries.size() < most_values; skip()) {
-      Entry entry;
-      entry.name_at = at_;
-      const std::optional<std::string> name = quoted();
-      skip();
-      if (!name || at_ == text_.size() || text_[at_] != ':') {
-        source_.report(entry.name_at, "expected a name in quotes and a colon, such as `'shape': 7`");
-        return entries;
-      }
-      ++at_;
-      entry.name = *name;
-      if (!value(entry)) return entries;
-      entries.push_back(std::move(entry));
-      skip();
-      if (at_ < text_.size() && text_[at_] == ',') ++at_;
-    }
-    if (at_ >= text_.size()) source_.report(text_.size(), "found `{` without its `}`");
-    return entries;
-  }
-
- private:
-  /// The first brace outside of texts and comments.
-  std::size_t open_of_dictionary() {
-    at_ = 0;
-    while (at_ < text_.size()) {
-      const char c = text_[at_];
-      if (c == '{') return at_;
-      if (c == '#') {
-        at_ = std::min(text_.find('\n', at_), text_.size());
-      } else if (c == '"' || c == '\'') {
-        if (!quoted()) ++at_;
-      } else {
-        ++at_;
-      }
-    }
-    return at_;
-  }
-
-  void skip() {
-    while (at_ < text_.size() && (is_blank(text_[at_]) || text_[at_] == '#')) {
-      if (text_[at_] == '#') {
-        at_ = std::min(text_.find('\n', at_), text_.size());
-      } else {
-        ++at_;
-      }
-    }
-  }
-
-  /// A text in one or three quotes of either kind.
-  std::optional<std::string> quoted() {
-    if (at_ == text_.size() || (text_[at_] != '"' && text_[at_] != '\'')) return std::nullopt;
-    const std::string three(3, text_[at_]);
-    const std::string mark = text_.substr(at_, 3) == three ? three : three.substr(0, 1);
-    const std::size_t end = text_.find(mark, at_ + mark.size());
-    if (end == std::string_view::npos) return std::nullopt;
-    const std::string inside(text_.substr(at_ + mark.size(), end - at_ - mark.size()));
-    at_ = end + mark.size();
-    return inside;
-  }
-
-  bool value(Entry& entry) {
-    skip();
-    const char open = at_ < text_.size() ? text_[at_] : ' ';
-    entry.is_list = open == '[' || open == '(';
-    if (!entry.is_list) return number(entry);
-    const char close = open == '[' ? ']' : ')';
-    ++at_;
-    for (skip(); at_ < text_.size() && text_[at_] != close && entry.numbers.size() < most_values; skip()) {
-      if (!number(entry)) return false;
-      skip();
-      if (at_ < text_.size() && text_[at_] == ',') ++at_;
-    }
-    if (at_ == text_.size()) source_.report(entry.name_at, "found a list without its end");
-    ++at_;
-    return at_ <= text_.size();
-  }
-
-  bool number(Entry& entry) {
-    const std::size_t begin = at_;
-    std::string word;
-    if (std::optional<std::string> text = quoted()) {
-      word = *text;
-    } else {
-      while (at_ < text_.size() && (is_letter(text_[at_]) || is_digit(text_[at_]) || text_[at_] == '.' ||
-                                    text_[at_] == '-' || text_[at_] == '+' || text_[at_] == '_'))
-        ++at_;
-      word = text_.substr(begin, at_ - begin);
-      if (word.empty()) {
-        source_.report(begin, "expected a number, a text or a list");
-        return false;
-      }
-    }
-    double found = word == "True" ? 1 : 0;
-    const bool is_word =
-        word == "True" || word == "False" || word == "None" || text_[begin] == '\'' || text_[begin] == '"';
-    const auto read = std::from_chars(word.data(), word.data() + word.size(), found);
-    if (!is_word && (read.ec != std::errc() || !std::isfinite(found))) {
-      source_.report(begin, "found " + lang::in_quotes(word) + ", expected a number");
-      return false;
-    }
-    entry.numbers.push_back(std::isfinite(found) ? found : 0);
-    entry.at.push_back(begin);
-    return true;
-  }
-
-  ForeignText& source_;
-  std::string_view text_;
-  std::size_t at_ = 0;
+/// A number of the dictionary and its position.
+struct Member {
+  double value = 0;
+  std::size_t at = 0;
 };
 
 struct Row {
@@ -210,10 +82,15 @@ constexpr Row of_branches[] = {
     {"downAngleV", "DownAngleV"}, {"rotate", "Rotate"},       {"rotate_v", "RotateV"},
     {"rotateV", "RotateV"},       {"branches", "Branches"},   {"branch_dist", "Whorl"}};
 /// What does not change the tree: how it is shown and saved, and flowers, whose rate alone decides.
-constexpr const char* silent[] = {"bevel",      "bevelRes",    "resU",       "handleType",    "showLeaves",
-                                  "makeMesh",   "armAnim",     "previewArm", "useArm",        "chooseSet",
-                                  "presetName", "limitImport", "overwrite",  "blossom_shape", "blossom_scale",
-                                  "prune",      "closeTip",    "leaf_name",  "name"};
+constexpr const char* silent[] = {
+    "bevel",         "bevelRes", "resU",      "handleType", "showLeaves",  "makeMesh",       "armAnim",
+    "previewArm",    "useArm",   "chooseSet", "presetName", "limitImport", "overwrite",      "blossom_shape",
+    "blossom_scale", "prune",    "closeTip",  "leaf_name",  "name",        "useOldDownAngle"};
+/// Factors and exponents of which 1 changes nothing.
+constexpr const char* neutral_at_one[] = {"radius_mod", "radiusTweak", "rootFlare", "branchDist"};
+/// Names that only Sapling has.
+constexpr const char* of_sapling[] = {"ratioPower", "curveRes",  "baseSize",
+                                      "scaleV",     "downAngle", "handleType"};
 /// The shapes of leaves by tree-gen's numbers.
 constexpr std::array<const char*, 11> leaf_shapes = {"simple", "simple",  "willow", "cordate",
                                                      "maple",  "palmate", "lobed",  "lobed",
@@ -230,12 +107,18 @@ class TreeGenReader {
   explicit TreeGenReader(ForeignText& source) : source_(source), species_(source) {}
 
   Imported read() {
-    const std::vector<Entry> entries = DictionaryReader(source_).read();
-    for (const Entry& each : entries) {
+    const std::vector<DictionaryEntry> entries = read_dictionary(source_);
+    for (const DictionaryEntry& each : entries) {
       names_.insert(each.name);
       if (each.name == "prune" && !each.numbers.empty()) prunes_ = each.numbers[0] != 0;
     }
-    for (const Entry& each : entries) entry(each);
+    is_sapling_ = std::any_of(std::begin(of_sapling), std::end(of_sapling),
+                              [&](const char* name) { return names_.contains(name); });
+    if (is_sapling_ && !names_.contains("prune")) prunes_ = false;
+    for (const DictionaryEntry& each : entries) {
+      if (!(is_sapling_ && is_of_sapling(each))) entry(each);
+    }
+    if (is_sapling_) set_sapling(entries);
     if (!names_.contains("shape")) source_.report(0, "found no member `shape`, which every species has");
     set_defaults();
     Imported imported = species_.made(seed_);
@@ -246,7 +129,7 @@ class TreeGenReader {
   }
 
  private:
-  void entry(const Entry& each) {
+  void entry(const DictionaryEntry& each) {
     const bool is_single = !each.is_list && each.numbers.size() == 1;
     if (const char* ours = find(of_tree, each.name); ours && is_single) {
       const bool is_off = each.name == "pruneRatio" && !prunes_;
@@ -255,7 +138,7 @@ class TreeGenReader {
     if (const char* ours = find(of_levels, each.name); ours && each.is_list) return set_levels(each, ours, 0);
     if (const char* ours = find(of_branches, each.name); ours && each.is_list)
       return set_levels(each, ours, 1);
-    if (each.name == "base_size" || each.name == "baseSize" || each.name == "baseSize_s") {
+    if (each.name == "base_size") {
       base_size(each);
     } else if (each.name == "floor_splits" && is_single) {
       set_trunks(each.numbers[0] + 1, each.at[0]);
@@ -272,14 +155,13 @@ class TreeGenReader {
       seed_ = static_cast<std::uint64_t>(std::min(each.numbers[0], 9e15));
     } else if (each.name == "showLeaves" && is_single) {
       shows_leaves_ = each.numbers[0] != 0;
-    } else if (std::find(std::begin(silent), std::end(silent), each.name) == std::end(silent) &&
-               std::any_of(each.numbers.begin(), each.numbers.end(), [](double x) { return x != 0; })) {
+    } else if (changes_the_tree(each)) {
       source_.warn(each.name_at, lang::in_quotes(shortened(each.name, 40)) + " has no counterpart");
     }
   }
 
-  void set_levels(const Entry& each, const std::string& ours, std::size_t first) {
-    if (ours == "Branches" && !each.numbers.empty() && each.numbers[0] > 1)
+  void set_levels(const DictionaryEntry& each, const std::string& ours, std::size_t first) {
+    if (ours == "Branches" && !is_sapling_ && !each.numbers.empty() && each.numbers[0] > 1)
       set_trunks(each.numbers[0], each.at[0]);
     for (std::size_t i = first; i < each.numbers.size() && i < 4; ++i) {
       double value = each.numbers[i];
@@ -289,11 +171,70 @@ class TreeGenReader {
     }
   }
 
-  void base_size(const Entry& each) {
-    for (std::size_t i = 0; i < each.numbers.size() && i < 4; ++i) {
-      const std::size_t level = each.name == "baseSize_s" ? 1 : i;
-      species_.set(level == 0 ? "BaseSize" : std::to_string(level) + "BaseSize", each.numbers[i], each.at[i]);
+  static bool changes_the_tree(const DictionaryEntry& each) {
+    const auto is_in = [&](const auto& names) {
+      return std::find(std::begin(names), std::end(names), each.name) != std::end(names);
+    };
+    const double neutral = is_in(neutral_at_one) ? 1 : 0;
+    return !is_in(silent) && std::any_of(each.numbers.begin(), each.numbers.end(),
+                                         [neutral](double x) { return x != neutral; });
+  }
+
+  void base_size(const DictionaryEntry& each) {
+    for (std::size_t i = 0; i < each.numbers.size() && i < 4; ++i)
+      species_.set(i == 0 ? "BaseSize" : std::to_string(i) + "BaseSize", each.numbers[i], each.at[i]);
+  }
+
+  /// Members that set_sapling() reads.
+  static bool is_of_sapling(const DictionaryEntry& each) {
+    constexpr const char* names[] = {"baseSize",      "baseSize_s",     "downAngle",  "downAngleV",
+                                     "leafDownAngle", "leafDownAngleV", "leafRotate", "leafRotateV"};
+    return std::find(std::begin(names), std::end(names), each.name) != std::end(names);
+  }
+
+  void set_sapling(const std::vector<DictionaryEntry>& entries) {
+    const auto member = [&](std::string_view name, std::size_t i) -> std::optional<Member> {
+      const auto found = std::ranges::find(entries, name, &DictionaryEntry::name);
+      if (found == entries.end() || i >= found->numbers.size()) return std::nullopt;
+      return Member{found->numbers[i], found->at[i]};
+    };
+    const int levels = static_cast<int>(std::clamp(species_.value("Levels", 3), 0.0, 9.0));
+    // Each level has the share `baseSize_s` of the base of the level before, and the last level has none.
+    if (auto base = member("baseSize", 0)) {
+      species_.set("BaseSize", base->value, base->at);
+      const std::optional<Member> factor = member("baseSize_s", 0);
+      for (int level = 1; factor && level + 1 < levels && level < 4; ++level) {
+        base->value *= factor->value;
+        species_.set(std::to_string(level) + "BaseSize", base->value, factor->at);
+      }
     }
+    const auto is_old = member("useOldDownAngle", 0);
+    for (int level = 1; level < 4; ++level) {
+      const bool is_of_leaves = level == levels && names_.contains("leafDownAngle");
+      const std::size_t i = is_of_leaves ? 0 : static_cast<std::size_t>(level);
+      const std::string n = std::to_string(level);
+      set_down_angles(n, member(is_of_leaves ? "leafDownAngle" : "downAngle", i),
+                      member(is_of_leaves ? "leafDownAngleV" : "downAngleV", i),
+                      is_of_leaves || (is_old && is_old->value == 0));
+      if (!is_of_leaves) continue;
+      if (const auto turn = member("leafRotate", 0)) species_.replace(n + "Rotate", turn->value, turn->at);
+      if (const auto spread = member("leafRotateV", 0))
+        species_.replace(n + "RotateV", spread->value, spread->at);
+    }
+  }
+
+  /// Newer versions of Sapling have other signs: a negative variation is random, and a positive one is subtracted
+  /// toward the tip of the parent. Weber and Penn's formula goes from D + |V| at the base to D - 0.6 |V| at the tip.
+  void set_down_angles(const std::string& level, std::optional<Member> down, std::optional<Member> variation,
+                       bool is_new) {
+    if (is_new && variation && variation->value < 0) {
+      variation->value = -variation->value;
+    } else if (is_new && variation) {
+      variation->value /= -1.6;
+      if (down) down->value += variation->value;
+    }
+    if (down) species_.set(level + "DownAngle", down->value, down->at);
+    if (variation) species_.set(level + "DownAngleV", variation->value, variation->at);
   }
 
   void set_trunks(double count, std::size_t at) {
@@ -303,24 +244,31 @@ class TreeGenReader {
 
   void set_defaults() {
     species_.set_default("Lobes", 0);
-    if (trunks_ <= 1) return set_flare();
+    species_.set_default("LeafBend", 0);
+    if (is_sapling_) {
+      species_.set_default("AttractionUp", 0);
+      species_.set_default("Flare", 0);
+    } else {
+      species_.set_default("BaseSize", 0.3);
+      for (const char* name : {"1BaseSize", "2BaseSize", "3BaseSize"}) species_.set_default(name, 0.02);
+      species_.set_default("0CurveRes", 5);
+      if (species_.value("0SegSplits", 0) != 0 || species_.value("0BaseSplits", 0) != 0) {
+        species_.set_default("0SplitAngle", 40);
+        species_.set_default("0SplitAngleV", 5);
+      }
+    }
+    if (trunks_ <= 1) return;
     // Trunks stand within a circle, whose radius follows from their number and thickness.
     species_.set("0Branches", trunks_, trunks_at_);
     const double thickness = std::max(0.0, species_.value("Scale", 13) * species_.value("Ratio", 0.015));
     species_.set_default("0BranchDist", std::sqrt(std::min(trunks_, 1e3) / 2.5 * std::min(thickness, 1e3)));
-    set_flare();
-  }
-
-  /// Sapling's trees have none.
-  void set_flare() {
-    if (!names_.contains("flare")) species_.set_default("Flare", 0);
   }
 
   ForeignText& source_;
   WeberPennSpecies species_;
   std::set<std::string> names_;
   std::uint64_t seed_ = 0;
-  bool shows_leaves_ = true, prunes_ = true;
+  bool shows_leaves_ = true, prunes_ = true, is_sapling_ = false;
   double trunks_ = 1;
   std::size_t trunks_at_ = 0;
   std::string leaf_;

@@ -18,6 +18,9 @@ class WeberPennSpecies {
   /// Sets a parameter unless the file has set it.
   void set_default(const std::string& name, double value) { values_.emplace(name, Value{value, none}); }
 
+  /// Sets a value in the place of one that the file has for it.
+  void replace(const std::string& name, double value, std::size_t at) { values_[name] = {value, at}; }
+
   /// Returns the value of a parameter; `otherwise` where the file has none.
   double value(const std::string& name, double otherwise) const {
     const auto found = values_.find(name);

@@ -146,6 +146,13 @@ void unpack(ImportInput& question, std::string& main, const Job& job) {
   question.text = main;
 }
 
+/// Whether the text is UTF-16, by its byte order mark or by the zero bytes of its first two characters.
+bool is_utf16(std::string_view text) {
+  if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF")) return true;
+  return text.size() >= 4 && (text[0] == '\0') != (text[1] == '\0') &&
+         (text[0] == '\0') == (text[2] == '\0') && (text[1] == '\0') == (text[3] == '\0');
+}
+
 }  // namespace
 
 static Result<ImportedRequest> import_within(const ImportInput& asked, const Job::Options& options,
@@ -155,6 +162,18 @@ static Result<ImportedRequest> import_within(const ImportInput& asked, const Job
   unpack(question, main, job);
   constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
   if (question.text.starts_with(byte_order_mark)) question.text.remove_prefix(byte_order_mark.size());
+  if (is_utf16(question.text)) {
+    return Error{
+        Code::malformed,
+        {{IssueKind::syntax, "", "found text in UTF-16, expected UTF-8; save the file as UTF-8", 1, 1}}};
+  }
+  std::string lines;
+  if (question.text.find('\n') == std::string_view::npos &&
+      question.text.find('\r') != std::string_view::npos) {
+    lines = question.text;  // of the old Mac OS
+    std::replace(lines.begin(), lines.end(), '\r', '\n');
+    question.text = lines;
+  }
   const ImportFormat* format =
       question.format.empty() ? likeliest_format(question.text) : find_import_format(question.format);
   std::string clean;

@@ -163,8 +163,9 @@ void check_links(const OutputParams& output, IssueList& errors) {
          "found " + std::string(text_of(output.image_format)) + "; linked textures are PNG, expected png"});
   }
   if (output.impostor) {
-    errors.add({IssueKind::conflict, "/output/textures",
-                "found links and an impostor, which is drawn of the textures; expected their size, as 512"});
+    errors.add(
+        {IssueKind::conflict, "/output/textures",
+         "found links and an impostor, whose texture shows the other textures; expected a size such as 512"});
   }
 }
 
@@ -173,7 +174,7 @@ void check_output(const OutputParams& output, std::uint64_t seed, IssueList& err
   const auto* size = std::get_if<std::int32_t>(&output.textures);
   if (size && !std::has_single_bit(static_cast<std::uint32_t>(*size)) && !errors.covers("/output/textures")) {
     errors.add({IssueKind::invalid_value, "/output/textures",
-                "found " + std::to_string(*size) + "; expected a power of two, as 512"});
+                "found " + std::to_string(*size) + "; expected a power of two, such as 512"});
   }
   const auto more = static_cast<std::uint64_t>(output.variants - 1);
   if (seed + more < seed) {

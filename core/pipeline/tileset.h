@@ -56,7 +56,8 @@ std::uint32_t tiles_of(int levels);
 /// without holes.
 std::string bare_subtree(const Address& root, int levels);
 
-/// The same with the box and the error of each tile as metadata (TILE_BOUNDING_BOX, TILE_GEOMETRIC_ERROR).
+/// Returns such a subtree with the box and the error of each tile as metadata (TILE_BOUNDING_BOX,
+/// TILE_GEOMETRIC_ERROR).
 std::string subtree(const Address& root, int levels, const BoundsOf& bounds_of);
 
 }  // namespace seedmesh::tiles

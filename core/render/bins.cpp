@@ -25,7 +25,7 @@ std::uint32_t triangles_of(const Drawing& drawing) {
 
 /// The triangles of a drawing in short runs, the nearest first, so that most of what is hidden is drawn last. Neighbours
 /// stay together.
-std::vector<Run> runs_of(const Shown& shown, const Drawing& drawing, std::uint32_t count) {
+std::vector<Run> runs_of(const ProjectedScene& shown, const Drawing& drawing, std::uint32_t count) {
   constexpr std::uint32_t length = 64, worth_sorting = 512;
   const bool is_ordered = shown.scene.surfaces[drawing.surface].blends;
   if (is_ordered || count < worth_sorting || shown.vertices.empty()) return {{0, 0, count}};
@@ -61,7 +61,7 @@ std::vector<std::uint32_t> list_begins(const Array<Drawing>& drawings) {
 
 }  // namespace
 
-Sides sides_of(const Shown& shown, const Drawing& drawing) {
+Sides sides_of(const ProjectedScene& shown, const Drawing& drawing) {
   const Surface& surface = shown.scene.surfaces[drawing.surface];
   if (surface.both_sides || surface.blends) return Sides::both;
   // The rows of a map run upwards, those of pictures downwards.
@@ -70,7 +70,7 @@ Sides sides_of(const Shown& shown, const Drawing& drawing) {
                                                                         : Sides::front;
 }
 
-Bins::Bins(const Shown& shown, bool blending, std::uint32_t height, const Job& job)
+Bins::Bins(const ProjectedScene& shown, bool blending, std::uint32_t height, const Job& job)
     : height_(height), size_(shown.eye.size()), bands_((shown.eye.size() + height - 1) / height) {
   const Array<Drawing>& drawings = shown.scene.drawings;
   const std::vector<std::uint32_t> begins = list_begins(drawings);

@@ -10,7 +10,7 @@ namespace seedmesh::render {
 
 /// The sides of triangles that are drawn.
 enum class Sides { both, front, front_of_mirrored };
-Sides sides_of(const Shown& shown, const Drawing& drawing);
+Sides sides_of(const ProjectedScene& shown, const Drawing& drawing);
 
 /// A projected triangle, with its corners in the order of Cover.
 struct Triangle {
@@ -22,8 +22,8 @@ struct Triangle {
 
 /// Reads the corners of triangle `number` of a drawing, and sets its box. Returns false if the triangle covers no
 /// sample of the rows or is left out. Does not set the edges.
-inline bool take(Triangle& t, const Shown& shown, const Drawing& drawing, const Lens& lens, Sides sides,
-                 const Rows& rows) {
+inline bool take(Triangle& t, const ProjectedScene& shown, const Drawing& drawing, const Lens& lens,
+                 Sides sides, const Rows& rows) {
   Cover& c = t.cover;
   for (std::size_t i = 0; i < 3; ++i) {
     t.vertex[i] = drawing.mesh->index.at(std::size_t{3} * t.number + i);
@@ -56,7 +56,7 @@ class Bins {
  public:
   /// Sorts the triangles of all drawings whose surface blends, or of those whose surface does not, into bands of `height`
   /// rows. Drawings stay in order. In drawings that do not blend, near triangles come first. Cost: about 20 ns a triangle.
-  Bins(const Shown& shown, bool blending, std::uint32_t height, const Job& job);
+  Bins(const ProjectedScene& shown, bool blending, std::uint32_t height, const Job& job);
 
   std::size_t bands() const { return bands_; }
   Rows rows(std::size_t band) const;

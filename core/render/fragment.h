@@ -18,11 +18,11 @@ struct Fragment {
 /// Reads fragments of a scene, one thread at a time. Neighbours of one triangle are cheaper.
 class FragmentReader {
  public:
-  explicit FragmentReader(const Shown& shown) : shown_(shown) {}
+  explicit FragmentReader(const ProjectedScene& shown) : shown_(shown) {}
 
   /// `number` is that of the triangle in its drawing, or of the vertex where lines or points are drawn. The
-  /// position is in fixed-point numbers and inside of the triangle. `samples`: over how many of them textures are
-  /// averaged. Cost: about 40 ns.
+  /// position is in fixed-point numbers and inside of the triangle. Textures are
+  /// averaged over `samples` samples. Cost: about 40 ns.
   Fragment at(std::uint32_t drawing, std::uint32_t number, float x, float y, float samples = 1);
 
  private:
@@ -30,7 +30,7 @@ class FragmentReader {
   void take_triangle(std::uint32_t number);
   Fragment thin(std::uint32_t vertex) const;
 
-  const Shown& shown_;
+  const ProjectedScene& shown_;
   std::uint32_t drawing_ = ~0U, number_ = ~0U;
   const Drawing* of_ = nullptr;
   const Surface* surface_ = nullptr;
@@ -43,12 +43,12 @@ class FragmentReader {
   std::array<glm::vec3, 3> normal_;
   std::array<glm::vec3, 3> color_;
   std::array<glm::vec2, 3> at_;  ///< texture coordinates
-  double texels_ = 0;            ///< that a sample covers
+  double texels_ = 0;            ///< number of texels that a sample covers
   double per_area_ = 0;
 };
 
-/// Returns the texels that a sample covers, of a triangle with these texture coordinates; `per_area` is the reciprocal
-/// of its doubled area in fixed-point units.
+/// Returns the number of texels that a sample covers in a triangle with these texture coordinates. `per_area` is the
+/// reciprocal of the doubled area of the triangle in fixed-point units.
 inline double texels_of_sample(const texture::Texels& texels, const std::array<glm::vec2, 3>& at,
                                double per_area) {
   const glm::vec2 u = at[1] - at[0], v = at[2] - at[0];

@@ -24,7 +24,7 @@ class Holes {
     v_ = plane_of(t, {at[0].y, at[1].y, at[2].y}, level_->height);
   }
 
-  /// Returns flags of those of the eight samples that show the surface.
+  /// Returns a flag for each of eight samples: whether the texture is not empty there.
   Flags filled(Floats depth, Floats across, float down) const {
     Floats u = u_.of(across, down), v = v_.of(across, down);
     if (is_perspective_) {

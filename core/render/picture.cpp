@@ -36,7 +36,7 @@ constexpr std::array<std::array<glm::vec2, 2>, 4> taps = {{{{{0.4F, 0.2F}, {-1.2
 
 struct Stage {
   const Samples& samples;
-  const Shown& shown;
+  const ProjectedScene& shown;
   const ShadowMap& shadows;
   glm::vec3 eye, right, up,
       towards;  ///< of the camera; the first two reach from the middle of the image to its sides
@@ -57,7 +57,7 @@ struct Group {
 
 /// The share of sunlight that reaches a position.
 float lit(const Stage& stage, const glm::vec3& position, std::uint32_t corners) {
-  const ShadowMap::Place at = stage.shadows.place_of(position);
+  const ShadowMap::Position at = stage.shadows.position_of(position);
   const float common = stage.shadows.common_light(at);
   if (common >= 0) return common;
   std::uint32_t light = 0, count = 0;
@@ -272,7 +272,7 @@ texture::Picture draw_picture(const Model& model, const PictureOptions& options,
   const double azimuth = options.view.azimuth;
   const Camera camera = camera_for(model, items, frame_of(azimuth, elevation_of(options.view, items.box)),
                                    glm::dvec2(options.width, options.height) / static_cast<double>(side));
-  const Shown shown = show(scene, Eye(camera, 2 * side), job);
+  const ProjectedScene shown = project(scene, Eye(camera, 2 * side), job);
   const Samples samples = draw_samples(shown, job);
   const ShadowMap shadows = draw_shadows(scene, frame_of(azimuth + sun_turn, sun_height), side, job);
   const glm::dvec3 size(items.box.max - items.box.min);

@@ -33,7 +33,8 @@ void choose(Flags flags, std::uint32_t value, std::uint32_t* in) {
 /// Draws into the rows of one band.
 class Band {
  public:
-  Band(const Shown& shown, const Rows& rows, const Job& job) : shown_(shown), rows_(rows), job_(job) {}
+  Band(const ProjectedScene& shown, const Rows& rows, const Job& job)
+      : shown_(shown), rows_(rows), job_(job) {}
 
   void clear(Samples& samples) const {
     fill(samples.near, 0.0F);
@@ -206,7 +207,7 @@ class Band {
     }
   }
 
-  const Shown& shown_;
+  const ProjectedScene& shown_;
   Rows rows_;
   const Job& job_;
   // The drawing of the current triangle:
@@ -227,7 +228,8 @@ SEEDMESH_WIDE void draw_depths_of(Band& band, std::span<const Binned> triangles,
 
 /// For all bands in parallel: calls begin(band), and then draw(band, triangles) for each of its lists.
 template <class Begin, class Draw>
-void each_band(const Shown& shown, bool blending, const Job& job, const Begin& begin_band, const Draw& draw) {
+void each_band(const ProjectedScene& shown, bool blending, const Job& job, const Begin& begin_band,
+               const Draw& draw) {
   const Bins bins(shown, blending, rows_of_band, job);
   parallel_for(job, bins.bands(), 1, [&](std::size_t begin, std::size_t end, std::size_t) {
     for (std::size_t i = begin; i < end; ++i) {
@@ -245,7 +247,7 @@ bool has_thin(const Scene& scene) {
 
 }  // namespace
 
-Samples draw_samples(const Shown& shown, const Job& job) {
+Samples draw_samples(const ProjectedScene& shown, const Job& job) {
   const std::uint32_t size = shown.eye.size();
   const std::size_t count = stride_of(size) * size;
   Samples samples{size,
@@ -268,7 +270,7 @@ Samples draw_samples(const Shown& shown, const Job& job) {
   return samples;
 }
 
-Array<float> draw_depths(const Shown& shown, float farthest, const Job& job) {
+Array<float> draw_depths(const ProjectedScene& shown, float farthest, const Job& job) {
   Array<float> map(job, stride_of(shown.eye.size()) * shown.eye.size());
   each_band(
       shown, false, job, [&](Band& band) { band.fill(map, farthest); },

@@ -21,11 +21,11 @@ struct Samples {
 
 /// Draws all drawings. Rows are drawn in bands, in parallel; the result does not depend on their number. Sheets that
 /// blend are drawn last, in the order of the items. Cost: about 50 ns a triangle and 1 ns a covered sample.
-Samples draw_samples(const Shown& shown, const Job& job);
+Samples draw_samples(const ProjectedScene& shown, const Job& job);
 
 /// Returns the depths that parallel light sees, in rows of stride_of() numbers; greater is nearer, and `farthest`
 /// where nothing is. Lines, points and surfaces that blend are left out.
-Array<float> draw_depths(const Shown& shown, float farthest, const Job& job);
+Array<float> draw_depths(const ProjectedScene& shown, float farthest, const Job& job);
 
 /// Returns the length of a row of the map.
 constexpr std::size_t stride_of(std::uint32_t size) { return (std::size_t{size} + 7) & ~std::size_t{7}; }

@@ -24,8 +24,8 @@ Scene scene_of(const Model& model, const Items& items, const Surfaces& surfaces,
   return scene;
 }
 
-Shown show(const Scene& scene, const Eye& eye, const Job& job) {
-  Shown shown{scene, eye, Array<Projected>(job)};
+ProjectedScene project(const Scene& scene, const Eye& eye, const Job& job) {
+  ProjectedScene shown{scene, eye, Array<Projected>(job)};
   if (scene.vertices > most_vertices) return shown;
   shown.vertices.resize(scene.vertices);
   for (const Drawing& drawing : scene.drawings) {

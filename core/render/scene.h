@@ -11,10 +11,10 @@ struct Drawing {
   const Mesh* mesh = nullptr;
   std::uint32_t item = 0;     ///< index into Items::list
   std::uint32_t surface = 0;  ///< index into Surfaces
-  std::size_t first = 0;      ///< its first vertex in Shown::vertices
+  std::size_t first = 0;      ///< its first vertex in ProjectedScene::vertices
 };
 
-/// Views of the model, items and surfaces, which outlive it.
+/// A scene refers to a model, its items and its surfaces. They must outlive the scene.
 struct Scene {
   const Model& model;
   const Items& items;
@@ -27,7 +27,7 @@ struct Scene {
 Scene scene_of(const Model& model, const Items& items, const Surfaces& surfaces, const Job& job);
 
 /// A scene as an eye sees it. Vertices are projected once, unless there are too many.
-struct Shown {
+struct ProjectedScene {
   const Scene& scene;
   Eye eye;
   Array<Projected> vertices;  ///< of all drawings, or empty
@@ -39,7 +39,7 @@ struct Shown {
 };
 
 /// Cost: about 5 ns a vertex.
-Shown show(const Scene& scene, const Eye& eye, const Job& job);
+ProjectedScene project(const Scene& scene, const Eye& eye, const Job& job);
 
 /// Returns the texture coordinates of a mesh that a surface refers to; null: none.
 const Array<glm::vec2>* uv_of(const Mesh& mesh, const Surface& surface);

@@ -66,7 +66,7 @@ ShadowMap draw_shadows(const Scene& scene, const Frame& sun, std::uint32_t size,
   map.bias = static_cast<float>(lifted * map.step);
   const Eye eye(map.frame, map.low, map.step, size);
   map.lens = eye.lens_at(glm::mat4(1));
-  map.depth = draw_depths(show(scene, eye, job), darkest, job);
+  map.depth = draw_depths(project(scene, eye, job), darkest, job);
   map.around = ranges_of(map, job);
   return map;
 }

@@ -20,25 +20,25 @@ struct ShadowMap {
   Array<Range> around;
 
   /// A position in the map: in texels, and towards the sun.
-  struct Place {
+  struct Position {
     float x, y, depth;
   };
   /// Returns the position in the map of a point in the frame of the model.
-  Place place_of(const glm::vec3& position) const {
+  Position position_of(const glm::vec3& position) const {
     const auto form = [&position](const glm::vec4& row) {
       return (row.x * position.x + row.y * position.y) + (row.z * position.z + row.w);
     };
     return {form(lens.right), form(lens.down), form(lens.towards) + bias};
   }
   /// Whether something is nearer to the sun than a position, `dx` and `dy` texels beside it. Outside: false.
-  bool is_dark(const Place& at, float dx, float dy) const {
+  bool is_dark(const Position& at, float dx, float dy) const {
     const float x = at.x + dx, y = at.y + dy;
     if (!(x >= 0 && y >= 0 && x < side && y < side)) return false;
     return depth[static_cast<std::size_t>(y) * stride + static_cast<std::size_t>(x)] > at.depth;
   }
   /// Returns 1 (light) or 0 (dark) where is_dark() has the same result for all offsets up to `reach`, and -1
   /// where that is not known.
-  float common_light(const Place& at) const {
+  float common_light(const Position& at) const {
     if (!(at.x >= reach && at.y >= reach && at.x < side - reach && at.y < side - reach)) return -1;
     const Range& range =
         around[static_cast<std::size_t>(at.y) / block * blocks + static_cast<std::size_t>(at.x) / block];

@@ -13,13 +13,13 @@ struct Color {
   friend bool operator==(const Color&, const Color&) = default;
 };
 
-/// "#rrggbb" in hexadecimal digits of either case; anything else is nullopt.
+/// Parses "#rrggbb" with hexadecimal digits of either case. Returns nullopt for anything else.
 std::optional<Color> color_of(std::string_view text);
 
-/// The colour of a name of CSS in lower case, such as "darkorange"; anything else is nullopt.
+/// Returns the colour of a CSS name in lower case, such as "darkorange", or nullopt for anything else.
 std::optional<Color> color_named(std::string_view name);
 
-/// "#rrggbb" in lower case.
+/// Returns the colour as "#rrggbb" in lower case.
 std::string text_of(const Color& color);
 
 }  // namespace seedmesh

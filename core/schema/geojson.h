@@ -7,7 +7,7 @@ namespace seedmesh {
 
 /// A FeatureCollection, a Feature or a geometry.
 struct GeoJson {
-  std::string text = "{}";  ///< canonical; without foreign members, except the old member `crs`
+  std::string text = "{}";  ///< canonical JSON; of the members outside RFC 7946, it has only `crs`
 
   friend bool operator==(const GeoJson&, const GeoJson&) = default;
 };

@@ -32,7 +32,7 @@ void for_rows(const Job& job, int rows, const std::function<void(int begin, int 
 /// Returns a smooth step from 0 at `low` to 1 at `high`.
 inline float step_between(float low, float high, float x) {
   const float t = (x - low) * (1 / (high - low));
-  const float c = t < 0 ? 0 : t > 1 ? 1 : t;
+  const float from = t < 0 ? 0 : t, c = from > 1 ? 1 : from;
   return c * c * (3 - 2 * c);
 }
 

@@ -70,7 +70,9 @@ constexpr KindSize kind_sizes[] = {KindSize{"oak_bark", 0.54F, 1.91F, 0.29F},
                                    {"scree_ground", 0.38F, 1.87F, 0.16F},
                                    {"sand_ground", 0.30F, 1.14F, 0.11F},
                                    {"snow_ground", 0.23F, 1.49F, 0.11F},
-                                   {"litter_ground", 0.44F, 2.18F, 0.21F}};
+                                   {"litter_ground", 0.44F, 2.18F, 0.21F},
+                                   {"asphalt_ground", 0.45F, 1.45F, 0.15F},
+                                   {"setts_ground", 0.25F, 1.16F, 0.14F}};
 constexpr double measured_size = 512;
 constexpr double fall = 0.4;  ///< larger images need fewer bytes a texel: their exponent
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/base/wide.h"
 #include "core/texture/cells.h"
 #include "core/texture/ground_pieces.h"
 #include "core/texture/noise.h"
@@ -54,8 +55,9 @@ struct Facet {
 
 /// Each facet has a plane of its own. Its direction comes from digits of the random number that are otherwise unused.
 Facet facet(const CellRows::Row& row, int x) {
-  const float shade = row.shade[x], first = shade * 97, second = shade * 1'571;
-  const float east = 2 * (first - std::floor(first)) - 1, south = 2 * (second - std::floor(second)) - 1;
+  const auto digits = [](float v) { return v - static_cast<float>(static_cast<int>(v)); };
+  const float shade = row.shade[x];
+  const float east = 2 * digits(shade * 97) - 1, south = 2 * digits(shade * 1'571) - 1;
   return {row.border[x], shade, east * row.right[x] + south * row.down[x]};
 }
 
@@ -79,6 +81,21 @@ RockPoint rock_point(const std::array<Facet, 2>& facets, float slow, float grain
   const float tone = 0.42F + 0.1F * (block.shade - 0.5F) + 0.12F * (chip.shade - 0.5F) +
                      0.3F * (height - 0.5F) + 0.22F * grain + 0.05F * worn + 0.2F * lichen - 0.34F * crack;
   return {height, clamp_share(tone)};
+}
+
+/// The input of a row of rock: two sizes of cells, a slow noise and a fine one.
+struct RockInput {
+  CellRows::Row block, chip;
+  const float *slow, *grain;
+};
+
+SEEDMESH_WIDE void paint_rock(const RockInput& in, int size, float* __restrict height,
+                              float* __restrict tone) {
+  for (int x = 0; x < size; ++x) {
+    const RockPoint point = rock_point({facet(in.block, x), facet(in.chip, x)}, in.slow[x], in.grain[x]);
+    height[x] = point.height;
+    tone[x] = point.tone;
+  }
 }
 
 }  // namespace
@@ -124,22 +141,16 @@ Relief rock_ground(int size, Rng rng, const Job& job) {
   const Field slow = field_of(slow_noise, size, job);
   const Cells blocks(size, {7, 10}, rng.at("blocks")), chips(size, {19, 25}, rng.at("chips"));
   return centred(
-      paint_rows(
-          size, Accent::none, job,
-          [&](int begin, int end, const auto& row_at) {
-            CellRows block_rows(blocks, slow, 0.16F), chip_rows(chips, slow, 0.35F);
-            NoiseRows grain_rows(grain_noise);
-            for (int y = begin; y < end; ++y) {
-              const CellRows::Row block = block_rows.row(y), chip = chip_rows.row(y);
-              const float *grain = grain_rows.row(y), *bends = slow.row(y);
-              const ReliefRow out = row_at(y);
-              for (int x = 0; x < size; ++x) {
-                const RockPoint point = rock_point({facet(block, x), facet(chip, x)}, bends[x], grain[x]);
-                out.height[x] = point.height;
-                out.tone[x] = point.tone;
-              }
-            }
-          }),
+      paint_rows(size, Accent::none, job,
+                 [&](int begin, int end, const auto& row_at) {
+                   CellRows block_rows(blocks, slow, 0.16F), chip_rows(chips, slow, 0.35F);
+                   NoiseRows grain_rows(grain_noise);
+                   for (int y = begin; y < end; ++y) {
+                     const RockInput in{block_rows.row(y), chip_rows.row(y), slow.row(y), grain_rows.row(y)};
+                     const ReliefRow out = row_at(y);
+                     paint_rock(in, size, out.height, out.tone);
+                   }
+                 }),
       0.54);
 }
 

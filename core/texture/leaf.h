@@ -26,8 +26,8 @@ LeafPicture leaf_picture(std::string_view kind);
 /// Returns the kind that shows a leaf of a shape, or a twig if there is one.
 std::string_view leaf_kind(LeafShape shape, bool is_twig);
 
-/// Returns the least alpha of texels that are drawn. For distant leaves, renderers compare it with means over many
-/// texels, so that images of thin needles need a low value, or the crown vanishes.
+/// Returns the least alpha of texels that are drawn. For distant leaves, renderers compare it with the mean alpha of
+/// many texels. Images of thin needles therefore need a low value; otherwise distant crowns vanish.
 float leaf_cutoff(std::string_view kind);
 
 /// Makes the material one of thin leaves. Light passes through, less through needles. Except through petals,

@@ -31,7 +31,10 @@ using PaintRows = std::function<void(int begin, int end, const std::function<Rel
 Relief paint_rows(int size, Accent accent, const Job& job, const PaintRows& paint);
 
 /// Returns the nearest number from 0 to 1.
-inline float clamp_share(float x) { return x < 0 ? 0 : x > 1 ? 1 : x; }
+inline float clamp_share(float x) {
+  const float from = x < 0 ? 0 : x;
+  return from > 1 ? 1 : from;
+}
 
 /// Colours in sRGB, 0 .. 1.
 struct Ramp {

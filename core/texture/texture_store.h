@@ -12,8 +12,8 @@ class TextureStore {
   virtual ~TextureStore() = default;
   /// Returns the entry of this key, or null.
   virtual std::shared_ptr<const void> find(const std::string& key) = 0;
-  /// Keeps `value`, which is never changed again and takes `bytes` of memory; may forget it at any time. The
-  /// type behind the pointer follows from the key.
+  /// Keeps `value`, which takes `bytes` of memory and must not be changed afterwards. The store may remove it at any
+  /// time. The type behind the pointer follows from the key.
   virtual void keep(const std::string& key, std::shared_ptr<const void> value, std::uint64_t bytes) = 0;
 };
 

@@ -253,6 +253,18 @@ Relief dressed_stone(int size, Rng rng, const Job& job) {
   });
 }
 
+/// The surface course of a street: stones of 2 to 11 mm in bitumen, and faint patches. Also concrete, in lighter grey.
+Relief asphalt_ground(int size, Rng rng, const Job& job) {
+  const PlainSurface::Part stones{"stones", {128, 128}, {2, 0.6F}, 0.7F, 0.4F, 0.45F};
+  const PlainSurface::Part patches{"patches", {10, 10}, {3, 0.55F}, 0.7F, 0.1F, 0.12F};
+  return plain({0.7F, stones, patches}, size, rng, job);
+}
+
+/// Setts of 10 by 11 cm in courses (EN 1342).
+Relief setts_ground(int size, Rng rng, const Job& job) {
+  return laid({{18, 20, 0.5F, {ground_tile, ground_tile}}, 0.006F, 0.014F, 0.55F, 0.08F}, size, rng, job);
+}
+
 struct Painter {
   Relief (*paint)(int size, Rng rng, const Job& job);
   glm::vec3 main;     ///< sRGB bytes; of grey ones only where their grey is not the usual one
@@ -288,6 +300,8 @@ constexpr WallKind kinds[] = {
     {"sand_ground", {ground_tile, ground_tile}, true},
     {"snow_ground", {ground_tile, ground_tile}, true},
     {"litter_ground", {ground_tile, ground_tile}, true},
+    {"asphalt_ground", {ground_tile, ground_tile}, true},
+    {"setts_ground", {ground_tile, ground_tile}, true},
 };
 
 constexpr Painter painters[] = {
@@ -316,6 +330,8 @@ constexpr Painter painters[] = {
     {sand_ground, {232, 232, 232}, 0.8F, 1.1F, {}, 0.02F, 0.95F, 0.78F, 0.9F, 0.25F},
     {snow_ground, {240, 240, 240}, 0.91F, 1.08F, {}, 0.035F, 0.8F, 0.5F, 0.7F, 0.15F},
     {litter_ground, {}, 0.4F, 1.3F, {}, 0.03F, 0.98F, 0.78F, 0.9F, 0.6F},
+    {asphalt_ground, {}, 0.66F, 1.2F, {}, 0.006F, 0.98F, 0.85F, 0.95F, 0.25F},
+    {setts_ground, {}, 0.66F, 1.14F, {118, 112, 102}, 0.02F, 0.95F, 0.8F, 0.97F, 0.45F},
 };
 static_assert(std::size(kinds) == std::size(painters));
 

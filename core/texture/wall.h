@@ -2,7 +2,7 @@
 /// Textures of surfaces by seed. For buildings: brick, plaster, roof tiles, slate, planks, ashlar, concrete,
 /// sheet metal, metal panels, dressed stone and paint. Also: windows in walls (bay.h), rooms (rooms.h), doors
 /// (joinery.h), dirt (grime.h) and grounds (ground.h). They tile seamlessly in both directions and have a
-/// size in metres. Up the wall or the slope is up in the image.
+/// size in metres. The upper edge of an image points up the wall or the slope.
 #include <glm/vec2.hpp>
 #include <span>
 #include <string_view>
@@ -14,8 +14,8 @@ namespace seedmesh::texture {
 struct WallKind {
   std::string_view name;
   glm::dvec2 tile;  ///< the size of the image in metres
-  /// Whether the texture is light grey and gets its colour, joints included, from TextureRecipe::factor.
-  /// Others have the colour of TextureRecipe::color, and mortar of its own colour.
+  /// Whether the texture is light grey. TextureRecipe::factor then colours all of it, joints included. Otherwise the
+  /// image has the colour TextureRecipe::color, and mortar has a colour of its own.
   bool is_grey;
 };
 

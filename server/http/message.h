@@ -38,7 +38,7 @@ struct Request {
 
   /// Returns a token that is set when the client closes its side of the connection. The first call starts
   /// the watch and costs a system call, so only long work asks for it.
-  std::function<std::stop_token()> gone;
+  std::function<std::stop_token()> disconnect_token;
 
   std::string header(std::string_view name) const { return field_value(headers, name); }
   bool has_header(std::string_view name) const { return field_count(headers, name) > 0; }

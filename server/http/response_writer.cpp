@@ -18,7 +18,7 @@ constexpr std::string_view phrases =
 
 /// "404 Not Found"; the code and a space where there is no phrase for it.
 std::string status_text(int status) {
-  const std::string code = std::to_string(status) + " ";
+  std::string code = std::to_string(status) + " ";
   const auto found = phrases.find(code);
   if (found == std::string_view::npos) return code;
   return std::string(phrases.substr(found, phrases.find('|', found) - found));
@@ -106,6 +106,7 @@ std::string response_head(const Request& request, const Response& response) {
   add_field(head, "X-Content-Type-Options", "nosniff");
   add_field(head, "X-Request-Id", request.id);
   if (response.close) add_field(head, "Connection", "close");
+  if (!response.close && request.minor == 0) add_field(head, "Connection", "keep-alive");
   return head += "\r\n";
 }
 

@@ -150,7 +150,7 @@ void Server::work() {
     open_ += served ? 1 : 0;
     lock.unlock();
     try {
-      served ? serve(socket, remote) : turn_away(socket, remote);
+      served ? serve(socket, remote) : refuse_connection(socket, remote);
     } catch (const std::exception&) {
       // No memory for this connection: it ends.
     }
@@ -214,7 +214,7 @@ bool Server::serve_one(Connection& connection, const std::string& remote) {
   if (!read_body(connection, given, request.body)) return false;
 
   EndWatch watched{watch_, connection.socket()};
-  request.gone = [&] {
+  request.disconnect_token = [&] {
     watched.started = true;
     return watch_.add(connection.socket());
   };
@@ -238,8 +238,15 @@ bool Server::refuse(Connection& connection, const Request& request, const Refusa
 std::variant<RequestHead, Refusal> Server::read_head(Connection& connection) const {
   const auto deadline = Clock::now() + options_.head_time;
   std::size_t searched = 0;
+  bool is_first_line = true;
   while (true) {
-    const std::string_view text = connection.buffered();
+    std::string_view text = connection.buffered();
+    if (is_first_line && text.size() >= 2) {
+      is_first_line = false;
+      // Some clients send an empty line after a body (RFC 9112 section 2.2).
+      if (text.starts_with("\r\n")) connection.consume(2);
+      text = connection.buffered();
+    }
     const auto end = text.find("\r\n\r\n", searched);
     if (end != std::string_view::npos && end + 4 <= options_.limits.head) {
       auto head = parse_head(text.substr(0, end + 4), options_.limits);
@@ -288,7 +295,7 @@ void Server::send(Connection& connection, const Request& request, const Response
 
 /// Answers 503 to a connection beyond the limit. Runs on the accepting thread, so it does not wait; with TLS
 /// there is no response, because a handshake would have to wait.
-void Server::turn_away(int socket, std::string remote) {
+void Server::refuse_connection(int socket, std::string remote) {
   Connection connection(socket, nullptr, {.timeout = Clock::duration::zero()});
   if (options_.tls) return;
   connection.read_more(Clock::now());  // closing with unread bytes would reset the connection

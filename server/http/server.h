@@ -74,7 +74,7 @@ class Server {
   void serve(int socket, const std::string& remote);
   bool serve_one(Connection& connection, const std::string& remote);
   bool refuse(Connection& connection, const Request& request, const Refusal& refusal);
-  void turn_away(int socket, std::string remote);
+  void refuse_connection(int socket, std::string remote);
   std::variant<RequestHead, Refusal> read_head(Connection& connection) const;
   bool read_body(Connection& connection, const RequestHead& head, std::string& body) const;
   Response answer(const Request& request) const;

@@ -33,12 +33,12 @@ std::string_view take_part(std::string_view& rest, char separator) {
   return part;
 }
 
-std::optional<std::string> percent_decode(std::string_view text, Plus plus) {
+std::optional<std::string> percent_decode(std::string_view text, PlusSign plus) {
   std::string out;
   out.reserve(text.size());
   for (std::size_t i = 0; i < text.size(); ++i) {
     if (text[i] != '%') {
-      out.push_back(text[i] == '+' && plus == Plus::space ? ' ' : text[i]);
+      out.push_back(text[i] == '+' && plus == PlusSign::space ? ' ' : text[i]);
       continue;
     }
     unsigned value = 0;

@@ -18,9 +18,9 @@ std::string_view trimmed(std::string_view text);
 std::string_view take_part(std::string_view& rest, char separator);
 
 /// How percent_decode() reads a plus sign: as itself, or as a space as in form data.
-enum class Plus { literal, space };
+enum class PlusSign { literal, space };
 /// Decodes %xx. Returns nothing if an escape is malformed.
-std::optional<std::string> percent_decode(std::string_view text, Plus plus = Plus::literal);
+std::optional<std::string> percent_decode(std::string_view text, PlusSign plus = PlusSign::literal);
 
 /// Returns two lower-case hexadecimal digits for each byte.
 std::string hex(std::string_view bytes);

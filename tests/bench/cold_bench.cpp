@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "core/base/reserve.h"
+#include "core/base/huge_page_cache.h"
 #include "core/pipeline.h"
-#include "server/give_back.h"
+#include "server/memory_trimmer.h"
 #include "tests/bench/kept_textures.h"
 #include "tests/bench/report.h"
 
@@ -27,7 +27,7 @@ std::vector<Product::Span> make(const std::string& preset, int seed, TextureStor
   const std::string text = "{\"preset\":\"" + preset + "\",\"seed\":" + std::to_string(seed) + "}";
   const Result<Request> request = read_request(text, Limits{});
   if (!request) std::abort();
-  static const std::shared_ptr<Reserve> reserve = std::make_shared<Reserve>();
+  static const std::shared_ptr<HugePageCache> reserve = std::make_shared<HugePageCache>();
   const Result<Product> product = produce(*request, {.threads = 1, .reserve = reserve}, textures);
   if (!product) std::abort();
   return product->timing;
@@ -36,7 +36,7 @@ std::vector<Product::Span> make(const std::string& preset, int seed, TextureStor
 }  // namespace
 
 int main(int count, char** words) {
-  keep_little_memory(1);
+  configure_malloc(1);
   for (const PresetInfo& preset : presets()) {
     const auto is_named = [&](const char* word) { return preset.name == word; };
     if (count > 1 && std::none_of(words + 1, words + count, is_named)) continue;

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/generators/lsystem/free.h"
+#include "core/generators/lsystem/context_free_derivation.h"
 #include "core/generators/lsystem/grammar.h"
 #include "core/generators/lsystem/lsystem.h"
 #include "core/generators/lsystem/table.h"
@@ -83,7 +83,7 @@ void bench_stream(const std::string& name, const LsystemParams& params, std::uin
   const double seconds = bench::median_seconds<bench::CpuClock>(rounds, [&] {
     Job job(0, {.limits = roomy()});
     counter = {};
-    FreeDerivation<Counter>(grammar, steps, false, job, counter).run();
+    ContextFreeDerivation<Counter>(grammar, steps, false, job, counter).run();
   });
   if (!(counter.sum < 1e300)) std::abort();
   bench::report(name, "modules", static_cast<double>(counter.modules), seconds);
@@ -131,7 +131,7 @@ void bench_words(char system, std::uint32_t steps) {
   const double seconds = bench::median_seconds<bench::CpuClock>(3, [&] {
     Job job(0, {.limits = roomy()});
     counter = {};
-    FreeDerivation<Counter>(grammar, steps, false, job, counter).run();
+    ContextFreeDerivation<Counter>(grammar, steps, false, job, counter).run();
   });
   bench::report(std::string("Tajic ") + system + " n=" + std::to_string(steps) + ", derivation", "modules",
                 static_cast<double>(counter.modules), seconds);

@@ -74,7 +74,7 @@ void bench_fields() {
   Field worn = hills(513);
   const double seconds = timed([&] {
     std::memcpy(worn.heights.data(), ground.heights.data(), ground.heights.bytes());
-    erode(worn, {.droplets = 65'536}, Rng(1), roomy());
+    erode_by_droplets(worn, {.droplets = 65'536}, Rng(1), roomy());
   });
   line("65536 droplets 513", "droplets", 65'536, 4.0 * 513 * 513, seconds);
 }

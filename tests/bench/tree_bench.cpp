@@ -6,9 +6,9 @@
 #include <cstdlib>
 #include <string>
 
-#include "core/base/reserve.h"
+#include "core/base/huge_page_cache.h"
 #include "core/pipeline.h"
-#include "server/give_back.h"
+#include "server/memory_trimmer.h"
 #include "tests/bench/kept_textures.h"
 #include "tests/bench/memory.h"
 #include "tests/bench/report.h"
@@ -23,8 +23,8 @@ bench::KeptTextures& textures() {
 }
 
 /// The configuration of the service.
-const std::shared_ptr<Reserve>& reserve() {
-  static const auto kept = std::make_shared<Reserve>();
+const std::shared_ptr<HugePageCache>& reserve() {
+  static const auto kept = std::make_shared<HugePageCache>();
   return kept;
 }
 
@@ -73,7 +73,7 @@ void bench_memory(const std::string& name, const std::string& small, const std::
 }  // namespace
 
 int main(int argc, char** argv) {
-  keep_little_memory(2);  // memory pages are recycled as in the service
+  configure_malloc(2);  // memory pages are recycled as in the service
   if (argc > 1) {
     const std::string name = argv[1], text = name == "small" ? small_tree : preset_text(name);
     const int rounds = argc > 2 ? std::atoi(argv[2]) : 15;

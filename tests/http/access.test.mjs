@@ -102,6 +102,13 @@ test('the program makes signatures and keys that the service accepts', async () 
   const signed = await run(rehearsal, ['sign', '/v1/presets/small.glb?seed=9', '--valid-for', '100'], { env });
   assert.equal(signed.status, 0);
   assert.equal((await run(rehearsal, ['sign', '/v1/presets/small.glb'])).status, 2);
+  for (const time of ['-5', 'nan', '1e11']) {
+    const { status, out, err } = await run(rehearsal, ['sign', '/v1/presets/small.glb', '--valid-for', time], { env });
+    assert.deepEqual([status, out.length], [2, 0], time);
+    assert.match(err, /--valid-for is "\S+": it must be a number from 0 to 1e10/);
+  }
+  for (const target of ['/v1/presets/small.glb#top', '/v1/presets/a b.glb']) assert.equal((await run(rehearsal, ['sign', target], { env })).status, 2, target);
+  for (const name of ['', 'a b', 'a:b', 'a,b', 'n'.repeat(65)]) assert.equal((await run(rehearsal, ['key', name])).status, 2, name);
   await with_server([], async (server) => {
     assert.equal((await server.get(signed.out.toString().trim())).status, 200);
     assert.equal((await server.generate(request(), bearer(key))).status, 200);

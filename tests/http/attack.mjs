@@ -8,7 +8,9 @@ import { ask, program, serve, sleep } from './support.mjs';
 
 const seconds = Number(process.argv[2] ?? 5), only = process.argv[3] ?? '';
 const attackers = path.join(path.dirname(new URL(import.meta.url).pathname), 'attackers.mjs');
-const most_milliseconds = 50, most_growth = 1.2;
+const most_milliseconds = 50;
+/** After an attack, the heap may keep free pages of the threads that served it: measured 12 MB, the same after one attack as after twelve. */
+const most_kept = 20 * 2 ** 20;
 const preset = 'abop_1_24a';
 
 const quantile = (list, share) => list.sort((a, b) => a - b)[Math.min(list.length - 1, Math.floor(list.length * share))];
@@ -50,7 +52,8 @@ const closed = ['--api-keys', `good:${crypto.createHash('sha256').update(key).di
 const server = await serve(program, ['--threads', '2', '--connections', '512', '--head-timeout', '2', '--body-timeout', '2', '--idle-timeout', '3', '--write-timeout', '2', '--min-rate-grace', '2', '--memory-in-flight', '128MiB', '--max-output', '128MiB', '--cache-bytes', '16MiB', '--texture-bytes', '8MiB', '--time-limit', '5', '--max-memory', '256MiB', '--log-level', 'error', ...(only === guessing ? closed : [])]);
 const own = { 'x-api-key': key };
 const presets = (await server.get('/v1/presets')).json.presets;
-for (const each of presets.slice(0, 40)) await server.get(`/v1/presets/${each.name}.glb`, own);
+// The memory at the start is that of a server that has run the code of every generator and filled its cache.
+for (const each of presets) await server.get(`/v1/presets/${each.name}.glb`, own);
 const made = await server.get(`/v1/presets/${preset}.glb`, own);
 const permalink = made.headers['content-location'].split('?')[0];
 
@@ -74,10 +77,10 @@ for (const name of names) {
   const watching = setInterval(() => { resident(server).then((bytes) => { peak = Math.max(peak, bytes); }, () => {}); }, 250);
   const { times, statuses } = await good_client(server, ended);
   clearInterval(watching);
-  const after = await settled(server, most_growth * start);
+  const after = await settled(server, start + most_kept);
   const late = quantile(times, busy ? 0.5 : 0.95), bad = [...statuses].filter(([status]) => status !== 200);
   const growth = after / start, got = out ? JSON.parse(out) : { connections: 0, sent: 0, statuses: {} };
-  const sound = out && late <= allowed && bad.length === 0 && growth <= most_growth && peak <= start + most_memory;
+  const sound = out && late <= allowed && bad.length === 0 && after <= start + most_kept && peak <= start + most_memory;
   verdicts.push(sound);
   console.log(`${sound ? 'ok    ' : 'BROKEN'} ${name}: good client median ${quantile(times, 0.5).toFixed(1)} ms, 95 % ${quantile(times, 0.95).toFixed(1)} ms, worst ${Math.max(...times).toFixed(0)} ms, ${times.length} asked ${busy ? ` (busy machine: median judged, ${allowed.toFixed(0)} ms allowed; calm median ${quantile(calm, 0.5).toFixed(1)}, 95 % ${quantile(calm, 0.95).toFixed(1)})` : ''}` +
     `${bad.length ? `, ${bad.map(([status, count]) => `${count} x ${status}`).join(', ')}` : ''}; memory at most ${(peak / 1e6).toFixed(0)} MB, then ${growth.toFixed(2)} of the start;` +

@@ -1,5 +1,6 @@
 // The program from the command line: configuration, files, exit status.
 import assert from 'node:assert/strict';
+import { spawnSync } from 'node:child_process';
 import fs from 'node:fs';
 import os from 'node:os';
 import path from 'node:path';
@@ -114,6 +115,16 @@ test('validate and derive print JSON', async () => {
   const derived = await run(program, ['derive', file]);
   assert.equal(derived.status, 0);
   assert.equal(JSON.parse(derived.out).iterations, 3);
+});
+
+test('a full disk is an error of every command that prints', { skip: !fs.existsSync('/dev/full') }, () => {
+  for (const args of [['validate', file], ['derive', file], ['presets'], ['--version'], ['generate', file]]) {
+    const full = fs.openSync('/dev/full', 'w');
+    const { status, stderr } = spawnSync(program, args, { stdio: ['ignore', full, 'pipe'] });
+    fs.closeSync(full);
+    assert.equal(status, 2, args.join(' '));
+    assert.match(stderr.toString(), /^seedmesh: .*(standard output|-: )/);
+  }
 });
 
 test('presets lists names, and prints a request that generate accepts', async () => {

@@ -87,6 +87,19 @@ test('HTTP/1.0 is answered and closed', async () => {
   assert.ok(answer.closed);
 });
 
+test('HTTP/1.0 with keep-alive is answered, and the response says that the connection stays open', async () => {
+  const answer = await raw(server, 'GET /healthz HTTP/1.0\r\nConnection: keep-alive\r\n\r\n', { wait: 500 });
+  assert.equal(status_of(answer.text), 200);
+  assert.match(answer.text, /\r\nConnection: keep-alive\r\n/);
+  assert.ok(!answer.closed);
+});
+
+test('one empty line before a request is overlooked, two are not', async () => {
+  const get = 'GET /healthz HTTP/1.1\r\nHost: a\r\nConnection: close\r\n\r\n';
+  assert.equal(status_of((await raw(server, `\r\n${get}`)).text), 200);
+  assert.equal(status_of((await raw(server, `\r\n\r\n${get}`)).text), 400);
+});
+
 test('a client with Expect: 100-continue receives 100', async () => {
   const answer = await raw(server, post(`Content-Length: ${wanted.length}\r\nExpect: 100-continue\r\nConnection: close\r\n`), { wait: 700 });
   assert.match(answer.text, /^HTTP\/1\.1 100 Continue\r\n\r\n$/);

@@ -1,16 +1,17 @@
 // The albedo of materials: textures times colour factors times vertex colours, as linear luminance. The ranges are those of
-// measured foliage, bark, paint and ground that look right in any light; see docs/looks.md.
+// measured foliage, bark, paint and ground that look right in any light; see docs/looks.md. The albedo of a leaf is the
+// light that it reflects and transmits; what it reflects has the range of measured foliage.
 import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
 import { program, serve } from '../http/support.mjs';
-import { albedo_range, primitives_of } from './measure.mjs';
+import { albedo_range, primitives_of, reflectance_of } from './measure.mjs';
 
 let server;
 before(async () => { server = await serve(program); });
 after(async () => { await server.stop(); });
 
 /** Luminance from and to, and the most saturation, by the names of materials; the first match counts. */
-const leaves = [/leaf/, 0.06, 0.165, 0.86], needles = [/leaf/, 0.05, 0.12, 0.8], autumn = [/leaf/, 0.05, 0.3, 1];
+const leaves = [/leaf/, 0.06, 0.185, 0.86], needles = [/leaf/, 0.05, 0.155, 0.8], autumn = [/leaf/, 0.05, 0.3, 1];
 const bark = [/bark/, 0.05, 0.25, 0.85], white_bark = [/bark/, 0.3, 0.55, 0.4];
 const trees = {
   oak: [leaves, bark], black_oak: [leaves, bark], birch: [leaves, white_bark], quaking_aspen: [leaves, white_bark],
@@ -41,5 +42,17 @@ for (const [name, rules] of Object.entries(presets)) {
       assert.ok(high <= brightest, what);
       assert.ok(saturation <= most_saturated, `${primitive.material}: saturation ${saturation.toFixed(2)}`);
     }
+  });
+}
+
+/** Reflectance of foliage in tables of materials: trees 0.09 to 0.16, conifers 0.08 to 0.12. */
+const foliage = { oak: [0.09, 0.16], birch: [0.09, 0.16], quaking_aspen: [0.09, 0.16], pine: [0.08, 0.12], spruce: [0.08, 0.12] };
+for (const [name, [from, to]] of Object.entries(foliage)) {
+  test(`${name}: its foliage reflects as much light as real foliage`, async () => {
+    const answer = await server.get(`/v1/presets/${name}.glb`);
+    assert.equal(answer.status, 200);
+    const [primitive] = (await primitives_of(answer.bytes)).filter((each) => each.is_cut), reflected = reflectance_of(primitive);
+    assert.ok(primitive.transmission > 0, 'leaves transmit light');
+    assert.ok(reflected >= from && reflected <= to, `reflectance of ${reflected.toFixed(3)}`);
   });
 }

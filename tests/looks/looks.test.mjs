@@ -35,11 +35,11 @@ const trees = {
   weeping_willow: { blade: [5, 12], share: 0.27, area: [3, 7] },
 };
 
-/** Lengths of twigs: the extent of each along v, which the first triangle of each has. */
-function twig_lengths(primitive) {
+/** Lengths of twigs: the extent of each along v, which the first `corners` vertices of each have. */
+function twig_lengths(primitive, corners = 6) {
   const lengths = [];
-  for (let first = 0; first < primitive.vertices; first += 6) {
-    const points = Array.from({ length: 6 }, (_, i) => ({ at: primitive.at('POSITION', first + i), v: primitive.at('TEXCOORD_0', first + i)[1] }));
+  for (let first = 0; first < primitive.vertices; first += corners) {
+    const points = Array.from({ length: corners }, (_, i) => ({ at: primitive.at('POSITION', first + i), v: primitive.at('TEXCOORD_0', first + i)[1] }));
     const rows = [...new Set(points.map(({ v }) => v))].sort((a, b) => a - b);
     const middle = (v) => points.filter((each) => each.v === v).map(({ at }) => at).reduce((sum, p, _, all) => sum.map((each, k) => each + p[k] / all.length), [0, 0, 0]);
     let length = 0;
@@ -69,6 +69,18 @@ for (const [name, { blade, share, area }] of Object.entries(trees)) {
     assert.ok(hue_deviation(leaves, [0.1, 0.2, 0.05]) >= 3);
   });
 }
+
+test('mountain_forest: its birches have blades of 3 to 7 cm', async () => {
+  const answer = await server.get('/v1/presets/mountain_forest');
+  assert.equal(answer.status, 200);
+  const layer = answer.json.parameters.layers.find((each) => each.name === 'birch');
+  const model = await server.generate({ ...layer.model, seed: 1 });
+  assert.equal(model.status, 200, model.text);
+  const [leaves] = (await primitives_of(model.bytes)).filter((each) => each.is_cut);
+  const lengths = twig_lengths(leaves, 4).sort((a, b) => a - b), cm = 100 * trees.birch.share * lengths[Math.floor(lengths.length / 2)];
+  const smallest = cm * layer.scale[0], largest = cm * layer.scale[1];
+  assert.ok(smallest >= 3 && largest <= 1.25 * 7, `blades of ${smallest.toFixed(1)} to ${largest.toFixed(1)} cm`);
+});
 
 for (const name of ['spruce', 'pine']) {
   test(`${name}: needles keep their coverage over the mip levels`, async () => {

@@ -22,6 +22,7 @@ export async function primitives_of(bytes) {
     const array = (name) => primitive.getAttribute(name);
     return {
       mesh: mesh.getName(), material: material.getName(), cutoff: material.getAlphaCutoff(), is_cut: material.getAlphaMode() === 'MASK', double_sided: material.getDoubleSided(), factor: material.getBaseColorFactor(),
+      transmission: material.getExtension('KHR_materials_diffuse_transmission')?.getDiffuseTransmissionFactor() ?? 0,
       color: picture(material.getBaseColorTexture()), normal: picture(material.getNormalTexture()),
       uv_set: material.getBaseColorTextureInfo()?.getTexCoord() ?? 0, index: primitive.getIndices().getArray(),
       vertices: array('POSITION').getCount(),
@@ -129,6 +130,12 @@ export function albedo_range(primitive) {
   const at = (share) => (color ? values[Math.floor(share * (values.length - 1))] : luminance(factor));
   return { mean: luminance(mean), low: at(0.02), high: at(0.98), saturation: (Math.max(...mean) - Math.min(...mean)) / Math.max(...mean, 1e-9) };
 }
+
+/**
+ * The share of light that a thin surface reflects diffusely: KHR_materials_diffuse_transmission mixes reflection and
+ * transmission by its factor.
+ */
+export const reflectance_of = (primitive) => (1 - primitive.transmission) * albedo_range(primitive).mean;
 
 /** Mean luminance of a primitive: its texture times its factor and its vertex colours. */
 export const albedo_of = (primitive) => albedo_range(primitive).mean;

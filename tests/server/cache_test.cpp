@@ -21,7 +21,7 @@ Cache::Entry entry_of(std::size_t bytes) {
 
 std::stop_token no_client_leaves() { return {}; }
 
-Cache::Answer get(Cache& cache, const std::string& key, std::size_t bytes) {
+Cache::Lookup get(Cache& cache, const std::string& key, std::size_t bytes) {
   return cache.get(key, no_client_leaves,
                    [&](const std::stop_token&) -> Cache::Outcome { return entry_of(bytes); });
 }
@@ -39,8 +39,8 @@ TEST(Cache, MakesOnceAndKeeps) {
   EXPECT_FALSE(first.hit);
   EXPECT_TRUE(second.hit);
   EXPECT_EQ(std::get<Cache::Entry>(first.outcome), std::get<Cache::Entry>(second.outcome));
-  EXPECT_EQ(cache.figures().hits, 1U);
-  EXPECT_EQ(cache.figures().misses, 1U);
+  EXPECT_EQ(cache.counters().hits, 1U);
+  EXPECT_EQ(cache.counters().misses, 1U);
 }
 
 TEST(Cache, DropsTheLeastRecentlyUsedWhenItIsFull) {
@@ -52,8 +52,8 @@ TEST(Cache, DropsTheLeastRecentlyUsedWhenItIsFull) {
   EXPECT_TRUE(has(cache, "a"));
   EXPECT_FALSE(has(cache, "b"));
   EXPECT_TRUE(has(cache, "c"));
-  EXPECT_LE(cache.figures().bytes, 50'000U);
-  EXPECT_EQ(cache.figures().evictions, 1U);
+  EXPECT_LE(cache.counters().bytes, 50'000U);
+  EXPECT_EQ(cache.counters().evictions, 1U);
 }
 
 TEST(Cache, DoesNotKeepWhatIsLargerThanItself) {
@@ -110,7 +110,7 @@ TEST(Cache, GoesOnWorkingForThoseWhoStay) {
     EXPECT_TRUE(std::holds_alternative<Cache::Entry>(answer.outcome));
     EXPECT_TRUE(answer.hit);
   });
-  while (cache.figures().joins == 0) std::this_thread::sleep_for(1ms);
+  while (cache.counters().joins == 0) std::this_thread::sleep_for(1ms);
   first_client.request_stop();
   std::this_thread::sleep_for(20ms);
   release = true;

@@ -59,8 +59,8 @@ TEST(SharedCache, WithoutAnAddressKnowsAndKeepsNothing) {
   SharedCache cache(Config{}, log);
   EXPECT_FALSE(cache.get("{}", ""));
   cache.put("{}", std::make_shared<CachedModel>(model()));
-  const auto figures = cache.figures();
-  EXPECT_EQ(figures.hits + figures.misses + figures.writes + figures.errors + figures.skips, 0U);
+  const auto counters = cache.counters();
+  EXPECT_EQ(counters.hits + counters.misses + counters.writes + counters.errors + counters.skips, 0U);
 }
 
 TEST(SharedCache, ThatDoesNotAnswerIsSkipped) {
@@ -70,8 +70,8 @@ TEST(SharedCache, ThatDoesNotAnswerIsSkipped) {
   config.redis = RedisAddress{"", 0, "/no/such/socket", "", "", 0};
   SharedCache cache(config, log);
   EXPECT_FALSE(cache.get("{}", ""));
-  EXPECT_EQ(cache.figures().skips, 1U);
-  EXPECT_EQ(cache.figures().connections, 0U);
+  EXPECT_EQ(cache.counters().skips, 1U);
+  EXPECT_EQ(cache.counters().connections, 0U);
 }
 
 }  // namespace

@@ -9,7 +9,7 @@ namespace {
 
 TEST(Text, DecodesPercentEscapes) {
   EXPECT_EQ(percent_decode("a%2Bb+c%20d"), "a+b+c d");
-  EXPECT_EQ(percent_decode("a%2bb+c", Plus::space), "a+b c");
+  EXPECT_EQ(percent_decode("a%2bb+c", PlusSign::space), "a+b c");
   for (const char* text : {"%", "%4", "a%4", "%g0", "%0g", "%-1", "%+1"})
     EXPECT_FALSE(percent_decode(text)) << text;
 }

@@ -8,19 +8,19 @@ export interface Output {
   profile?: "core" | "web" | "tiles" | "unity" | "unreal" | "godot" | "blender";
   /** The name of the model: of its root node, its scene and its files, and the first part of the names of its meshes, materials and images. Without it, the name is that of the preset. If only the seed differs from the preset, the seed is appended; if anything else differs, a hash of the request. A request without a preset has the generator's name and a hash. */
   name?: string;
-  /** What the model says of its origin. full writes the engine, generator, seed, preset, canonical request and permalink into the extras of the asset, the scene and the root node. none leaves all of it out. */
+  /** What the model states about its origin. full writes the engine, generator, seed, preset, canonical request and permalink into the extras of the asset, the scene and the root node. none leaves all of it out. */
   provenance?: "full" | "none";
   /** none adds no animation. growth adds a skin and an animation in which the plant grows from a seed to its full size. */
   animation?: "none" | "growth";
-  /** The width and height of generated textures in texels, a power of two. Images of leaves have half of it, and those of occlusion and roughness half of that of their material. none leaves out all textures, including those of the request. links names generated textures of 512 texels by URLs of this service, which are immutable and shared by all models; the formats are glb and gltf, without an impostor. */
+  /** The width and height of generated textures in texels, a power of two. Images of leaves have half this size. An image of occlusion and roughness has half the size of the other images of its material. none leaves out all textures, including those of the request. links names generated textures of 512 texels by URLs of this service, which are immutable and shared by all models; the formats are glb and gltf, without an impostor. */
   textures?: number | "none" | "links";
   /** The file format of generated images. png: every reader. webp: about a tenth of the size, for readers of EXT_texture_webp, which the file then requires. both: WebP, and PNG for readers without it. auto: webp in the profile web, else png. Images of the request keep their format. */
   image_format?: "auto" | "png" | "webp" | "both";
-  /** The number of levels of detail, each coarser than the one before, or a list of their triangles: shares of the whole model up to 1, or numbers of triangles above 1, falling. The first entry is the finest level, as in [1, 0.5, 0.15, 0.03] or [20000, 5000, 800]. More than one level requires the format zip, which has a file for each, or a profile that has them in one file (MSFT_lod): web or unity. In the profiles unity and unreal, vertices then have _NEXT_POSITION, their position on the next level, which adds 12 bytes a vertex. */
+  /** The number of levels of detail, each coarser than the one before, or a list with one entry for each level in descending order. Entries up to 1 are shares of the triangles of the whole model; entries above 1 are numbers of triangles. Examples are [1, 0.5, 0.15, 0.03] and [20000, 5000, 800]. More than one level requires the format zip, which has a file for each, or a profile that has them in one file (MSFT_lod): web or unity. In the profiles unity and unreal, vertices then have _NEXT_POSITION, their position on the next level, which adds 12 bytes a vertex. */
   lods?: number | number[];
   /** Adds an impostor of each plant as its coarsest level of detail: 12 triangles and a texture of the size `textures`, or half of it in a scene. It requires the format zip, or the profile web or unity. */
   impostor?: boolean;
-  /** weights writes the values that a shader needs to move a plant in the wind: TEXCOORD_2 = (bend of the trunk, bend of the branch), TEXCOORD_3 = (phase of the branch, flutter of the leaf), each from 0 to 1. Adjacent vertices have similar values, so that no gap opens. */
+  /** weights writes the values that a shader needs to move a plant in the wind: TEXCOORD_2 = (bend of the trunk, bend of the branch), TEXCOORD_3 = (phase of the branch, flutter of the leaf), each from 0 to 1. Vertices at the same position have the same values, so that no gap opens. */
   wind?: "none" | "weights";
   /** Adds convex bodies around the trunk and the thick limbs of a tree or an L-system, or around the masses of a building. The value selects the names that an engine recognises as collision: plain (collision_01), unreal (UCX_bark_01, after the visible mesh), godot (collision_01-convcolonly). */
   collision?: "none" | "plain" | "unreal" | "godot";
@@ -68,7 +68,7 @@ export interface Problem {
   detail?: string;
   /** Identifies this one refusal: the request id, as in the header X-Request-Id. */
   instance?: string;
-  /** Of a refused import that names no format: the format that the file was read as. */
+  /** The format as which an imported file was read, if the request did not name the format. */
   format?: string;
   /** Every error of the request, all at once: at most the first 100, and then one entry with the code truncated_list. */
   errors?: ProblemErrorsItem[];
@@ -128,7 +128,7 @@ export interface Picture {
 
 /** A variable of a left shape. */
 export interface BuildingParametersShapeGrammarRulesItemOpenItem {
-  /** What the coordinates of both shapes and the condition call it. */
+  /** The name of the variable in the coordinates of both shapes and in the condition. */
   name: string;
   /** Matches with a lower value do not count. */
   low?: number;
@@ -138,11 +138,11 @@ export interface BuildingParametersShapeGrammarRulesItemOpenItem {
 
 /** A left and a right shape. */
 export interface BuildingParametersShapeGrammarRulesItem {
-  /** What reports call it: each counts how often it was used. */
+  /** The name of the rule in reports, which count how often each rule was used. */
   name?: string;
   /** The weight of the rule in the random choice between rules that match. */
   weight?: number;
-  /** Variables of both shapes whose values each match determines, so that a left shape has open proportions. Its coordinates have to be linear in them. The similarity of the match determines size, position and direction, so that one length of the left shape stays a number. */
+  /** Variables of both shapes whose values each match determines, so that a left shape has open proportions. The coordinates of the left shape have to be linear in these variables. The transformation of the match already determines size, position and direction. At least one length of the left shape therefore has to be a number. */
   open?: BuildingParametersShapeGrammarRulesItemOpenItem[];
   /** An expression over the open variables. Matches for which it is 0 do not count. Without one, all count. */
   condition?: string;
@@ -176,11 +176,11 @@ export interface BuildingParametersShapeGrammar {
 export interface BuildingParametersEditsItem {
   /** The path of the shape: names from the first shape on, each with its number among shapes of that name. */
   shape: string;
-  /** Values of attributes for this shape and those that are made of it. */
+  /** Values of attributes for this shape and for all shapes that rules make from it. */
   attributes?: { [key: string]: number | string | boolean };
   /** The symbol whose rule replaces the shape, instead of its own. A symbol without a rule makes it a part of the result. */
   rule?: string;
-  /** Whether the shape is left out, with everything that would be made of it. */
+  /** Whether the shape is left out, with all shapes that rules would make from it. */
   remove?: boolean;
 }
 
@@ -232,7 +232,7 @@ export interface BuildingParametersMaterialsValue {
   /** The width and height of one tile of the images on the wall. */
   tile?: [number, number];
   images?: Images;
-  /** Textures made by seed in the colour of the material: colour, normals, and roughness with occlusion, which replace roughness and metallic. auto: by the name of the material, if `textures` says so. Images take precedence. */
+  /** Generated textures in the colour of the material: colour, normals, and roughness with occlusion. They replace the numbers roughness and metallic. auto: the name of the material selects the kind, if `textures` allows it. Images take precedence. */
   texture?: "auto" | "none" | "brick" | "plaster" | "roof_tile" | "slate" | "planks" | "ashlar" | "concrete" | "sheet" | "panels" | "dressed_stone" | "paint" | "brick_bay" | "plaster_bay" | "planks_bay" | "ashlar_bay";
   /** Another seed gives another texture of the same kind. */
   texture_seed?: number;
@@ -247,7 +247,7 @@ export interface BuildingParametersAssetsValue {
 
 /** Shape and split grammars after Stiny, Wonka and Müller (CGA): rules cut a box or a footprint into floors, facades, windows and doors. Rules are written as in CityEngine, or as in Müller, Wonka, Haegler, Ulmer and Van Gool, Procedural Modeling of Buildings (2006). */
 export interface BuildingParameters {
-  /** The rules as text, in either notation: predecessor(parameters) --> case condition: successor else: successor, or id : predecessor(parameters) : condition ~> successor : probability. Several rules can share a line. //, # and /* *\/ are comments. attr declares an attribute, const a constant. Instead of a text, several rule files by name that import each other; the main file is the one that no other imports. */
+  /** The rules as text, in either notation: predecessor(parameters) --> case condition: successor else: successor, or id : predecessor(parameters) : condition ~> successor : probability. Several rules can share a line. //, # and /* *\/ are comments. attr declares an attribute, const a constant. An object has several rule files by name, which can import each other. The main file is the one that no other file imports. */
   rules?: string | { [key: string]: string };
   /** Tables that rules read with readStringTable, readFloatTable and readTextFile: texts with one row on each line and cells between commas, semicolons or tabulators. */
   tables?: { [key: string]: string };
@@ -281,7 +281,7 @@ export interface BuildingParameters {
   facade_image?: string;
   /** The width and height of one copy of the facade picture. */
   facade_tile?: [number, number];
-  /** Whether materials get textures made by seed, by their names (brick, plaster, wall, facade, building, stone, concrete, wood, roof, roof_tile, slate, cladding, chimney). auto: in blueprints; made: in your own rules too; none: only materials with images have textures. Built-in parts, such as windows, have none. */
+  /** Whether materials with certain names get generated textures (brick, plaster, wall, facade, building, stone, concrete, wood, roof, roof_tile, slate, cladding, chimney). auto: only in blueprints. made: in your own rules, too. none: only materials with images have textures. Built-in parts, such as windows, have none. */
   textures?: "auto" | "made" | "none";
   /** Models that rules insert by name, as in i("statue"): a nested request, or a GLB file as data URI. */
   assets?: { [key: string]: BuildingParametersAssetsValue };
@@ -307,31 +307,31 @@ export interface CityParametersMapsZonesItem {
 export interface CityParametersMaps {
   /** The density of people, from 0 to 1: an expression over x (east) and y (north) in metres, a PNG image as data URI, or polygons with density 1. The brightness of an image covers the box around the area. Streets avoid positions below 0.1; blocks there become parks. */
   density?: string | { [key: string]: unknown };
-  /** Where there is water, as an expression, an image or polygons: from 0.5 upwards. Water is part of the partition. Streets end before it or cross it on bridges. */
+  /** Where there is water: an expression, an image or polygons. There is water where the value is at least 0.5. Water is part of the partition. Streets end before it or cross it on bridges. */
   water?: string | { [key: string]: unknown };
-  /** Where no street may grow, as an expression, an image or polygons: from 0.5 upwards. Nothing is built on lots there. */
+  /** Where no street may grow: an expression, an image or polygons. The value is at least 0.5 there. Nothing is built on lots there. */
   obstacles?: string | { [key: string]: unknown };
-  /** The share of streets.second_pattern in the pattern of the streets, from 0 to 1, as an expression, an image or polygons with the value 1. Between the two, directions are the weighted mean of those of both patterns, as a tensor. Only for the method growth. */
+  /** The share of streets.second_pattern in the pattern of the streets, from 0 to 1, as an expression, an image or polygons with the value 1. At values between 0 and 1, directions follow from the weighted mean of the tensors of both patterns. Only for the method growth. */
   pattern?: string | { [key: string]: unknown };
   /** Named zones, which rules of buildings can use. Where zones overlap, the first one counts. Wards have zones of their own. */
   zones?: CityParametersMapsZonesItem[];
   /** The height of the natural ground, instead of a terrain: an expression over x (east) and y (north) with the height in metres, a PNG image as data URI, or polygons. The brightness of an image covers the box around the area. height_range has the heights of images and polygons. */
   height?: string | { [key: string]: unknown };
-  /** The height of black and of white pixels if the height is an image; outside of and inside its polygons otherwise. An expression has metres of its own. */
+  /** The heights of black and white pixels of an image, or the heights outside and inside of polygons. An expression gives metres itself and does not use this range. */
   height_range?: [number, number];
 }
 
 /** Existing parts of the city as GeoJSON in local metres. They stay as they are, and the rest grows from them. */
 export interface CityParametersGiven {
-  /** Existing streets: LineString, MultiLineString, or a GeometryCollection of them. A FeatureCollection, a Feature or a geometry of GeoJSON in metres, east and north. Foreign members have no effect. The properties `class` (highway, major, minor or lane), `width`, `lanes`, `sidewalk` (one number, or left and right), `level`, `bridge` and `tunnel` count. Without `class`, `highway` of OpenStreetMap decides. Where two streets meet or cross on one level, an end or corner of one has to lie within 3 m of the other. */
+  /** Existing streets: LineString, MultiLineString, or a GeometryCollection of them. The value is a FeatureCollection, a Feature or a geometry of GeoJSON in metres, east and north. Members that RFC 7946 does not define have no effect. The properties `class` (highway, major, minor or lane), `width`, `lanes`, `sidewalk` (one number, or left and right), `level`, `bridge` and `tunnel` count. Without `class`, `highway` of OpenStreetMap decides. Where two streets meet or cross on one level, an end or corner of one has to lie within 3 m of the other. */
   streets?: { [key: string]: unknown };
-  /** Existing water: Polygon, MultiPolygon, or a GeometryCollection of them. A FeatureCollection, a Feature or a geometry of GeoJSON in metres, east and north. Foreign members have no effect. */
+  /** Existing water: Polygon, MultiPolygon, or a GeometryCollection of them. The value is a FeatureCollection, a Feature or a geometry of GeoJSON in metres, east and north. Members that RFC 7946 does not define have no effect. */
   water?: { [key: string]: unknown };
-  /** Existing buildings: Polygon, MultiPolygon, or a GeometryCollection of them. A FeatureCollection, a Feature or a geometry of GeoJSON in metres, east and north. Foreign members have no effect. The property `height` is that of the walls in metres; without it, `floors` or `building:levels` of 3 m, or 9 m. Streets that grow keep clear of the buildings, and no house is built on them. */
+  /** Existing buildings: Polygon, MultiPolygon, or a GeometryCollection of them. The value is a FeatureCollection, a Feature or a geometry of GeoJSON in metres, east and north. Members that RFC 7946 does not define have no effect. The property `height` is the height of the walls in metres. Without it, each of the `floors` or `building:levels` has 3 m. Without all three, walls have 9 m. Streets that grow keep clear of the buildings, and no house is built on them. */
   footprints?: { [key: string]: unknown };
 }
 
-/** The cross section of highways, which given streets can be, and lines of the net with highway_spacing. */
+/** The cross section of highways: given streets of this class, and lines of the net at highway_spacing. */
 export interface CityParametersStreetsClassesHighway {
   /** The width of the carriageway. */
   width?: number;
@@ -339,7 +339,7 @@ export interface CityParametersStreetsClassesHighway {
   lanes?: number;
   /** The width of the sidewalk of each side. */
   sidewalk?: number;
-  /** The steepest grade of these streets, as rise over run. On a terrain the ground is cut and filled to keep it, and no street grows where the natural ground is half steeper. */
+  /** The steepest grade of these streets, as rise over run. On a terrain the ground is cut and filled to keep it, and no street grows where the grade of the natural ground is more than 1.5 times this value. */
   grade?: number;
   /** The distance between trees along each side of these streets. 0: no trees. Default: that of furniture.trees, if it is given. */
   trees?: number;
@@ -353,7 +353,7 @@ export interface CityParametersStreetsClassesMajor {
   lanes?: number;
   /** The width of the sidewalk of each side. */
   sidewalk?: number;
-  /** The steepest grade of these streets, as rise over run. On a terrain the ground is cut and filled to keep it, and no street grows where the natural ground is half steeper. */
+  /** The steepest grade of these streets, as rise over run. On a terrain the ground is cut and filled to keep it, and no street grows where the grade of the natural ground is more than 1.5 times this value. */
   grade?: number;
   /** The distance between trees along each side of these streets. 0: no trees. Default: that of furniture.trees, if it is given. */
   trees?: number;
@@ -367,7 +367,7 @@ export interface CityParametersStreetsClassesMinor {
   lanes?: number;
   /** The width of the sidewalk of each side. */
   sidewalk?: number;
-  /** The steepest grade of these streets, as rise over run. On a terrain the ground is cut and filled to keep it, and no street grows where the natural ground is half steeper. */
+  /** The steepest grade of these streets, as rise over run. On a terrain the ground is cut and filled to keep it, and no street grows where the grade of the natural ground is more than 1.5 times this value. */
   grade?: number;
   /** The distance between trees along each side of these streets. 0: no trees. Default: that of furniture.trees, if it is given. */
   trees?: number;
@@ -381,7 +381,7 @@ export interface CityParametersStreetsClassesLane {
   lanes?: number;
   /** The width of the sidewalk of each side. */
   sidewalk?: number;
-  /** The steepest grade of these streets, as rise over run. On a terrain the ground is cut and filled to keep it, and no street grows where the natural ground is half steeper. */
+  /** The steepest grade of these streets, as rise over run. On a terrain the ground is cut and filled to keep it, and no street grows where the grade of the natural ground is more than 1.5 times this value. */
   grade?: number;
   /** The distance between trees along each side of these streets. 0: no trees. Default: that of furniture.trees, if it is given. */
   trees?: number;
@@ -389,7 +389,7 @@ export interface CityParametersStreetsClassesLane {
 
 /** The cross sections of the streets. */
 export interface CityParametersStreetsClasses {
-  /** The cross section of highways, which given streets can be, and lines of the net with highway_spacing. */
+  /** The cross section of highways: given streets of this class, and lines of the net at highway_spacing. */
   highway?: CityParametersStreetsClassesHighway;
   /** The cross section of this class of streets. */
   major?: CityParametersStreetsClassesMajor;
@@ -606,7 +606,7 @@ export interface CityParametersSurfacesItem {
 export interface CityParametersFurnitureLamps {
   /** The distance between positions along one side of a street. */
   spacing?: number;
-  /** The share of the positions that are used, drawn by position. */
+  /** The share of the positions that are used. A random number for each position decides. */
   share?: number;
   /** Requests among which each position chooses. Empty: a built-in model. */
   models?: Child[];
@@ -616,7 +616,7 @@ export interface CityParametersFurnitureLamps {
 export interface CityParametersFurnitureTrees {
   /** The distance between positions along one side of a street. */
   spacing?: number;
-  /** The share of the positions that are used, drawn by position. */
+  /** The share of the positions that are used. A random number for each position decides. */
   share?: number;
   /** Requests among which each position chooses. Empty: a built-in model. */
   models?: Child[];
@@ -626,7 +626,7 @@ export interface CityParametersFurnitureTrees {
 export interface CityParametersFurnitureBenches {
   /** The distance between positions along one side of a street. */
   spacing?: number;
-  /** The share of the positions that are used, drawn by position. */
+  /** The share of the positions that are used. A random number for each position decides. */
   share?: number;
   /** Requests among which each position chooses. Empty: a built-in model. */
   models?: Child[];
@@ -636,7 +636,7 @@ export interface CityParametersFurnitureBenches {
 export interface CityParametersFurnitureBins {
   /** The distance between positions along one side of a street. */
   spacing?: number;
-  /** The share of the positions that are used, drawn by position. */
+  /** The share of the positions that are used. A random number for each position decides. */
   share?: number;
   /** Requests among which each position chooses. Empty: a built-in model. */
   models?: Child[];
@@ -654,7 +654,7 @@ export interface CityParametersFurnitureSigns {
 export interface CityParametersFurnitureCars {
   /** The distance between positions along one side of a street. */
   spacing?: number;
-  /** The share of the positions that are used, drawn by position. */
+  /** The share of the positions that are used. A random number for each position decides. */
   share?: number;
   /** Requests among which each position chooses. Empty: a built-in model. */
   models?: Child[];
@@ -915,9 +915,9 @@ export interface LsystemParametersEnvironmentCompanionsItem {
 export interface LsystemParametersEnvironment {
   /** Guides, which growth cannot leave; obstacles, which it cannot enter; and hosts, which are obstacles that are part of the model. */
   solids?: LsystemParametersEnvironmentSolidsItem[];
-  /** When a segment counts as outside: by its centre, or unless the whole segment is inside; clipped cuts it at the surface. */
+  /** When a segment counts as outside. centre: its centre is outside. whole: a part of it is outside. clipped: it is cut at the surface. */
   membership?: "centre" | "whole" | "clipped";
-  /** The distance beyond their thickness that a free step keeps from other limbs. */
+  /** A step is free only if its distance from other limbs exceeds both radii and this value. */
   clearance?: number;
   /** The shadows of limbs: cells of this size, each of which removes light from a pyramid of cells below it. */
   light?: LsystemParametersEnvironmentLight;
@@ -957,7 +957,7 @@ export interface LsystemParametersSurfacesValue {
   pointed?: number;
   /** The colour index in materials; -1 uses the turtle's. */
   color?: number;
-  /** Whether a leaf gets the texture of its own shape if its material has none: auto for leaves made of squares. */
+  /** Whether a leaf gets the texture of its own shape if its material has none: auto: only if the leaf is made of squares. */
   picture?: "auto" | "own" | "none";
   model?: Child;
   /** A mesh as data:model/gltf-binary;base64,… , with +Y along the heading and +Z up. Its textures are left out. */
@@ -1030,11 +1030,11 @@ export interface LsystemParameters {
   decomposition?: string[];
   /** How many times the decomposition rules apply to their own results within a step. */
   decomposition_depth?: number;
-  /** Sets of productions that take turns. Each is active for its number of steps, then the next one; after the last the first follows again. The productions above are active in every step, after those of the table. */
+  /** Sets of productions that take turns. Each set is active for its number of steps. Then the next set follows, and after the last one the first again. The productions above are active in every step, after those of the table. */
   tables?: LsystemParametersTablesItem[];
   /** Functions that expressions can use, as name(parameter, ...) = expression. They can use constants and each other, but not themselves. */
   functions?: string[];
-  /** Names of more than one character, each of which is one module. If parameters are given in parentheses, their number is checked; a parameter that begins with the word frame is a frame. */
+  /** Names of more than one character, each of which is one module. If parameters are given in parentheses, their number is checked; a parameter that begins with the word frame is a local coordinate system. */
   modules?: string[];
   /** The allowed symbols. If it is given, any other symbol is an error at its column, which finds misspelt modules. */
   alphabet?: LsystemParametersAlphabet;
@@ -1048,7 +1048,7 @@ export interface LsystemParameters {
   step?: number | LsystemParametersStep2;
   /** The diameter that the turtle starts with. */
   width?: number | LsystemParametersWidth2;
-  /** The rule for the diameter of a segment. symbols: ! and its argument. decrement: thinner by the width decrement for each derivation step before the segment appeared. branch_factor: multiplied by the width factor for each bracket around the segment. longest_chain: by the longest chain of segments that starts with it; the longest of all begins with the turtle's first width, and all end with the tip width. pipe_model: the tip width at every tip, summed where limbs meet. */
+  /** The rule for the diameter of a segment. symbols: ! and its argument. decrement: thinner by the width decrement for each derivation step before the segment appeared. branch_factor: multiplied by the width factor for each bracket around the segment. longest_chain: it depends on the longest chain of segments from this segment on. The longest chain of the plant begins with the turtle's first width, and every chain ends with the tip width. pipe_model: the tip width at every tip, summed where limbs meet. */
   width_rule?: "symbols" | "decrement" | "branch_factor" | "longest_chain" | "pipe_model";
   /** The value that a ! without an argument subtracts from the diameter, and that the width rule decrement subtracts for each derivation step. */
   width_decrement?: number;
@@ -1080,7 +1080,7 @@ export interface LsystemParameters {
   taper?: "linear" | "none";
   /** Whether parts of a self-similar system that occur again are one mesh with copies. auto: where the whole drawing would have more than 64 million modules or 40 million triangles or lines. Parts with random choices, parameters or polygons are never shared. */
   share?: "auto" | "always" | "never";
-  /** What the tubes of coarser levels of detail have less of (`output.lods`). outline: fewer limbs and joints, those that change the outline least. slices: all limbs, with the sides and stacks of level 0 divided by the root of the level plus 1: 32 sides become 22, 18, 16 and 14. */
+  /** How the tubes of coarser levels of detail (`output.lods`) save triangles. outline: fewer limbs and joints, those that change the outline least. slices: all limbs, with the sides and stacks of level 0 divided by the root of the level plus 1: 32 sides become 22, 18, 16 and 14. */
   levels?: "outline" | "slices";
   /** Whether thinner limbs have fewer sides and shorter segments fewer stacks. Coarser levels of detail always do. */
   adapt?: boolean;
@@ -1131,13 +1131,13 @@ export interface SceneParametersAreasItem {
 export interface SceneParametersBuildingsItemRoof {
   /** flat, skillion (one slope), gabled, half_hipped, gambrel, saltbox (the ridge at 0.35 of the width), round, hipped, mansard, pyramidal, dome or onion. */
   shape?: "flat" | "skillion" | "gabled" | "half_hipped" | "gambrel" | "saltbox" | "round" | "hipped" | "mansard" | "pyramidal" | "dome" | "onion";
-  /** From the end of the walls to the highest point. Default: by `angle`, or else by the shape, at most half of the height of the building. */
+  /** The height from the top of the walls to the highest point. Default: by `angle`, or else by the shape, at most half of the height of the building. */
   height?: number;
   /** The slope, instead of the height. */
   angle?: number;
   /** The direction down the slope, clockwise from north; the ridge is across. Default: by the shape of the footprint. */
   direction?: number;
-  /** Without a direction: the ridge runs along the longer side of the footprint, or across. */
+  /** The direction of the ridge if there is no `direction`: along the longer side of the footprint, or across it. */
   orientation?: "along" | "across";
   color?: string;
 }
@@ -1265,7 +1265,7 @@ export interface SceneParametersLayersItemPlaceNearItem {
 
 /** The positions of the layer. */
 export interface SceneParametersLayersItemPlace {
-  /** poisson: everywhere, with a least distance of `distance`. scatter: `count` random positions. clusters: `count` positions in groups. rows: on a grid of `spacing`. path: along `points`. positions: the list `positions`. */
+  /** poisson: everywhere, with a least distance of `distance`. scatter: `count` random positions. clusters: `count` positions in groups. rows: on a grid of `spacing`. path: along `points`. positions: the list `positions`. Other members of `place` end with the methods that use them, in parentheses. */
   method?: "poisson" | "scatter" | "clusters" | "rows" | "path" | "positions";
   /** Explicit positions (positions). */
   positions?: SceneParametersLayersItemPlacePositionsItem[];
@@ -1299,7 +1299,7 @@ export interface SceneParametersLayersItemPlace {
   density_image?: string;
   /** Patches by smooth noise. */
   noise?: SceneParametersLayersItemPlaceNoise;
-  /** Classes of the ground of the terrain. The probability rises from 0 where they have 30 % of the ground to 1 where they have 55 %. Default: all classes. */
+  /** Classes of the ground of the terrain. The probability of a position is 0 where these classes cover at most 30 % of the ground. It rises to 1 where they cover 55 %. Default: all classes. */
   ground?: ("grass" | "soil" | "rock" | "scree" | "sand" | "snow" | "litter")[];
   /** Limits of the slope of the ground; level ground has 0. */
   slope?: SceneParametersLayersItemPlaceSlope;
@@ -1327,7 +1327,7 @@ export interface SceneParametersLayersItem {
   model: Child;
   /** The number of different models, each of another seed. Each is made once and used at many positions. */
   variants?: number;
-  /** Parameters of the model that are drawn for each variant. */
+  /** Parameters of the model that get a random value for each variant. */
   vary?: SceneParametersLayersItemVaryItem[];
   /** The age of the plants, for the parameter `age` of their generator; drawn for each variant. */
   age?: number | [number, number];
@@ -1339,7 +1339,7 @@ export interface SceneParametersLayersItem {
   scale?: number | [number, number];
   /** Rotation about the vertical axis. */
   turn?: number | [number, number];
-  /** The largest random lean. */
+  /** The largest random angle between the model and its usual direction. */
   tilt?: number;
   /** 1 is vertical, 0 is perpendicular to the ground. */
   upright?: number;
@@ -1347,7 +1347,7 @@ export interface SceneParametersLayersItem {
   sink?: number;
   /** Radius of the crown at scale 1, for competition and shade. */
   crown?: number;
-  /** The area on the ground at scale 1. Nothing of later layers stands inside, and no other copy of this layer: a radius, or width (east) and depth (south) before rotation. */
+  /** The area on the ground at scale 1, as a radius, or as width (east) and depth (south) before rotation. Later layers and other copies of this layer keep out of it. */
   footprint?: number | [number, number];
   /** The ground under the footprint is made level. */
   foundation?: SceneParametersLayersItemFoundation;
@@ -1371,15 +1371,15 @@ export interface SceneParameters {
   ground?: SceneParametersGround;
   /** Paths, on which layers place nothing. */
   paths?: SceneParametersPathsItem[];
-  /** Coloured areas on level ground, such as water, grass and squares. Those of one name and colour lie at one height, above those that the list has before them. */
+  /** Coloured areas on level ground, such as water, grass and squares. Areas of one name and colour lie at one height, above the areas before them in the list. */
   areas?: SceneParametersAreasItem[];
-  /** Buildings as bodies with a roof, such as those of a map. Each is one closed mesh, up to 2,000 as nodes of their own. Layers keep away from them. */
+  /** Buildings as bodies with a roof, such as those of a map. Each is one closed mesh. If there are at most 2,000, each has a node of its own; otherwise they are merged. Layers keep away from them. */
   buildings?: SceneParametersBuildingsItem[];
   /** The geographic position of the origin, and the projection of all positions. The file repeats it as `asset.extras.georeference`. */
   georeference?: SceneParametersGeoreference;
   /** The layers of models. */
   layers?: SceneParametersLayersItem[];
-  /** The age of all plants, for the parameter `age` of generators that have it. No plant becomes older than it would be without. */
+  /** The age of all plants, for the parameter `age` of generators that have it. A plant that would be younger keeps its own age. */
   age?: number;
   /** The season of all plants whose generator has a parameter `season`. */
   season?: "spring" | "summer" | "autumn" | "winter";
@@ -1459,7 +1459,7 @@ export interface TerrainParametersTile {
   x?: number;
   /** Counted southwards; may be negative. */
   z?: number;
-  /** Tiles a side of the world that faults cross (fault_formation and poisson_faulting; default 1; column and row are below it), or of the area that an island covers, beyond which is sea. With hydraulic erosion it is required: water runs over this world, of at most 4,097 samples a side, and each tile is cut out of it. */
+  /** The number of tiles along a side of the world. Faults cross this world (fault_formation and poisson_faulting; default 1), and x and z are then below this number. An island covers this world, with sea beyond. With hydraulic erosion it is required: water runs over this world, of at most 4,097 samples a side, and each tile is cut out of it. */
   across?: number;
 }
 
@@ -1511,7 +1511,7 @@ export interface TerrainParametersHydraulic {
   method?: "droplets" | "stream_power";
   /** The number of drops. Default: 65536. */
   droplets?: number;
-  /** How far a drop runs at most, and never more than four times along both sides of the field. Default: an eighth of the size. */
+  /** The greatest length of the path of a drop. It is at most four times the sum of both sides of the field. Default: an eighth of the size. */
   lifetime?: number;
   /** How much a drop keeps its direction. Default: 0.1. */
   inertia?: number;
@@ -1533,7 +1533,7 @@ export interface TerrainParametersHydraulic {
   area_exponent?: number;
 }
 
-/** Finer ground around a point, such as a walking camera. Within the radius, the squares of the grid are divided until their sides are at most the step; further out, the step doubles with each radius until it is that of the grid. Small forms by ground are added: rock has ledges and outcrops, scree lumps, grass hummocks, sand and soil ripples, snow low drifts. They end at the rim and at the border of the field. A shape plane with the mesh grid, without texture. */
+/** Finer ground around a point, such as a walking camera. Within the radius, the squares of the grid are divided until their sides are at most the step; further out, the step doubles with each radius until it is that of the grid. Small forms are added by the kind of ground: ledges and outcrops on rock, lumps on scree, hummocks on grass, ripples on sand and soil, low drifts on snow. They end at the rim and at the border of the field. Only for the shape plane with the mesh grid and without texture. */
 export interface TerrainParametersRefine {
   /** The point, in metres to the east and south of the middle of the field or tile. */
   center?: [number, number];
@@ -1572,13 +1572,13 @@ export interface TerrainParametersHeightmap {
 export interface TerrainParameters {
   /** The algorithm. fault_formation and poisson_faulting lift one side of random lines. triangular_edge, diamond_square and square_square refine a few heights repeatedly. fbm sums octaves of noise. brownian is fractional Brownian motion along a line, for the shape profile. image takes heights from an image. expression computes each height. fracture breaks a solid along random planes, for rocks of the shape sphere. */
   algorithm?: "fault_formation" | "poisson_faulting" | "triangular_edge" | "diamond_square" | "square_square" | "fbm" | "brownian" | "image" | "expression" | "fracture";
-  /** The height of a sample, for the algorithm expression: x and y are metres to the east and north of the centre. On a sphere, x, y and z are the position, and latitude and longitude are in degrees. size is the size. noise(x, y) is gradient noise; fbm, ridged and billow(x, y, octaves) are sums of it; all take a z as well. ran draws anew at each sample. */
+  /** The height of a sample, for the algorithm expression: x and y are metres to the east and north of the centre. On a sphere, x, y and z are the position, and latitude and longitude are in degrees. size is the size. noise(x, y) is gradient noise; fbm, ridged and billow(x, y, octaves) are sums of it; all take a z as well. ran(high) and similar functions return another random number at each sample. */
   expression?: string;
   /** Further heights that are combined with those of the algorithm, one after the other, before the filters. */
   layers?: TerrainParametersLayersItem[];
   /** Rounds of a subdivision (n rounds give 2^n + 1 samples a side; square_square gives 2^n + 2), the number of faults, the octaves of noise, or the planes of fracture. Default: 8 rounds, 64 faults, 8 octaves, 16 planes. Not for image and expression. */
   iterations?: number;
-  /** Additional iterations after the planned ones. A subdivision or noise becomes finer by that many rounds and keeps its old heights. Faults are added without the falling bound. */
+  /** Additional iterations after the planned ones. A subdivision or noise becomes finer by that many rounds and keeps its old heights. Additional faults all have the bound fault_max. */
   extra_iterations?: number;
   /** Samples a side for algorithms that do not determine it: faults, fbm, brownian, expression and fracture. On a sphere, samples along an edge of its cube. Default: 257, on a sphere 65. */
   resolution?: number;
@@ -1588,7 +1588,7 @@ export interface TerrainParameters {
   shape?: "plane" | "sphere" | "profile";
   /** Subdivision: the greatest random deviation of the first round. Noise: the weight of the first octave. brownian: the standard deviation of the height difference between both ends. fracture: the height of the noise on the facets. Default: a tenth of the size, on a sphere a twentieth of the diameter, for fracture a sixtieth. */
   amplitude?: number;
-  /** How fast the deviation falls with finer detail: every round or octave has 2^-hurst times the deviation of the one before. 1 is smooth, 0 is very rough. Default: 0.8. The mode random of triangular_edge does not use it. For brownian, it lies between 0 and 1, and heights at a distance d differ by about d^hurst; the default is 0.5. */
+  /** How fast the deviation falls with finer detail: every round or octave has 2^-hurst times the deviation of the one before. 1 is smooth, 0 is very rough. Default: 0.8. The mode random of triangular_edge does not use it. For brownian, it lies between 0 and 1, and heights at a distance d differ in proportion to d^hurst; the default is 0.5. */
   hurst?: number;
   /** Heights that a subdivision starts from: north-west, north-east, south-west, south-east. Default: drawn from the seed. */
   corners?: [number, number, number, number];
@@ -1632,7 +1632,7 @@ export interface TerrainParameters {
   thermal?: TerrainParametersThermal;
   /** Water removes ground and deposits it. */
   hydraulic?: TerrainParametersHydraulic;
-  /** Samples a side of the finished field, by a smooth curve through the old samples (Catmull-Rom): 2^n + 1 for engines and rtin, any size for Unreal. Default: the samples of the algorithm. */
+  /** Samples a side of the finished field. They lie on a smooth curve through the old samples (Catmull-Rom). Most engines and rtin need 2^n + 1; Unreal accepts any number. Default: the samples of the algorithm. */
   resample?: number;
   /** grid: every sample. rtin: right triangles where needed, fast (2^n + 1 samples a side). greedy: the fewest triangles for an error, slower. */
   mesh?: "grid" | "rtin" | "greedy";
@@ -1642,13 +1642,13 @@ export interface TerrainParameters {
   skirt?: number;
   /** Makes a closed solid for printing, with a floor at this distance below the lowest height. */
   base?: number;
-  /** Finer ground around a point, such as a walking camera. Within the radius, the squares of the grid are divided until their sides are at most the step; further out, the step doubles with each radius until it is that of the grid. Small forms by ground are added: rock has ledges and outcrops, scree lumps, grass hummocks, sand and soil ripples, snow low drifts. They end at the rim and at the border of the field. A shape plane with the mesh grid, without texture. */
+  /** Finer ground around a point, such as a walking camera. Within the radius, the squares of the grid are divided until their sides are at most the step; further out, the step doubles with each radius until it is that of the grid. Small forms are added by the kind of ground: ledges and outcrops on rock, lumps on scree, hummocks on grass, ripples on sand and soil, low drifts on snow. They end at the rim and at the border of the field. Only for the shape plane with the mesh grid and without texture. */
   refine?: TerrainParametersRefine;
   /** Colours by height, slope and hollows. stone and mossy are those of rocks: light tops, and tops with moss. forest is the floor of a forest: fallen leaves and needles with patches of herbs. */
   palette?: "alpine" | "desert" | "tropical" | "arctic" | "volcanic" | "moon" | "stone" | "mossy" | "forest" | "grey" | "none";
   specular?: Specular;
   emission?: Emission;
-  /** A sheet of water at this height; on a sphere above its mean radius. */
+  /** A surface of water at this height. On a sphere, the height is measured from its mean radius. */
   water_level?: number;
   /** Pixels a side of a colour texture and a normal map of the whole field, instead of vertex colours. 0: none. Not on a sphere. */
   texture?: number;
@@ -1960,7 +1960,7 @@ export interface TreeParametersGrown {
   lambda_years?: [number, number];
   /** Weight of the branches of the lowest rank against the branch of the first rank: w_min by w_max in the paper. */
   priority_least?: number;
-  /** Share of the branches of an axis along which weights fall to the least: κ in the paper. */
+  /** Share of the branches of an axis, in the order of their ranks, over which weights fall to `priority_least`: κ in the paper. */
   priority_share?: number;
   /** Shadow propagation: each internode darkens its cell and a pyramid of cells below it. */
   light?: TreeParametersGrownLight;
@@ -1974,7 +1974,7 @@ export interface TreeParametersGrown {
   takeover?: number;
   /** Number of levels of branching, including the trunk. Axes of the last level have no side buds. */
   levels?: number;
-  /** A branch is shed when its vigour divided by the number of its internodes that are younger than `shed_years` is smaller. 0: only branches without any light are shed. */
+  /** A branch is shed if its vigour for each of its internodes younger than `shed_years` is below this value. 0: only branches without any light are shed. */
   shed?: number;
   /** Age at which a branch can be shed. Internodes of this age no longer count for the threshold. */
   shed_years?: number;
@@ -1994,7 +1994,7 @@ export interface TreeParametersGrown {
   leaf_width?: number;
   /** Angle between a leaf and its shoot. */
   leaf_angle?: number;
-  /** Share of the turn of leaves to the light, with their upper side out of the crown. */
+  /** How far leaves turn their upper side out of the crown to the light. 0: not at all. 1: completely. */
   leaf_bend?: number;
   /** Solids that shoots grow around, and that cast shade. They are not part of the model. */
   obstacles?: TreeParametersGrownObstaclesItem[];
@@ -2084,7 +2084,7 @@ export interface TreeParameters {
   PrunePowerHigh?: number;
   /** The tree in the wind at one moment, by the formulas of section 4.8 of Weber and Penn. Long and thin stems bend most, by at most 90 degrees. Lengths do not change. */
   sway?: TreeParametersSway;
-  /** Largest number of leaves on a limb of the last level. A negative number puts that many in a fan at its end. */
+  /** Largest number of leaves on a limb of the last level. If negative, its absolute value is the number of leaves in a fan at the end of the limb. */
   Leaves?: number;
   /** How the number of leaves of a limb depends on its position along the parent: the number of a crown shape (Shape). The paper has 4. */
   LeafDistrib?: number;
@@ -2126,7 +2126,7 @@ export interface TreeParameters {
   "1RotateV"?: number;
   /** Greatest number of limbs of level 1 on one parent. */
   "1Branches"?: number;
-  /** Part of each segment of the parent that bears limbs of level 1, from its base. 1: limbs are evenly spread. 0: all begin where the segment begins. */
+  /** Share of each segment of the parent, from its base, on which limbs of level 1 begin. 1: limbs are evenly spread. 0: all begin where the segment begins. */
   "1BranchDist"?: number;
   /** Number of limbs of level 1 that begin at the same height, evenly around their parent. 1Rotate, 2Rotate or 3Rotate turns one whorl against the next. */
   "1Whorl"?: number;
@@ -2162,7 +2162,7 @@ export interface TreeParameters {
   "2RotateV"?: number;
   /** Greatest number of limbs of level 2 on one parent. */
   "2Branches"?: number;
-  /** Part of each segment of the parent that bears limbs of level 2, from its base. 1: limbs are evenly spread. 0: all begin where the segment begins. */
+  /** Share of each segment of the parent, from its base, on which limbs of level 2 begin. 1: limbs are evenly spread. 0: all begin where the segment begins. */
   "2BranchDist"?: number;
   /** Number of limbs of level 2 that begin at the same height, evenly around their parent. 1Rotate, 2Rotate or 3Rotate turns one whorl against the next. */
   "2Whorl"?: number;
@@ -2198,7 +2198,7 @@ export interface TreeParameters {
   "3RotateV"?: number;
   /** Greatest number of limbs of level 3 and beyond on one parent. */
   "3Branches"?: number;
-  /** Part of each segment of the parent that bears limbs of level 3, from its base. 1: limbs are evenly spread. 0: all begin where the segment begins. */
+  /** Share of each segment of the parent, from its base, on which limbs of level 3 begin. 1: limbs are evenly spread. 0: all begin where the segment begins. */
   "3BranchDist"?: number;
   /** Number of limbs of level 3 that begin at the same height, evenly around their parent. 1Rotate, 2Rotate or 3Rotate turns one whorl against the next. */
   "3Whorl"?: number;
@@ -2224,7 +2224,7 @@ export interface TreeParameters {
   "3CurveBack"?: number;
   /** Largest sum of random bends along the axis. If negative, the axis is a helix that leans by this angle. */
   "3CurveV"?: number;
-  /** The seed if that of the request is 0, or if `sequence` is original. Only then is the tree the one that proctree makes from this seed. */
+  /** The seed if that of the request is 0, or if `sequence` is original. Only with `sequence` original, the tree is the one that proctree makes from this seed. */
   mSeed?: number;
   /** Number of corners of the cross-sections, which is even. 2 gives 3 corners. */
   mSegments?: number;
@@ -2314,7 +2314,7 @@ export interface WorldParametersClimate {
   temperature?: number;
   /** The mean moisture: 0 is desert, 1 rain forest. */
   moisture?: number;
-  /** How much moisture and temperature vary from location to location. */
+  /** How much moisture and temperature vary over the world. */
   variation?: number;
 }
 
@@ -2352,7 +2352,7 @@ export interface WorldParametersSettlementsTowns {
 export interface WorldParametersSettlementsHousesItem {
   /** A request of the generator building. */
   model: Child;
-  /** How often this house stands, by the sum of all shares. */
+  /** The frequency of this house, relative to the sum of all shares. */
   share?: number;
 }
 
@@ -2388,7 +2388,7 @@ export interface WorldParametersFields {
   share?: number;
   /** The mean side of a field. */
   size?: number;
-  /** How far from the middle of a village there are fields, by the radius of the village. */
+  /** The distance from the middle of a village up to which there are fields, as a multiple of the radius of the village. */
   reach?: number;
   /** The colours of crops. */
   colors?: string[];
@@ -2398,9 +2398,9 @@ export interface WorldParametersFields {
 export interface WorldParametersPlantsItem {
   /** The name of the class in the map. */
   class: string;
-  /** The form of the plant where it has no model, and the width of crowns in woods seen from far away. */
+  /** The form of the plant if it has no model. It also determines the width of crowns in woods that are seen from far away. */
   form?: "conifer" | "broadleaf" | "palm" | "shrub" | "cactus" | "fungus";
-  /** A request of the generator tree or lsystem. Its model is scaled to the height. Near the camera it has 1,500 triangles, or more where it cannot be simplified so far; farther away, its impostor is shown. */
+  /** A request of the generator tree or lsystem. Its model is scaled to the height. Near the camera it has 1,500 triangles, or more if it cannot be simplified that far; farther away, its impostor is shown. */
   model?: Child;
   /** The mean height. Copies have 0.7 to 1.3 times this height. */
   height?: number;
@@ -2720,7 +2720,7 @@ export interface ValidationEstimate2 {
 export interface Validation {
   valid: true;
   warnings: WarningsItem[];
-  /** Null if the size cannot be computed cheaply. */
+  /** Null if the size cannot be computed cheaply. `exact` is true if the model has exactly `triangles`; `bytes` is always an approximation. */
   estimate: null | ValidationEstimate2;
 }
 
@@ -2761,7 +2761,7 @@ export interface LsystemDerivation {
   /** How often each symbol occurs. */
   counts: { [key: string]: number };
   string: string;
-  /** The string is cut at 16 MiB. */
+  /** True if the string has more than 16 MiB and is therefore cut. */
   truncated: boolean;
   turtle: LsystemDerivationTurtle;
   warnings: WarningsItem[];
@@ -2778,7 +2778,7 @@ export interface BuildingDerivationShapesItem {
   parent: number | null;
   symbol: string;
   parameters: (number | string | boolean | unknown[])[];
-  /** Part of the result. */
+  /** Whether the shape is part of the result. */
   active: boolean;
   /** The first line of the rule that replaced the shape; shapes that no rule replaced have none. */
   rule?: string;
@@ -2900,7 +2900,7 @@ export interface WorldMap {
 
 export type WorldPosition = [number, number, number];
 
-/** In the frame of the unit element. Values that do not apply, are unknown, or are too large for a number are null. */
+/** The measures of the fractal, in the frame of the unit element. Values that do not apply, are unknown, or are too large for a number are null. */
 export interface FractalDerivation {
   pieces: number | null;
   /** Pieces that are below the parameter smallest, and therefore points. */
@@ -2911,9 +2911,9 @@ export interface FractalDerivation {
   volume: number | null;
   genus: number | null;
   non_manifold_edges: number | null;
-  /** Of all copies of a segment, or of the outline of a plate. */
+  /** The length of all copies of a segment, or of the outline of a plate. */
   length: number | null;
-  /** Of one side of a plate. */
+  /** The area of one side of a plate. */
   area: number | null;
   /** The same values for each of the stages, with its iterations or points. */
   stages: { [key: string]: unknown }[];
@@ -2932,7 +2932,7 @@ export interface TerrainDerivation {
   samples?: number;
   /** In metres, row by row from the north-west; null beyond 257 x 257 samples. */
   heights: number[] | null;
-  /** Values to enter in engines beside the height map. */
+  /** Values to enter in an engine when it imports the height map. */
   engines?: { [key: string]: unknown } | null;
   warnings: WarningsItem[];
 }

@@ -24,8 +24,8 @@ struct BodyCost {
   /// Positions and normals of 12 bytes, indices of 16 bits.
   std::uint64_t bytes() const { return 24 * vertices + 6 * triangles; }
 
-  /// Whether `count` equal bodies should share a mesh: each node must save 8 kB of what merging would write,
-  /// and all of them together 64 kB.
+  /// Whether `count` equal bodies should share a mesh: compared with merging, they must save
+  /// 8 kB for each node and 64 kB in all.
   bool pays(std::uint64_t count) const {
     const std::uint64_t saved = count > 0 ? bytes() * (count - 1) : 0;
     return saved >= 65'536 && saved >= 8'192 * count * primitives;
@@ -33,9 +33,9 @@ struct BodyCost {
 };
 
 enum class Sharing {
-  paying,  ///< equal bodies share a mesh where that pays (BodyCost), others as merged
+  paying,  ///< equal bodies share a mesh if BodyCost::pays() holds; others are merged
   nodes,   ///< equal bodies share a mesh, and each has a node
-  merged,  ///< one mesh a layer, one primitive a material
+  merged,  ///< one mesh for each layer, with one primitive for each material
 };
 
 /// Adds a node "building" with the meshes of all active shapes below it. Shapes without an area are left out.

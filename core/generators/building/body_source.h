@@ -17,7 +17,7 @@ struct DrawnBody {
   std::int32_t material = 0;
 };
 
-/// Metres as whole micrometres. Bodies of equal rounded sizes are equal.
+/// Returns a size in metres as whole micrometres. Bodies whose rounded sizes are equal count as equal.
 std::array<std::int64_t, 3> rounded(const glm::dvec3& size);
 
 class BodySource {

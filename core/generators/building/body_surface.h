@@ -27,7 +27,8 @@ class SurfaceBuilder {
   /// `job`, which outlives the object, is checked for stop and deadline.
   explicit SurfaceBuilder(const Job* job = nullptr) : triangulator_(job) {}
 
-  /// Appends a box from the origin to `size`, or a rectangle if one size is 0; it faces along that axis.
+  /// Appends a box from the origin to `size`. If one size is 0, appends a rectangle whose normal points along that
+  /// axis.
   static void box(const glm::dvec3& size, BodySurface& surface);
   /// Appends a solid scaled by `size`. Flat faces have one normal, round faces smooth normals. Faces without
   /// an area are left out.

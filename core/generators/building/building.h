@@ -5,8 +5,9 @@
 ///
 /// Out:    metres, +Y up. The first scope stands on the ground: a box is centred on the origin, a footprint lies
 ///         at its coordinates. One node "building" has the bodies below it.
-/// Errors: all errors of the text, at /rules with line and column. During the derivation: numbers that are not finite,
-///         and endless recursion. Also errors at /start, /attributes/..., /footprint, /assets/... and /materials/...
+/// Errors: all syntax errors of the rules, at /rules with line and column. Errors of the derivation, such as numbers
+///         that are not finite and endless recursion. Errors at /start, /attributes/..., /footprint, /assets/... and
+///         /materials/...
 /// Cost:   about 0.3 us a shape and 0.5 us a body. See docs/buildings.md.
 #include <nlohmann/json_fwd.hpp>
 #include <vector>
@@ -28,7 +29,7 @@ std::vector<Issue> check(const BuildingParams& params, const Limits& limits, con
 /// or a shape grammar.
 Generator::Prepared prepare(const BuildingParams& params, const CheckContext& context);
 
-/// Makes the model. If the context has prepared rules of equal parameters, they are used instead of being read again.
+/// Makes the model. If the context has prepared rules that belong to the parameters, they are not read again.
 Result<Model> generate(const BuildingParams& params, const GenerateContext& context);
 
 /// Returns {shapes: [{id, parent, symbol, parameters, active, scope: {origin, axes, size}}], count, truncated,

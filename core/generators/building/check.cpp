@@ -109,8 +109,8 @@ void warn_of_materials(Grammar& grammar, const BuildingParams& params, const Rul
     const Issue place = issue_at(IssueKind::syntax, rules, step.offset, "");
     grammar.warnings.push_back({place.pointer,
                                 "there is no material " + lang::in_quotes(*name) +
-                                    ", so that it becomes a new one; did you mean " + lang::in_quotes(*like) +
-                                    "?",
+                                    "; the shape gets a plain material of this name; did you mean " +
+                                    lang::in_quotes(*like) + "?",
                                 place.line, place.column});
   }
 }
@@ -125,8 +125,9 @@ void add_refused(const BuildingParams& params, const RuleText& rules, const char
       continue;
     }
     issues.emplace_back(IssueKind::invalid_value, pointer,
-                        "the rules of the blueprint are not of this kind: " + error.message + " (line " +
-                            std::to_string(text_position(rules.text, error.offset).line) + " of them)");
+                        "the rules of the blueprint do not satisfy this restriction: " + error.message +
+                            " (line " + std::to_string(text_position(rules.text, error.offset).line) +
+                            " of them)");
     return;
   }
 }

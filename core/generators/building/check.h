@@ -1,5 +1,5 @@
 #pragma once
-/// The checks of a request that the schema cannot express. They read the rules as well.
+/// The checks of a request that the schema cannot express. The rules are parsed here, too.
 #include <map>
 #include <memory>
 #include <optional>
@@ -29,7 +29,8 @@ using AttributeValue = std::variant<double, std::string, bool>;
 struct RuleSet {
   RuleText text;
   Grammar grammar;  ///< its texts are shared
-  /// The parameters: rules and blueprint, start, restrict and weights, and the names of materials.
+  /// The parameters from which the rules were read: `rules`, `blueprint`, `start`, `restrict` with `weights`, and
+  /// the names of `materials`.
   std::optional<std::variant<std::string, std::map<std::string, std::string>>> rules;
   std::string blueprint;
   std::optional<std::string> start;
@@ -65,12 +66,12 @@ struct Bounds {
 };
 
 /// Returns all errors. Sets `rules`, or `pictures` if the request has a shape grammar. If `rules` is not
-/// null, its rules are not read again; they have to be those of the parameters (has_rules_of). `rules`
-/// becomes null if the rules have errors.
+/// null, it must be the rules of the parameters (has_rules_of), and they are not read again. `rules` becomes
+/// null if the rules have errors.
 std::vector<Issue> check_all(const BuildingParams& params, const Bounds& bounds,
                              std::shared_ptr<const RuleSet>& rules, PictureGrammar& pictures);
 
-/// Whether rules that were read from other parameters are those of these parameters.
+/// Whether `params` would give the same rules, so that these need not be read again.
 bool has_rules_of(const RuleSet& rules, const BuildingParams& params);
 
 }  // namespace seedmesh::building

@@ -147,7 +147,7 @@ void check_grammar(Parser& p, std::string_view start) {
     return;
   }
   if (p.grammar.queries.size() > most_queries)
-    add_error(p, p.tokens.at(0), "the rules have more than 32 different queries to other shapes");
+    add_error(p, p.tokens.at(0), "the rules have more than 32 different queries about other shapes");
   p.grammar.start = p.start != none ? p.start : p.grammar.rules.front().symbol;
   if (!start.empty()) {
     const auto found = p.symbols.find(start);

@@ -4,16 +4,16 @@
 
 namespace seedmesh::building {
 
-// Keys of random numbers below the key of a shape: for conditions, and for the choice of a successor. Successors use
-// the index of their step as key, which is always smaller.
+// Keys of random numbers, which are combined with the key of a shape: for conditions, and for the choice of a
+// successor. The steps of a successor use their index as key. An index is always smaller than these two keys.
 constexpr std::uint64_t step_of_conditions = 0xFFFF'FFFF'0001U, step_of_choice = 0xFFFF'FFFF'0002U;
 
 /// Returns the weight of `choice`, at least 0. Percentages count as hundredths. Without a given weight it is 1 -
 /// `before`, where `before` is the sum of the earlier weights.
 double weight_of(Derivation& d, const Choice& choice, double before);
 
-/// Returns the choice that replaces shape `index`. The random number has the key of the shape. Returns null
-/// if no rule holds.
+/// Returns the choice that replaces shape `index`. The random number follows from the key of the shape.
+/// Returns null if the condition of no rule holds.
 const Choice* choose(Derivation& d, std::uint32_t index);
 
 }  // namespace seedmesh::building

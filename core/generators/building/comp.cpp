@@ -45,7 +45,7 @@ std::vector<ShapeState> sets_of(Derivation& d, const ShapeState& state,
 
 }  // namespace
 
-void comp(Derivation& d, const Step& step, ShapeState& state, const Site& site) {
+void comp(Derivation& d, const Step& step, ShapeState& state, const StepContext& site) {
   take_box_of_asset(d, step, state);
   std::vector<Component> all;
   if (dimension(state.size) >= 2) all = components_of(d, state, step.axis);

@@ -1,12 +1,12 @@
 #pragma once
-/// Expressions of rules, compiled for core/lang. Texts become ids in Grammar::texts, and queries to other
-/// shapes become slots. If lang::Program can hold the value, functions of the rules are expanded where they
+/// Expressions of rules, compiled for core/lang. Texts become ids in Grammar::texts, and queries about
+/// other shapes become slots. If lang::Program can hold the value, functions of the rules are expanded where they
 /// are called, and `case` and percentages become select(). Otherwise a tree of ValueNode is made.
 #include "core/generators/building/parser.h"
 
 namespace seedmesh::building {
 
-/// Returns the index of a query to other shapes in Grammar::queries; adds the query if it is new.
+/// Returns the index of a query about other shapes in Grammar::queries, which gets the query if it is new.
 std::uint32_t query_index(Parser& p, Query::Kind kind, std::string target);
 
 /// Returns the end of the value that begins at token i: an expression, or the cases of a function or attribute.

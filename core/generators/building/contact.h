@@ -21,9 +21,9 @@ struct Outline {
 /// Returns the outline of a shape. Assets count as their boxes. Points have no outline.
 Outline outline_of(const Derivation& d, const ShapeState& state);
 
-/// Whether two shapes share a part of their borders. Volumes share a part of a face, with each on its own side; a
-/// flat shape lies on a face of a volume; flat shapes share a part of an edge; lines share an end. Cost: the
-/// product of the numbers of triangles.
+/// Whether two shapes share a part of their borders. Two volumes are neighbours if they lie on opposite sides of a
+/// shared part of a face. A flat shape is a neighbour of a volume if it lies on one of its faces. Two flat shapes share
+/// a part of an edge, and two lines share an end. Cost: proportional to the product of the numbers of triangles.
 bool are_neighbours(const Outline& a, const Outline& b);
 
 }  // namespace seedmesh::building

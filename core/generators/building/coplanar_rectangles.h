@@ -22,7 +22,7 @@ class CoplanarRectangles {
     return places_[i] == none ? 0 : rects_[places_[i]].more;
   }
 
-  /// Sets `points` to the corners of a rectangle in the world, counter-clockwise; to none if the shape is no
+  /// Sets `points` to the corners of a rectangle in the world, counter-clockwise. Clears `points` if the shape is no
   /// rectangle.
   void outline(std::size_t i, std::vector<glm::dvec3>& points) const;
 

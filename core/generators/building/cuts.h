@@ -28,7 +28,7 @@ struct Cell {
   std::uint32_t part = 0;              ///< identifier of the cell, for the caller
 };
 
-/// A piece of the scope that a cell takes.
+/// A piece of the scope. Its start is measured from the low end of the scope, in the unit of `length`.
 struct Cut {
   double start = 0, size = 0;
   std::uint32_t part = 0;

@@ -17,11 +17,12 @@ struct Frame {
   std::uint32_t shape = 0;  ///< the shape that is replaced
   std::uint64_t key = 0;    ///< key of the successor, for random numbers
   ShapeState before;        ///< the state when the rule or the bracket began, for center()
-  bool is_carried = false;  ///< new shapes descend from a component of a closed solid, so they are not masses
+  bool is_carried =
+      false;  ///< new shapes descend from a face, edge or vertex of a closed solid; see collision.h
 };
 
 /// The context of one step: its successor, and the key of its random numbers.
-struct Site {
+struct StepContext {
   const Frame& frame;
   std::uint64_t key;
 };
@@ -67,9 +68,10 @@ struct Derivation {
   std::map<std::string, std::uint32_t, std::less<>> named_solids;
   /// Unit squares, indexed by the axis of the normal.
   std::array<Solid, 3> squares;
-  /// Indices of the axes of sides of boxes, by the index of the axes of the box and the side.
+  /// Index of the axes of a side of a box. The key is 8 * (index of the axes of the box) + (number of the side).
   std::unordered_map<std::uint64_t, std::uint32_t> side_axes;
-  /// Raised solids, by what was raised, and how.
+  /// Index of a solid that was made from flat geometry. The key is the index of that geometry, and the operation with
+  /// its axis.
   std::map<std::pair<std::uint32_t, int>, std::uint32_t> raised_solids;
 
   EditSearch edits;
@@ -92,7 +94,8 @@ std::uint32_t add_solid(Derivation& d, Solid solid);
 /// Returns the number of a style, which is added unless an equal one exists.
 std::uint32_t style_with(Derivation& d, Style style);
 
-/// Applies the edit of the request to a new shape, if it has one: its style, symbol and activity.
+/// Applies the edit that the request has for a new shape, if there is one. It changes the style, symbol and activity
+/// of the shape.
 void edit_shape(Derivation& d, std::uint32_t index);
 
 /// Returns the total area of the faces, in square metres.

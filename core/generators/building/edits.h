@@ -52,8 +52,8 @@ class EditSearch {
   explicit EditSearch(const EditTree* tree);
 
   /// Counts a new shape and returns its edit; null if it has none. `parent` is the number of its predecessor, or
-  /// `none` for the first shape. Shapes come in the order of their numbers; a lower number than before means that the
-  /// shapes from it on were taken back.
+  /// `none` for the first shape. Call it in the order of the numbers of shapes. A number below an earlier one means
+  /// that the shapes from this number on were removed and are made again.
   const ShapeEdit* visit(std::uint32_t shape, std::uint32_t parent, std::uint32_t symbol);
 
   /// For each edit, whether its shape was made.

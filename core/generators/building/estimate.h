@@ -8,9 +8,9 @@ namespace seedmesh::building {
 /// A building with more shapes than this gets no estimate.
 constexpr std::uint64_t most_estimated_shapes = 100'000;
 
-/// Returns the triangles and bytes of the shapes. Triangles of boxes and rectangles are exact, those of solids follow
-/// from their corners, and built-in parts are made once for each size. Returns nullopt for more than 500 sizes of
-/// parts, for assets that are no built-in part, and for flat parts.
+/// Returns the triangles and bytes of the shapes. Triangles of boxes and rectangles are exact. Those of solids follow
+/// from the numbers of their corners. A built-in part is made once for each of its sizes and counted. Returns nullopt
+/// for more than 500 sizes of parts, for assets that are no built-in part, and for flat parts.
 ///
 /// Bytes follow add_bodies(): a shared mesh counts once, together with its nodes, and a merged mesh counts once for
 /// each body. Shapes that are too thin to be drawn count as well, so that the estimate may be too high.

@@ -12,12 +12,12 @@ void look_at(Derivation& d, const ShapeState& state, std::uint32_t shape);
 /// them.
 void fill_slots(Derivation& d);
 
-/// Returns the value of an expression. Draws random numbers from d.random and computes queries to other
-/// shapes.
+/// Returns the value of an expression. Takes random numbers from d.random and computes queries about
+/// other shapes.
 lang::TaggedValue evaluate(Derivation& d, const Value& value);
 /// Returns the value of a node of an expression (syntax.h).
 lang::TaggedValue evaluate_tree(Derivation& d, std::uint32_t node);
-/// Returns the result of a query to other shapes, for the shape that look_at() selected.
+/// Returns the result of a query about other shapes, for the shape that look_at() selected.
 lang::TaggedValue answer_of(Derivation& d, const Query& query);
 /// Whether a condition holds: its value is a text, or a number other than 0.
 bool holds(Derivation& d, const Value& condition);

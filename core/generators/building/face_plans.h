@@ -23,11 +23,10 @@ struct FacePlane {
   }
 };
 
-/// Returns each face of a flat solid as a plan, in metres of the scope of this size.
+/// Returns a plan for each face of a flat solid, in metres. `size` is the size of the scope.
 std::vector<Plan> plans_of(const Solid& solid, const glm::dvec3& size, const FacePlane& plane);
 
-/// Adds a plan as a face. Its points are in metres, not in shares of the scope; fit() (solid.h) converts them
-/// later.
+/// Adds a plan as a face. Its points are in metres. Later, fit() (solid.h) converts them to fractions of the scope.
 void add_plan(Solid& solid, const Plan& plan, const FacePlane& plane, std::uint8_t tag);
 
 }  // namespace seedmesh::building

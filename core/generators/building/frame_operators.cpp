@@ -28,7 +28,7 @@ FrameWords frame_words(Derivation& d, const Step& step) {
 
 }  // namespace
 
-void translate_in(Derivation& d, const Step& step, ShapeState& state, const Site&) {
+void translate_in(Derivation& d, const Step& step, ShapeState& state, const StepContext&) {
   const FrameWords words = frame_words(d, step);
   const Argument* a = &d.grammar.arguments[step.first_argument + 2];
   glm::dvec3 by(0);
@@ -41,7 +41,7 @@ void translate_in(Derivation& d, const Step& step, ShapeState& state, const Site
   }
 }
 
-void rotate_in(Derivation& d, const Step& step, ShapeState& state, const Site&) {
+void rotate_in(Derivation& d, const Step& step, ShapeState& state, const StepContext&) {
   const FrameWords words = frame_words(d, step);
   const Argument* a = &d.grammar.arguments[step.first_argument + 2];
   glm::dvec3 angles(0);
@@ -50,7 +50,7 @@ void rotate_in(Derivation& d, const Step& step, ShapeState& state, const Site&) 
   state.axes = add_axes(d, words.is_absolute ? m : words.is_scope ? before * m : m * before);
 }
 
-void rotate_scope(Derivation& d, const Step& step, ShapeState& state, const Site&) {
+void rotate_scope(Derivation& d, const Step& step, ShapeState& state, const StepContext&) {
   const Argument* a = &d.grammar.arguments[step.first_argument];
   glm::dvec3 angles(0);
   for (int axis = 0; axis < 3; ++axis) angles[axis] = number_of(d, a[axis].value);
@@ -58,7 +58,7 @@ void rotate_scope(Derivation& d, const Step& step, ShapeState& state, const Site
 }
 
 /// setPivot(xzy, 0): the axes in another order. The last one follows from the right hand.
-void set_pivot(Derivation& d, const Step& step, ShapeState& state, const Site&) {
+void set_pivot(Derivation& d, const Step& step, ShapeState& state, const StepContext&) {
   const std::string order = word_at(d, step, 0);
   std::string sorted = order;
   std::ranges::sort(sorted);

@@ -200,7 +200,7 @@ TaggedValue height(Evaluation& at, ValueArguments) {
 int set_in(const Evaluation& at, ValueArguments a) {
   const double set = a.empty() ? 0 : number_in(at, a[0]);
   if (!(set >= 0 && set <= 9 && set == std::floor(set)))
-    reject(at, "found a set of texture coordinates that is none from 0 to 9");
+    reject(at, "found a number of a set of texture coordinates that is not a whole number from 0 to 9");
   return static_cast<int>(set);
 }
 
@@ -285,7 +285,8 @@ constexpr ValueFunctionRow rows[] = {
     {"geometry.isInstanced", 0, 0, is_instanced, "", "Whether the geometry is an inserted part or asset.",
      SEEDMESH_EXAMPLE("geometry.isInstanced")},
     {"geometry.angle", 1, 1, angle, "zenith | azimuth",
-     "The angle of the first face from the vertical, or about it.",
+     "The angle of the normal of the first face: from the vertical (zenith), or about it from +x towards -z "
+     "(azimuth).",
      "A --> s('1, 0, '1) report(\"x\", geometry.angle(zenith)) B."},
     {"geometry.height", 0, 1, height, "", "The extent along the vertical of the world.",
      SEEDMESH_EXAMPLE("geometry.height")},

@@ -21,8 +21,8 @@ namespace {
 constexpr int deepest_inline = 20;
 
 /// Runs a body until no rule applies, and takes the shapes that it made out of the tree again.
-std::vector<Shape> leaves_of(Derivation& d, std::uint32_t body, const ShapeState& state, const Site& site,
-                             std::uint64_t place) {
+std::vector<Shape> leaves_of(Derivation& d, std::uint32_t body, const ShapeState& state,
+                             const StepContext& site, std::uint64_t place) {
   if (++d.depth_of_inline > deepest_inline)
     reject(d, 0, "inline, modify and Boolean operations are nested more than 20 deep");
   const auto first = static_cast<std::uint32_t>(d.out.shapes.size());
@@ -123,26 +123,26 @@ bool divides(const Grammar& grammar, std::uint32_t body, std::set<std::uint32_t>
 }  // namespace
 
 /// inline(append | unify | recompose) operation
-void inline_shapes(Derivation& d, const Step& step, ShapeState& state, const Site& site) {
+void inline_shapes(Derivation& d, const Step& step, ShapeState& state, const StepContext& site) {
   const std::string mode = word_or(d, step, 0, "append");
   if (mode != "append" && mode != "unify" && mode != "recompose")
     reject(d, step.offset, "found " + lang::in_quotes(mode) + ", expected append, unify or recompose");
-  const Joining joining = mode == "unify"       ? Joining::unify
-                          : mode == "recompose" ? Joining::recompose
-                                                : Joining::append;
+  const UnionMode joining = mode == "unify"       ? UnionMode::unify
+                            : mode == "recompose" ? UnionMode::recompose
+                                                  : UnionMode::append;
   const ShapeState given = state;
   const std::vector<Shape> leaves = leaves_of(d, d.grammar.parts[step.first_part].body, given, site, 0);
   take_joined(d, step, state, leaves, united_solid(d, step.offset, given, leaves, joining));
 }
 
 /// union, subtract and intersect { A | B }
-void combine(Derivation& d, const Step& step, ShapeState& state, const Site& site) {
+void combine(Derivation& d, const Step& step, ShapeState& state, const StepContext& site) {
   const ShapeState given = state;
   Solid operands[2];
   std::vector<Shape> first;
   for (std::uint32_t i = 0; i < 2; ++i) {
     const std::vector<Shape> leaves = leaves_of(d, d.grammar.parts[step.first_part + i].body, given, site, i);
-    operands[i] = united_solid(d, step.offset, given, leaves, Joining::unify);
+    operands[i] = united_solid(d, step.offset, given, leaves, UnionMode::unify);
     if (i == 0) first = leaves;
     const std::uint32_t tag = with_tag(d, 0, i == 0 ? "bool.A" : "bool.B");
     for (Face& face : operands[i].faces) face.tags = joined_tags(d, face.tags, tag);
@@ -172,7 +172,7 @@ void combine(Derivation& d, const Step& step, ShapeState& state, const Site& sit
 
 /// modify(f){ top: s('0.5, '1, '0.5) X. }: the corners of a component move with its scope. Other geometry takes the place
 /// of a face; without any, a hole stays.
-void modify(Derivation& d, const Step& step, ShapeState& state, const Site& site) {
+void modify(Derivation& d, const Step& step, ShapeState& state, const StepContext& site) {
   if (state.has_asset() || dimension(state.size) < 2)
     return warn(d, step.offset, "modify needs a shape with faces; this one does not change");
   const ShapeState given = state;
@@ -201,7 +201,7 @@ void modify(Derivation& d, const Step& step, ShapeState& state, const Site& site
       if (step.axis == component_faces && !is_moved) {
         if (const std::size_t face = face_of(d, solid, given, before, near); face < is_replaced.size())
           is_replaced[face] = 1;
-        append(added, united_solid(d, step.offset, given, leaves, Joining::append));
+        append(added, united_solid(d, step.offset, given, leaves, UnionMode::append));
         continue;
       }
       if (leaves.size() != 1) {

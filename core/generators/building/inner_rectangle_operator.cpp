@@ -113,14 +113,14 @@ std::vector<ShapeState> remainder_of(Derivation& d, const Candidate& best) {
 
 }  // namespace
 
-void inner_rect(Derivation& d, const Step& step, ShapeState& state, const Site&) {
+void inner_rect(Derivation& d, const Step& step, ShapeState& state, const StepContext&) {
   if (dimension(state.size) != 2 || state.has_asset())
     reject(d, step.offset, "found a solid or an edge, expected a face for innerRect");
   const Candidate best = largest_along_edges(d, state);
   if (best.rectangle.area() > 0) state = rectangle_of(d, best);
 }
 
-void inner_rectangle(Derivation& d, const Step& step, ShapeState& state, const Site& site) {
+void inner_rectangle(Derivation& d, const Step& step, ShapeState& state, const StepContext& site) {
   if (dimension(state.size) != 2 || state.has_asset())
     reject(d, step.offset, "found a solid or an edge, expected a face for innerRectangle");
   const std::string word =

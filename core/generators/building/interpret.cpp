@@ -49,7 +49,7 @@ void make_leaf(Derivation& d, std::uint32_t index) {
 }
 
 /// Adds a shape of the step's symbol, with the values of its arguments.
-void call_symbol(Derivation& d, const Step& step, ShapeState& state, const Site& site) {
+void call_symbol(Derivation& d, const Step& step, ShapeState& state, const StepContext& site) {
   check_containment(d, site.frame.shape, state, step.offset);
   const std::uint32_t index = add_shape(d, state, site.frame, site.key, step.symbol);
   const bool is_edited = has_own_rule(d, index);
@@ -64,12 +64,14 @@ void call_symbol(Derivation& d, const Step& step, ShapeState& state, const Site&
   shape.parameter_count = static_cast<std::uint8_t>(step.argument_count);
 }
 
-void take_away(Derivation& d, const Step&, ShapeState&, const Site&) { d.out.has_removed_shape = true; }
+void take_away(Derivation& d, const Step&, ShapeState&, const StepContext&) {
+  d.out.has_removed_shape = true;
+}
 
-void ignore(Derivation&, const Step&, ShapeState&, const Site&) {}
+void ignore(Derivation&, const Step&, ShapeState&, const StepContext&) {}
 
 /// Cases or percentages in the place of steps.
-void nested_body(Derivation& d, const Step& step, ShapeState& state, const Site& site) {
+void nested_body(Derivation& d, const Step& step, ShapeState& state, const StepContext& site) {
   Frame own = site.frame;
   own.key = site.key;
   run_body(d, d.grammar.parts[step.first_part].body, state, own);
@@ -200,7 +202,8 @@ bool needs_face(const OperatorRow& row) {
 }
 
 /// Runs one step. In a rule file of CityEngine a step that cannot be done is left out with a warning, as there.
-void run_step(Derivation& d, const OperatorRow& row, const Step& step, ShapeState& state, const Site& site) {
+void run_step(Derivation& d, const OperatorRow& row, const Step& step, ShapeState& state,
+              const StepContext& site) {
   if (!d.grammar.is_cityengine) return row.run(d, step, state, site);
   const ShapeState before = state;
   const int depth = d.depth_of_inline;

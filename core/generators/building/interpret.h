@@ -7,11 +7,12 @@ namespace seedmesh::building {
 /// Whether the shape can be replaced: it is part of the result, and its symbol has rules.
 bool has_rule(const Derivation& d, const Shape& shape);
 
-/// Replaces a shape by what its rule makes. Returns false if no rule holds; the shape then becomes a leaf.
+/// Replaces a shape by the successor of its rule. Returns false if the condition of no rule holds. The shape then
+/// becomes a leaf.
 bool expand(Derivation& d, std::uint32_t shape);
 
-/// Replaces the shapes from index `first` on until none has a rule, the newest first. Shapes that wait for
-/// left sides of several shapes (joined_shapes.h) come last.
+/// Replaces the shapes from index `first` on until none has a rule, the newest first. Rules whose left side has
+/// several shapes (joined_shapes.h) are applied last.
 void finish_from(Derivation& d, std::uint32_t first);
 
 /// Runs a body that is nested in a successor, for a shape that an operation made. The first branch whose

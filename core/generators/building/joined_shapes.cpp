@@ -106,7 +106,7 @@ std::optional<ShapeState> united(Derivation& d, std::span<const Shape> shapes, s
   for (const Shape& shape : shapes) {
     if (shape.has_asset() || dimension(shape.size) < 2) return std::nullopt;
   }
-  Solid solid = united_solid(d, offset, state, shapes, Joining::unify);
+  Solid solid = united_solid(d, offset, state, shapes, UnionMode::unify);
   if (!solid.is_closed) {
     const int flat = flat_axis(state.size);
     const double near = 1e-7 * std::max({state.size.x, state.size.y, state.size.z});

@@ -19,7 +19,7 @@ struct LoadedTokens {
   std::vector<lang::Token> tokens;  ///< tokens of the main file and of what it imports; the last is the end
   std::set<std::string> texts;      ///< texts that tokens with a prefix refer to
   std::string start;                ///< the rule marked with `start` in the main file
-  /// Prefixes of files that the request does not have, each ending with a point.
+  /// Prefixes of files that the request does not have, each ending with a dot.
   std::vector<std::string> missing;
   std::vector<lang::TextError> warnings;
   bool has_imports = false;

@@ -198,7 +198,7 @@ std::uint32_t side_of(const glm::dvec3& outward, int w) {
 namespace operators {
 
 /// envelope(direction, height, base and angle of the front, back, right and left edges), or arrays of them by edge.
-void envelope(Derivation& d, const Step& step, ShapeState& state, const Site&) {
+void envelope(Derivation& d, const Step& step, ShapeState& state, const StepContext&) {
   const std::string direction = word_at(d, step, 0);
   if (direction != "normal" && direction != "world.up")
     reject(d, step.offset, "found " + lang::in_quotes(direction) + ", expected normal or world.up");
@@ -258,7 +258,7 @@ void envelope(Derivation& d, const Step& step, ShapeState& state, const Site&) {
 }
 
 /// roofRidge(angle) or roofRidge(byHeight, 3): two planes that rise from the front and the back of the scope to a ridge along x.
-void roof_ridge(Derivation& d, const Step& step, ShapeState& state, const Site&) {
+void roof_ridge(Derivation& d, const Step& step, ShapeState& state, const StepContext&) {
   if (dimension(state.size) != 2 || state.has_asset())
     reject(d, step.offset, "found a solid or an edge, expected a face for roofRidge");
   for (std::uint32_t i = 1; i < step.argument_count && i < 3; ++i) {
@@ -289,7 +289,7 @@ void roof_ridge(Derivation& d, const Step& step, ShapeState& state, const Site&)
 
 /// footprint(): the faces that look down, moved to the lowest level and turned over. Flat shapes, and those that are open
 /// below, use the faces that look up.
-void footprint(Derivation& d, const Step& step, ShapeState& state, const Site&) {
+void footprint(Derivation& d, const Step& step, ShapeState& state, const StepContext&) {
   if (state.has_asset() || dimension(state.size) < 2) {
     if (state.has_asset() && dimension(state.size) == 3) {
       state.geometry = box_geometry;

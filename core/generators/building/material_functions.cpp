@@ -72,10 +72,11 @@ TaggedValue nothing(Evaluation&, ValueArguments) { return number_value(0); }
 TaggedValue whole(Evaluation&, ValueArguments) { return number_value(1); }
 TaggedValue no_map(Evaluation& at, ValueArguments) { return text_value(at, ""); }
 
-#define SEEDMESH_UNUSED(name, value, number)                                                          \
-  {                                                                                                   \
-    name, 0, 0, value, "", number ": set has no effect on it, and materials of the request have it.", \
-        "A --> print(" name ") B."                                                                    \
+#define SEEDMESH_UNUSED(name, value, number)                                                     \
+  {                                                                                              \
+    name, 0, 0, value, "",                                                                       \
+        number ". `set` has no effect on it; `materials` of the request define the appearance.", \
+        "A --> print(" name ") B."                                                               \
   }
 constexpr ValueFunctionRow rows[] = {
     SEEDMESH_UNUSED("material.ambient.r", nothing, "0"),

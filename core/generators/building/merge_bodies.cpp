@@ -17,7 +17,7 @@ struct Bucket {
 
 class Merger {
  public:
-  Merger(const Model& model, const Merging& merging, std::vector<DrawnBody>& bodies, Job& job)
+  Merger(const Model& model, const MergeInput& merging, std::vector<DrawnBody>& bodies, Job& job)
       : merging_(merging), bodies_(bodies), job_(job) {
     for (const DrawnBody& body : bodies) {
       const Shape& shape = merging.source.shape_of(body);
@@ -72,7 +72,7 @@ class Merger {
     }
   }
 
-  Texturing texturing_of(const Shape& shape, int material) const {
+  TextureMapping texturing_of(const Shape& shape, int material) const {
     const std::uint32_t projection = merging_.shapes.styles[shape.style].projection;
     return {merging_.materials.tile_of(material),
             projection == 0 ? nullptr : &merging_.shapes.projections[projection - 1]};
@@ -117,7 +117,7 @@ class Merger {
     return groups;
   }
 
-  const Merging& merging_;
+  const MergeInput& merging_;
   std::vector<DrawnBody>& bodies_;
   Job& job_;
   std::vector<std::uint32_t> drawn_;
@@ -129,7 +129,7 @@ class Merger {
 
 }  // namespace
 
-std::vector<MeshGroup> merged_bodies(const Model& model, const Merging& merging,
+std::vector<MeshGroup> merged_bodies(const Model& model, const MergeInput& merging,
                                      std::vector<DrawnBody>& bodies, std::size_t least, Job& job) {
   return Merger(model, merging, bodies, job).run(least);
 }

@@ -6,7 +6,7 @@
 
 namespace seedmesh::building {
 
-struct Merging {
+struct MergeInput {
   const Shapes& shapes;
   MaterialTable& materials;
   BodySource& source;
@@ -17,7 +17,7 @@ struct Merging {
 /// Returns the meshes of all layers; empty if nothing is drawn. Walls side by side share their corners, including
 /// those in the middle of a neighbour's edge (coplanar_rectangles.h). Spends Resource::triangles. Returns at least
 /// `least` layers, or one for each body if there are fewer bodies. Levels of detail need equal numbers of layers.
-std::vector<MeshGroup> merged_bodies(const Model& model, const Merging& merging,
+std::vector<MeshGroup> merged_bodies(const Model& model, const MergeInput& merging,
                                      std::vector<DrawnBody>& bodies, std::size_t least, Job& job);
 
 }  // namespace seedmesh::building

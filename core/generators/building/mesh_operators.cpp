@@ -64,7 +64,7 @@ std::vector<glm::dvec2> rectified(const std::vector<glm::dvec2>& ring, double sl
 
 }  // namespace
 
-void mirror(Derivation& d, const Step& step, ShapeState& state, const Site&) {
+void mirror(Derivation& d, const Step& step, ShapeState& state, const StepContext&) {
   unsigned axes = 0;
   for (std::uint32_t i = 0; i < step.argument_count; ++i) {
     if (is_word(d, step, i)) {  // mirror(xz)
@@ -84,7 +84,7 @@ void mirror(Derivation& d, const Step& step, ShapeState& state, const Site&) {
   replace(d, state, mirrored(d.out.solid_of(state.geometry), axes));
 }
 
-void reverse_normals(Derivation& d, const Step&, ShapeState& state, const Site&) {
+void reverse_normals(Derivation& d, const Step&, ShapeState& state, const StepContext&) {
   if (!has_faces(state)) return;
   Solid solid = solid_of(d, state);
   for (const Loop& loop : solid.loops)
@@ -93,7 +93,7 @@ void reverse_normals(Derivation& d, const Step&, ShapeState& state, const Site&)
   replace(d, state, std::move(solid));
 }
 
-void cleanup(Derivation& d, const Step& step, ShapeState& state, const Site&) {
+void cleanup(Derivation& d, const Step& step, ShapeState& state, const StepContext&) {
   if (!state.has_solid() || dimension(state.size) < 2) return;
   const std::string what = word_or(d, step, 0, "all");
   if (what != "all" && what != "faces" && what != "edges" && what != "vertices" && what != "uvs")
@@ -110,12 +110,12 @@ void cleanup(Derivation& d, const Step& step, ShapeState& state, const Site&) {
   take_solid(d, state, std::move(solid));
 }
 
-void convexify(Derivation& d, const Step&, ShapeState& state, const Site&) {
+void convexify(Derivation& d, const Step&, ShapeState& state, const StepContext&) {
   if (!state.has_solid() || dimension(state.size) < 2) return;
   replace(d, state, convex_faces(d.out.solid_of(state.geometry), d.job));
 }
 
-void delete_holes(Derivation& d, const Step&, ShapeState& state, const Site&) {
+void delete_holes(Derivation& d, const Step&, ShapeState& state, const StepContext&) {
   if (!state.has_solid() || dimension(state.size) < 2) return;
   Solid solid = d.out.solid_of(state.geometry);
   bool has_holes = false;
@@ -136,7 +136,7 @@ void delete_holes(Derivation& d, const Step&, ShapeState& state, const Site&) {
   replace(d, state, std::move(kept));
 }
 
-void rectify(Derivation& d, const Step& step, ShapeState& state, const Site&) {
+void rectify(Derivation& d, const Step& step, ShapeState& state, const StepContext&) {
   const double angle = number_or(d, step, 0, 15);
   if (!(angle >= 0 && angle <= 45)) {
     reject(d, step.offset,
@@ -161,7 +161,7 @@ void rectify(Derivation& d, const Step& step, ShapeState& state, const Site&) {
   take_solid(d, state, std::move(solid));
 }
 
-void reduce(Derivation& d, const Step& step, ShapeState& state, const Site&) {
+void reduce(Derivation& d, const Step& step, ShapeState& state, const StepContext&) {
   const double share = number_or(d, step, 0, 0);
   if (!(share >= 0 && share <= 1))
     reject(d, step.offset, "found a share of " + text_of_number(share) + ", expected one from 0 to 1");
@@ -201,7 +201,7 @@ void reduce(Derivation& d, const Step& step, ShapeState& state, const Site&) {
 }
 
 /// setNormals(soft | hard | ...) and softenNormals(angle)
-void set_normals(Derivation& d, const Step& step, ShapeState& state, const Site&) {
+void set_normals(Derivation& d, const Step& step, ShapeState& state, const StepContext&) {
   if (!state.has_solid() || dimension(state.size) < 3) return;
   std::string mode = "soften";
   double angle = 20;
@@ -237,7 +237,7 @@ void set_normals(Derivation& d, const Step& step, ShapeState& state, const Site&
   replace(d, state, std::move(solid));
 }
 
-void reset_geometry(Derivation& d, const Step&, ShapeState& state, const Site&) {
+void reset_geometry(Derivation& d, const Step&, ShapeState& state, const StepContext&) {
   const Shape& first = d.out.shapes[0];
   state.origin = first.origin;
   state.size = first.size;

@@ -54,7 +54,7 @@ std::vector<glm::dvec3> facings_of(const BodySurface& surface) {
 /// Appends the texture coordinates in tiles of the last vertices of a mesh: the horizontal distance along the wall and
 /// the height, continuous over neighbours.
 void append_coordinates(const BodySurface& surface, Mesh& mesh, const glm::dmat3& axes,
-                        const glm::dvec3& origin, const Texturing& texturing) {
+                        const glm::dvec3& origin, const TextureMapping& texturing) {
   const std::vector<glm::dvec3> facings = facings_of(surface);
   const Projection* const projection = texturing.projection;
   glm::vec2* out = mesh.uv[0].extend(facings.size());
@@ -90,7 +90,7 @@ Mesh empty_mesh(bool has_uv, const Job& job) {
 }
 
 void append(const BodySurface& surface, Mesh& mesh, const glm::dmat3& axes, const glm::dvec3& origin,
-            const Texturing& texturing) {
+            const TextureMapping& texturing) {
   const auto base = static_cast<std::uint32_t>(mesh.position.size());
   const std::size_t count = surface.position.size();
   glm::vec3* position = mesh.position.extend(count);

@@ -9,7 +9,7 @@ namespace seedmesh::building {
 /// The source of texture coordinates: the size of a tile in metres (null: none are written) and the
 /// projection of the shape (null: u is the horizontal distance along the wall and v the height, continuous
 /// over neighbours).
-struct Texturing {
+struct TextureMapping {
   const glm::dvec2* tile = nullptr;
   const Projection* projection = nullptr;
 };
@@ -20,9 +20,10 @@ Mesh empty_mesh(bool has_uv, const Job& job);
 /// Appends a body. Its positions are in the frame of its scope, whose axes and origin are `axes` and
 /// `origin`.
 void append(const BodySurface& surface, Mesh& mesh, const glm::dmat3& axes, const glm::dvec3& origin,
-            const Texturing& texturing);
+            const TextureMapping& texturing);
 
-/// Appends a piece of a part. Its texture coordinates are metres; those of `to` count tiles.
+/// Appends a mesh of an asset. Texture coordinates of `from` are in metres. Those of `to` are in tiles of `tile`
+/// metres.
 void append_part(const Mesh& from, Mesh& to, const glm::dmat3& axes, const glm::dvec3& at,
                  const glm::dvec2* tile);
 

@@ -1,11 +1,11 @@
 #pragma once
-/// Queries of a shape to other shapes: occlusion, containment, contact, visibility, and snap lines. Answers
+/// Queries that a shape makes about other shapes: occlusion, containment, contact, visibility, and snap lines. Answers
 /// come from the shapes of the first pass of the derivation (derive.h), so that they do not depend on any
 /// order.
 ///
-/// Only closed shapes with a volume can occlude: active ones, and for "all", "noparent" and names also those
-/// that rules have replaced. Ancestors and descendants of the querying shape never count. Boxes are tested as
-/// boxes; other closed solids (roofs, cut solids, cylinders) are cut to the box of the querying shape.
+/// Only closed shapes with a volume can occlude. Shapes that rules have replaced occlude only if the target of the
+/// query is "all", "noparent" or a name. Ancestors and descendants of the querying shape never count. Boxes are
+/// tested as boxes; other closed solids (roofs, cut solids, cylinders) are cut to the box of the querying shape.
 /// touches() tests boxes only. visible("street") is true if the shortest line from the middle of the querying
 /// shape to the nearest shape of that name is not blocked; flat shapes count as targets. Without such a shape
 /// it is false.
@@ -44,9 +44,10 @@ class Context {
   bool counts(const Query& query, std::uint32_t shape) const;
   bool is_family(std::uint32_t self, std::uint32_t other) const;
   Scope scope_of(std::uint32_t shape) const;
-  /// Null: a box.
+  /// Returns null for a box.
   const Solid* solid_of(std::uint32_t shape) const;
-  /// Returns the number of other shapes of the query, or the distance to the nearest of their scopes.
+  /// Returns the number of other active shapes with the label of the query, or the distance to the nearest of their
+  /// scopes in metres. The distance is 1e6 if there is none.
   double measure(const Query& query, const Scope& scope, std::uint32_t self, Job& job) const;
   bool is_visible(const Query& query, const Scope& scope, std::uint32_t self, Job& job) const;
   /// Calls `body` for each candidate in a cell between low and high, perhaps more than once, until it returns

@@ -8,7 +8,7 @@
 
 namespace seedmesh::building::operators {
 /// offset(d), offset(d, inside), offset(d, border): faces with moved borders, the region between, or both.
-void offset(Derivation& d, const Step& step, ShapeState& state, const Site&) {
+void offset(Derivation& d, const Step& step, ShapeState& state, const StepContext&) {
   const Argument* a = &d.grammar.arguments[step.first_argument];
   const double distance = number_of(d, a[0].value);
   const std::string word = step.argument_count > 1 ? d.grammar.words[a[1].word] : "all";

@@ -34,7 +34,7 @@ constexpr OperationRow rows[] = {
      "and another axis lies along an edge of it (a number, or longest).",
      "A --> s('1, 0, '1) alignScopeToGeometry(zUp, 0, longest) B."},
     {"alignScopeToGeometryBBox", Op::align_to_box, "w", Braces::absent, "up",
-     "The same, so that the rectangle around the largest face is as small as possible.",
+     "Aligns the scope to the largest face, so that the rectangle around this face is as small as possible.",
      "A --> s('1, 0, '1) alignScopeToGeometryBBox(yUp) B."},
     {"split", Op::split, "w|wn", Braces::cells, "axis, adjust or space, set",
      "Cuts the shape along an axis into cells { size: successor | ... }. Sizes are absolute, '0.5 (of the "
@@ -114,7 +114,7 @@ constexpr OperationRow rows[] = {
      "stands on the underside, so that it can follow S(1r,h,1r) walls T(0,h,0).",
      "A ~> S(1r, 0, 1r) B. Roof(\"hipped\", 30){ C. }"},
     {"I", Op::place, "t|nnn", Braces::absent, "name, count, frame, angle",
-     "Places a solid, a part or an asset in the scope, as a leaf of its own. The shape does not change.",
+     "Adds a shape that fills the scope with a solid, a part or an asset. The current shape does not change.",
      "A ~> [ I(\"cube\") ] T(0, 3, 0) I(\"pyramid\")"},
     {"i", Op::insert, "t|xxxx", Braces::absent, "name, count or up axis, frame or mode, angle, room",
      "Replaces the geometry of the shape by a solid, a part or an asset that fills the scope. Sizes of 0 "
@@ -200,7 +200,8 @@ constexpr OperationRow rows[] = {
     {"envelope", Op::envelope, "xnnn|nnnnnn", Braces::absent,
      "normal | world.up, height, front base, front angle, back base, back angle, side or right base, angle, "
      "left base, angle",
-     "Makes the volume that walls of a base height and slopes above them leave, cut at a height.",
+     "Makes the volume inside walls of a base height and below slopes that begin at their top, up to a "
+     "height.",
      "A --> s('1, 0, '1) envelope(normal, 30, 10, 60) B."},
     {"primitiveQuad", Op::primitive_quad, "|nn", Braces::absent, "width, length", "Makes a level rectangle.",
      "A --> primitiveQuad(2, 3) B."},
@@ -223,10 +224,12 @@ constexpr OperationRow rows[] = {
      "Makes a roof with one ridge along x of the scope over any outline.",
      "A --> s('1, 0, '1) roofRidge(30) B."},
     {"setbackPerEdge", Op::setback_per_edge, "x|n", Braces::selectors, "distance, set",
-     "As setback, with the distance computed for each edge as a shape of its own.",
+     "Moves edges inwards like setback. The distance is computed for each edge, with the edge as current "
+     "shape.",
      "A --> s('1, 0, '1) setbackPerEdge(scope.sx / 10){ all: B. | remainder: C. }"},
     {"setbackToArea", Op::setback_to_area, "n|n", Braces::selectors, "area, set",
-     "As setback, by the distance that leaves a remainder of this area; '0.5 is a share of the present area.",
+     "Moves edges inwards like setback, until the remainder has this area; '0.5 is a share of the current "
+     "area.",
      "A --> s('1, 0, '1) setbackToArea('0.5){ all: B. | remainder: C. }"},
     {"splitAndSetbackPerimeter", Op::split_perimeter, "n|nx", Braces::perimeter, "offset, first edge, edges",
      "Divides the border of a face into sections of a length, and moves each inwards by its depth.",
@@ -252,10 +255,10 @@ constexpr OperationRow rows[] = {
      "too.",
      "A --> tag(\"wall\") comp(f){ isTagged(\"wall\"): B. }"},
     {"deleteTags", Op::delete_tags, "|t", Braces::absent, "name",
-     "Removes a tag and those below it, those of a pattern (? is one part between points, * any), or all.",
+     "Removes a tag and those below it, those of a pattern (? is one part between dots, * any), or all.",
      "A --> tag(\"wall\") deleteTags(\"w*\") B."},
     {"setTagsFromEdgeAttrs", Op::edge_tags, "|xx", Braces::absent, "prefix",
-     "Tags from attributes of edges, which footprints of a request do not have.",
+     "Has no effect, because footprints of a request have no attributes of edges.",
      "A --> setTagsFromEdgeAttrs(\"e\") B.", Status::ignored},
     {"texture", Op::texture, "t|x", Braces::absent, "image",
      "Sets the material with the name of the image (facades/brick.jpg: brick), whose image `materials` of "

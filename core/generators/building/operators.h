@@ -8,7 +8,7 @@
 
 namespace seedmesh::building {
 
-using Operator = void(Derivation& d, const Step& step, ShapeState& state, const Site& site);
+using Operator = void(Derivation& d, const Step& step, ShapeState& state, const StepContext& site);
 
 namespace operators {
 

@@ -75,7 +75,7 @@ std::vector<Cut> sections_of(Derivation& d, const Step& step, double length) {
 
 }  // namespace
 
-void split_perimeter(Derivation& d, const Step& step, ShapeState& state, const Site& site) {
+void split_perimeter(Derivation& d, const Step& step, ShapeState& state, const StepContext& site) {
   if (dimension(state.size) != 2 || state.has_asset())
     reject(d, step.offset, "found a solid or an edge, expected a face for splitAndSetbackPerimeter");
   const FacePlane plane(state.size);

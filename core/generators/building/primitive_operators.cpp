@@ -131,7 +131,7 @@ void fill_scope(ShapeState& state, bool is_flat) {
 
 }  // namespace
 
-void primitive(Derivation& d, const Step& step, ShapeState& state, const Site&) {
+void primitive(Derivation& d, const Step& step, ShapeState& state, const StepContext&) {
   const std::uint32_t count = step.argument_count;
   state.roof_up = no_roof;
   const auto radius_and_height = [&](std::uint32_t at) {
@@ -188,7 +188,7 @@ void primitive(Derivation& d, const Step& step, ShapeState& state, const Site&) 
 
 /// insertAlongUV(set, name, height): a copy in every tile of the texture coordinates that lies inside the shape. x of the copy
 /// runs along u, z against v, y along the normal.
-void insert_along_uv(Derivation& d, const Step& step, ShapeState& state, const Site& site) {
+void insert_along_uv(Derivation& d, const Step& step, ShapeState& state, const StepContext& site) {
   const int set = uv_set_at(d, step, 0);
   const double height = number_or(d, step, 2, 0);
   if (dimension(state.size) != 2 || state.has_asset()) {

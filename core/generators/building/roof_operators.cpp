@@ -159,7 +159,7 @@ bool take_underside(Derivation& d, ShapeState& state) {
 
 }  // namespace
 
-void roof(Derivation& d, const Step& step, ShapeState& state, const Site&) {
+void roof(Derivation& d, const Step& step, ShapeState& state, const StepContext&) {
   // In the chain of 2006, S(1r,h,1r) walls T(0,h,0) Roof(...), the scope still has the height of the walls.
   const bool is_volume = step.op == Op::roof && dimension(state.size) == 3 && !state.has_asset();
   const RoofOptions options = options_of(d, step);
@@ -185,7 +185,7 @@ void roof(Derivation& d, const Step& step, ShapeState& state, const Site&) {
 }
 
 /// Roof("hipped", 30){ A }: the roof is a shape of its own.
-void roof_2006(Derivation& d, const Step& step, ShapeState& state, const Site& site) {
+void roof_2006(Derivation& d, const Step& step, ShapeState& state, const StepContext& site) {
   ShapeState made = state;
   roof(d, step, made, site);
   Frame own = site.frame;

@@ -17,8 +17,8 @@ struct Statement {
   Kind kind = Kind::other;
   std::size_t first = 0, last = 0;  ///< tokens
   std::size_t name = 0;             ///< token of its name
-  std::size_t name_end = 0;         ///< behind its name, which has points if it replaces a rule of an import
-  std::size_t value = 0;            ///< token of the value of an attribute; 0 for other declarations
+  std::size_t name_end = 0;  ///< the token after its name; a name with dots replaces a rule of an import
+  std::size_t value = 0;     ///< token of the value of an attribute; 0 for other declarations
   bool is_start = false, is_extension = false;
   bool has_start_note = false;  ///< whether the annotation @StartRule is before it
 

@@ -66,7 +66,7 @@ FileNotes notes_of(std::string_view text) {
 
 }  // namespace
 
-std::string without_comments(std::string_view text) {
+std::string without_comments(std::string_view text, std::optional<std::size_t>* unclosed) {
   std::string out(text);
   for (std::size_t i = 0; i < out.size(); ++i) {
     if (out[i] == '"') {
@@ -74,7 +74,9 @@ std::string without_comments(std::string_view text) {
     } else if (out[i] == '#' || (out[i] == '/' && i + 1 < out.size() && out[i + 1] == '/')) {
       for (; i < out.size() && out[i] != '\n'; ++i) out[i] = ' ';
     } else if (out[i] == '/' && i + 1 < out.size() && out[i + 1] == '*') {
-      const std::size_t end = std::min(out.find("*/", i + 2), out.size() - 1);
+      const std::size_t found = out.find("*/", i + 2);
+      if (found == std::string::npos && unclosed) *unclosed = i;
+      const std::size_t end = std::min(found, out.size() - 1);
       for (const std::size_t last = std::min(end + 2, out.size()); i < last; ++i) {
         if (out[i] != '\n') out[i] = ' ';
       }

@@ -3,6 +3,7 @@
 /// the joined text; they are reported in the file that they belong to.
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -43,8 +44,9 @@ RuleText rule_text(const std::map<std::string, std::string>& files, std::string_
 Issue issue_at(IssueKind kind, const RuleText& text, std::size_t offset, std::string message);
 
 /// Returns a text with blanks instead of comments (// # and /* */), and typographical signs such as ≥ as those of the
-/// language. All other bytes keep their positions.
-std::string without_comments(std::string_view text);
+/// language. All other bytes keep their positions. `unclosed` receives the position of a /* without its */, which
+/// hides the rest of the text.
+std::string without_comments(std::string_view text, std::optional<std::size_t>* unclosed = nullptr);
 
 /// Returns a name as a token of a JSON Pointer.
 std::string pointer_token(std::string_view name);

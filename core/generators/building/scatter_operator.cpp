@@ -74,7 +74,7 @@ glm::dvec3 centre_of(const Derivation& d, const Step& step, const std::string& w
 
 }  // namespace
 
-void scatter(Derivation& d, const Step& step, ShapeState& state, const Site& site) {
+void scatter(Derivation& d, const Step& step, ShapeState& state, const StepContext& site) {
   const std::string word = word_at(d, step, 0), spread = word_or(d, step, 2, "uniform");
   if (word != "surface" && word != "volume" && word != "scope")
     reject(d, step.offset, "found " + lang::in_quotes(word) + ", expected surface, volume or scope");

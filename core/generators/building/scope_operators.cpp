@@ -92,14 +92,14 @@ double height_of(const Solid& solid, const Face& face, const glm::dmat3& axes, c
 
 }  // namespace
 
-void translate(Derivation& d, const Step& step, ShapeState& state, const Site&) {
+void translate(Derivation& d, const Step& step, ShapeState& state, const StepContext&) {
   const Argument* a = &d.grammar.arguments[step.first_argument];
   glm::dvec3 by(0);
   for (int axis = 0; axis < 3; ++axis) by[axis] = length_of(d, a[axis], state.size[axis]);
   state.origin += d.out.axes[state.axes] * by;
 }
 
-void resize(Derivation& d, const Step& step, ShapeState& state, const Site&) {
+void resize(Derivation& d, const Step& step, ShapeState& state, const StepContext&) {
   const Argument* a = &d.grammar.arguments[step.first_argument];
   glm::dvec3 size(0);
   for (int axis = 0; axis < 3; ++axis) size[axis] = length_of(d, a[axis], state.size[axis]);
@@ -124,7 +124,7 @@ void resize(Derivation& d, const Step& step, ShapeState& state, const Site&) {
   state.size = size;
 }
 
-void rotate(Derivation& d, const Step& step, ShapeState& state, const Site&) {
+void rotate(Derivation& d, const Step& step, ShapeState& state, const StepContext&) {
   // r(x, y, z), r(scopeCenter, x, y, z), or the centre last
   const Argument* a = &d.grammar.arguments[step.first_argument];
   const std::string* centre = nullptr;
@@ -156,7 +156,7 @@ void rotate(Derivation& d, const Step& step, ShapeState& state, const Site&) {
   state.axes = add_axes(d, after);
 }
 
-void center(Derivation& d, const Step& step, ShapeState& state, const Site& site) {
+void center(Derivation& d, const Step& step, ShapeState& state, const StepContext& site) {
   const ShapeState& whole = site.frame.before;
   const glm::dmat3 axes = d.out.axes[whole.axes];
   const glm::dvec3 middle = whole.origin + axes * (0.5 * whole.size);
@@ -168,7 +168,7 @@ void center(Derivation& d, const Step& step, ShapeState& state, const Site& site
 }
 
 /// The geometry keeps its place; the axes along which the scope is flipped begin at the other end.
-void mirror_scope(Derivation& d, const Step& step, ShapeState& state, const Site&) {
+void mirror_scope(Derivation& d, const Step& step, ShapeState& state, const StepContext&) {
   glm::bvec3 flipped(true, false, true);  // without arguments
   for (std::uint32_t i = 0; i < step.argument_count; ++i)
     flipped[static_cast<int>(i)] = number_or(d, step, i, 0) != 0;
@@ -197,7 +197,7 @@ void mirror_scope(Derivation& d, const Step& step, ShapeState& state, const Site
   }
 }
 
-void align_to_axes(Derivation& d, const Step& step, ShapeState& state, const Site&) {
+void align_to_axes(Derivation& d, const Step& step, ShapeState& state, const StepContext&) {
   if (step.argument_count == 0) return reframe(d, state, glm::dmat3(1));
   const std::string& word = d.grammar.words[d.grammar.arguments[step.first_argument].word];
   if (word.size() != 1 || word[0] < 'x' || word[0] > 'z')
@@ -206,7 +206,7 @@ void align_to_axes(Derivation& d, const Step& step, ShapeState& state, const Sit
   reframe(d, state, turn_between(axes[word[0] - 'x'], glm::dvec3(0, 1, 0)) * axes);
 }
 
-void align_to_geometry(Derivation& d, const Step& step, ShapeState& state, const Site&) {
+void align_to_geometry(Derivation& d, const Step& step, ShapeState& state, const StepContext&) {
   const Argument* a = &d.grammar.arguments[step.first_argument];
   const auto word = [&](std::uint32_t i) {
     return i < step.argument_count ? d.grammar.words[a[i].word] : std::string("any");

@@ -70,8 +70,8 @@ bool has_selectors(const Step& step) {
 
 /// The distances of all edges of all faces, through their rings: one number, an array, or an expression that is evaluated for each
 /// edge as a shape.
-std::vector<double> edge_distances(Derivation& d, const Step& step, const ShapeState& state, const Site& site,
-                                   std::uint32_t edges) {
+std::vector<double> edge_distances(Derivation& d, const Step& step, const ShapeState& state,
+                                   const StepContext& site, std::uint32_t edges) {
   const Argument& argument = argument_at(d, step, 0);
   std::vector<double> out(edges, 0.0);
   const auto positive = [&](double distance) {
@@ -158,8 +158,8 @@ void set_for_area(Derivation& d, const Step& step, const ShapeState& state, std:
   }
 }
 
-std::vector<Moved> moved_faces(Derivation& d, const Step& step, const ShapeState& state, const Site& site,
-                               const FacePlane& plane) {
+std::vector<Moved> moved_faces(Derivation& d, const Step& step, const ShapeState& state,
+                               const StepContext& site, const FacePlane& plane) {
   const std::span<const Part> parts(d.grammar.parts.data() + step.first_part, step.part_count);
   std::vector<Moved> faces;
   std::uint32_t edges = 0;
@@ -210,7 +210,7 @@ std::vector<Moved> moved_faces(Derivation& d, const Step& step, const ShapeState
 }  // namespace
 
 /// Edges that a selector takes move inwards. Strips go to their selectors, the rest to `remainder`.
-void setback(Derivation& d, const Step& step, ShapeState& state, const Site& site) {
+void setback(Derivation& d, const Step& step, ShapeState& state, const StepContext& site) {
   if (dimension(state.size) != 2 || state.has_asset())
     reject(d, step.offset, "found a solid or an edge, expected a face for this operation");
   const FacePlane plane(state.size);

@@ -44,6 +44,6 @@ struct PlaneAxes {
 };
 
 /// A directed edge: its start and end in the order of the face's loop.
-using Directed = std::pair<std::uint32_t, std::uint32_t>;
+using DirectedEdge = std::pair<std::uint32_t, std::uint32_t>;
 
 }  // namespace seedmesh::building

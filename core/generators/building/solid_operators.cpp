@@ -200,7 +200,7 @@ void insert_named_geometry(Derivation& d, const Step& step, ShapeState& state, c
 
 namespace operators {
 
-void extrude(Derivation& d, const Step& step, ShapeState& state, const Site&) {
+void extrude(Derivation& d, const Step& step, ShapeState& state, const StepContext&) {
   const bool has_word = is_word(d, step, 0);
   const std::string direction = has_word ? word_at(d, step, 0) : std::string("face.normal");
   if (has_word && step.argument_count < 2)
@@ -235,7 +235,7 @@ void extrude(Derivation& d, const Step& step, ShapeState& state, const Site&) {
   state.size[axis] = std::abs(height);
 }
 
-void taper(Derivation& d, const Step& step, ShapeState& state, const Site&) {
+void taper(Derivation& d, const Step& step, ShapeState& state, const StepContext&) {
   const double height = number_of(d, d.grammar.arguments[step.first_argument].value);
   if (dimension(state.size) != 2 || state.has_asset()) {
     reject(d, step.offset,
@@ -251,12 +251,12 @@ void taper(Derivation& d, const Step& step, ShapeState& state, const Site&) {
   state.size[axis] = height;
 }
 
-void insert(Derivation& d, const Step& step, ShapeState& state, const Site&) {
+void insert(Derivation& d, const Step& step, ShapeState& state, const StepContext&) {
   const std::string name = text_of(d, d.grammar.arguments[step.first_argument]);
   insert_geometry(d, step, state, name);
 }
 
-void place(Derivation& d, const Step& step, ShapeState& state, const Site& site) {
+void place(Derivation& d, const Step& step, ShapeState& state, const StepContext& site) {
   ShapeState placed = state;
   const std::string name = text_of(d, d.grammar.arguments[step.first_argument]);
   insert_geometry(d, step, placed, name);

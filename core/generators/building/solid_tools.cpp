@@ -44,7 +44,8 @@ bool contains(const Solid& solid, const std::vector<std::uint32_t>& loop, const 
 
 /// The loops along the border of faces of one plane. At a corner with several ways the way on is the one next to the
 /// inside, so that loops touch themselves nowhere.
-std::vector<std::vector<std::uint32_t>> loops_around(const Solid& solid, const std::vector<Directed>& edges,
+std::vector<std::vector<std::uint32_t>> loops_around(const Solid& solid,
+                                                     const std::vector<DirectedEdge>& edges,
                                                      const PlaneAxes& plane) {
   std::multimap<std::uint32_t, std::size_t> from;
   for (std::size_t e = 0; e < edges.size(); ++e) from.emplace(edges[e].first, e);
@@ -160,18 +161,18 @@ Solid with_joined_faces(const Solid& solid, double distance) {
     while (set[i] != i) i = set[i] = set[set[i]];
     return i;
   };
-  std::map<Directed, std::uint32_t> face_of;
+  std::map<DirectedEdge, std::uint32_t> face_of;
   for (std::uint32_t f = 0; f < set.size(); ++f) set[f] = f;
   const auto each_edge = [&](std::uint32_t f, auto&& body) {
     for (const Loop& loop : loops_of(solid, solid.faces[f])) {
       for (std::uint32_t i = 0; i < loop.count; ++i)
-        body(Directed{solid.corners[loop.first + i], solid.corners[loop.first + (i + 1) % loop.count]});
+        body(DirectedEdge{solid.corners[loop.first + i], solid.corners[loop.first + (i + 1) % loop.count]});
     }
   };
   for (std::uint32_t f = 0; f < set.size(); ++f)
-    each_edge(f, [&](const Directed& e) { face_of.emplace(e, f); });
+    each_edge(f, [&](const DirectedEdge& e) { face_of.emplace(e, f); });
   for (std::uint32_t f = 0; f < set.size(); ++f) {
-    each_edge(f, [&](const Directed& e) {
+    each_edge(f, [&](const DirectedEdge& e) {
       const auto other = face_of.find({e.second, e.first});
       if (other == face_of.end() || other->second == f) return;
       const std::uint32_t g = other->second;
@@ -180,7 +181,7 @@ Solid with_joined_faces(const Solid& solid, double distance) {
       const glm::dvec3 base = solid.points[solid.corners[solid.loops[solid.faces[root(f)].first_loop].first]];
       const glm::dvec3& n = normals[root(f)];
       bool is_flat = glm::dot(n, normals[g]) >= 1 - 1e-6;
-      each_edge(g, [&](const Directed& own) {
+      each_edge(g, [&](const DirectedEdge& own) {
         is_flat &= std::abs(glm::dot(solid.points[own.first] - base, n)) <= slack;
       });
       if (is_flat) set[root(g)] = root(f);
@@ -193,9 +194,9 @@ Solid with_joined_faces(const Solid& solid, double distance) {
   for (std::uint32_t f = 0; f < set.size(); ++f) members[root(f)].push_back(f);
   for (std::uint32_t f = 0; f < set.size(); ++f) {
     if (members[f].empty()) continue;
-    std::map<Directed, int> border;
+    std::map<DirectedEdge, int> border;
     for (const std::uint32_t g : members[f]) {
-      each_edge(g, [&](const Directed& e) {
+      each_edge(g, [&](const DirectedEdge& e) {
         const auto back = border.find({e.second, e.first});
         if (back != border.end() && back->second > 0) {
           if (--back->second == 0) border.erase(back);
@@ -204,7 +205,7 @@ Solid with_joined_faces(const Solid& solid, double distance) {
         }
       });
     }
-    std::vector<Directed> edges;
+    std::vector<DirectedEdge> edges;
     for (const auto& [edge, count] : border) edges.insert(edges.end(), static_cast<std::size_t>(count), edge);
     const PlaneAxes plane(normals[f]);
     add_faces(out, solid.faces[f], loops_around(out, edges, plane), plane);

@@ -41,7 +41,7 @@ Solid convex_faces(const Solid& solid, const Job& job) {
       const glm::dvec3 in = solid.points[b] - solid.points[a], on = solid.points[c] - solid.points[b];
       return glm::dot(glm::cross(in, on), n) >= -1e-12 * glm::length(in) * glm::length(on);
     };
-    std::map<Directed, std::size_t> piece_of;
+    std::map<DirectedEdge, std::size_t> piece_of;
     const auto enter = [&](std::size_t k) {
       for (std::size_t i = 0; i < pieces[k].size(); ++i)
         piece_of[{pieces[k][i], pieces[k][(i + 1) % pieces[k].size()]}] = k;
@@ -86,7 +86,7 @@ Solid extruded_by(const Solid& faces, std::span<const glm::dvec3> by) {
   const auto count = static_cast<std::uint32_t>(faces.points.size());
   out.points = faces.points;
   for (std::uint32_t i = 0; i < count; ++i) out.points.push_back(faces.points[i] + by[i]);
-  std::map<Directed, int> uses;
+  std::map<DirectedEdge, int> uses;
   for (const Face& face : faces.faces) {
     std::vector<std::vector<std::uint32_t>> low, high;
     for (const Loop& loop : loops_of(faces, face)) {
@@ -114,7 +114,7 @@ Solid extruded_by(const Solid& faces, std::span<const glm::dvec3> by) {
 }
 
 bool is_watertight(const Solid& solid) {
-  std::map<Directed, int> uses;
+  std::map<DirectedEdge, int> uses;
   for (const Loop& loop : solid.loops) {
     const std::span<const std::uint32_t> points = points_of(solid, loop);
     for (std::size_t i = 0; i < points.size(); ++i) ++uses[{points[i], points[(i + 1) % points.size()]}];

@@ -121,7 +121,7 @@ ShapeState along_texture(Derivation& d, const Step& step, const ShapeState& stat
 }
 
 /// Runs the successors of the pieces. Each has random numbers of its own.
-void run_pieces(Derivation& d, const Step& step, const ShapeState& state, const Site& site,
+void run_pieces(Derivation& d, const Step& step, const ShapeState& state, const StepContext& site,
                 std::span<const Cut> cuts, int axis) {
   Frame own = site.frame;
   for (std::uint32_t i = 0; i < cuts.size(); ++i) {
@@ -138,7 +138,7 @@ void run_pieces(Derivation& d, const Step& step, const ShapeState& state, const 
 
 }  // namespace
 
-void split(Derivation& d, const Step& step, ShapeState& given, const Site& site) {
+void split(Derivation& d, const Step& step, ShapeState& given, const StepContext& site) {
   take_box_of_asset(d, step, given);
   int axis = step.axis;
   double unit = 1;  // metres
@@ -173,7 +173,7 @@ void split(Derivation& d, const Step& step, ShapeState& given, const Site& site)
   d.spare_cuts.push_back(std::move(cuts));
 }
 
-void repeat(Derivation& d, const Step& step, ShapeState& state, const Site& site) {
+void repeat(Derivation& d, const Step& step, ShapeState& state, const StepContext& site) {
   take_box_of_asset(d, step, state);
   const double whole = state.size[step.axis];
   if (!(whole > 0)) {
@@ -207,7 +207,7 @@ void repeat(Derivation& d, const Step& step, ShapeState& state, const Site& site
 
 /// splitArea(x){ 20: A | ~1: B }: the cells of a split whose whole is the area. Bisection finds the position
 /// of each cut, because the area below a cut only grows.
-void split_area(Derivation& d, const Step& step, ShapeState& state, const Site& site) {
+void split_area(Derivation& d, const Step& step, ShapeState& state, const StepContext& site) {
   if (dimension(state.size) != 2 || state.has_asset())
     reject(d, step.offset, "found a solid or an edge, expected a face for splitArea");
   const int axis = step.axis;

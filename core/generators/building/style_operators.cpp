@@ -128,7 +128,7 @@ bool has_no_effect(std::string_view name) {
 
 }  // namespace
 
-void style(Derivation& d, const Step& step, ShapeState& state, const Site&) {
+void style(Derivation& d, const Step& step, ShapeState& state, const StepContext&) {
   const Argument* a = &d.grammar.arguments[step.first_argument];
   Style style = d.out.styles[state.style];
   if (step.op == Op::label) {
@@ -147,7 +147,7 @@ void style(Derivation& d, const Step& step, ShapeState& state, const Site&) {
   state.style = style_with(d, style);
 }
 
-void set(Derivation& d, const Step& step, ShapeState& state, const Site&) {
+void set(Derivation& d, const Step& step, ShapeState& state, const StepContext&) {
   const Argument* a = &d.grammar.arguments[step.first_argument];
   const std::string& name = d.grammar.words[a[0].word];
   if (name.starts_with("material.")) {
@@ -178,7 +178,7 @@ void set(Derivation& d, const Step& step, ShapeState& state, const Site&) {
 }
 
 /// setupProjection(0, scope.xy, ~2, 1.5, 0, 0): the u and v that projectUV will use.
-void setup_projection(Derivation& d, const Step& step, ShapeState& state, const Site&) {
+void setup_projection(Derivation& d, const Step& step, ShapeState& state, const StepContext&) {
   const Argument* a = &d.grammar.arguments[step.first_argument];
   const int set = uv_set_at(d, step, 0);
   const std::string& word = d.grammar.words[a[1].word];
@@ -221,7 +221,7 @@ void setup_projection(Derivation& d, const Step& step, ShapeState& state, const 
 }
 
 /// projectUV(0): from here on shapes have the texture coordinates of the last setupProjection.
-void project_uv(Derivation& d, const Step& step, ShapeState& state, const Site&) {
+void project_uv(Derivation& d, const Step& step, ShapeState& state, const StepContext&) {
   const int set = uv_set_at(d, step, 0);
   const std::uint32_t id = projection_id(d, state, set, false);
   if (id == 0) {
@@ -231,14 +231,14 @@ void project_uv(Derivation& d, const Step& step, ShapeState& state, const Site&)
   set_projection_id(d, state, set, true, id);
 }
 
-void reset_material(Derivation& d, const Step&, ShapeState& state, const Site&) {
+void reset_material(Derivation& d, const Step&, ShapeState& state, const StepContext&) {
   Style style = d.out.styles[state.style];
   style.color = style.material = 0;
   state.style = style_with(d, style);
 }
 
 /// setMaterial("brick"), or an array of names and values as getMaterial and readMaterial return it.
-void set_material(Derivation& d, const Step& step, ShapeState& state, const Site&) {
+void set_material(Derivation& d, const Step& step, ShapeState& state, const StepContext&) {
   const Argument& argument = argument_at(d, step, 0);
   const lang::TaggedValue value = argument.word == none ? evaluate(d, argument.value) : lang::TaggedValue{};
   if (!is_array(value)) {
@@ -267,14 +267,14 @@ void set_material(Derivation& d, const Step& step, ShapeState& state, const Site
   }
 }
 
-void print(Derivation& d, const Step& step, ShapeState&, const Site&) {
+void print(Derivation& d, const Step& step, ShapeState&, const StepContext&) {
   const Argument& argument = argument_at(d, step, 0);
   if (argument.word != none) return warn(d, step.offset, "print: " + d.grammar.words[argument.word]);
   const Evaluation at{d, step.offset};
   warn(d, step.offset, "print: " + text_in(at, evaluate(d, argument.value)));
 }
 
-void report(Derivation& d, const Step& step, ShapeState&, const Site&) {
+void report(Derivation& d, const Step& step, ShapeState&, const StepContext&) {
   const Argument* a = &d.grammar.arguments[step.first_argument];
   const std::string key = text_of(d, a[0]);  // a copy: the value can add texts
   double amount = 1;
@@ -292,7 +292,7 @@ void report(Derivation& d, const Step& step, ShapeState&, const Site&) {
   report.sum += amount;
 }
 
-void snap(Derivation& d, const Step& step, ShapeState& state, const Site&) {
+void snap(Derivation& d, const Step& step, ShapeState& state, const StepContext&) {
   const glm::dmat3 axes = d.out.axes[state.axes];
   for (int axis = 0; axis < 3; ++axis) {
     if ((step.axis >> axis & 1) == 0 || d.snap_planes.size() >= 10'000) continue;

@@ -124,7 +124,7 @@ bool has_tag(const Derivation& d, std::uint32_t set, std::string_view query, int
 namespace operators {
 
 /// tag("a", faces), deleteTags("a"), deleteTags(): tags of all components of the shape.
-void tag(Derivation& d, const Step& step, ShapeState& state, const Site&) {
+void tag(Derivation& d, const Step& step, ShapeState& state, const StepContext&) {
   Style style = d.out.styles[state.style];
   const Argument* a = &d.grammar.arguments[step.first_argument];
   const std::string name = step.argument_count > 0 ? text_of(d, a[0]) : std::string();

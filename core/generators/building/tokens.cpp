@@ -87,7 +87,9 @@ Tokens::Tokens(const RuleText& text, std::string_view style, std::vector<lang::T
     : files_(text), main_size_(text.parts.front().count) {
   for (const RuleText::Part& part : text.parts) {  // a comment without an end ends with its file
     text_.resize(part.first, '\n');
-    text_ += without_comments(text.text_of(part));
+    std::optional<std::size_t> unclosed;
+    text_ += without_comments(text.text_of(part), &unclosed);
+    if (unclosed) errors.push_back({part.first + *unclosed, "the comment that opens here is not closed"});
   }
   loaded_ = load_files(text, text_, style, errors);
   drop_empty_brackets(loaded_.tokens);

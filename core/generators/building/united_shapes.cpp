@@ -29,29 +29,29 @@ Solid in_scope(Derivation& d, std::uint32_t offset, const ShapeState& state, con
   return solid;
 }
 
-using Directed = std::pair<std::uint32_t, std::uint32_t>;
+using DirectedEdge = std::pair<std::uint32_t, std::uint32_t>;
 
 template <class Body>
 void each_edge(const Solid& solid, const Face& face, const Body& body) {
   for (const Loop& loop : loops_of(solid, face)) {
     const std::span<const std::uint32_t> points = points_of(solid, loop);
     for (std::size_t i = 0; i < points.size(); ++i)
-      body(Directed{points[i], points[(i + 1) % points.size()]});
+      body(DirectedEdge{points[i], points[(i + 1) % points.size()]});
   }
 }
 
 /// Drops faces inside a solid: all their edges have two other faces that fit together, as the underside of an
 /// extrusion of one face has.
 void drop_inner_faces(Solid& solid) {
-  std::map<Directed, int> uses;
-  for (const Face& face : solid.faces) each_edge(solid, face, [&](const Directed& e) { ++uses[e]; });
+  std::map<DirectedEdge, int> uses;
+  for (const Face& face : solid.faces) each_edge(solid, face, [&](const DirectedEdge& e) { ++uses[e]; });
   std::erase_if(solid.faces, [&](const Face& face) {
     bool is_inner = true;
-    each_edge(solid, face, [&](const Directed& e) {
+    each_edge(solid, face, [&](const DirectedEdge& e) {
       const auto back = uses.find({e.second, e.first});
       is_inner &= back != uses.end() && back->second > 0 && uses[e] > back->second;
     });
-    if (is_inner) each_edge(solid, face, [&](const Directed& e) { --uses[e]; });
+    if (is_inner) each_edge(solid, face, [&](const DirectedEdge& e) { --uses[e]; });
     return is_inner;
   });
 }
@@ -103,13 +103,13 @@ std::optional<Solid> flat_boolean(const Solid& a, const Solid& b, BooleanKind ki
 }
 
 Solid united_solid(Derivation& d, std::uint32_t offset, const ShapeState& state,
-                   std::span<const Shape> leaves, Joining joining) {
+                   std::span<const Shape> leaves, UnionMode joining) {
   Solid all, open;
   all.is_closed = true;
   for (const Shape& leaf : leaves) {
     Solid own = in_scope(d, offset, state, leaf);
     if (own.faces.empty()) continue;
-    if (joining == Joining::unify && own.is_closed) {
+    if (joining == UnionMode::unify && own.is_closed) {
       if (all.faces.size() + own.faces.size() > most_faces)
         reject(d, offset, "the Boolean operation has more than 20,000 faces");
       if (all.faces.empty()) {
@@ -117,7 +117,7 @@ Solid united_solid(Derivation& d, std::uint32_t offset, const ShapeState& state,
       } else {
         all = boolean(all, own, BooleanKind::unite, d.job);
       }
-    } else if (joining == Joining::unify) {
+    } else if (joining == UnionMode::unify) {
       if (std::optional<Solid> flat = flat_boolean(open, own, BooleanKind::unite, d.job)) {
         open = std::move(*flat);
       } else {
@@ -132,7 +132,7 @@ Solid united_solid(Derivation& d, std::uint32_t offset, const ShapeState& state,
     all.is_closed = false;
     append(all, open);
   }
-  if (joining == Joining::recompose) all = recomposed(all, d.job);
+  if (joining == UnionMode::recompose) all = recomposed(all, d.job);
   if (all.faces.empty()) all.is_closed = false;
   return all;
 }

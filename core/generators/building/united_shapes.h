@@ -10,7 +10,7 @@ namespace seedmesh::building {
 
 constexpr std::size_t most_faces = 20'000;  ///< greatest number of faces of a Boolean operation
 
-enum class Joining : std::uint8_t {
+enum class UnionMode : std::uint8_t {
   append,     ///< all faces, as they are
   unify,      ///< the union of closed solids, and all faces of others
   recompose,  ///< all faces, with shared corners
@@ -28,6 +28,6 @@ std::optional<Solid> flat_boolean(const Solid& a, const Solid& b, BooleanKind ki
 /// are left out with a warning at byte `offset` of the rules. Rejects more than most_faces faces. The result has
 /// no faces if the shapes have no geometry.
 Solid united_solid(Derivation& d, std::uint32_t offset, const ShapeState& state,
-                   std::span<const Shape> shapes, Joining joining);
+                   std::span<const Shape> shapes, UnionMode joining);
 
 }  // namespace seedmesh::building

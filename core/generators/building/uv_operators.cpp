@@ -47,13 +47,13 @@ std::string material_of_file(std::string path) {
 
 }  // namespace
 
-void texture(Derivation& d, const Step& step, ShapeState& state, const Site&) {
+void texture(Derivation& d, const Step& step, ShapeState& state, const StepContext&) {
   const std::string path = text_of(d, argument_at(d, step, 0));
   use_image(d, step, state, path);
 }
 
 /// scaleUV(set, u, v), rotateUV(set, angle) and translateUV(set, u, v)
-void change_uv(Derivation& d, const Step& step, ShapeState& state, const Site&) {
+void change_uv(Derivation& d, const Step& step, ShapeState& state, const StepContext&) {
   const int set = uv_set_at(d, step, 0);
   if (!can_change(d, step, state, set)) return;
   const Projection before = projection_of(d, state, set);
@@ -69,7 +69,7 @@ void change_uv(Derivation& d, const Step& step, ShapeState& state, const Site&) 
 }
 
 /// normalizeUV(set, u | v | uv, separatePerFace | collectiveAllFaces)
-void normalize_uv(Derivation& d, const Step& step, ShapeState& state, const Site&) {
+void normalize_uv(Derivation& d, const Step& step, ShapeState& state, const StepContext&) {
   const int set = uv_set_at(d, step, 0);
   if (!can_change(d, step, state, set)) return;
   const std::string axes = word_or(d, step, 1, "uv"), kind = word_or(d, step, 2, "collectiveAllFaces");
@@ -88,7 +88,7 @@ void normalize_uv(Derivation& d, const Step& step, ShapeState& state, const Site
 }
 
 /// tileUV(set, width, height): tiles of a size in metres from the lowest corner. 0 keeps the coordinate.
-void tile_uv(Derivation& d, const Step& step, ShapeState& state, const Site&) {
+void tile_uv(Derivation& d, const Step& step, ShapeState& state, const StepContext&) {
   const int set = uv_set_at(d, step, 0);
   if (!can_change(d, step, state, set)) return;
   const UvRange range = uv_range(d, state, set);
@@ -110,12 +110,12 @@ void tile_uv(Derivation& d, const Step& step, ShapeState& state, const Site&) {
   use_projection(d, state, set, combined(projection_of(d, state, set), out[0], out[1]));
 }
 
-void copy_uv(Derivation& d, const Step& step, ShapeState& state, const Site&) {
+void copy_uv(Derivation& d, const Step& step, ShapeState& state, const StepContext&) {
   const int from = uv_set_at(d, step, 0), to = uv_set_at(d, step, 1);
   if (can_change(d, step, state, from)) use_projection(d, state, to, projection_of(d, state, from));
 }
 
-void delete_uv(Derivation& d, const Step& step, ShapeState& state, const Site&) {
+void delete_uv(Derivation& d, const Step& step, ShapeState& state, const StepContext&) {
   const int set = uv_set_at(d, step, 0);
   for (const bool is_applied : {true, false}) set_projection_id(d, state, set, is_applied, 0);
 }

@@ -14,7 +14,7 @@
 #include "core/generators/city/landmarks.h"
 #include "core/generators/city/lots.h"
 #include "core/generators/city/plan_json.h"
-#include "core/generators/city/remarks.h"
+#include "core/generators/city/plan_warnings.h"
 #include "core/generators/city/statistics.h"
 #include "core/generators/city/surface.h"
 #include "core/generators/city/tensor.h"
@@ -274,7 +274,7 @@ Result<Model> planned_model(const CityParams& params, const GenerateContext& con
   Result<CityPlan> plan = plan_of(params, job);
   if (!plan) return plan.error();
   const std::string statistics = canonical_text(statistics_of(*plan, job));
-  std::vector<Warning> remarks = remarks_on(params, *plan);
+  std::vector<Warning> remarks = plan_warnings(params, *plan);
   parts = plan->parts.size();
   if (parts >= parts_of_large_plans) {
     return_unused_heap();
@@ -307,7 +307,7 @@ Result<Json> derive(const CityParams& params, const GenerateContext& context) {
   Json answer;
   answer["statistics"] = statistics_of(*plan, job);
   answer["plan"] = plan_json(*plan, params, job);
-  answer["warnings"] = warning_list(remarks_on(params, *plan));
+  answer["warnings"] = warning_list(plan_warnings(params, *plan));
   return answer;
 }
 
@@ -317,7 +317,7 @@ Result<Appraisal> appraise(const CityParams& params, const GenerateContext& cont
   const Result<CityPlan> plan = plan_of(params, job);
   if (!plan) return plan.error();
   Appraisal appraisal;
-  appraisal.warnings = remarks_on(params, *plan);
+  appraisal.warnings = plan_warnings(params, *plan);
   Estimate estimate;
   const Surface surface(*plan, params.streets.wards.wall_height, job);
   estimate.triangles = ground_triangles(*plan, surface, context.demand.textures > 0, job) +

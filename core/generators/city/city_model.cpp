@@ -16,59 +16,90 @@
 #include "core/generators/city/objects.h"
 #include "core/generators/city/surface.h"
 #include "core/generators/material_members.h"
+#include "core/texture/file_size.h"
 #include "core/texture/png.h"
+#include "core/texture/wall.h"
 #include "generated/params/city.h"
 
 namespace seedmesh::city {
 namespace {
 
-struct Look {
+struct PartMaterial {
   const char* name;
   std::array<std::uint8_t, 3> color;
   float roughness;
+  std::string_view texture = {};  ///< one of texture::wall_kinds(); empty: none
 };
-constexpr Look looks[] = {
-    {"asphalt", {0x45, 0x46, 0x48}, 0.95F}, {"junction", {0x48, 0x49, 0x4b}, 0.95F},
-    {"sidewalk", {0x9b, 0x98, 0x92}, 0.9F}, {"verge", {0x7f, 0x8a, 0x62}, 1.0F},
-    {"park", {0x5f, 0x7d, 0x45}, 1.0F},     {"square", {0xa8, 0x9d, 0x88}, 0.9F},
-    {"lot", {0x86, 0x8f, 0x6a}, 1.0F},      {"water", {0x35, 0x55, 0x66}, 0.2F},
+constexpr std::string_view asphalt = "asphalt_ground", grass = "grass_ground";
+constexpr PartMaterial part_materials[] = {
+    {"asphalt", {0x45, 0x46, 0x48}, 0.95F, asphalt}, {"junction", {0x48, 0x49, 0x4b}, 0.95F, asphalt},
+    {"sidewalk", {0x9b, 0x98, 0x92}, 0.9F, asphalt}, {"verge", {0x7f, 0x8a, 0x62}, 1.0F, grass},
+    {"park", {0x5f, 0x7d, 0x45}, 1.0F, grass},       {"square", {0xa8, 0x9d, 0x88}, 0.9F, "setts_ground"},
+    {"lot", {0x86, 0x8f, 0x6a}, 1.0F, grass},        {"water", {0x35, 0x55, 0x66}, 0.2F},
 };
-constexpr Look marking_look = {"marking", {0xd8, 0xd8, 0xd2}, 0.8F};
+constexpr PartMaterial wall_material = {"wall", {0x8d, 0x84, 0x74}, 0.95F, "ashlar"};
+constexpr PartMaterial foundation_material = {"foundation", {0x8f, 0x89, 0x80}, 0.95F, asphalt};
+constexpr PartMaterial marking_material = {"marking", {0xd8, 0xd8, 0xd2}, 0.8F};
 
-Material material_of(const Look& look, const CityParams& params) {
+/// The surface of this name in the request; null if there is none.
+const auto* given_surface(const PartMaterial& usual, const CityParams& params) {
+  const auto found = std::ranges::find(params.surfaces, std::string_view(usual.name), [](const auto& each) {
+    return std::string_view(text_of(each.material));
+  });
+  return found == params.surfaces.end() ? nullptr : &*found;
+}
+
+/// The colour of a surface in the request, or the usual one.
+std::array<std::uint8_t, 3> color_of(const PartMaterial& usual, const CityParams& params) {
+  const auto* given = given_surface(usual, params);
+  if (given == nullptr || !given->color) return usual.color;
+  return {given->color->red, given->color->green, given->color->blue};
+}
+
+Material material_of(const PartMaterial& usual, const CityParams& params) {
   Material material;
-  material.name = look.name;
-  material.base_color = {linear_of_srgb(look.color[0]), linear_of_srgb(look.color[1]),
-                         linear_of_srgb(look.color[2]), 1};
-  material.roughness = look.roughness;
-  for (const auto& own : params.surfaces) {
-    if (text_of(own.material) != std::string_view(look.name)) continue;
-    if (own.color) {
-      material.base_color = {linear_of_srgb(own.color->red), linear_of_srgb(own.color->green),
-                             linear_of_srgb(own.color->blue), 1};
-    }
-    if (own.roughness) material.roughness = static_cast<float>(*own.roughness);
-    set_specular(material, own.specular);
-    set_emission(material, own.emission);
+  material.name = usual.name;
+  const auto [red, green, blue] = color_of(usual, params);
+  material.base_color = {linear_of_srgb(red), linear_of_srgb(green), linear_of_srgb(blue), 1};
+  material.roughness = usual.roughness;
+  if (const auto* given = given_surface(usual, params)) {
+    if (given->roughness) material.roughness = static_cast<float>(*given->roughness);
+    set_specular(material, given->specular);
+    set_emission(material, given->emission);
   }
   return material;
 }
 
-/// The colour of a surface in the request, or its own.
-std::array<std::uint8_t, 3> color_of(const Look& look, const CityParams& params) {
-  for (const auto& own : params.surfaces) {
-    if (own.color && text_of(own.material) == std::string_view(look.name))
-      return {own.color->red, own.color->green, own.color->blue};
-  }
-  return look.color;
+/// The same with a texture, unless the request gives a roughness, which holds everywhere, or a colour that is brighter
+/// than the texture.
+Material textured_material(const PartMaterial& usual, const CityParams& params) {
+  Material material = material_of(usual, params);
+  const auto* given = given_surface(usual, params);
+  if (usual.texture.empty() || (given != nullptr && given->roughness)) return material;
+  const glm::vec3 factor = glm::vec3(material.base_color) / texture::grey_of(usual.texture);
+  if (std::max({factor.x, factor.y, factor.z}) > 1) return material;
+  material.recipe.kind = usual.texture;
+  material.recipe.factor = factor;
+  // Relief is not visible from the distances of a city, and tangents would add a third to the ground's vertices.
+  material.recipe.has_own_sides = true;
+  return material;
+}
+
+/// Converts texture coordinates in metres to those of the texture of a material.
+void fit_texture(Mesh& mesh, const Material& material) {
+  const texture::WallKind* kind = texture::wall_kind(material.recipe.kind);
+  if (kind == nullptr) return;
+  const glm::vec2 repeats = 1.0 / kind->tile;
+  for (glm::vec2& uv : mesh.uv[0].span()) uv *= repeats;
 }
 
 /// Asphalt with stripes across the image: as many pixels without, with and without paint.
 Material striped_material(const char* name, const std::array<int, 3>& stripes, const CityParams& params,
                           Model& model, const Job& job) {
   constexpr std::uint32_t height = 4;
-  const Look& asphalt = looks[static_cast<std::size_t>(PartKind::carriageway)];
-  const std::array<std::uint8_t, 3> plain = color_of(asphalt, params), paint = color_of(marking_look, params);
+  const PartMaterial& street = part_materials[static_cast<std::size_t>(PartKind::carriageway)];
+  const std::array<std::uint8_t, 3> plain = color_of(street, params),
+                                    paint = color_of(marking_material, params);
   std::vector<std::byte> pixels;
   for (std::uint32_t row = 0; row < height; ++row) {
     for (std::size_t stripe = 0; stripe < 3; ++stripe) {
@@ -83,7 +114,7 @@ Material striped_material(const char* name, const std::array<int, 3>& stripes, c
   auto image = std::make_shared<Image>();
   image->name = name;
   image->bytes.assign(file.span().begin(), file.span().end());
-  Material material = material_of(asphalt, params);
+  Material material = material_of(street, params);
   material.name = name;
   material.base_color = glm::vec4(1);
   material.base_color_texture = {static_cast<int>(model.textures.size()), 0, true};
@@ -106,6 +137,7 @@ void add_mesh(Model& model, const char* name, int material, Mesh mesh, int paren
 
 /// The same with a material of its own.
 void add_mesh(Model& model, const char* name, Material material, Mesh mesh, int parent) {
+  fit_texture(mesh, material);
   model.materials.push_back(std::move(material));
   add_mesh(model, name, static_cast<int>(model.materials.size()) - 1, std::move(mesh), parent);
 }
@@ -176,7 +208,9 @@ void add_ground(Model& model, CityPlan& plan, Surface& surface, const CityParams
     job.spend(Resource::triangles, mesh.triangles());
     const auto [material, is_new] = materials.try_emplace(name, static_cast<int>(model.materials.size()));
     if (is_new) model.materials.push_back(make_material());
-    add_mesh(model, name, material->second, mesh.take(job), nodes.group(chunk, "ground"));
+    Mesh made = mesh.take(job);
+    fit_texture(made, model.materials[static_cast<std::size_t>(material->second)]);
+    add_mesh(model, name, material->second, std::move(made), nodes.group(chunk, "ground"));
   };
   for (const GroundPiece& piece : ground_pieces(plan, nodes.chunks())) {
     GroundMeshes meshes(plan, surface, context.demand.textures > 0, job);
@@ -187,18 +221,18 @@ void add_ground(Model& model, CityPlan& plan, Surface& surface, const CityParams
       meshes.weld_if_large(job);
       if (!keeps_outlines) plan.parts[n].rings = {};
     }
-    const Look& look = looks[static_cast<std::size_t>(piece.kind)];
+    const PartMaterial& usual = part_materials[static_cast<std::size_t>(piece.kind)];
     const auto striped = [&](const char* name, const std::array<int, 3>& stripes) {
       return [&model, &params, &job, name, stripes] {
         return striped_material(name, stripes, params, model, job);
       };
     };
     add(
-        "markings", [&] { return material_of(marking_look, params); }, meshes.markings, piece.chunk);
+        "markings", [&] { return material_of(marking_material, params); }, meshes.markings, piece.chunk);
     add("crossings", striped("crossing", {16, 16, 0}), meshes.crossings, piece.chunk);
     add("lane_lines", striped("lane_line", {24, 16, 24}), meshes.lane_lines, piece.chunk);
     add(
-        look.name, [&] { return material_of(look, params); }, meshes.plain, piece.chunk);
+        usual.name, [&] { return textured_material(usual, params); }, meshes.plain, piece.chunk);
     if (!nodes.chunks().is_divided() && piece.kind == PartKind::carriageway) surface.release_strips();
     constexpr std::size_t many_parts = 5000;
     if (!keeps_outlines && piece.parts.size() >= many_parts) return_unused_heap();
@@ -216,7 +250,7 @@ void add_town_wall(Model& model, const CityPlan& plan, const Surface& surface, c
   }
   if (mesh.is_empty()) return;
   job.spend(Resource::triangles, mesh.triangles());
-  add_mesh(model, "wall", material_of({"wall", {0x8d, 0x84, 0x74}, 0.95F}, params), mesh.take(job), 0);
+  add_mesh(model, "wall", textured_material(wall_material, params), mesh.take(job), 0);
 }
 
 /// The foundations of the buildings on ground that is not level.
@@ -232,8 +266,7 @@ void add_foundations(Model& model, const CityPlan& plan, const Surface& surface,
   }
   if (mesh.is_empty()) return;
   job.spend(Resource::triangles, mesh.triangles());
-  add_mesh(model, "foundations", material_of({"foundation", {0x8f, 0x89, 0x80}, 0.95F}, params),
-           mesh.take(job), 0);
+  add_mesh(model, "foundations", textured_material(foundation_material, params), mesh.take(job), 0);
 }
 
 /// Frees what houses on level ground do not need.
@@ -247,10 +280,10 @@ void release_streets(CityPlan& plan) {
 
 void add_bridges_and_tunnels(Model& model, Mesh bridges, const Surface& surface, const CityParams& params,
                              Job& job) {
-  const auto add = [&](Mesh mesh, const char* name, const Look& look) {
+  const auto add = [&](Mesh mesh, const char* name, const PartMaterial& usual) {
     if (mesh.elements() == 0) return;
     job.spend(Resource::triangles, mesh.elements());
-    add_mesh(model, name, material_of(look, params), std::move(mesh), 0);
+    add_mesh(model, name, material_of(usual, params), std::move(mesh), 0);
   };
   add(std::move(bridges), "bridges", {"bridge", {0x8a, 0x88, 0x84}, 0.9F});
   add(tunnel_mesh(surface, job), "tunnels", {"tunnel", {0x7d, 0x7b, 0x77}, 0.95F});
@@ -273,6 +306,19 @@ std::uint64_t ground_triangles(const CityPlan& plan, const Surface& surface, boo
   for (const Lot& lot : plan.lots) count += lot.house ? 10 : 0;
   for (const Landmark& landmark : plan.landmarks) count += footing_of(landmark) ? 10 : 0;
   return count;
+}
+
+void add_ground_textures(texture::TextureSizes& sizes, const Surface& surface, const CityParams& params) {
+  std::array<bool, std::size(part_materials)> is_used{};
+  bool has_wall = false;
+  for (const Part& part : surface.plan().parts)
+    (part.is_wall ? has_wall : is_used[static_cast<std::size_t>(part.kind)]) = true;
+  const auto add = [&](const PartMaterial& usual) { sizes.add(textured_material(usual, params)); };
+  for (std::size_t i = 0; i < is_used.size(); ++i) {
+    if (is_used[i]) add(part_materials[i]);
+  }
+  if (has_wall) add(wall_material);
+  if (!surface.is_level() && !surface.plan().lots.empty()) add(foundation_material);
 }
 
 Result<Model> city_model(CityPlan& plan, const CityParams& params, const GenerateContext& context) {

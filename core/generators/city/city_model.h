@@ -7,6 +7,9 @@
 namespace seedmesh {
 struct CityParams;
 }
+namespace seedmesh::texture {
+class TextureSizes;
+}
 
 namespace seedmesh::city {
 
@@ -14,6 +17,9 @@ class Surface;
 
 /// Returns the number of triangles of the ground of a plan and of its foundations. Builds these meshes to count them.
 std::uint64_t ground_triangles(const CityPlan& plan, const Surface& surface, bool has_textures, Job& job);
+
+/// Adds the textures of the ground, for an estimate.
+void add_ground_textures(texture::TextureSizes& sizes, const Surface& surface, const CityParams& params);
 
 /// Returns the model of a plan. Its nodes are: "city" > "ground" > one node and mesh for each kind of part
 /// ("asphalt", "junction", ..., "lot"); "city" > "buildings" > one node for each shared building; "city" >

@@ -185,7 +185,7 @@ void add_border(SolidBuilder& solid, const BorderPiece& piece, const std::array<
   }
 }
 
-SolidLook look_of(CityBorder kind) {
+SolidMaterial solid_material_of(CityBorder kind) {
   if (kind == CityBorder::hedge) return {"hedge", {0x45, 0x5e, 0x33}, 1, 0};
   if (kind == CityBorder::wall) return {"yard_wall", {0xb9, 0xae, 0x9a}, 0.95F, 0};
   return {"fence", {0x8a, 0x76, 0x5e}, 0.9F, 0};
@@ -230,7 +230,7 @@ void add_borders(Model& model, ChunkNodes& nodes, const Chunks& chunks, const Su
   }
   if (by_chunk.empty()) return;
   const auto material = static_cast<int>(model.materials.size());
-  const SolidLook look = look_of(params.yards->border);
+  const SolidMaterial look = solid_material_of(params.yards->border);
   model.materials.push_back(material_of(look));
   for (auto& [chunk, solid] : by_chunk) {
     MeshGroup group;
@@ -329,6 +329,7 @@ std::optional<Error> estimate_contents(Estimate& estimate, const Surface& surfac
   Demand demand;
   demand.lods = level_count(view, context.demand);
   texture::TextureSizes textures;
+  add_ground_textures(textures, surface, params);
   const auto measured = [&](Result<Model> made) {
     const ModelCounts counts = count(*made);
     for (const Material& material : made->materials) textures.add(material);

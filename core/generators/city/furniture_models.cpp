@@ -14,7 +14,7 @@ constexpr float below = -0.15F;  // how deep feet go into the ground, m
 
 /// Bodies of one material of a model.
 struct Part {
-  SolidLook look;
+  SolidMaterial look;
   Mesh mesh;
 };
 
@@ -24,7 +24,7 @@ class Parts {
 
   /// Adds the bodies that `build` makes with one look.
   template <class Build>
-  void add(SolidLook look, const Build& build) {
+  void add(SolidMaterial look, const Build& build) {
     SolidBuilder solid(job_);
     build(solid);
     parts_.push_back({std::move(look), solid.take(job_)});

@@ -62,11 +62,11 @@ struct StreetGraph {
   std::vector<CmPoint> nodes;
   std::vector<PlanarEdge> edges;  ///< the tag is an EdgeClass, or from first_given on that of a given street
   PlanarArms arms;
-  std::vector<std::uint64_t> node_key, edge_key;  ///< identities by position
+  std::vector<std::uint64_t> node_key, edge_key;  ///< keys that follow from positions alone
   std::vector<std::uint8_t> is_border;  ///< for each node, 1 on the border of the area or on a shore
   std::vector<Bridge> bridges;
   std::vector<CmPoint> ring_nodes;         ///< nodes of roundabouts, sorted
-  bool has_branches = false;               ///< a minor street grew at whose end others could branch off
+  bool has_branches = false;               ///< at least one minor street could have branches at its end
   std::vector<std::uint32_t> bridge_ends;  ///< number of ends of bridges at each node; empty without bridges
 
   bool is_street(std::uint32_t edge) const { return is_street_tag(edges[edge].tag); }
@@ -200,7 +200,7 @@ class MemoryCharge {
   MemoryCharge(const MemoryCharge&) = delete;
   MemoryCharge& operator=(const MemoryCharge&) = delete;
   ~MemoryCharge() {
-    if (budget_) budget_->give_back(bytes_);
+    if (budget_) budget_->release(bytes_);
   }
 
  private:

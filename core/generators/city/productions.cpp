@@ -91,7 +91,8 @@ class StreetGrammar::Reader {
     if (written.has_left) production.left = module(written.left, left_slot, production.left_count);
     if (written.has_right) production.right = module(written.right, right_slot, production.right_count);
     if (!written.new_left.empty() || !written.new_right.empty())
-      add(written.predecessor.from, "contexts of the new word do not exist in street productions");
+      add(written.predecessor.from,
+          "found a context of the new word (<< or >>); street productions have none");
     if (!written.weight.empty()) add(written.weight.from, "street productions have no weights");
     statements(written.before, production);
     statements(written.after, production);
@@ -163,7 +164,8 @@ class StreetGrammar::Reader {
       add(tokens[at].offset, "found " + lang::in_quotes(tokens[at]) + ", expected an operator or the end",
           IssueKind::syntax);
     }
-    if (program_.draws(result)) add(slice.from, "street productions draw no random numbers");
+    if (program_.draws(result))
+      add(slice.from, "found a random function; street productions use no random numbers");
     return result;
   }
 

@@ -41,7 +41,7 @@ glm::dvec2 position_in(const std::vector<CmPoint>& nodes, const std::vector<Plan
 bool is_on_land(const Region& region, const glm::dvec2& cm);
 
 /// Returns the number of the outer ring around the part of the land in which a position in centimetres lies. Water
-/// separates the parts. None in water and outside of the area.
+/// separates the parts. Returns nullopt in water and outside of the area.
 std::optional<std::size_t> part_of_land(const Region& region, const glm::dvec2& cm);
 
 /// A quantity at a position in metres.

@@ -20,7 +20,7 @@ math::SinCos part_of_turn(int i, int count) { return math::sincos_degrees(360.0 
 
 }  // namespace
 
-Material material_of(const SolidLook& look) {
+Material material_of(const SolidMaterial& look) {
   Material material;
   material.name = look.name;
   material.base_color = {linear_of_srgb(look.color[0]), linear_of_srgb(look.color[1]),

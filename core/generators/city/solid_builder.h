@@ -12,14 +12,14 @@
 
 namespace seedmesh::city {
 
-struct SolidLook {
+struct SolidMaterial {
   std::string name;
   std::array<std::uint8_t, 3> color{};
   float roughness = 0.9F;
   float metallic = 0;
 };
 /// Returns the material of a look.
-Material material_of(const SolidLook& look);
+Material material_of(const SolidMaterial& look);
 
 /// Adds bodies to one mesh. Bodies are closed and share no vertices.
 class SolidBuilder {

@@ -1,8 +1,9 @@
 #pragma once
 /// The surface of the finished city: the height of every part of the partition. On level ground carriageways are at
 /// height 0. On a terrain, carriageways and sidewalks follow the profiles of the streets. The ground of a block joins
-/// their outer edges and the natural ground by embankments of at most 1:2. Where the streets around a block differ
-/// too much for that, its border lies above or below the sidewalk, and a wall stands there.
+/// their outer edges and the natural ground by embankments with a slope of at most 1:2 (height to width). Where the
+/// heights of these streets differ too much for such a slope, the border of the block lies above or below the sidewalk.
+/// A wall then stands between the two.
 #include <span>
 
 #include "core/generators/city/edge_table.h"
@@ -13,7 +14,7 @@
 namespace seedmesh::city {
 
 constexpr double kerb_height = 0.13;  // m
-constexpr double water_depth = 1.2;   // of water below the lowest point of its shore, m
+constexpr double water_depth = 1.2;   // depth of water below the lowest point of its shore, m
 
 class Surface {
  public:
@@ -38,8 +39,8 @@ class Surface {
   /// Returns the strips of an edge's carriageway.
   const StreetStrips& strips(std::uint32_t edge) const { return strips_[edge]; }
 
-  /// Returns the part on the other side of the edge from `a` to `b` of some part; no_index outside of the area. On level
-  /// ground without town walls, parts as high as sidewalks count as outside.
+  /// `a` and `b` are consecutive corners of a part. Returns the part on the other side of the edge between them, or
+  /// no_index at the border of the area. On level ground without town walls, only carriageways and water are found.
   std::uint32_t part_beyond(const CmPoint& a, const CmPoint& b) const;
 
   /// Frees the strips, once all carriageways are made.
@@ -82,7 +83,8 @@ class Surface {
 
   const CityPlan& plan_;
   double wall_height_;
-  EdgeTable part_of_edge_;  ///< the edges of all parts, or of the low ones
+  EdgeTable
+      part_of_edge_;  ///< the edges of all parts; on level ground without town walls, of carriageways and water only
   Tunnels tunnels_;
   std::vector<StreetStrips> strips_;  ///< strips of each edge
   EdgeTable divided_at_;              ///< indices into `divided_`, from the lesser end to the greater
@@ -91,7 +93,7 @@ class Surface {
   std::vector<Ground> grounds_;
   std::vector<std::uint32_t> ground_of_;  ///< index into `grounds_` of each part
   std::vector<double> water_level_;       ///< height of the water of each part
-  // Natural heights on a lattice, without slopes that need a wall.
+  // Natural heights on a lattice, limited to slopes that need no wall.
   glm::dvec2 low_{0};
   double cell_ = 1;
   std::int32_t columns_ = 0, rows_ = 0;

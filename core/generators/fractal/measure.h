@@ -12,7 +12,7 @@ struct FractalParams;
 
 namespace seedmesh::fractal {
 
-/// In the frame of the unit element. Numbers above 2^53 are the nearest doubles.
+/// The figures, in the frame of the unit element. Numbers above 2^53 are the nearest doubles.
 struct Measure {
   double pieces = 0;
   std::optional<double> points;  ///< number of pieces that are replaced by points
@@ -29,8 +29,8 @@ struct Measure {
 /// edges of all lattices. Throws Stop only for the deadline, a cancellation and the limit of memory.
 Measure measure(const FractalParams& params, const Instructions& instructions, int rounds, const Job& job);
 
-/// The same for pieces down to FractalParams::smallest. Their areas, lengths and bounds have no closed form. Throws
-/// Stop if there are too many (count_divided).
+/// Returns the figures if pieces are divided down to FractalParams::smallest. Their areas, lengths and bounds have no
+/// closed form. Throws Stop if there are too many (count_divided).
 Measure measure_divided(const FractalParams& params, const Instructions& instructions, int rounds, Job& job);
 
 /// Returns the number of exposed squares in closed form; nullopt if copies leave their block.

@@ -68,9 +68,9 @@ Mesh voxels_of(const FractalParams& params, const Cloud& cloud, Job& job) {
 
 /// Counter-clockwise, from the left end of the lower side.
 std::vector<glm::dvec2> snowflake(int rounds, const Job& job) {
-  std::size_t looks = 0;
+  std::size_t steps = 0;
   const auto look = [&] {
-    if (++looks % 4'096 == 0) job.check();
+    if (++steps % 4'096 == 0) job.check();
   };
   FractalParams params;
   params.instructions = FractalInstructions::koch_snowflake;
@@ -140,7 +140,7 @@ void add_cloud(Model& model, int parent, const FractalParams& params, Cloud clou
 
 Mesh koch_plate(int rounds, double size, Job& job) {
   constexpr double half = 0.05;
-  constexpr std::size_t look_every = 16'384;
+  constexpr std::size_t check_interval = 16'384;
   constexpr int most_rounds = 9;
   if (rounds > most_rounds) {
     job.refuse(limit_issue({Resource::iterations, most_rounds, static_cast<std::uint64_t>(rounds)},
@@ -163,17 +163,17 @@ Mesh koch_plate(int rounds, double size, Job& job) {
   for (const double z : {half, -half}) {
     const auto first = static_cast<std::uint32_t>(mesh.position.size());
     for (const glm::dvec2& p : outline) {
-      if (mesh.position.size() % look_every == 0) job.check();
+      if (mesh.position.size() % check_interval == 0) job.check();
       mesh.position.push_back(glm::vec3(glm::dvec3(p, z) * size));
       mesh.normal.push_back({0, 0, z > 0 ? 1 : -1});
     }
     for (std::size_t i = 0; i < inside.size(); ++i) {
-      if (i % look_every == 0) job.check();
+      if (i % check_interval == 0) job.check();
       mesh.index.wide.push_back(first + inside[z > 0 ? i : i / 3 * 3 + 2 - i % 3]);
     }
   }
   for (std::size_t i = 0; i < outline.size(); ++i) {
-    if (i % look_every == 0) job.check();
+    if (i % check_interval == 0) job.check();
     const glm::dvec2 a = outline[i], b = outline[(i + 1) % outline.size()];
     const glm::vec3 out(math::unit(glm::dvec3(b.y - a.y, a.x - b.x, 0), {0, 1, 0}));
     const auto first = static_cast<std::uint32_t>(mesh.position.size());

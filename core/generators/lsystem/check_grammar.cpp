@@ -11,7 +11,7 @@ namespace seedmesh::lsystem {
 namespace {
 
 constexpr std::size_t most_warnings = 100;
-constexpr std::size_t most_doubts = 1'000;
+constexpr std::size_t most_possible_errors = 1'000;
 constexpr double most_strips = 1'000;  // the bound of Turtle::set_control
 
 const CommandRow* row_of(std::string_view symbol) {
@@ -167,60 +167,65 @@ void warn(Compilation& c, Source& source, std::size_t offset, std::string messag
 
 /// Records a doubt about a module of a word: a turtle symbol with too few parameters, or with a value that
 /// the turtle cannot use.
-void doubt_module(Compilation& c, Source& source, const WrittenModule& module, const Template& made) {
+void check_module(Compilation& c, Source& source, const WrittenModule& module, const Template& made) {
   const Kind& kind = c.grammar.kinds[made.kind];
   const auto number = [&](std::uint32_t i) -> const double* {
     const lang::Expression& argument = c.grammar.arguments[made.first_argument + i];
     return argument.is_constant ? &argument.value : nullptr;
   };
-  const auto doubt = [&](Doubt::Is is, std::string message) {
-    if (c.doubts.size() == most_doubts) return;
+  const auto add_possible_error = [&](PossibleError::Severity is, std::string message) {
+    if (c.possible_errors.size() == most_possible_errors) return;
     const TextPosition position = source.positions.of(module.offset);
-    c.doubts.push_back({made.kind, is, {source.pointer, std::move(message), position.line, position.column}});
+    c.possible_errors.push_back(
+        {made.kind, is, {source.pointer, std::move(message), position.line, position.column}});
   };
   const auto name = [&] { return "`" + kind.symbol + "`"; };
   const auto check_tropism = [&](const double* index) {
     const double count = static_cast<double>(c.params.tropism.size());
     if (count == 0)
-      return doubt(Doubt::Is::warning, "found " + name() + " without `tropism`; the symbol has no effect");
+      return add_possible_error(PossibleError::Severity::warning,
+                                "found " + name() + " without `tropism`; the symbol has no effect");
     if (index && !(*index >= 0 && *index < count)) {
-      doubt(Doubt::Is::warning, "found tropism " + text_of_number(*index) + " in " + name() +
-                                    "; expected 0 to " + text_of_number(count - 1) +
-                                    ". The symbol has no effect");
+      add_possible_error(PossibleError::Severity::warning,
+                         "found tropism " + text_of_number(*index) + " in " + name() + "; expected 0 to " +
+                             text_of_number(count - 1) + ". The symbol has no effect");
     }
   };
   switch (kind.command) {
     case Command::none: {
-      if (c.doubted.size() < c.grammar.kinds.size()) c.doubted.resize(c.grammar.kinds.size(), 0);
-      if (c.doubted[made.kind] != 0) return;
-      c.doubted[made.kind] = 1;
+      if (c.is_checked.size() < c.grammar.kinds.size()) c.is_checked.resize(c.grammar.kinds.size(), 0);
+      if (c.is_checked[made.kind] != 0) return;
+      c.is_checked[made.kind] = 1;
       const CommandRow* row = row_of(kind.symbol);
       if (!row || kind.arity >= row->least) return;
-      return doubt(Doubt::Is::warning, name() + " expects " + std::string(row->parameters) + ", found " +
-                                           std::to_string(kind.arity) +
-                                           (kind.arity == 1 ? " parameter" : " parameters") +
-                                           "; the turtle ignores the symbol");
+      return add_possible_error(
+          PossibleError::Severity::warning,
+          name() + " expects " + std::string(row->parameters) + ", found " + std::to_string(kind.arity) +
+              (kind.arity == 1 ? " parameter" : " parameters") + "; the turtle ignores the symbol");
     }
     case Command::contour: {
       const double* wanted = number(0);
       const auto count = static_cast<double>(c.params.contours.size());
       if (!wanted || (std::trunc(*wanted) >= 0 && std::trunc(*wanted) <= count)) return;
-      return doubt(Doubt::Is::error, "found @#(" + text_of_number(*wanted) + "); expected 0 (circle) to " +
-                                         text_of_number(count) + " (last of `contours`)");
+      return add_possible_error(PossibleError::Severity::error,
+                                "found @#(" + text_of_number(*wanted) + "); expected 0 (circle) to " +
+                                    text_of_number(count) + " (last of `contours`)");
     }
     case Command::divide_scale:
-      if (number(0) && *number(0) == 0) doubt(Doubt::Is::error, "found a divisor of 0 in " + name());
+      if (number(0) && *number(0) == 0)
+        add_possible_error(PossibleError::Severity::error, "found a divisor of 0 in " + name());
       return;
     case Command::sweep_control:
       if (kind.arity > 0 && number(0) && !(*number(0) >= 1 && *number(0) <= most_strips)) {
-        doubt(Doubt::Is::warning, "found " + text_of_number(*number(0)) + " strips in " + name() +
-                                      "; expected 1 to " + text_of_number(most_strips) +
-                                      "; the value is clamped");
+        add_possible_error(PossibleError::Severity::warning,
+                           "found " + text_of_number(*number(0)) + " strips in " + name() +
+                               "; expected 1 to " + text_of_number(most_strips) + "; the value is clamped");
       }
       return;
     case Command::set_heading:
       if (number(0) && number(1) && number(2) && *number(0) == 0 && *number(1) == 0 && *number(2) == 0) {
-        doubt(Doubt::Is::warning, "found no direction in " + name() + "(0,0,0); the heading is unchanged");
+        add_possible_error(PossibleError::Severity::warning,
+                           "found no direction in " + name() + "(0,0,0); the heading is unchanged");
       }
       return;
     case Command::elasticity_set:
@@ -267,9 +272,9 @@ void check_rules(Compilation& c) {
     for_all_rules(c, [&](const Rules& rules) { is = is || rules.rewrites(kind); });
     return is;
   };
-  for (const Doubt& each : c.doubts) {
+  for (const PossibleError& each : c.possible_errors) {
     if (is_rewritten(each.kind)) continue;
-    if (each.is == Doubt::Is::warning) {
+    if (each.severity == PossibleError::Severity::warning) {
       warn(c, each.warning);
     } else {
       c.issues.push_back({IssueKind::unknown_name, each.warning.pointer, each.warning.message,

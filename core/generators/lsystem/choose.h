@@ -14,16 +14,16 @@ constexpr std::uint64_t child_key(std::uint64_t parent, const Template& child) {
 }
 
 /// Random streams of one rewriting step. The condition, the choice and the code draw from separate streams.
-struct Draws {
+struct RewriteStreams {
   Rng stream;
-  Draws(std::uint64_t key, std::uint32_t step) : stream(key_at(key, step)) {}
+  RewriteStreams(std::uint64_t key, std::uint32_t step) : stream(key_at(key, step)) {}
   Rng condition() const { return stream.at(1); }
   Rng choice() const { return stream.at(2); }
   Rng code() const { return stream.at(4); }
 };
 
 inline bool holds(const Grammar& grammar, const Production& production, const double* slots,
-                  const Draws& draws) {
+                  const RewriteStreams& draws) {
   if (!production.conditional) return true;
   if (production.condition.is_constant) return production.condition.value != 0;
   Rng rng = draws.condition();
@@ -49,8 +49,8 @@ inline double weight_of(const Grammar& grammar, const Production& production, co
 /// Grammar::contexts_first is set, those without a context count only if none with a context matches. Throws
 /// Stop if the weights have to sum to 1 and do not. Cost: linear in `candidates`.
 template <class Match>
-const Production* choose(const Grammar& grammar, std::span<const Production> candidates, const Draws& draws,
-                         Match&& match, const Job& job) {
+const Production* choose(const Grammar& grammar, std::span<const Production> candidates,
+                         const RewriteStreams& draws, Match&& match, const Job& job) {
   const Production* last = nullptr;
   double total = 0;
   for (const Production& each : candidates) {

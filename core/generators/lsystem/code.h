@@ -25,34 +25,34 @@ class CodeRunner {
     std::uint64_t turn = 0;
     for (std::uint32_t at = steps.first; at < steps.first + steps.count;) {
       const Step& step = grammar_.steps[at];
-      switch (step.does) {
-        case Step::Does::write:
+      switch (step.action) {
+        case Step::Action::write:
           for (const Template& each : grammar_.successor(step.templates)) write(each, turn);
           break;
-        case Step::Does::set:
+        case Step::Action::set:
           slots[step.slot] = value(step, slots, stream, at, turn);
           break;
-        case Step::Does::set_element:
+        case Step::Action::set_element:
           slots[element(step, slots, stream, at)] = value(step, slots, stream, at, turn);
           break;
-        case Step::Does::jump:
+        case Step::Action::jump:
           at = step.target;
           continue;
-        case Step::Does::jump_unless:
+        case Step::Action::jump_unless:
           if (value(step, slots, stream, at, turn) == 0) {
             at = step.target;
             continue;
           }
           break;
-        case Step::Does::enter_loop:
+        case Step::Action::enter_loop:
           loops[depth++] = {turn, 0};
           turn = key_at(turn, at);
           break;
-        case Step::Does::next_turn:
+        case Step::Action::next_turn:
           count_turn();
           turn = key_at(key_at(loops[depth - 1].outer, at), ++loops[depth - 1].turns);
           break;
-        case Step::Does::leave_loop:
+        case Step::Action::leave_loop:
           turn = loops[--depth].outer;
           break;
       }

@@ -37,9 +37,9 @@ struct Source {
 
 /// A possible error: a module on which the turtle has no effect. It is reported only if no rule rewrites its
 /// kind.
-struct Doubt {
+struct PossibleError {
   KindId kind;
-  enum class Is { warning, error } is;
+  enum class Severity { warning, error } severity;
   Warning warning;
 };
 
@@ -60,10 +60,10 @@ struct Compilation {
   Symbols symbols;
   std::map<std::pair<std::string, std::uint32_t>, KindId> ids;
   std::map<std::string, std::uint64_t, std::less<>> occurrences;  ///< of each symbol in the current successor
-  std::vector<Doubt> doubts;
-  std::vector<std::uint8_t> doubted;  ///< by kind: 1 where it has been checked
-  std::set<std::string> warned;       ///< pointers of productions that have a warning
-  std::size_t unreported = 0;         ///< number of warnings beyond the limit
+  std::vector<PossibleError> possible_errors;
+  std::vector<std::uint8_t> is_checked;  ///< by kind: 1 where it has been checked
+  std::set<std::string> warned;          ///< pointers of productions that have a warning
+  std::size_t unreported = 0;            ///< number of warnings beyond the limit
   Grammar grammar;
 };
 
@@ -107,11 +107,11 @@ Range compile_assignments(Compilation& c, Source& source, Slice slice, std::uint
 /// compile_frames.cpp: Returns a constant whose value is the index into Grammar::frames.
 lang::Expression compile_frame(Compilation& c, Source& source, Slice slice);
 
-/// check_grammar.cpp: warn() adds a warning at a position of a text. doubt_module() adds a Doubt.
+/// check_grammar.cpp: warn() adds a warning at a position of a text. check_module() adds a PossibleError.
 /// check_word() reports text in a word that cannot be meant as modules. check_rules() checks the whole
 /// grammar.
 void warn(Compilation& c, Source& source, std::size_t offset, std::string message);
-void doubt_module(Compilation& c, Source& source, const WrittenModule& module, const Template& made);
+void check_module(Compilation& c, Source& source, const WrittenModule& module, const Template& made);
 void check_word(const Compilation& c, Source& source, Slice slice);
 void check_rules(Compilation& c);
 

@@ -102,7 +102,7 @@ class CodeReader {
       return to;
     }
     Step step;
-    step.does = Step::Does::set_element;
+    step.action = Step::Action::set_element;
     step.slot = binding.slot;
     step.target = binding.count;
     step.index = compile_expression(c_, source_, {open + 1, close});
@@ -206,12 +206,12 @@ class CodeReader {
       slot = slots_++;
       bind_local(name, slot);
     }
-    steps_.push_back({Step::Does::set, {}, value, slot, 0});
+    steps_.push_back({Step::Action::set, {}, value, slot, 0});
   }
 
   std::uint32_t here() const { return static_cast<std::uint32_t>(steps_.size()); }
-  std::uint32_t add(Step::Does does, const lang::Expression& value = {}, std::uint32_t target = 0) {
-    steps_.push_back({does, {}, value, 0, target});
+  std::uint32_t add(Step::Action action, const lang::Expression& value = {}, std::uint32_t target = 0) {
+    steps_.push_back({action, {}, value, 0, target});
     return here() - 1;
   }
 
@@ -228,10 +228,10 @@ class CodeReader {
     const std::size_t outer = locals_.size();
     const std::size_t start = skip_spaces(text_, open + 1, first);
     if (start < first) change(start, first, Ends::here, Binds::yes);
-    add(Step::Does::enter_loop);
+    add(Step::Action::enter_loop);
     const std::uint32_t again = here();
     const lang::Expression condition = compile_expression(c_, source_, {first + 1, second});
-    const std::uint32_t leave = add(Step::Does::jump_unless, condition);
+    const std::uint32_t leave = add(Step::Action::jump_unless, condition);
     const std::size_t end = body(close + 1, to);
     const std::size_t next = skip_spaces(text_, second + 1, close);
     if (next < close) change(next, close, Ends::here, Binds::no);
@@ -243,28 +243,28 @@ class CodeReader {
 
   std::size_t while_loop(std::size_t open, std::size_t to) {
     const std::size_t close = marks_.closing(open, to);
-    add(Step::Does::enter_loop);
+    add(Step::Action::enter_loop);
     const std::uint32_t again = here();
-    const std::uint32_t leave = add(Step::Does::jump_unless, condition(open, close, to));
+    const std::uint32_t leave = add(Step::Action::jump_unless, condition(open, close, to));
     const std::size_t end = body(std::min(close + 1, to), to);
     end_loop(again, leave);
     return end;
   }
 
   void end_loop(std::uint32_t again, std::uint32_t leave) {
-    add(Step::Does::next_turn);
-    add(Step::Does::jump, {}, again);
-    steps_[leave].target = add(Step::Does::leave_loop);
+    add(Step::Action::next_turn);
+    add(Step::Action::jump, {}, again);
+    steps_[leave].target = add(Step::Action::leave_loop);
   }
 
   std::size_t choice(std::size_t open, std::size_t to) {
     const std::size_t close = marks_.closing(open, to);
-    const std::uint32_t otherwise = add(Step::Does::jump_unless, condition(open, close, to));
+    const std::uint32_t otherwise = add(Step::Action::jump_unless, condition(open, close, to));
     std::size_t end = body(std::min(close + 1, to), to);
     const std::size_t next = skip_spaces(text_, end, to);
     const bool has_else = text_.substr(next, std::min<std::size_t>(4, to - next)) == "else";
     if (has_else) {
-      const std::uint32_t over = add(Step::Does::jump);
+      const std::uint32_t over = add(Step::Action::jump);
       steps_[otherwise].target = here();
       end = body(next + 4, to);
       steps_[over].target = here();
@@ -334,7 +334,7 @@ class CodeReader {
       stopped_ = true;
       return to;
     }
-    steps_.push_back({Step::Does::write, compile_word(c_, source_, {from, at}), {}, 0, 0});
+    steps_.push_back({Step::Action::write, compile_word(c_, source_, {from, at}), {}, 0, 0});
     return at;
   }
 

@@ -31,7 +31,7 @@ void add_template(Compilation& c, Source& source, const WrittenModule& module) {
   std::uint64_t& count = c.occurrences.try_emplace(std::string(module.symbol), 0).first->second;
   made.occurrence = key_at(hash_of(module.symbol), count++);
   c.grammar.templates.push_back(made);
-  doubt_module(c, source, module, made);
+  check_module(c, source, module, made);
 }
 
 void bind_parameter(Compilation& c, Source& source, const lang::Token& name, bool is_frame,
@@ -250,7 +250,7 @@ Production compile_production(Compilation& c, Source& source, const WrittenProdu
     made.successor = compile_word(c, source, written.successor);
     check_brackets(c, source, written.successor);
     if (after.count > 0) {
-      c.grammar.steps.push_back({Step::Does::write, made.successor, {}, 0, 0});
+      c.grammar.steps.push_back({Step::Action::write, made.successor, {}, 0, 0});
       made.code = {after.first + after.count, 1};
     }
   }

@@ -53,13 +53,13 @@ void Drawing::module(KindId kind, const double* parameters, std::uint64_t key, s
   interpret(kind, parameters, {key, 0}, 0);
 }
 
-void Drawing::grow(const Module& module, double step, Grown grown) {
+void Drawing::grow(const Module& module, double step, PartialGrowth grown) {
   turtle_.set_width_reduction(
       params_.width_rule == LsystemParams::WidthRule::decrement ? step * params_.width_decrement : 0);
-  grown_ = grown;
+  growth_ = grown;
   turtle_.set_share(grown.share);
   interpret(module.kind, module.parameters, module.keys, 0);
-  grown_ = {};
+  growth_ = {};
   shapes_.clear();
   turtle_.set_share(1);
   turtle_.set_tropism_share(1);
@@ -84,7 +84,7 @@ void Drawing::interpret(KindId kind, const double* parameters, Keys keys, std::u
   if ((++interpreted_ & 4095U) == 0) job_.check();
   const auto stream = [depth](std::uint64_t key) { return key == 0 ? 0 : key_at(key, 20 + depth); };
   const Keys own{stream(keys.own), stream(keys.before)};  // 0 stays 0: no keys
-  const Draws draws(own.own, depth);
+  const RewriteStreams draws(own.own, depth);
   std::vector<double> changed;  // slots after the statements before a condition
   const auto slots_of = [&](const Production& each) {
     if (each.before.count == 0 && variables_.empty()) return parameters;
@@ -115,7 +115,7 @@ void Drawing::write_interpreted(const Production& production, const double* para
   const bool is_whole = production.before.count > 0 || !variables_.empty();
   const std::uint32_t known = is_whole ? grammar_.most_slots : production.bound;
   std::copy(parameters, parameters + known, slots.data());
-  code_.run(production.code, slots.data(), Draws(own.own, depth).code(),
+  code_.run(production.code, slots.data(), RewriteStreams(own.own, depth).code(),
             [&](const Template& each, std::uint64_t turn) {
               std::array<double, 64> arguments;
               const auto key_of = [&](std::uint64_t key) { return key == 0 ? 0 : code_key(key, each, turn); };

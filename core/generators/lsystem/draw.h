@@ -36,13 +36,13 @@ class Drawing {
   /// State of a module that is only partly grown. `share` scales lengths, organs and turns. A value that a
   /// symbol sets is interpolated between the current state of the turtle and that value. Turns are scaled
   /// only outside brackets that grow, too.
-  struct Grown {
+  struct PartialGrowth {
     double share = 1;
-    int brackets = 0;  ///< number of growing brackets around the module
-    double heir = 1;   ///< share of the random values of Keys::own; the rest are of Keys::before
+    int brackets = 0;      ///< number of growing brackets around the module
+    double own_share = 1;  ///< weight of the random values of Keys::own; those of Keys::before have the rest
   };
   /// Draws a module that is partly grown. `step` is the depth for the width rule "decrement".
-  void grow(const Module& module, double step, Grown grown);
+  void grow(const Module& module, double step, PartialGrowth grown);
   /// Draws a module that disappears. State that cannot change gradually is restored afterwards.
   void fade(const Module& module, double step, double share);
 
@@ -59,8 +59,8 @@ class Drawing {
   bool can_record() const { return turtle_.can_record(); }
   bool matches(const Turtle::Recording& recording) const { return turtle_.matches(recording); }
   void append_copy(const Turtle::Recording& recording) { turtle_.append_copy(recording); }
-  void pass_copy(const Turtle::Recording& recording, bool is_measured) {
-    turtle_.pass_copy(recording, is_measured);
+  void skip_copy(const Turtle::Recording& recording, bool is_measured) {
+    turtle_.skip_copy(recording, is_measured);
   }
   const Job& job() const { return job_; }
   void begin_recording(const Drawing& like, Turtle::Recording& recording) {
@@ -77,7 +77,7 @@ class Drawing {
   /// Random streams of a module. They are separate, so that adding one spread does not change another.
   enum class Spread : std::uint64_t { angle = 11, step = 12, width = 13 };
   static double spread(std::uint64_t key, Spread of, double amount);
-  static double spread(const Keys& keys, Spread of, double amount, double heir);
+  static double spread(const Keys& keys, Spread of, double amount, double own_share);
   void interpret(KindId kind, const double* parameters, Keys keys, std::uint32_t depth);
   void write_interpreted(const Production& production, const double* parameters, Keys own,
                          std::uint32_t depth);
@@ -101,7 +101,7 @@ class Drawing {
   math::SinCos turn(const Kind& kind, const double* parameters, const Angle& angle, Keys keys, double share);
   math::SinCos leftward(const Kind& kind, const double* parameters, const Angle& angle, Keys keys);
   double length(const Kind& kind, const double* parameters, Keys keys) const;
-  double turned_share() const { return grown_.brackets == 0 ? grown_.share : 1; }
+  double turned_share() const { return growth_.brackets == 0 ? growth_.share : 1; }
   void add_organ(const Kind& kind, const double* parameters, std::uint64_t key);
   void place_object(const Kind& kind, const double* parameters, double object, const glm::dvec3& scale,
                     std::uint64_t key);
@@ -116,11 +116,11 @@ class Drawing {
   CodeRunner code_;
   std::vector<double> variables_;
   Turtle turtle_;
-  Grown grown_;
+  PartialGrowth growth_;
   std::vector<Turtle::Pose> shapes_;  ///< poses at which the open polygons of a growing module started
   std::vector<const LsystemSurface*> surfaces_;  ///< surfaces in the order of their names
   Angle yaw_, pitch_, roll_;
-  /// A cache by hash of the degrees: most angles given as arguments repeat.
+  /// A cache of sines and cosines, indexed by a hash of the angle, because most angles given as arguments repeat.
   std::array<Angle, 16> known_angles_{};
   std::uint64_t interpreted_ = 0;
   std::uint64_t open_polygons_ = 0, stray_closings_ = 0;

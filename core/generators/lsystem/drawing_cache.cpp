@@ -34,7 +34,7 @@ std::uint64_t sum(std::uint64_t a, std::uint64_t b) { return std::min(saturated,
 }  // namespace
 
 bool DrawingCache::fits(const Grammar& grammar, const LsystemParams& params, std::uint32_t steps) {
-  if (!grammar.is_free() || Drawing::needs_keys(grammar, params)) return false;
+  if (!grammar.is_context_free() || Drawing::needs_keys(grammar, params)) return false;
   if ((std::size_t{steps} + 1) * grammar.kinds.size() > most_pieces) return false;
   const std::vector<std::uint64_t> counts = exact_counts(grammar, steps);
   std::uint64_t modules = 0;
@@ -43,7 +43,7 @@ bool DrawingCache::fits(const Grammar& grammar, const LsystemParams& params, std
 }
 
 bool DrawingCache::moves_rigidly(const Grammar& grammar, const LsystemParams& params, std::uint32_t steps) {
-  if (!grammar.is_free() || Drawing::needs_keys(grammar, params)) return false;
+  if (!grammar.is_context_free() || Drawing::needs_keys(grammar, params)) return false;
   if ((std::size_t{steps} + 1) * grammar.kinds.size() > most_pieces) return false;
   const auto has_parameters = [&](const Production& each) {
     return grammar.kinds[each.predecessor].arity > 0;
@@ -83,7 +83,7 @@ void DrawingCache::count() {
   }
 }
 
-bool DrawingCache::takes(KindId kind, std::uint32_t step) {
+bool DrawingCache::replaces(KindId kind, std::uint32_t step) {
   Piece& here = piece(kind, steps_ - step);
   if (here.modules < least_of_recording || here.modules > most_of_recording) return false;
   meter_.spend(here.modules);
@@ -93,7 +93,7 @@ bool DrawingCache::takes(KindId kind, std::uint32_t step) {
     return true;
   }
   if (recordings_ == most_recordings) {
-    FreeDerivation<Drawing>(grammar_, steps_, false, job_, drawing_).run(kind, step);
+    ContextFreeDerivation<Drawing>(grammar_, steps_, false, job_, drawing_).run(kind, step);
   } else {
     drawing_.append_copy(draw(kind, step, here));
   }
@@ -105,7 +105,7 @@ const Turtle::Recording& DrawingCache::draw(KindId kind, std::uint32_t step, Pie
   Turtle::Recording& recording = *piece.recordings.emplace_back(std::make_unique<Turtle::Recording>(job_));
   Drawing own(grammar_, params_, &recording.skeleton, context_);
   own.begin_recording(drawing_, recording);
-  FreeDerivation<Drawing>(grammar_, steps_, false, job_, own).run(kind, step);
+  ContextFreeDerivation<Drawing>(grammar_, steps_, false, job_, own).run(kind, step);
   own.end_recording(recording);
   return recording;
 }

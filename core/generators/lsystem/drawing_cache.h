@@ -5,12 +5,12 @@
 #include <memory>
 #include <vector>
 
+#include "core/generators/lsystem/context_free_derivation.h"
 #include "core/generators/lsystem/draw.h"
-#include "core/generators/lsystem/free.h"
 
 namespace seedmesh::lsystem {
 
-/// A sink of FreeDerivation.
+/// A sink of ContextFreeDerivation.
 class DrawingCache {
  public:
   /// Returns true for long words of systems whose rewritten symbols have no parameters, conditions or random
@@ -25,7 +25,7 @@ class DrawingCache {
   void module(KindId kind, const double* parameters, std::uint64_t key, std::uint32_t step) {
     drawing_.module(kind, parameters, key, step);
   }
-  bool takes(KindId kind, std::uint32_t step);
+  bool replaces(KindId kind, std::uint32_t step);
 
  private:
   struct Piece {

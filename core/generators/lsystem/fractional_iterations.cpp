@@ -17,8 +17,8 @@ void FractionalStep::module(KindId kind, const double* parameters, std::uint64_t
   if (kind == grammar_.cut) cut_depth_ = std::max(cut_depth_, 1);
   if (cut_depth_ > 0 || !rules.rewrites(kind)) return stay(each);
   const Production* chosen = choose(
-      grammar_, rules.candidates(kind), Draws(key, step_), [&](const Production&) { return parameters; },
-      drawing_.job());
+      grammar_, rules.candidates(kind), RewriteStreams(key, step_),
+      [&](const Production&) { return parameters; }, drawing_.job());
   return chosen ? rewrite(each, *chosen, parameters) : stay(each);
 }
 
@@ -39,7 +39,7 @@ void FractionalStep::word(const Word& word, Job& job) {
     const Production* chosen = nullptr;
     if (cut_depth_ == 0 && rules.rewrites(each.kind)) {
       chosen = choose(
-          grammar_, rules.candidates(each.kind), Draws(each.key, step_),
+          grammar_, rules.candidates(each.kind), RewriteStreams(each.key, step_),
           [&](const Production& production) { return contexts.match(production, i); }, job);
     }
     if (chosen) {
@@ -80,13 +80,13 @@ bool FractionalStep::can_fade(KindId kind) const {
   }
 }
 
-bool FractionalStep::may_take_over(KindId kind) const {
+bool FractionalStep::can_continue(KindId kind) const {
   return !(grammar_.interpretation.rewrites(kind) && grammar_.interpretation.random);
 }
 
 void FractionalStep::rewrite(const Module& module, const Production& production, const double* slots) {
   const std::span<const Template> successor = grammar_.successor(production.successor);
-  const Template* heir = nullptr;
+  const Template* continuation = nullptr;
   int depth = 0, braces = 0;
   for (const Template& each : successor) {
     const Command command = grammar_.kinds[each.kind].command;
@@ -94,10 +94,10 @@ void FractionalStep::rewrite(const Module& module, const Production& production,
     if (each.kind == grammar_.close) --depth;
     if (command == Command::polygon_open) ++braces;
     if (command == Command::polygon_close) --braces;
-    if (depth == 0 && braces == 0 && each.kind == module.kind && !heir && may_take_over(each.kind))
-      heir = &each;
+    if (depth == 0 && braces == 0 && each.kind == module.kind && !continuation && can_continue(each.kind))
+      continuation = &each;
   }
-  if (!heir && can_fade(module.kind)) {
+  if (!continuation && can_fade(module.kind)) {
     drawing_.fade({module.kind, module.parameters, {module.key, 0}}, module.born, 1 - share_);
   }
   depth = 0;
@@ -107,7 +107,7 @@ void FractionalStep::rewrite(const Module& module, const Production& production,
     const std::uint64_t key = module.key == 0 ? 0 : child_key(module.key, each);
     double* own = parameters_.data();
     fill_arguments(grammar_, each, slots, key, own, drawing_.job());
-    if (&each != heir) {
+    if (&each != continuation) {
       drawing_.grow({each.kind, own, {key, 0}}, step_ + share_, {share_, depth, 1});
       continue;
     }

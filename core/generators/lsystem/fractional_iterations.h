@@ -6,11 +6,11 @@
 /// lengths and organs grow from 0, turns outside new brackets grow from 0, and state that symbols set is
 /// interpolated from the turtle's state. So f = 0 draws step n and f = 1 draws step n + 1, for every grammar:
 ///
-/// - A module of the successor can continue the predecessor; it is called the heir here. The heir is the
+/// - A module of the successor can continue the predecessor; it is called the continuation here. It is the
 ///   first
 ///   module of the same kind outside brackets and braces. Its parameters and random values are interpolated
 ///   from those of the predecessor.
-/// - A predecessor without an heir is drawn before its successor, scaled by 1 - f. The state that it sets is
+/// - A predecessor without a continuation is drawn before its successor, scaled by 1 - f. The state that it sets is
 ///   scaled in the same way.
 /// - The part that a % removes is scaled by 1 - f.
 ///
@@ -24,7 +24,7 @@ namespace seedmesh::lsystem {
 
 class FractionalStep {
  public:
-  /// `share` is f in (0, 1), the share of step `step` + 1. Interpreted modules have heirs only where
+  /// `share` is f in (0, 1), the share of step `step` + 1. Interpreted modules have continuations only where
   /// interpretation rules use no random numbers, because every module has its own random stream.
   FractionalStep(const Grammar& grammar, Drawing& drawing, std::uint32_t step, double share)
       : grammar_(grammar),
@@ -49,7 +49,7 @@ class FractionalStep {
   void stay(const Module& module);
   void rewrite(const Module& module, const Production& production, const double* slots);
   bool can_fade(KindId kind) const;
-  bool may_take_over(KindId kind) const;
+  bool can_continue(KindId kind) const;
 
   const Grammar& grammar_;
   Drawing& drawing_;

@@ -50,7 +50,7 @@ struct Template {
 
 /// One step of a successor with statements (code.h runs it).
 struct Step {
-  enum class Does : std::uint8_t {
+  enum class Action : std::uint8_t {
     write,        ///< writes the templates
     set,          ///< sets the slot to the value
     set_element,  ///< sets the element `index` of the array of `target` slots from `slot` on
@@ -60,7 +60,7 @@ struct Step {
     next_turn,
     leave_loop,
   };
-  Does does = Does::write;
+  Action action = Action::write;
   Range templates;
   lang::Expression value;
   std::uint32_t slot = 0;
@@ -157,8 +157,8 @@ struct Grammar {
     return table_of_turn.empty() ? productions : tables[table_of_turn[step % table_of_turn.size()]];
   }
   /// Returns true where the derivation of a module depends on the module alone and each production writes a
-  /// fixed list of modules. Then free.h derives without storing a word.
-  bool is_free() const {
+  /// fixed list of modules. Then context_free_derivation.h derives without storing a word.
+  bool is_context_free() const {
     return !productions.context && decomposition.productions.empty() && tables.empty() && !statements &&
            variables.empty();
   }

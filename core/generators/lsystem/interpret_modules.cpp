@@ -41,12 +41,12 @@ math::SinCos opposite(math::SinCos angle) { return {-angle.sin, angle.cos}; }
 
 }  // namespace
 
-/// Interpolates between the random value of the module's predecessor and its own by `heir`.
-double Drawing::spread(const Keys& keys, Spread of, double amount, double heir) {
+/// Interpolates between the random value of the module's predecessor and its own by `own_share`.
+double Drawing::spread(const Keys& keys, Spread of, double amount, double own_share) {
   const double own = spread(keys.own, of, amount);
   if (keys.before == 0) return own;
   const double before = spread(keys.before, of, amount);
-  return before + (own - before) * heir;
+  return before + (own - before) * own_share;
 }
 
 /// Moves the turtle to a frame.
@@ -77,8 +77,8 @@ math::SinCos Drawing::turn(const Kind& kind, const double* parameters, const Ang
   if (kind.arity > 0) {
     degrees = parameters[0];
   } else if (params_.angle.spread > 0) {
-    degrees =
-        (degrees + spread(keys, Spread::angle, params_.angle.spread, grown_.heir)) * turtle_.turn_scale();
+    degrees = (degrees + spread(keys, Spread::angle, params_.angle.spread, growth_.own_share)) *
+              turtle_.turn_scale();
   } else if (turtle_.turn_scale() != 1) {
     degrees *= turtle_.turn_scale();
   } else if (share == 1) {
@@ -98,17 +98,18 @@ double Drawing::finite(double value, const Kind& kind, const double* parameters)
 }
 
 double Drawing::length(const Kind& kind, const double* parameters, Keys keys) const {
-  const double scale = grown_.share * turtle_.scale();
+  const double scale = growth_.share * turtle_.scale();
   if (kind.arity > 0) return scale * parameters[0];
   if (params_.step.spread == 0) return scale * params_.step.value;
-  const double length = params_.step.value + spread(keys, Spread::step, params_.step.spread, grown_.heir);
+  const double length =
+      params_.step.value + spread(keys, Spread::step, params_.step.spread, growth_.own_share);
   return length > 0 ? scale * length : 0;
 }
 
 void Drawing::set_width(const Kind& kind, const double* parameters, double change) {
   const double width = turtle_.width();
   const double wanted = kind.arity > 0 ? parameters[0] : width + change;
-  turtle_.set_width(grown_.share == 1 ? wanted : width + grown_.share * (wanted - width));
+  turtle_.set_width(growth_.share == 1 ? wanted : width + growth_.share * (wanted - width));
 }
 
 void Drawing::set_contour(const Kind& kind, const double* parameters) {
@@ -145,7 +146,7 @@ void Drawing::place_object(const Kind& kind, const double* parameters, double ob
 void Drawing::place_organ(const Kind& kind, const double* parameters, std::uint32_t number, glm::dvec3 scale,
                           std::uint64_t key) {
   const LsystemSurface& surface = *surfaces_[number];
-  scale *= surface.size * turtle_.scale() * grown_.share;
+  scale *= surface.size * turtle_.scale() * growth_.share;
   scale.x *= surface.width;
   constexpr double largest = 1e9;
   if (!(std::max({scale.x, scale.y, scale.z}) < largest)) {
@@ -165,7 +166,7 @@ void Drawing::close_polygon(std::uint64_t key) {
 
 void Drawing::execute(const Kind& kind, const double* parameters, Keys keys) {
   follow(kind, parameters, keys);
-  if (turtle_.is_lost()) refuse(kind, parameters, Turtle::too_far);
+  if (turtle_.is_out_of_range()) refuse(kind, parameters, Turtle::too_far);
 }
 
 /// Refuses the request because of a module, and points to the text that writes such modules.
@@ -184,24 +185,24 @@ void Drawing::refuse(const Kind& kind, const double* parameters, const std::stri
 
 /// Interpolates what a symbol sets, and the bend of a segment, by the share of the module.
 void Drawing::follow(const Kind& kind, const double* parameters, Keys keys) {
-  if (grown_.share == 1) return execute_whole(kind, parameters, keys);
+  if (growth_.share == 1) return execute_whole(kind, parameters, keys);
   turtle_.set_tropism_share(turned_share());
   if (!sets_pose(kind.command)) return execute_whole(kind, parameters, keys);
   const Turtle::Pose before = turtle_.pose();
   execute_whole(kind, parameters, keys);
-  turtle_.take_share(before, grown_.share, turned_share());
+  turtle_.interpolate_from(before, growth_.share, turned_share());
 }
 
 /// A growing polygon keeps its angles. Only the net turn that it leaves on the turtle is scaled.
 void Drawing::begin_shape() {
-  ++grown_.brackets;
+  ++growth_.brackets;
   shapes_.push_back(turtle_.pose());
 }
 
 void Drawing::end_shape() {
   if (shapes_.empty()) return;
-  --grown_.brackets;
-  turtle_.take_share(shapes_.back(), 1, turned_share());
+  --growth_.brackets;
+  turtle_.interpolate_from(shapes_.back(), 1, turned_share());
   shapes_.pop_back();
 }
 
@@ -229,23 +230,23 @@ void Drawing::execute_whole(const Kind& kind, const double* parameters, Keys key
     case Command::roll_right:
       return turtle_.roll(opposite(leftward(kind, parameters, roll_, keys)));
     case Command::turn_around:
-      if (grown_.share != 1 && grown_.brackets == 0)
-        return turtle_.turn(math::sincos_degrees(180 * grown_.share));
+      if (growth_.share != 1 && growth_.brackets == 0)
+        return turtle_.turn(math::sincos_degrees(180 * growth_.share));
       return turtle_.turn_around();
     case Command::upright:
       return turtle_.upright();
     case Command::push:
-      if (grown_.share != 1) ++grown_.brackets;
+      if (growth_.share != 1) ++growth_.brackets;
       return turtle_.push();
     case Command::pop:
-      if (grown_.share != 1) --grown_.brackets;
+      if (growth_.share != 1) --growth_.brackets;
       return turtle_.pop();
     case Command::polygon_open:
-      if (grown_.share != 1) begin_shape();
+      if (growth_.share != 1) begin_shape();
       ++open_polygons_;
       return turtle_.open_polygon();
     case Command::polygon_close:
-      if (grown_.share != 1) end_shape();
+      if (growth_.share != 1) end_shape();
       return close_polygon(key);
     case Command::vertex:
       return turtle_.set_vertex();
@@ -311,7 +312,7 @@ void Drawing::execute_state(const Kind& kind, const double* parameters, std::uin
       turtle_.push();
       enter_frame(parameters);
       turtle_.set_width(finite(length_of(parameters), kind, parameters));
-      turtle_.draw_plain(length_of(parameters + 3) * grown_.share, key);
+      turtle_.draw_plain(length_of(parameters + 3) * growth_.share, key);
       return turtle_.pop();
     case Command::place_object: {
       const double* by = parameters + 1;

@@ -9,12 +9,12 @@
 #include <optional>
 
 #include "core/base/attempt.h"
+#include "core/generators/lsystem/build_model.h"
+#include "core/generators/lsystem/context_free_derivation.h"
 #include "core/generators/lsystem/contours.h"
 #include "core/generators/lsystem/draw.h"
 #include "core/generators/lsystem/drawing_cache.h"
-#include "core/generators/lsystem/dress.h"
 #include "core/generators/lsystem/fractional_iterations.h"
-#include "core/generators/lsystem/free.h"
 #include "core/generators/lsystem/growth.h"
 #include "core/generators/lsystem/materials.h"
 #include "core/generators/lsystem/open_systems.h"
@@ -77,8 +77,8 @@ void refuse_explosion(const Grammar& grammar, std::uint32_t steps, const Job& jo
 template <class Sink>
 void run(const Grammar& grammar, const LsystemParams& params, std::uint32_t steps, Sink& sink, Job& job) {
   const bool keyed = Drawing::needs_keys(grammar, params);
-  if (grammar.is_free()) {
-    FreeDerivation<Sink>(grammar, steps, keyed, job, sink).run();
+  if (grammar.is_context_free()) {
+    ContextFreeDerivation<Sink>(grammar, steps, keyed, job, sink).run();
     return;
   }
   const Word word = derive_word(grammar, steps, keyed, job);
@@ -251,7 +251,7 @@ Result<Model> generate(const LsystemParams& params, const GenerateContext& conte
   }
   shape(skeleton, params, job);
   job.progress("mesh", 0);
-  Model model = dress(std::move(skeleton), params, context);
+  Model model = build_model(std::move(skeleton), params, context);
   if (systems) systems->add_others(model);
   warn_of_welded(params, model.warnings);
   warn_of_whole(params, model.warnings);

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/generators/child.h"
-#include "core/generators/lsystem/dress.h"
+#include "core/generators/lsystem/build_model.h"
 #include "core/generators/lsystem/fractional_iterations.h"
 #include "core/generators/lsystem/shape.h"
 #include "core/gltf/read/read.h"
@@ -147,7 +147,7 @@ struct OpenSystems::Host {
 struct OpenSystems::Plant {
   struct Query {
     std::size_t module;
-    Prober prober;
+    GrowthTip tip;
     Frame frame;
     std::size_t depth;                  ///< number of open brackets around it
     std::uint32_t ahead = Limbs::none;  ///< first joint drawn after it on its branch
@@ -171,7 +171,7 @@ struct OpenSystems::Plant {
 OpenSystems::~OpenSystems() = default;
 
 OpenSystems::OpenSystems(const LsystemParams& params, const GenerateContext& context)
-    : params_(params), context_(context), job_(context.job), known_(std::make_unique<KnownShares>(job_)) {
+    : params_(params), context_(context), job_(context.job), known_(std::make_unique<ShareCache>(job_)) {
   Job& job = context.job;
   Surroundings::Options options;
   const auto environment = params.environment.value_or(LsystemParams::Environment{});
@@ -247,7 +247,7 @@ void OpenSystems::grow(const Grammar& grammar, std::uint32_t steps) {
 }
 
 void OpenSystems::answer_queries() {
-  std::vector<Stretch> grown;
+  std::vector<GrownInternode> grown;
   for (auto& plant : plants_) draw_and_prune(*plant, grown);
   surroundings_->set_internodes(grown);
   for (auto& plant : plants_) write_answers(*plant);
@@ -266,7 +266,7 @@ void OpenSystems::follow(Plant& plant, const Turtle& turtle, const Limbs& limbs,
 }
 
 /// Draws and prunes a plant, and collects its queries.
-void OpenSystems::draw_and_prune(Plant& plant, std::vector<Stretch>& grown) {
+void OpenSystems::draw_and_prune(Plant& plant, std::vector<GrownInternode>& grown) {
   Skeleton skeleton(plant.job);
   Drawing drawing(*plant.grammar, plant.params, &skeleton, context_of(plant));
   drawing.start_at(plant.position);
@@ -280,11 +280,11 @@ void OpenSystems::draw_and_prune(Plant& plant, std::vector<Stretch>& grown) {
     const Kind& kind = plant.grammar->kinds[word.kind[i]];
     if (is_query(kind.command)) {
       const Turtle& turtle = drawing.turtle();
-      Prober prober{turtle.position(), turtle.frame().heading, 0.5 * turtle.width(), plant.number,
+      GrowthTip tip{turtle.position(), turtle.frame().heading, 0.5 * turtle.width(), plant.number,
                     turtle.last_joint()};
-      if (!turtle.begins_limb()) prober.limb = prober.joint;
+      if (!turtle.begins_limb()) tip.limb = tip.joint;
       plant.waiting.push_back(plant.queries.size());
-      plant.queries.push_back({i, prober, turtle.frame(), turtle.depth()});
+      plant.queries.push_back({i, tip, turtle.frame(), turtle.depth()});
       continue;
     }
     const std::size_t before = limbs.size();
@@ -293,9 +293,9 @@ void OpenSystems::draw_and_prune(Plant& plant, std::vector<Stretch>& grown) {
   }
   const Array<std::uint32_t> limb = limbs_by_joint(limbs);
   for (Plant::Query& each : plant.queries) {
-    Prober& prober = each.prober;
-    if (prober.limb != Limbs::none) prober.limb = limb[prober.limb];
-    if (each.ahead != Limbs::none) prober.limb_ahead = limb[each.ahead];
+    GrowthTip& tip = each.tip;
+    if (tip.limb != Limbs::none) tip.limb = limb[tip.limb];
+    if (each.ahead != Limbs::none) tip.limb_ahead = limb[each.ahead];
   }
   skeleton.outlines.outline.resize(0);  // only the limbs are of interest here
   skeleton.organs.organ.resize(0);
@@ -318,7 +318,7 @@ void OpenSystems::write_answers(Plant& plant) {
   for (const Plant::Query& each : plant.queries) {
     const Kind& kind = plant.grammar->kinds[word.kind[each.module]];
     double* answer = word.parameter.data() + word.at[each.module];
-    const Prober& prober = each.prober;
+    const GrowthTip& tip = each.tip;
     const auto set = [&](std::uint32_t at, double value) {
       if (at < kind.arity) answer[at] = value + 0.0;  // -0 becomes 0
     };
@@ -327,7 +327,7 @@ void OpenSystems::write_answers(Plant& plant) {
     };
     switch (kind.command) {
       case Command::ask_position:
-        fill(0, prober.position);
+        fill(0, tip.position);
         break;
       case Command::ask_heading:
         fill(0, each.frame.heading);
@@ -339,15 +339,13 @@ void OpenSystems::write_answers(Plant& plant) {
         fill(0, each.frame.up);
         break;
       default: {
-        const bool remains =
-            prober.joint == Limbs::none || std::ranges::binary_search(plant.alive, prober.joint);
+        const bool remains = tip.joint == Limbs::none || std::ranges::binary_search(plant.alive, tip.joint);
         const double length = answer[0];
-        set(0, remains && surroundings_->is_free(prober, length) ? 1 : 0);
-        if (kind.arity > 1) set(1, surroundings_->signed_distance_at(prober.position));
-        if (kind.arity > 2)
-          set(2, surroundings_->signed_distance_at(prober.position + prober.heading * length));
-        if (kind.arity > 3) set(3, remains ? surroundings_->light_at(prober.position) : 0);
-        if (kind.arity > 4) fill(4, surroundings_->toward_surface(prober.position));
+        set(0, remains && surroundings_->is_free(tip, length) ? 1 : 0);
+        if (kind.arity > 1) set(1, surroundings_->signed_distance_at(tip.position));
+        if (kind.arity > 2) set(2, surroundings_->signed_distance_at(tip.position + tip.heading * length));
+        if (kind.arity > 3) set(3, remains ? surroundings_->light_at(tip.position) : 0);
+        if (kind.arity > 4) fill(4, surroundings_->toward_surface(tip.position));
       }
     }
   }
@@ -388,7 +386,7 @@ void OpenSystems::add_others(Model& model) {
     draw_word(plant.derivation->word, drawing, job_);
     cut(skeleton);
     shape(skeleton, plant.params, plant.job);
-    Model own = dress(std::move(skeleton), plant.params, context_of(plant));
+    Model own = build_model(std::move(skeleton), plant.params, context_of(plant));
     for (Warning& warning : own.warnings)
       warning.pointer.insert(0, "/environment/companions/" + std::to_string(i - 1) + "/system/parameters");
     append(model, std::move(own), 0, {});

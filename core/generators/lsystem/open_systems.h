@@ -47,7 +47,7 @@ class OpenSystems {
   struct Plant;
   struct Host;
   void answer_queries();
-  void draw_and_prune(Plant& plant, std::vector<Stretch>& grown);
+  void draw_and_prune(Plant& plant, std::vector<GrownInternode>& grown);
   static void follow(Plant& plant, const Turtle& turtle, const Limbs& limbs, std::size_t before);
   void write_answers(Plant& plant);
   GenerateContext context_of(Plant& plant) const;
@@ -58,7 +58,7 @@ class OpenSystems {
   std::vector<Host> hosts_;
   std::vector<std::unique_ptr<Plant>> plants_;  ///< the requested plant first, then its companions
   std::unique_ptr<Surroundings> surroundings_;
-  std::unique_ptr<KnownShares> known_;  ///< of `surroundings_`
+  std::unique_ptr<ShareCache> known_;  ///< of `surroundings_`
 };
 
 }  // namespace seedmesh::lsystem

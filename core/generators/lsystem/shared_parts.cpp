@@ -4,9 +4,9 @@
 #include <cmath>
 #include <memory>
 
+#include "core/generators/lsystem/build_model.h"
+#include "core/generators/lsystem/context_free_derivation.h"
 #include "core/generators/lsystem/drawing_cache.h"
-#include "core/generators/lsystem/dress.h"
-#include "core/generators/lsystem/free.h"
 #include "core/generators/lsystem/growth.h"
 #include "core/generators/lsystem/shape.h"
 
@@ -124,7 +124,7 @@ bool is_large(const Grammar& grammar, const LsystemParams& params, std::uint32_t
          segments * elements > static_cast<double>(many_triangles);
 }
 
-Transform place_of(const Turtle& turtle) {
+Transform transform_of(const Turtle& turtle) {
   const Frame& frame = turtle.frame();
   Transform place;
   place.translation = glm::vec3(turtle.position()) + 0.0F;
@@ -133,7 +133,7 @@ Transform place_of(const Turtle& turtle) {
   return place;
 }
 
-/// A sink of FreeDerivation that draws each part once and notes its places.
+/// A sink of ContextFreeDerivation that draws each part once and notes its places.
 class SharedDrawing {
  public:
   struct Part {
@@ -141,7 +141,7 @@ class SharedDrawing {
     KindId kind = 0;
     std::uint32_t left = 0;
     Turtle::Recording recording;
-    std::vector<Transform> places;
+    std::vector<Transform> transforms;
   };
 
   SharedDrawing(const Grammar& grammar, const LsystemParams& params, std::uint32_t steps, Drawing& drawing,
@@ -160,7 +160,7 @@ class SharedDrawing {
     drawing_.module(kind, parameters, key, step);
   }
 
-  bool takes(KindId kind, std::uint32_t step) {
+  bool replaces(KindId kind, std::uint32_t step) {
     const std::uint32_t left = steps_ - step;
     const std::uint64_t modules = sizes_.modules(kind, left);
     if (modules < least_part || modules > most_) return false;
@@ -173,8 +173,8 @@ class SharedDrawing {
       meter_.spend(modules);
       part = &draw(kind, step);
     }
-    part->places.push_back(place_of(drawing_.turtle()));
-    drawing_.pass_copy(part->recording, is_measured_);
+    part->transforms.push_back(transform_of(drawing_.turtle()));
+    drawing_.skip_copy(part->recording, is_measured_);
     return true;
   }
 
@@ -187,7 +187,7 @@ class SharedDrawing {
     part.left = steps_ - step;
     Drawing own(grammar_, params_, &part.recording.skeleton, context_);
     own.begin_recording(drawing_, part.recording);
-    FreeDerivation<Drawing>(grammar_, steps_, false, context_.job, own).run(kind, step);
+    ContextFreeDerivation<Drawing>(grammar_, steps_, false, context_.job, own).run(kind, step);
     own.end_recording(part.recording);
     return part;
   }
@@ -234,21 +234,21 @@ Model shared_model(const Grammar& grammar, const LsystemParams& params, std::uin
   Skeleton skeleton(job);
   Drawing drawing(grammar, params, &skeleton, context);
   SharedDrawing shared(grammar, params, steps, drawing, context, false);
-  FreeDerivation<SharedDrawing>(grammar, steps, false, job, shared).run();
+  ContextFreeDerivation<SharedDrawing>(grammar, steps, false, job, shared).run();
   shape(skeleton, params, job);
   std::vector<SharedPart> parts;
   for (const auto& part : shared.parts) {
     shape(part->recording.skeleton, params, job);
-    parts.push_back({&part->recording.skeleton, std::move(part->places)});
+    parts.push_back({&part->recording.skeleton, std::move(part->transforms)});
   }
   job.progress("mesh", 0);
-  return dress(std::move(skeleton), params, context, parts);
+  return build_model(std::move(skeleton), params, context, parts);
 }
 
 void measure_shared(const Grammar& grammar, const LsystemParams& params, std::uint32_t steps,
                     Drawing& drawing, const GenerateContext& context) {
   SharedDrawing shared(grammar, params, steps, drawing, context, true);
-  FreeDerivation<SharedDrawing>(grammar, steps, false, context.job, shared).run();
+  ContextFreeDerivation<SharedDrawing>(grammar, steps, false, context.job, shared).run();
 }
 
 }  // namespace seedmesh::lsystem

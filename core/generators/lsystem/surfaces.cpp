@@ -204,12 +204,13 @@ Organs on_sheets(const Organs& organs, const Sheets& sheets, const Job& job) {
   return all;
 }
 
-FoliageOptions options_of(const Sheets& sheets, const Foliated& foliated, const LsystemParams& params) {
-  const Organs& organs = foliated.organs;
+FoliageOptions options_of(const Sheets& sheets, const PlantOrgans& plant_organs,
+                          const LsystemParams& params) {
+  const Organs& organs = plant_organs.organs;
   FoliageOptions options;
   options.surfaces = sheets.meshes;
-  options.model_size = foliated.size;
-  options.bones = foliated.bones;
+  options.model_size = plant_organs.size;
+  options.bones = plant_organs.bones;
   if (params.crown_normals > 0 && organs.organ.size() > 0) {
     Box box{organs.organ[0].position, organs.organ[0].position};
     for (const Organ& organ : organs.organ) {
@@ -269,14 +270,14 @@ double organs_at(const Detail& detail, const FoliageLevels& levels, std::uint64_
   return std::max(detail.organs(), std::min(levels.share_for(detail.loss()), share));
 }
 
-void add_merged(Model& model, const Foliated& foliated, const LsystemParams& params,
+void add_merged(Model& model, const PlantOrgans& plant_organs, const LsystemParams& params,
                 const SurfaceModels& surface_models, MaterialSet& material_set,
                 const GenerateContext& context) {
   Job& job = context.job;
   Node node;
   node.name = "organs";
   node.parent = 0;
-  const Organs all = with_material_index(foliated.organs, material_set, job);
+  const Organs all = with_material_index(plant_organs.organs, material_set, job);
   std::optional<FoliageLevels> levels;
   if (context.demand.lods > 1) {
     const std::vector<Mesh> footprints = footprints_of(params, surface_models, job);
@@ -293,7 +294,7 @@ void add_merged(Model& model, const Foliated& foliated, const LsystemParams& par
     if (level > 0) fewer = levels->keep(all, organs_at(detail, *levels, whole, left), job);
     const Organs& own = level > 0 ? fewer : all;
     MeshGroup group{level_name(node.name, level), {}};
-    const FoliageOptions options = options_of(sheets, {own, foliated.size, foliated.bones}, params);
+    const FoliageOptions options = options_of(sheets, {own, plant_organs.size, plant_organs.bones}, params);
     for (Foliage& part : place_organs(on_sheets(own, sheets, job), options, job)) {
       const int material = sheets.material(part.surface, part.color, material_set);
       group.primitives.push_back({std::move(part.mesh), material, {}});
@@ -306,25 +307,25 @@ void add_merged(Model& model, const Foliated& foliated, const LsystemParams& par
 }
 
 /// Adds one node for each surface and material. The writer instantiates it at each transform.
-void add_shared(Model& model, const Foliated& foliated, const LsystemParams& params,
+void add_shared(Model& model, const PlantOrgans& plant_organs, const LsystemParams& params,
                 const SurfaceModels& surface_models, MaterialSet& material_set,
                 const GenerateContext& context) {
   Job& job = context.job;
   std::vector<Sheets> levels;
   for (int level = 0; level < context.demand.lods; ++level)
     levels.push_back(sheets_of(params, surface_models, Detail(level), job));
-  const Organs own = with_material_index(foliated.organs, material_set, job);
+  const Organs own = with_material_index(plant_organs.organs, material_set, job);
   const Sheets& finest = levels.front();
-  const FoliageOptions options = options_of(finest, {own, foliated.size, {}}, params);
-  for (FoliagePlaces& places : organ_places(on_sheets(own, finest, job), options, job)) {
+  const FoliageOptions options = options_of(finest, {own, plant_organs.size, {}}, params);
+  for (FoliageInstances& instances : organ_transforms(on_sheets(own, finest, job), options, job)) {
     Node node;
-    node.name = finest.names[places.surface];
+    node.name = finest.names[instances.surface];
     node.parent = 0;
-    node.instances.transforms = std::move(places.places);
-    const int material = finest.material(places.surface, places.color, material_set);
+    node.instances.transforms = std::move(instances.transforms);
+    const int material = finest.material(instances.surface, instances.color, material_set);
     for (std::size_t level = 0; level < levels.size(); ++level) {
       add_level(node, add_mesh(model, level_name(node.name, level),
-                               copy_of(levels[level].meshes[places.surface], job), material));
+                               copy_of(levels[level].meshes[instances.surface], job), material));
     }
     model.nodes.push_back(std::move(node));
   }
@@ -360,14 +361,14 @@ void check_surfaces(const LsystemParams& params, std::vector<Issue>& issues) {
   }
 }
 
-void add_organs(Model& model, const Foliated& foliated, const LsystemParams& params,
+void add_organs(Model& model, const PlantOrgans& plant_organs, const LsystemParams& params,
                 MaterialSet& material_set, const GenerateContext& context) {
-  if (foliated.organs.organ.empty()) return;
-  const SurfaceModels surface_models = surface_models_of(model, foliated.organs, params, context);
+  if (plant_organs.organs.organ.empty()) return;
+  const SurfaceModels surface_models = surface_models_of(model, plant_organs.organs, params, context);
   if (context.demand.share_organs) {
-    add_shared(model, foliated, params, surface_models, material_set, context);
+    add_shared(model, plant_organs, params, surface_models, material_set, context);
   } else {
-    add_merged(model, foliated, params, surface_models, material_set, context);
+    add_merged(model, plant_organs, params, surface_models, material_set, context);
   }
 }
 

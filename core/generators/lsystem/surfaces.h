@@ -10,7 +10,7 @@ namespace seedmesh::lsystem {
 void check_surfaces(const LsystemParams& params, std::vector<Issue>& issues);
 
 /// Organs with the size and bones of their plant.
-struct Foliated {
+struct PlantOrgans {
   const Organs& organs;
   float size = 0;                             ///< diagonal of the model's bounds, in metres
   std::span<const std::uint16_t> bones = {};  ///< bone of each joint; empty without growth animation
@@ -20,7 +20,7 @@ struct Foliated {
 /// output they become nodes that share one mesh. A surface that is a model has a primitive for each of its
 /// materials, which are added to `model`. Throws Stop (Code::invalid) where such a model cannot be made or
 /// has no triangles.
-void add_organs(Model& model, const Foliated& foliated, const LsystemParams& params,
+void add_organs(Model& model, const PlantOrgans& plant_organs, const LsystemParams& params,
                 MaterialSet& material_set, const GenerateContext& context);
 
 }  // namespace seedmesh::lsystem

@@ -86,7 +86,7 @@ void TextWriter::module(KindId kind, const double* parameters) {
 
 bool is_plain(const Grammar& grammar) {
   const Rules& rules = grammar.productions;
-  return grammar.is_free() && grammar.widest == 0 && !grammar.cuts && !rules.random &&
+  return grammar.is_context_free() && grammar.widest == 0 && !grammar.cuts && !rules.random &&
          std::none_of(rules.productions.begin(), rules.productions.end(), [](const Production& each) {
            return each.conditional || each.weighted || each.has_context();
          });

@@ -26,7 +26,7 @@ Drawn drawn_once(const Limbs& limbs, std::span<const std::uint16_t> bones, const
   KeptLimbs once = without_repeats(limbs, params.sides, job);
   Drawn drawn{std::move(once.limbs), Array<std::uint16_t>(job)};
   for (std::size_t i = 0; i < bones.size(); ++i) {
-    if (once.new_place[i] != Limbs::none) drawn.bones.push_back(bones[i]);
+    if (once.new_index[i] != Limbs::none) drawn.bones.push_back(bones[i]);
   }
   return drawn;
 }

@@ -63,7 +63,7 @@ class Writer {
       return;
     }
     // The step separates the random numbers of successive rewritings.
-    code_.run(production.code, slots, Draws(parent, step).code(),
+    code_.run(production.code, slots, RewriteStreams(parent, step).code(),
               [&](const Template& each, std::uint64_t turn) {
                 add_template(each, slots, keyed_ ? code_key(parent, each, turn) : 0, step);
               });
@@ -136,7 +136,7 @@ class Writer {
     }
     const Rules& rules = grammar_.decomposition;
     const std::uint64_t stream = keyed_ ? key_at(module.key, 40 + module.depth) : 0;
-    const Draws draws(stream, module.depth);
+    const RewriteStreams draws(stream, module.depth);
     const Production* chosen = choose(
         grammar_, rules.candidates(module.kind), draws,
         [&](const Production& rule) { return prepare(rule, own.data(), draws); }, job_);
@@ -148,7 +148,7 @@ class Writer {
       for (const Template& each : grammar_.successor(chosen->successor))
         push(each, own.data(), keyed_ ? child_key(stream, each) : 0, module.depth + 1, written_, fresh_);
     } else {
-      code_.run(chosen->code, own.data(), Draws(stream, step).code(),
+      code_.run(chosen->code, own.data(), RewriteStreams(stream, step).code(),
                 [&](const Template& each, std::uint64_t turn) {
                   push(each, own.data(), keyed_ ? code_key(stream, each, turn) : 0, module.depth + 1,
                        written_, fresh_);
@@ -166,7 +166,7 @@ class Writer {
 
  public:
   /// Runs the statements of a production before its condition.
-  double* prepare(const Production& production, double* slots, const Draws& draws) {
+  double* prepare(const Production& production, double* slots, const RewriteStreams& draws) {
     if (slots && production.before.count > 0) {
       code_.run(production.before, slots, draws.stream.at(5), [](const Template&, std::uint64_t) {});
     }
@@ -237,7 +237,7 @@ class Rewriting {
     if (!rules_.rewrites(kind)) return copy(i);
     if (!variables_.empty()) keep_variables();
     const std::uint64_t key = keyed_ ? in_.key[i] : 0;
-    const Draws draws(key, step_);
+    const RewriteStreams draws(key, step_);
     double* slots = nullptr;
     const auto match = [&](const Production& each) {
       return slots = writer_.prepare(each, contexts_.match(each, i), draws);

@@ -39,13 +39,13 @@ void refuse_more_than(double most, const Job& job) {
 
 /// Returns placements of a series, each from its own stream.
 template <class PositionOf>
-Array<Placement> series(Stretch stretch, Rng rng, const Job& job, const PositionOf& position) {
-  refuse_more_than(static_cast<double>(stretch.count), job);
-  Array<Placement> placements(job, stretch.count, Placement{});
-  parallel_for(job, stretch.count, placements_a_chunk, [&](std::size_t begin, std::size_t end, std::size_t) {
+Array<Placement> series(SeriesRange range, Rng rng, const Job& job, const PositionOf& position) {
+  refuse_more_than(static_cast<double>(range.count), job);
+  Array<Placement> placements(job, range.count, Placement{});
+  parallel_for(job, range.count, placements_a_chunk, [&](std::size_t begin, std::size_t end, std::size_t) {
     job.check();
     for (std::size_t i = begin; i < end; ++i) {
-      Rng own = rng.at(stretch.first + i);
+      Rng own = rng.at(range.first + i);
       placements[i].key = own.key();
       placements[i].at = position(own);
     }
@@ -65,18 +65,18 @@ glm::dvec2 drawn_position(const Extent& part, Rng& rng) {
 
 }  // namespace
 
-Array<Placement> scattered(const Extent& part, Stretch stretch, Rng rng, const Job& job) {
-  return series(stretch, rng, job, [&](Rng& own) { return drawn_position(part, own); });
+Array<Placement> scattered(const Extent& part, SeriesRange range, Rng rng, const Job& job) {
+  return series(range, rng, job, [&](Rng& own) { return drawn_position(part, own); });
 }
 
-Array<Placement> clustered(const Extent& part, const ClusterPlan& plan, Stretch stretch, Rng rng,
+Array<Placement> clustered(const Extent& part, const ClusterPlan& plan, SeriesRange range, Rng rng,
                            const Job& job) {
   std::vector<glm::dvec2> middles;
   for (std::size_t i = 0; i < plan.clusters; ++i) {
     Rng own = rng.at("middle").at(i);
     middles.push_back(drawn_position(part, own));
   }
-  return series(stretch, rng, job, [&](Rng& own) {
+  return series(range, rng, job, [&](Rng& own) {
     const glm::dvec2 middle = middles[own.below(static_cast<std::uint32_t>(middles.size()))];
     const double x = normal(own, 0, plan.radius);
     return middle + glm::dvec2(x, normal(own, 0, plan.radius));

@@ -53,20 +53,20 @@ Array<Placement> poisson_disk(const Extent& whole, const Extent& part, double di
 void refuse_poisson_disk(const Extent& whole, const Extent& part, double distance, const Job& job);
 
 /// Elements first to first + count - 1 of an infinite series.
-struct Stretch {
+struct SeriesRange {
   std::uint64_t first = 0;
   std::size_t count = 0;
 };
 
 /// Returns uniformly distributed random positions.
-Array<Placement> scattered(const Extent& part, Stretch stretch, Rng rng, const Job& job);
+Array<Placement> scattered(const Extent& part, SeriesRange range, Rng rng, const Job& job);
 
 struct ClusterPlan {
   std::size_t clusters = 1;
   double radius = 1;
 };
 /// Returns positions around random cluster centres (Thomas 1949).
-Array<Placement> clustered(const Extent& part, const ClusterPlan& plan, Stretch stretch, Rng rng,
+Array<Placement> clustered(const Extent& part, const ClusterPlan& plan, SeriesRange range, Rng rng,
                            const Job& job);
 
 struct RowPlan {

@@ -118,7 +118,7 @@ void Forecast::expect(const VariantTable::Layer& layer, std::size_t sample, bool
   }
 }
 
-std::uint64_t Forecast::to_come(const Row& row, std::size_t resource) const {
+std::uint64_t Forecast::remaining_cost(const Row& row, std::size_t resource) const {
   const std::uint64_t most = limits_[resource] + 1;
   if (row.placements == 0) return 0;
   const std::uint64_t copies = merges_ && resource == triangles && row.placements > 1 ? row.placements : 0;
@@ -138,7 +138,7 @@ void Forecast::refuse(const Job& job) const {
     if (r == triangles) sum += std::min(ground_, limits_[r] + 1);
     if (sum > limits_[r]) stop("/terrain");
     for (std::size_t i = 0; i < rows_.size(); ++i) {
-      sum += std::min(to_come(rows_[i], r), limits_[r] + 1);
+      sum += std::min(remaining_cost(rows_[i], r), limits_[r] + 1);
       if (sum > limits_[r]) stop(variant_table_.variants[i].pointer);
     }
   }

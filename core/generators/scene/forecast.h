@@ -63,7 +63,7 @@ class Forecast {
     Amounts least = {};  ///< lower bound of its cost
   };
   void expect(const VariantTable::Layer& layer, std::size_t sample, bool are_alike);
-  std::uint64_t to_come(const Row& row, std::size_t resource) const;
+  std::uint64_t remaining_cost(const Row& row, std::size_t resource) const;
 
   const SceneParams& params_;
   const VariantTable& variant_table_;

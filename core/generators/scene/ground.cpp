@@ -8,10 +8,10 @@
 #include "core/generators/material_members.h"
 #include "core/generators/scene/buildings.h"
 #include "core/generators/scene/path_bands.h"
-#include "core/generators/terrain/dress.h"
-#include "core/generators/terrain/ease.h"
+#include "core/generators/terrain/build_model.h"
 #include "core/generators/terrain/ground_cover.h"
 #include "core/generators/terrain/plan.h"
+#include "core/generators/terrain/smooth_step.h"
 #include "core/generators/terrain/square.h"
 #include "core/generators/terrain/terrain.h"
 #include "core/model/append.h"
@@ -141,7 +141,7 @@ double Ground::share_of(const std::vector<SceneGroundClass>& classes, const glm:
   const terrain::GroundShares shares = cover_->at(p.x - extent_.min.x, p.y - extent_.min.y);
   float sum = 0;
   for (const SceneGroundClass each : classes) sum += shares.of[static_cast<int>(each)];
-  return static_cast<double>(terrain::ease(0.3F, 0.55F, sum));
+  return static_cast<double>(terrain::smooth_step(0.3F, 0.55F, sum));
 }
 static_assert(static_cast<int>(SceneGroundClass::grass) == terrain::GroundShares::grass &&
               static_cast<int>(SceneGroundClass::litter) == terrain::GroundShares::litter);

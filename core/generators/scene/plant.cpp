@@ -247,7 +247,7 @@ class Planter {
   }
 
   void open_layer(std::size_t i) {
-    Planted& planted = planted_[i];
+    PlacedLayer& planted = planted_[i];
     const Array<Placement>& placements = made_.layers[i];
     planted.placements = &placements;
     planted.widest_crown = 0;
@@ -302,7 +302,7 @@ class Planter {
 
   bool is_beaten(const glm::dvec2& at, double crown, std::size_t layers) const {
     for (std::size_t i = 0; i < layers; ++i) {
-      const Planted& other = planted_[i];
+      const PlacedLayer& other = planted_[i];
       if (other.crown <= 0) continue;
       const double most = params_.competition * (crown + other.widest_crown);
       const bool beaten = other.by_position->any(at, most, [&](std::uint32_t id, double squared) {
@@ -320,7 +320,7 @@ class Planter {
   Job& job_;
   Obstacles obstacles_;
   Planting made_;
-  std::vector<Planted> planted_;
+  std::vector<PlacedLayer> planted_;
   std::size_t competed_ = 0;  ///< number of layers after competition, searchable by position
 };
 

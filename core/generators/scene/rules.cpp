@@ -108,7 +108,7 @@ void Obstacles::add_footprints(Array<Footprint> footprints) {
   groups_.push_back({std::move(footprints), widest, std::move(by_position)});
 }
 
-bool Obstacles::meet(const glm::dvec2& p, double reach) const {
+bool Obstacles::intersects(const glm::dvec2& p, double reach) const {
   for (const PathBand& band : paths_) {
     if (band.covers(p, reach)) return true;
   }
@@ -147,10 +147,10 @@ double patch_noise(const glm::dvec2& p, std::uint64_t key) {
   return sum;
 }
 
-double shade_at(const glm::dvec2& p, const std::vector<Planted>& planted, std::size_t before) {
+double shade_at(const glm::dvec2& p, const std::vector<PlacedLayer>& planted, std::size_t before) {
   double light = 1;
   for (std::size_t layer = 0; layer < before; ++layer) {
-    const Planted& each = planted[layer];
+    const PlacedLayer& each = planted[layer];
     if (!each.by_position || each.widest_crown <= 0) continue;
     // Apart from rounding, the product does not depend on the order of its factors. The order is that of the
     // grid.
@@ -163,39 +163,39 @@ double shade_at(const glm::dvec2& p, const std::vector<Planted>& planted, std::s
   return 1 - light;
 }
 
-Rules::Rules(Given given, const std::string& pointer, const Job& job) : given_(std::move(given)) {
-  if (given_.place.area) {
-    for (const auto& p : *given_.place.area) area_.emplace_back(p[0], p[1]);
+Rules::Rules(Inputs given, const std::string& pointer, const Job& job) : inputs_(std::move(given)) {
+  if (inputs_.place.area) {
+    for (const auto& p : *inputs_.place.area) area_.emplace_back(p[0], p[1]);
   }
-  if (given_.place.density_image)
-    image_ = read_image(*given_.place.density_image, pointer + "/density_image", job);
+  if (inputs_.place.density_image)
+    image_ = read_image(*inputs_.place.density_image, pointer + "/density_image", job);
 }
 
 double Rules::share(const glm::dvec2& p, double reach) const {
-  const ScenePlace& place = given_.place;
-  if (!given_.ground.holds(p, place.edge)) return 0;
+  const ScenePlace& place = inputs_.place;
+  if (!inputs_.ground.holds(p, place.edge)) return 0;
   if (!area_.empty() && !is_inside(area_, p)) return 0;
   double share = place.density * share_of_ground(p);
   if (share > 0 && image_) {
-    const Extent& extent = given_.ground.extent();
+    const Extent& extent = inputs_.ground.extent();
     share *= image_->at((p - extent.min) / extent.size());
   }
-  if (share > 0 && place.noise) share *= share_of_noise(*place.noise, p, given_.noise_key);
-  if (share > 0 && given_.obstacles.meet(p, reach)) return 0;
+  if (share > 0 && place.noise) share *= share_of_noise(*place.noise, p, inputs_.noise_key);
+  if (share > 0 && inputs_.obstacles.intersects(p, reach)) return 0;
   return share > 0 ? share * share_of_neighbours(p) : 0;
 }
 
 double Rules::share_of_ground(const glm::dvec2& p) const {
-  const ScenePlace& place = given_.place;
+  const ScenePlace& place = inputs_.place;
   double share = 1;
   if (place.slope) {
-    const double steep = math::degrees(math::atan2(glm::length(given_.ground.gradient(p)), 1));
+    const double steep = math::degrees(math::atan2(glm::length(inputs_.ground.gradient(p)), 1));
     share *= share_of_limits(*place.slope, steep);
   }
-  if (share > 0 && place.ground) share *= given_.ground.share_of(*place.ground, p);
-  const std::optional<double>& water = given_.ground.water();
+  if (share > 0 && place.ground) share *= inputs_.ground.share_of(*place.ground, p);
+  const std::optional<double>& water = inputs_.ground.water();
   if (!place.altitude && !water && !place.above_water) return share;
-  const double height = given_.ground.height(p);
+  const double height = inputs_.ground.height(p);
   if (place.altitude) share *= share_of_limits(*place.altitude, height);
   if (place.above_water) {
     // Without water, all ground counts as far above it.
@@ -207,10 +207,10 @@ double Rules::share_of_ground(const glm::dvec2& p) const {
 }
 
 double Rules::share_of_neighbours(const glm::dvec2& p) const {
-  const ScenePlace& place = given_.place;
+  const ScenePlace& place = inputs_.place;
   for (std::size_t i = 0; i < place.near.size(); ++i) {
     const SceneNeighbour& near = place.near[i];
-    const Planted& other = given_.planted[given_.near[i]];
+    const PlacedLayer& other = inputs_.planted[inputs_.near[i]];
     const auto within = [&](double radius) {
       return other.by_position &&
              other.by_position->any(p, radius, [](std::uint32_t, double) { return true; });
@@ -218,7 +218,8 @@ double Rules::share_of_neighbours(const glm::dvec2& p) const {
     if (near.from && *near.from > 0 && within(*near.from)) return 0;
     if (near.to && !within(*near.to)) return 0;
   }
-  return place.shade ? share_of_limits(*place.shade, shade_at(p, given_.planted, given_.planted.size())) : 1;
+  return place.shade ? share_of_limits(*place.shade, shade_at(p, inputs_.planted, inputs_.planted.size()))
+                     : 1;
 }
 
 bool Rules::reads_neighbours(const ScenePlace& place) {

@@ -15,7 +15,7 @@ struct ScenePlace;
 namespace seedmesh::scene {
 
 /// The placements of an earlier layer, searchable by position.
-struct Planted {
+struct PlacedLayer {
   const Array<Placement>* placements = nullptr;
   std::optional<Neighbours> by_position;
   double crown = 0;         ///< radius at scale 1, in metres
@@ -30,7 +30,7 @@ class Obstacles {
   void add_footprints(Array<Footprint> footprints);
 
   /// Returns true where a disc of radius `reach` around `p` meets an obstacle.
-  bool meet(const glm::dvec2& p, double reach) const;
+  bool intersects(const glm::dvec2& p, double reach) const;
 
  private:
   struct Group {
@@ -57,21 +57,21 @@ double patch_noise(const glm::dvec2& p, std::uint64_t key);
 
 /// Returns the share of light that the crowns of the first `before` layers absorb at a position. The
 /// absorption of a crown decreases to 0 at its edge. The transmissions of several crowns are multiplied.
-double shade_at(const glm::dvec2& p, const std::vector<Planted>& planted, std::size_t before);
+double shade_at(const glm::dvec2& p, const std::vector<PlacedLayer>& planted, std::size_t before);
 
 /// The compiled rules of one layer. Does not own its inputs.
 class Rules {
  public:
-  struct Given {
+  struct Inputs {
     const ScenePlace& place;
     const Ground& ground;
     const Obstacles& obstacles;
-    const std::vector<Planted>& planted;  ///< earlier layers
-    std::vector<std::size_t> near;        ///< for each entry of place.near, the index of its layer
+    const std::vector<PlacedLayer>& planted;  ///< earlier layers
+    std::vector<std::size_t> near;            ///< for each entry of place.near, the index of its layer
     std::uint64_t noise_key = 0;
   };
   /// Throws Stop (Code::invalid) at `pointer` for an unreadable image.
-  Rules(Given given, const std::string& pointer, const Job& job);
+  Rules(Inputs given, const std::string& pointer, const Job& job);
 
   /// Returns the probability of a placement at `p`, 0 where it is forbidden. `reach`: radius of ground that
   /// the model covers, in metres.
@@ -86,7 +86,7 @@ class Rules {
   double share_of_ground(const glm::dvec2& p) const;
   double share_of_neighbours(const glm::dvec2& p) const;
 
-  Given given_;
+  Inputs inputs_;
   std::vector<glm::dvec2> area_;
   std::optional<DensityImage> image_;
 };

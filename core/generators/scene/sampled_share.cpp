@@ -82,7 +82,7 @@ double sampled_share(const SceneLayer& layer, std::size_t number, const Ground& 
   place.shade.reset();
   place.density = 1;
   const Obstacles obstacles(ground.extent(), job);
-  const std::vector<Planted> planted;
+  const std::vector<PlacedLayer> planted;
   const Rng rng = stream_of(layer, number, job);
   const Rules rules({place, ground, obstacles, planted, {}, rng.at("noise").key()},
                     "/layers/" + std::to_string(number) + "/place", job);

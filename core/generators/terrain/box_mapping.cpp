@@ -49,12 +49,13 @@ glm::vec4 tangent_of(const glm::vec3& normal, MappedSide side) {
 
 }  // namespace
 
-BoxMapped::BoxMapped(const Mesh& from, const VertexLooks& looks, float lighter, const Job& job)
+BoxMappedMesh::BoxMappedMesh(const Mesh& from, const VertexOverrides& overrides, float lighter,
+                             const Job& job)
     : from_(from),
-      looks_(looks),
+      overrides_(overrides),
       lighter_(lighter),
       set_(from.uv[0].empty() ? 0 : 1),
-      place_(job, mapped_side_count * from.position.size(), unplaced) {
+      index_(job, mapped_side_count * from.position.size(), unplaced) {
   mesh.position = Array<glm::vec3>(job);
   mesh.normal = Array<glm::vec3>(job);
   mesh.tangent = Array<glm::vec4>(job);
@@ -63,11 +64,11 @@ BoxMapped::BoxMapped(const Mesh& from, const VertexLooks& looks, float lighter, 
   mesh.index.wide = Array<std::uint32_t>(job);
 }
 
-void BoxMapped::add(const std::array<std::uint32_t, 3>& corners) {
+void BoxMappedMesh::add(const std::array<std::uint32_t, 3>& corners) {
   const glm::vec3& a = from_.position[corners[0]];
   const MappedSide side = side_of(glm::cross(from_.position[corners[1]] - a, from_.position[corners[2]] - a));
   for (const std::uint32_t corner : corners) {
-    std::uint32_t& place = place_[mapped_side_count * corner + side];
+    std::uint32_t& place = index_[mapped_side_count * corner + side];
     if (place == unplaced) {
       place = static_cast<std::uint32_t>(mesh.position.size());
       add_vertex(corner, side);
@@ -76,9 +77,9 @@ void BoxMapped::add(const std::array<std::uint32_t, 3>& corners) {
   }
 }
 
-void BoxMapped::add_vertex(std::uint32_t v, MappedSide side) {
+void BoxMappedMesh::add_vertex(std::uint32_t v, MappedSide side) {
   mesh.position.push_back(from_.position[v]);
-  const glm::vec3 normal = looks_.normals.empty() ? from_.normal[v] : looks_.normals[v];
+  const glm::vec3 normal = overrides_.normals.empty() ? from_.normal[v] : overrides_.normals[v];
   mesh.normal.push_back(normal);
   mesh.tangent.push_back(tangent_of(normal, side));
   if (set_ > 0) mesh.uv[0].push_back(from_.uv[0][v]);
@@ -86,7 +87,7 @@ void BoxMapped::add_vertex(std::uint32_t v, MappedSide side) {
   if (from_.color.empty()) return;
   glm::u8vec4 color = from_.color[v];
   for (int i = 0; i < 3; ++i) {
-    const float factor = looks_.factors.empty() ? 1 : looks_.factors[v][i];
+    const float factor = overrides_.factors.empty() ? 1 : overrides_.factors[v][i];
     const float lit = static_cast<float>(color[i]) * factor * lighter_ + 0.5F;
     color[i] = static_cast<std::uint8_t>(std::min(lit, 255.0F));
   }

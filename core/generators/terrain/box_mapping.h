@@ -13,17 +13,17 @@ namespace seedmesh::terrain {
 enum MappedSide : std::uint32_t { above, along_x, along_z, below, mapped_side_count };
 
 /// What differs from the mesh at each vertex; either may be empty.
-struct VertexLooks {
+struct VertexOverrides {
   std::span<const glm::vec3> factors;  ///< of the colours
   std::span<const glm::vec3> normals;  ///< instead of those of the mesh
 };
 
 /// Collects triangles of a mesh. A vertex that faces of several sides share is duplicated.
-class BoxMapped {
+class BoxMappedMesh {
  public:
-  /// `lighter`: factor of all colours. `from` and `looks` are borrowed. If `from` has texture coordinates in
+  /// `lighter`: factor of all colours. `from` and `overrides` are borrowed. If `from` has texture coordinates in
   /// set 0, these are kept, and the new ones are in set 1. Otherwise the new ones are in set 0.
-  BoxMapped(const Mesh& from, const VertexLooks& looks, float lighter, const Job& job);
+  BoxMappedMesh(const Mesh& from, const VertexOverrides& overrides, float lighter, const Job& job);
 
   void add(const std::array<std::uint32_t, 3>& corners);
 
@@ -33,10 +33,10 @@ class BoxMapped {
   void add_vertex(std::uint32_t v, MappedSide side);
 
   const Mesh& from_;
-  VertexLooks looks_;
+  VertexOverrides overrides_;
   float lighter_;
   std::size_t set_;
-  Array<std::uint32_t> place_;  ///< index in `mesh` of each vertex and side
+  Array<std::uint32_t> index_;  ///< index in `mesh` of each vertex and side
 };
 
 }  // namespace seedmesh::terrain

@@ -6,8 +6,8 @@
 
 #include "core/base/math.h"
 #include "core/base/parallel.h"
-#include "core/generators/terrain/ease.h"
 #include "core/generators/terrain/noise.h"
+#include "core/generators/terrain/smooth_step.h"
 #include "core/model/model.h"
 
 namespace seedmesh::terrain {
@@ -133,7 +133,7 @@ glm::vec3 blend(const glm::vec3& a, const glm::vec3& b, float share) { return a 
 
 }  // namespace
 
-float litter_share(const Site& site) { return ease(-0.3F, 0.2F, site.patch); }
+float litter_share(const Site& site) { return smooth_step(-0.3F, 0.2F, site.patch); }
 
 GroundColors::GroundColors(PaletteName palette, const Range& range, float level)
     : palette_(palette), range_(range), level_(level) {
@@ -149,15 +149,15 @@ GroundColors::Shares GroundColors::shares(const Site& site) const {
   const Ramp& ramp = ramps[std::min(static_cast<std::size_t>(palette_), ramps.size() - 1)];
   const float share = (site.height - (range_.high - span_)) / span_ + site.patch * 0.045F;
   Shares all{};
-  all.high = ease(ramp.high_line - 0.22F, ramp.high_line + 0.22F, share);
-  all.cliff = ease(ramp.cliff_from, ramp.cliff_to, site.slope + site.patch * 0.08F);
+  all.high = smooth_step(ramp.high_line - 0.22F, ramp.high_line + 0.22F, share);
+  all.cliff = smooth_step(ramp.cliff_from, ramp.cliff_to, site.slope + site.patch * 0.08F);
   // There is snow in hollows and none on cliffs.
-  all.peak = ease(ramp.peak_line - 0.08F, ramp.peak_line + 0.08F, share + site.hollow * 0.15F) *
+  all.peak = smooth_step(ramp.peak_line - 0.08F, ramp.peak_line + 0.08F, share + site.hollow * 0.15F) *
              (1 - 0.85F * all.cliff);
   if (water_) {
     const float above = (site.height - level_) / span_ + site.patch * 0.008F;
-    all.shore = (1 - ease(0.012F, 0.035F, above)) * (1 - 0.7F * all.cliff);
-    all.bed = 1 - ease(-0.06F, 0.0F, above);
+    all.shore = (1 - smooth_step(0.012F, 0.035F, above)) * (1 - 0.7F * all.cliff);
+    all.bed = 1 - smooth_step(-0.06F, 0.0F, above);
   }
   return all;
 }

@@ -41,7 +41,7 @@ class GroundColors {
 
  private:
   struct Shares {
-    float bed, shore, cliff, peak, high;  ///< each covers the ones before it; `high` covers the plain ground
+    float bed, shore, cliff, peak, high;  ///< each covers the ones after it; `high` covers the plain ground
   };
   Shares shares(const Site& site) const;
   struct LinearRamp {

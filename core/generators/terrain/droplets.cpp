@@ -294,7 +294,7 @@ void spread(const Changes& changes, const Brush& brush, const Range& range, std:
 
 }  // namespace
 
-void erode(Field& field, const DropletPlan& plan, Rng rng, const Job& job) {
+void erode_by_droplets(Field& field, const DropletPlan& plan, Rng rng, const Job& job) {
   const double radius = std::clamp(plan.radius, 1.0, 8.0);
   const Brush brush = brush_of(radius);
   const std::size_t samples = static_cast<std::size_t>(field.width) * static_cast<std::size_t>(field.depth);

@@ -69,7 +69,7 @@ float excess(float difference, float talus) {
   return over > 0 ? (difference > 0 ? over : -over) : 0.0F;
 }
 
-/// Computes one row of one round of slip(). `rows` are the rows before, at and after it.
+/// Computes one row of one round of erode_thermally(). `rows` are the rows before, at and after it.
 void slip_row(const float* const rows[3], float* out, std::int32_t width, const ThermalPlan& plan,
               float cell) {
   const auto straight = static_cast<float>(plan.talus) * cell;
@@ -257,7 +257,7 @@ void sink_rim(Field& field, const IslandPlan& plan, Rng rng, const Job& job) {
   });
 }
 
-void slip(Field& field, const ThermalPlan& plan, const Job& job) {
+void erode_thermally(Field& field, const ThermalPlan& plan, const Job& job) {
   Array<float> next(job, field.heights.size());
   const std::int32_t stride = field.stride(), rows = field.rows();
   for (int round = 0; round < plan.iterations; ++round) {

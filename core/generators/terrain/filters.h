@@ -64,7 +64,7 @@ struct ThermalPlan {
 /// Musgrave, Kolb and Mace, "The synthesis and rendering of eroded fractal terrains", 1989. It conserves
 /// material. A sample depends on samples at most `iterations` away, so tiles with a margin of that width
 /// agree. Cost: about 3 ns for each sample and round.
-void slip(Field& field, const ThermalPlan& plan, const Job& job);
+void erode_thermally(Field& field, const ThermalPlan& plan, const Job& job);
 
 struct DropletPlan {
   int droplets = 65'536;
@@ -76,7 +76,7 @@ struct DropletPlan {
 /// Applies hydraulic erosion by drops after Beyer, "Implementation of a method for hydraulic erosion", 2015.
 /// Drops fall in batches whose number and size depend on the field alone. The drops of a batch see the same
 /// ground, and their changes are added in order. Cost: about 0.64 microseconds for a drop, with its share of the batches.
-void erode(Field& field, const DropletPlan& plan, Rng rng, const Job& job);
+void erode_by_droplets(Field& field, const DropletPlan& plan, Rng rng, const Job& job);
 
 struct StreamPlan {
   int iterations = 20;
@@ -87,6 +87,6 @@ struct StreamPlan {
 /// Cuts rivers by the stream power law, implicit in time. Source: Braun and Willett, "A very efficient O(n),
 /// implicit and parallel method to solve the stream power equation", 2013. Water leaves every depression at
 /// its lowest rim (flow.h). The border is fixed. Cost: about 250 ns for each sample and step.
-void cut_rivers(Field& field, const StreamPlan& plan, const Job& job);
+void erode_by_streams(Field& field, const StreamPlan& plan, const Job& job);
 
 }  // namespace seedmesh::terrain

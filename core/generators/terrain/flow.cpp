@@ -211,7 +211,7 @@ Array<float> gathered(const Field& field, const Drainage& drainage, const Job& j
   return area;
 }
 
-void cut_rivers(Field& field, const StreamPlan& plan, const Job& job) {
+void erode_by_streams(Field& field, const StreamPlan& plan, const Job& job) {
   const std::size_t count = field.heights.size();
   const double reference = static_cast<double>(count) / 100;
   for (int step = 0; step < plan.iterations; ++step) {

@@ -11,10 +11,10 @@
 #include "core/base/quick_math.h"
 #include "core/base/rng.h"
 #include "core/generators/terrain/box_mapping.h"
-#include "core/generators/terrain/ease.h"
 #include "core/generators/terrain/ground.h"
 #include "core/generators/terrain/model_parts.h"
 #include "core/generators/terrain/noise.h"
+#include "core/generators/terrain/smooth_step.h"
 #include "core/texture/wall.h"
 
 namespace seedmesh::terrain {
@@ -39,7 +39,7 @@ constexpr glm::vec3 shrub_color{0.55F, 0.53F, 0.5F};
 
 /// The factor of a vertex colour by shrubs, for a noise value and the share of grass.
 glm::vec3 shrubs(double noise, float grass) {
-  const float share = grass * ease(-0.05F, 0.25F, static_cast<float>(noise));
+  const float share = grass * smooth_step(-0.05F, 0.25F, static_cast<float>(noise));
   return glm::vec3(1) + (shrub_color - 1.0F) * share;
 }
 
@@ -182,9 +182,9 @@ std::vector<Primitive> GroundClasses::divided(const Mesh& mesh, const SpotOf& sp
     }
   });
   restore_turned_off(mesh, normals, job);
-  std::vector<BoxMapped> parts;
+  std::vector<BoxMappedMesh> parts;
   for (const Used& used : used_)
-    parts.emplace_back(mesh, VertexLooks{factors.span(), normals.span()}, used.lighter, job);
+    parts.emplace_back(mesh, VertexOverrides{factors.span(), normals.span()}, used.lighter, job);
   for (std::size_t i = 0; i < mesh.index.size(); i += 3) {
     if (i % 12'288 == 0) job.check();
     const std::array<std::uint32_t, 3> at{mesh.index.at(i), mesh.index.at(i + 1), mesh.index.at(i + 2)};

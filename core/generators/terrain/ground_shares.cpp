@@ -1,6 +1,6 @@
 #include "core/generators/terrain/ground_shares.h"
 
-#include "core/generators/terrain/ease.h"
+#include "core/generators/terrain/smooth_step.h"
 
 namespace seedmesh::terrain {
 namespace {
@@ -12,7 +12,7 @@ constexpr float scree_slope = 0.7F, rock_slope = 0.95F;
 
 GroundShares ground_shares(const GroundColors& colors, const Site& site) {
   const Cover cover = colors.cover(site);
-  const float steep = ease(scree_slope, rock_slope, site.slope + 0.12F * site.patch);
+  const float steep = smooth_step(scree_slope, rock_slope, site.slope + 0.12F * site.patch);
   GroundShares all;
   const auto lay = [&all](GroundShares::Kind kind, float share) { all.of[kind] += share; };
   const auto lay_stone = [&](float share) {
@@ -36,7 +36,7 @@ GroundShares ground_shares(const GroundColors& colors, const Site& site) {
       break;
     case PaletteName::mossy: {
       // Between moss and herbs, the floor of a forest is litter.
-      const float litter = ease(-0.3F, 0.3F, site.patch);
+      const float litter = smooth_step(-0.3F, 0.3F, site.patch);
       lay(GroundShares::grass, cover.grass * (1 - litter));
       lay(GroundShares::soil, cover.grass * litter + cover.sand);
       lay_stone(cover.rock + cover.snow);

@@ -90,7 +90,7 @@ Result<Field> of_raw(const TerrainImage& image, std::span<const std::uint8_t> by
 }
 
 /// Whether a picture can hold heights in this way, in words where it cannot.
-std::string misfit(const texture::Picture& picture, TerrainEncoding encoding) {
+std::string picture_error(const texture::Picture& picture, TerrainEncoding encoding) {
   const std::string found = "found " + std::to_string(picture.channels) + " channels of " +
                             std::to_string(picture.bits) + " bits; ";
   if (encoding == TerrainEncoding::metres && picture.channels > 2) return found + "metres is one channel";
@@ -152,11 +152,11 @@ float height_of(const Channel& channel, TerrainEncoding encoding, int bits, cons
 Result<Field> of_picture(const TerrainImage& image, const texture::Decoded& decoded, const Scale& scale,
                          const Job& job) {
   const texture::Picture& picture = *decoded.picture;
-  std::string wrong = misfit(picture, image.encoding);
+  std::string wrong = picture_error(picture, image.encoding);
   if (wrong.empty() && decoded.is_lossy && packs_digits(image.encoding)) {
     wrong =
-        "found a JPEG or a WebP with losses, which changes the digits of heights; expected a PNG or a WebP "
-        "without loss";
+        "found lossy compression (JPEG or WebP), which changes the digits of heights; expected a PNG or a "
+        "lossless WebP";
   }
   if (!wrong.empty()) return invalid_input("/image/data", wrong);
   const std::int64_t colored = image.encoding == TerrainEncoding::grey

@@ -6,8 +6,8 @@
 
 #include "core/base/math.h"
 #include "core/base/parallel.h"
-#include "core/generators/terrain/engines.h"
 #include "core/generators/terrain/flow.h"
+#include "core/generators/terrain/game_engines.h"
 #include "core/generators/terrain/noise.h"
 #include "core/generators/terrain/plan.h"
 #include "generated/params/terrain.h"
@@ -183,13 +183,13 @@ void add_engine_issues(const TerrainParams& params, const WantedFormat& form, st
     issues.emplace_back(kind, pointer, std::move(message));
   };
   const std::string profile(form.profile);
-  const std::optional<Engine> engine = engine_of(form.profile);
+  const std::optional<GameEngine> engine = game_engine_of(form.profile);
   if (!engine) {
     return add_issue(IssueKind::not_available, "/output/profile",
                      "found " + profile + "; height maps have the conventions of core, unity and unreal");
   }
   const TerrainHeightmap& given = params.heightmap;
-  if (engine == Engine::unity && form.format != "r16") {
+  if (engine == GameEngine::unity && form.format != "r16") {
     add_issue(IssueKind::conflict, "/output/format",
               "found " + std::string(form.format) + "; Unity reads raw heights: r16");
   }
@@ -202,13 +202,13 @@ void add_engine_issues(const TerrainParams& params, const WantedFormat& form, st
     add_issue(IssueKind::conflict, "/heightmap/byte_order",
               "found big; the profile " + profile + " has the low byte first");
   }
-  if (engine == Engine::unity && given.flip) {
+  if (engine == GameEngine::unity && given.flip) {
     add_issue(IssueKind::conflict, "/heightmap/flip",
               "the profile unity has the southern row first as it is");
   }
   if (params.algorithm == TerrainAlgorithm::image) return;  // whose size is known when it is read
   const int side = finished_side(params);
-  if (std::string wrong = misfit(*engine, side, side); !wrong.empty())
+  if (std::string wrong = size_error(*engine, side, side); !wrong.empty())
     add_issue(IssueKind::invalid_value, size_pointer(params), std::move(wrong));
 }
 
@@ -360,9 +360,9 @@ Result<Array<std::uint8_t>> map_file(const TerrainParams& params, const WantedFo
   job.progress("derive", 0);
   Result<Field> made = field_of(params, job);
   if (!made) return made.error();
-  const std::optional<Engine> engine = engine_of(form.profile);
+  const std::optional<GameEngine> engine = game_engine_of(form.profile);
   if (engine) {
-    if (std::string wrong = misfit(*engine, made->width, made->depth); !wrong.empty())
+    if (std::string wrong = size_error(*engine, made->width, made->depth); !wrong.empty())
       return refused(size_pointer(params), std::move(wrong));
   }
   const Range range = range_of(*made, job);
@@ -371,7 +371,7 @@ Result<Array<std::uint8_t>> map_file(const TerrainParams& params, const WantedFo
   Numbers numbers;
   numbers.width = made->width;
   numbers.depth = made->depth;
-  numbers.flip = given.flip || engine == Engine::unity;
+  numbers.flip = given.flip || engine == GameEngine::unity;
   if (given.map == TerrainMap::height) {
     numbers.values = cropped(std::move(*made), 0, job).heights;
     numbers.low = given.low.value_or(static_cast<double>(range.low));

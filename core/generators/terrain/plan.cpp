@@ -109,23 +109,24 @@ void filter(const TerrainParams& params, Field& field, Rng rng, const Job& job) 
   if (params.island) sink_rim(field, island_plan(params), rng.at("island"), job);
   if (params.terraces) terrace(field, terrace_plan(params), job);
   if (params.thermal) {
-    slip(field,
-         {params.thermal->iterations, math::tan(math::radians(params.thermal->talus)), params.thermal->rate},
-         job);
+    erode_thermally(
+        field,
+        {params.thermal->iterations, math::tan(math::radians(params.thermal->talus)), params.thermal->rate},
+        job);
   }
 }
 
 /// Erosion by water, which acts from one end of the field to the other. The field has no margin.
 void run_water(const TerrainParams& params, Field& field, Rng rng, const Job& job) {
   if (params.hydraulic && params.hydraulic->method == TerrainMethod::droplets)
-    erode(field, droplet_plan(params, field), rng.at("droplets"), job);
+    erode_by_droplets(field, droplet_plan(params, field), rng.at("droplets"), job);
   if (params.hydraulic && params.hydraulic->method == TerrainMethod::stream_power) {
     const StreamPlan defaults;
-    cut_rivers(field,
-               {params.hydraulic->iterations.value_or(defaults.iterations),
-                params.hydraulic->strength.value_or(defaults.strength),
-                params.hydraulic->area_exponent.value_or(defaults.area_exponent)},
-               job);
+    erode_by_streams(field,
+                     {params.hydraulic->iterations.value_or(defaults.iterations),
+                      params.hydraulic->strength.value_or(defaults.strength),
+                      params.hydraulic->area_exponent.value_or(defaults.area_exponent)},
+                     job);
   }
 }
 

@@ -58,7 +58,8 @@ Field algorithm_field(const TerrainParams& params, const Window& window, double 
 /// Writes the heights of the algorithm to the points of a sphere.
 void algorithm_sphere(const TerrainParams& params, Planet& planet, Rng rng, const Job& job);
 
-/// Generates the field with all filters; margin 1 for a tile, else 0. Issues: an unreadable image.
+/// Generates the field and applies all filters. The field of a tile has a margin of one sample. Issues: an unreadable
+/// image.
 Result<Field> field_of(const TerrainParams& params, Job& job);
 
 /// Evaluates the expressions at the samples of the field, if these are at most 2,100,000, and discards the

@@ -113,18 +113,18 @@ void add_normals(Mesh& mesh, const Planet& planet, const Job& job) {
 // Moss and lichen end irregularly: the change of the slope by patches.
 constexpr float ragged = 0.8F;
 
-void add_colors(Mesh& mesh, const Planet& planet, const GroundColors& ground_colors, Upward upward, Rng rng,
-                const Job& job) {
+void add_colors(Mesh& mesh, const Planet& planet, const GroundColors& ground_colors, UpDirection upward,
+                Rng rng, const Job& job) {
   NoisePlan patches;
   patches.octaves = 4;
   patches.amplitude = 0.7;
   patches.gain = 0.7;
-  patches.wavelength = upward == Upward::along_y ? planet.radius / 2 : planet.radius / 3;
+  patches.wavelength = upward == UpDirection::along_y ? planet.radius / 2 : planet.radius / 3;
   mesh.color = Array<glm::u8vec4>(job, mesh.position.size());
   each_chunk(planet, job, [&](std::size_t begin, std::size_t end) {
     SpaceNoise noise(patches, rng);
     for (std::size_t i = begin; i < end; ++i) {
-      const bool is_rock = upward == Upward::along_y;
+      const bool is_rock = upward == UpDirection::along_y;
       const float cosine = is_rock ? mesh.normal[i].y : glm::dot(mesh.normal[i], planet.direction[i]);
       const float up = std::clamp(cosine, 0.05F, 1.0F);
       Site site;
@@ -203,7 +203,8 @@ Range range_of(const Planet& planet) {
   return {*low, *high};
 }
 
-Mesh planet_mesh(const Planet& planet, const GroundColors* ground_colors, Upward upward, Rng rng, Job& job) {
+Mesh planet_mesh(const Planet& planet, const GroundColors* ground_colors, UpDirection upward, Rng rng,
+                 Job& job) {
   const std::int32_t last = planet.side - 1;
   const CubeNumbers numbers(planet.side);
   job.spend(Resource::triangles, 12 * static_cast<std::size_t>(last) * static_cast<std::size_t>(last));

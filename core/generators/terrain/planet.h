@@ -32,11 +32,12 @@ void noise_sphere(Planet& planet, const NoisePlan& plan, Rng rng, const Job& job
 
 Range range_of(const Planet& planet);
 
-/// What is up on a planet, for its colours: away from the centre, or along +Y for a rock that lies on the ground.
-enum class Upward { outward, along_y };
+/// The upward direction by which a planet is coloured: away from the centre, or +Y for a rock that lies on the ground.
+enum class UpDirection { outward, along_y };
 
 /// Returns the mesh, with area-weighted mean normals. `ground_colors` may be null: no colours. Spends
 /// Resource::triangles.
-Mesh planet_mesh(const Planet& planet, const GroundColors* ground_colors, Upward upward, Rng rng, Job& job);
+Mesh planet_mesh(const Planet& planet, const GroundColors* ground_colors, UpDirection upward, Rng rng,
+                 Job& job);
 
 }  // namespace seedmesh::terrain

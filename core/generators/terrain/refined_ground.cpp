@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "core/base/math.h"
-#include "core/generators/terrain/ease.h"
+#include "core/generators/terrain/smooth_step.h"
 
 namespace seedmesh::terrain {
 namespace {
@@ -48,55 +48,77 @@ float lump(float noise) { return std::abs(noise) - mean_size; }
 /// Returns how far a bed of rock with ledges is above an even one: steps of `thickness` with steep fronts.
 float ledge(float level, float thickness) {
   const float share = level / thickness - std::floor(level / thickness);
-  return thickness * (ease(0.25F, 0.7F, share) - share);
+  return thickness * (smooth_step(0.25F, 0.7F, share) - share);
 }
 
+}  // namespace
+
 /// Blocks of rock: flat facets of random height and tilt, one for each cell of a Voronoi diagram (Worley, "A cellular
-/// texture basis function", 1996), with cracks between them.
-class Blocks {
+/// texture basis function", 1996), with cracks between them. Keeps the facets around the last position, because most
+/// positions follow one in the same square.
+class RefinedGround::Sampler::Blocks {
  public:
   Blocks(std::uint64_t key, float size) : key_(key), size_(size) {}
 
   /// Returns about -1 to 1 for a position in metres.
-  float at(double x, double z) const {
+  float at(double x, double z) {
     const double across = x / static_cast<double>(size_), down = z / static_cast<double>(size_);
     const double left = std::floor(across), top = std::floor(down);
+    if (left != left_ || top != top_) take_square(left, top);
     const auto u = static_cast<float>(across - left), v = static_cast<float>(down - top);
     float nearest = 9, next = 9, facet = 0, neighbour = 0;
-    for (int j = -1; j <= 1; ++j) {
-      const std::uint64_t row = key_at(key_, static_cast<std::uint64_t>(math::to_int64(top) + j));
-      for (int i = -1; i <= 1; ++i) {
-        const std::uint64_t bits = key_at(row, static_cast<std::uint64_t>(math::to_int64(left) + i));
-        const float dx = u - (static_cast<float>(i) + part(bits, 0)),
-                    dz = v - (static_cast<float>(j) + part(bits, 1));
-        const float distance = dx * dx + dz * dz;
-        if (distance >= next) continue;
-        const float height = (part(bits, 2) - 0.5F) * 1.6F + (part(bits, 3) - 0.5F) * 1.5F * dx +
-                             (part(bits, 4) - 0.5F) * 1.5F * dz;
-        if (distance < nearest) {
-          next = std::exchange(nearest, distance);
-          neighbour = std::exchange(facet, height);
-        } else {
-          next = distance;
-          neighbour = height;
-        }
+    for (const Facet& each : facets_) {
+      const float dx = u - each.x, dz = v - each.z;
+      const float distance = dx * dx + dz * dz;
+      if (distance >= next) continue;
+      const float height = each.height + each.tilt_x * dx + each.tilt_z * dz;
+      if (distance < nearest) {
+        next = std::exchange(nearest, distance);
+        neighbour = std::exchange(facet, height);
+      } else {
+        next = distance;
+        neighbour = height;
       }
     }
     // Both sides have the same height where they meet.
     const float inside = std::sqrt(next) - std::sqrt(nearest);
-    const float own = 0.5F + 0.5F * ease(0, 0.16F, inside);
-    return neighbour + own * (facet - neighbour) - 0.35F * (1 - ease(0, 0.2F, inside));
+    const float own = 0.5F + 0.5F * smooth_step(0, 0.16F, inside);
+    return neighbour + own * (facet - neighbour) - 0.35F * (1 - smooth_step(0, 0.2F, inside));
   }
 
  private:
+  /// A facet with its middle, relative to the corner of the square.
+  struct Facet {
+    float x, z, height, tilt_x, tilt_z;
+  };
+
   /// One of five random numbers 0 .. 1 of 12 bits.
   static float part(std::uint64_t bits, unsigned number) {
     return static_cast<float>(bits >> (12U * number) & 0xFFFU) * 0x1p-12F;
   }
 
+  void take_square(double left, double top) {
+    left_ = left;
+    top_ = top;
+    Facet* out = facets_.data();
+    for (int j = -1; j <= 1; ++j) {
+      const std::uint64_t row = key_at(key_, static_cast<std::uint64_t>(math::to_int64(top) + j));
+      for (int i = -1; i <= 1; ++i) {
+        const std::uint64_t bits = key_at(row, static_cast<std::uint64_t>(math::to_int64(left) + i));
+        *out++ = {static_cast<float>(i) + part(bits, 0), static_cast<float>(j) + part(bits, 1),
+                  (part(bits, 2) - 0.5F) * 1.6F, (part(bits, 3) - 0.5F) * 1.5F,
+                  (part(bits, 4) - 0.5F) * 1.5F};
+      }
+    }
+  }
+
   std::uint64_t key_;
   float size_;
+  double left_ = 0.5, top_ = 0.5;  ///< of the square; no square begins at a half
+  std::array<Facet, 9> facets_;
 };
+
+namespace {
 
 /// Ripples: crests that rise over three quarters of their length.
 float ripple(float phase) {
@@ -175,7 +197,7 @@ float RefinedGround::weight(double x, double z) const {
   const double border =
       std::min(std::min(x, (r.width - 1) * r.cell - x), std::min(z, (r.depth - 1) * r.cell - z));
   const auto inside = static_cast<float>(1 - std::sqrt(dx * dx + dz * dz) / reach);
-  return ease(0, 0.5F, inside) * ease(0, border_cells, static_cast<float>(border / r.cell));
+  return smooth_step(0, 0.5F, inside) * smooth_step(0, border_cells, static_cast<float>(border / r.cell));
 }
 
 /// The step at a distance, without jumps and never below that of the squares.
@@ -194,10 +216,16 @@ RefinedGround::Sampler::Sampler(const RefinedGround& ground) : ground_(ground) {
   for (std::size_t i = 0; i < wavelengths.size(); ++i) add(octaves_, ground.rng_.at(i), wavelengths[i]);
   for (std::size_t i = 0; i < outcrop_wavelengths.size(); ++i)
     add(outcrops_, ground.rng_.at("outcrops").at(i), outcrop_wavelengths[i]);
+  blocks_.reserve(block_sizes.size());
+  const Rng blocks = ground.rng_.at("blocks");
+  for (std::size_t i = 0; i < block_sizes.size(); ++i)
+    blocks_.emplace_back(blocks.at(i).key(), static_cast<float>(block_sizes[i]));
   std::uint64_t number = 0;
   for (double length = 2 * wavelengths[0]; length <= 2 * ground.refinement_.cell; length *= 2)
     add(wide_, ground.rng_.at("wide").at(number++), length);
 }
+
+RefinedGround::Sampler::~Sampler() = default;
 
 /// Noise whose highest parts are outcrops of rock.
 float RefinedGround::Sampler::outcrop_noise(double x, double z) {
@@ -217,7 +245,7 @@ RefinedGround::Sampler::Waves RefinedGround::Sampler::waves(double x, double z, 
     return octave.value(east * octave.frequency(), south * octave.frequency());
   };
   const auto share = [step](double wavelength) {
-    return ease(least_steps * step, enough_steps * step, static_cast<float>(wavelength));
+    return smooth_step(least_steps * step, enough_steps * step, static_cast<float>(wavelength));
   };
   Waves all;
   for (std::size_t i = 0; i < octaves_.size(); ++i) {
@@ -236,9 +264,7 @@ RefinedGround::Sampler::Waves RefinedGround::Sampler::waves(double x, double z, 
     const double bend_x = 0.7 * static_cast<double>(all.noise[1]) + 0.3 * static_cast<double>(all.noise[2]),
                  bend_z = 0.5 * static_cast<double>(all.noise[0] - all.noise[2]);
     if (complete > 0) {
-      all.blocks[i] =
-          complete * Blocks(ground_.rng_.at("blocks").at(i).key(), static_cast<float>(block_sizes[i]))
-                         .at(east + bend_x, south + bend_z);
+      all.blocks[i] = complete * blocks_[i].at(east + bend_x, south + bend_z);
     }
   }
   // Both thicknesses divide the cycle.
@@ -268,7 +294,7 @@ RefinedGround::Sampler::Form RefinedGround::Sampler::form(const GroundShares& sh
   add(shares.of[GroundShares::scree], 0.3F * n9 + 0.25F * n4 + 0.12F * large + waves.wide,
       0.22F * middle + 0.22F * lump(n2) + 0.25F * lump(n1) + 0.15F * lump(n05));
   const float rock = shares.of[GroundShares::rock] + outcrop * (1 - shares.of[GroundShares::rock]);
-  const float steep = ease(0.3F, 0.9F, site.slope);
+  const float steep = smooth_step(0.3F, 0.9F, site.slope);
   // Beds of two thicknesses, which come and go.
   const float level = site.height + waves.along + 0.9F * n9 + 0.5F * n4 + 0.2F * n2;
   const auto& [thick, thin] = thicknesses;
@@ -303,7 +329,7 @@ RefinedPoint RefinedGround::Sampler::at(double x, double z) {
   // Rock comes out of steep ground rather than of gentle ground, and hardly of snow and sand.
   const float least = 0.28F - 0.45F * point.site.slope;
   const float covered = shares.of[GroundShares::snow] + shares.of[GroundShares::sand];
-  const float outcrop = (1 - covered) * ease(least, least + 0.2F, outcrop_noise(x, z));
+  const float outcrop = (1 - covered) * smooth_step(least, least + 0.2F, outcrop_noise(x, z));
   const bool is_stony = outcrop + shares.of[GroundShares::rock] + shares.of[GroundShares::scree] > 0;
   const Waves all = waves(x, z, ground_.step(std::sqrt(dx * dx + dz * dz)), is_stony);
   const Form both = form(shares, all, point.site, outcrop);
@@ -311,7 +337,7 @@ RefinedPoint RefinedGround::Sampler::at(double x, double z) {
   point.height += relief * (both.wide + both.small);
   point.small = point.weight * std::clamp(both.small / small_amplitude, -1.0F, 1.0F);
   // The tops of hummocks are worn here and there.
-  const float bare = (1 - covered) * ease(0.2F, 0.6F, all.noise[1] + 0.6F * all.noise[2]);
+  const float bare = (1 - covered) * smooth_step(0.2F, 0.6F, all.noise[1] + 0.6F * all.noise[2]);
   point.site.slope += point.weight * (0.85F * outcrop + 0.55F * bare + 0.12F * all.noise[1]);
   point.site.slope = std::max(point.site.slope, 0.0F);
   point.site.patch += point.weight * (0.5F * all.noise[0] + 0.4F * all.noise[1] + 0.3F * all.noise[2]);

@@ -35,18 +35,23 @@ class RefinedGround {
   class Sampler {
    public:
     explicit Sampler(const RefinedGround& ground);
+    ~Sampler();
+    Sampler(const Sampler&) = delete;
+    Sampler& operator=(const Sampler&) = delete;
     /// Metres to the east and south of the north-west sample, within the window of the refinement.
     RefinedPoint at(double x, double z);
 
    private:
     struct Waves;
     struct Form;
+    class Blocks;
     float outcrop_noise(double x, double z);
     Waves waves(double x, double z, float step, bool is_stony);
     Form form(const GroundShares& shares, const Waves& waves, const Site& site, float outcrop) const;
 
     const RefinedGround& ground_;
     std::vector<OctavePath> octaves_, wide_, outcrops_;
+    std::vector<Blocks> blocks_;
   };
 
  private:

@@ -253,7 +253,7 @@ void set_normals(const Lattice& lattice, const Field& field, Mesh& mesh, const J
   for (std::size_t v = 0; v < sums.size(); ++v) {
     if (is_new[v] != 0) mesh.normal[v] = math::unit(sums[v], glm::vec3(0, 1, 0));
   }
-  lean_back(mesh, job);
+  turn_normals_up(mesh, job);
 }
 
 /// Adds the slopes of the small forms to the sites of vertices, and colours them. Hollows between the forms are darker,

@@ -8,8 +8,8 @@
 
 #include "core/base/parallel.h"
 #include "core/generators/terrain/rtin_errors.h"
-#include "core/generators/terrain/rtin_halves.h"
 #include "core/generators/terrain/rtin_names.h"
+#include "core/generators/terrain/rtin_triangles.h"
 #include "core/generators/terrain/triangulation.h"
 
 namespace seedmesh::terrain {
@@ -46,7 +46,7 @@ class Refinement {
       least_[level] = level == 0 ? RtinErrors::needed : threshold_ / farthest[level] - 2 * rounding_;
   }
 
-  void run(std::span<const Half> parts) {
+  void run(std::span<const RtinTriangle> parts) {
     test_all(parts);
     for (;;) {
       fresh_.clear();
@@ -74,14 +74,14 @@ class Refinement {
 
   /// Tests the triangles around each doubtful midpoint that is not in the mesh. These triangles exist where
   /// their apexes are in the mesh. A pass over all samples is faster than a walk down the hierarchy.
-  void test_all(std::span<const Half> parts) {
+  void test_all(std::span<const RtinTriangle> parts) {
     const auto side = static_cast<std::size_t>(field_.width);
     std::vector<std::size_t> counts(parts.size());
     off_.assign(chunk_count(side, rows_a_chunk), {});
     parallel_for(job_, off_.size() + parts.size(), 1, [&](std::size_t i, std::size_t, std::size_t) {
       job_.check();
       if (i >= off_.size()) {
-        counts[i - off_.size()] = count_whole(errors_, threshold_, parts[i - off_.size()]);
+        counts[i - off_.size()] = count_triangles(errors_, threshold_, parts[i - off_.size()]);
         return;
       }
       const std::size_t end = std::min(side, (i + 1) * rows_a_chunk);
@@ -133,22 +133,22 @@ class Refinement {
   }
 
   /// Returns the triangle with this apex that `middle` splits.
-  static HalfCorners halved(GridPoint middle, GridPoint apex, int level) {
+  static RtinTriangleCorners halved(GridPoint middle, GridPoint apex, int level) {
     const std::int32_t x = apex.x - middle.x, z = apex.z - middle.z;
     return {{middle.x + z, middle.z - x}, {middle.x - z, middle.z + x}, apex, level};
   }
 
   void test_halves(GridPoint middle, GridPoint apex, std::vector<GridPoint>& off) const {
-    const HalfCorners whole = halved(middle, apex, errors_.level(middle));
-    for (const HalfCorners& half : {HalfCorners{apex, whole.a, middle, whole.level - 1},
-                                    HalfCorners{whole.b, apex, middle, whole.level - 1}}) {
+    const RtinTriangleCorners whole = halved(middle, apex, errors_.level(middle));
+    for (const RtinTriangleCorners& half : {RtinTriangleCorners{apex, whole.a, middle, whole.level - 1},
+                                            RtinTriangleCorners{whole.b, apex, middle, whole.level - 1}}) {
       if (half.level == 0) continue;
       const float error = errors_.at({(half.a.x + half.b.x) / 2, (half.a.z + half.b.z) / 2});
       if (!(error > threshold_) && doubtful(half.level, error)) test(half, off);
     }
   }
 
-  void test(const HalfCorners& half, std::vector<GridPoint>& off) const {
+  void test(const RtinTriangleCorners& half, std::vector<GridPoint>& off) const {
     const auto height = [&](GridPoint at) { return static_cast<double>(field_.at(at.x, at.z)); };
     const double ha = height(half.a), hb = height(half.b);
     if (half.level == 1) {  // one sample that is not a corner
@@ -196,7 +196,7 @@ Triangulation rtin(const Field& field, double max_error, Border border, Job& job
         errors.need(at, threshold, all);
     }
   }
-  const std::vector<Half> parts = parts_of(errors, threshold, depth_of_parts);
+  const std::vector<RtinTriangle> parts = parts_of(errors, threshold, depth_of_parts);
   Refinement(field, errors, max_error, job).run(parts);
   return named(parts, errors, threshold, job);
 }

@@ -77,7 +77,7 @@ class RtinErrors {
   void each_apex(GridPoint at, const Visit& visit) const {
     const std::int32_t step = step_of(at);
     if (step == side_ - 1) return;
-    const auto tell = [&](std::int32_t x, std::int32_t z) {
+    const auto visit_inside = [&](std::int32_t x, std::int32_t z) {
       if (x >= 0 && z >= 0 && x < side_ && z < side_) visit(GridPoint{x, z});
     };
     const bool odd_x = (at.x & step) != 0, odd_z = (at.z & step) != 0;
@@ -85,14 +85,14 @@ class RtinErrors {
       // For a centre, these are the two corners that are not on the long side. They are midpoints of sides of
       // squares of twice the size.
       const std::int32_t south = runs_south_east(at.x, at.z, step) ? -step : step;
-      tell(at.x + step, at.z + south);
-      tell(at.x - step, at.z - south);
+      visit_inside(at.x + step, at.z + south);
+      visit_inside(at.x - step, at.z - south);
     } else if (odd_x) {
-      tell(at.x, at.z - step);
-      tell(at.x, at.z + step);
+      visit_inside(at.x, at.z - step);
+      visit_inside(at.x, at.z + step);
     } else {
-      tell(at.x - step, at.z);
-      tell(at.x + step, at.z);
+      visit_inside(at.x - step, at.z);
+      visit_inside(at.x + step, at.z);
     }
   }
 

@@ -83,7 +83,7 @@ struct PartWriter {
 /// border of parts belongs to the first of them, which uses it if any of them does.
 class Naming {
  public:
-  Naming(std::span<const Half> parts, const RtinErrors& errors, float threshold, const Job& job)
+  Naming(std::span<const RtinTriangle> parts, const RtinErrors& errors, float threshold, const Job& job)
       : parts_(parts),
         errors_(errors),
         threshold_(threshold),
@@ -96,7 +96,8 @@ class Naming {
         used_(job) {}
 
   Triangulation run() {
-    each_part([&](std::size_t part) { first_[part + 1] = count_whole(errors_, threshold_, parts_[part]); });
+    each_part(
+        [&](std::size_t part) { first_[part + 1] = count_triangles(errors_, threshold_, parts_[part]); });
     for (std::size_t part = 0; part < parts_.size(); ++part) {
       first_[part + 1] += first_[part];
       share_border(part);
@@ -128,7 +129,7 @@ class Naming {
   }
 
   void share_border(std::size_t part) {
-    const Half& half = parts_[part];
+    const RtinTriangle& half = parts_[part];
     share_edge(half.a, half.b, part);
     share_edge(half.b, half.c, part);
     share_edge(half.c, half.a, part);
@@ -151,7 +152,7 @@ class Naming {
     PartWriter writer{
         names_.data(), shared_.data(), errors_.data(), threshold_, static_cast<std::uint32_t>(part),
         out,           used(part)};
-    const Half& root = parts_[part];
+    const RtinTriangle& root = parts_[part];
     Corner a{root.a}, b{root.b}, c{root.c};
     writer.write(a, b, c, root.level);
     own_[part].count = writer.count;
@@ -176,7 +177,7 @@ class Naming {
     }
   }
 
-  std::span<const Half> parts_;
+  std::span<const RtinTriangle> parts_;
   const RtinErrors& errors_;
   float threshold_;
   const Job& job_;
@@ -189,10 +190,10 @@ class Naming {
 
 }  // namespace
 
-std::size_t count_whole(const RtinErrors& errors, float threshold, const Half& root) {
+std::size_t count_triangles(const RtinErrors& errors, float threshold, const RtinTriangle& root) {
   const std::int32_t stride = errors.stride();
   std::size_t all = 0, edges = 0;
-  each_row_inside(places_of(root, stride), [&](std::int32_t z, std::int32_t first, std::int32_t last) {
+  each_row_inside(corners_of(root, stride), [&](std::int32_t z, std::int32_t first, std::int32_t last) {
     const float* row = errors.row(z);
     std::uint32_t count = 0;
     for (std::int32_t x = first; x <= last; ++x) count += row[x] > threshold ? 1U : 0U;
@@ -207,7 +208,8 @@ std::size_t count_whole(const RtinErrors& errors, float threshold, const Half& r
   return 1 + 2 * all - edges - in_mesh(root.a) - in_mesh(root.b) - in_mesh(root.c);
 }
 
-Triangulation named(std::span<const Half> parts, const RtinErrors& errors, float threshold, const Job& job) {
+Triangulation named(std::span<const RtinTriangle> parts, const RtinErrors& errors, float threshold,
+                    const Job& job) {
   return Naming(parts, errors, threshold, job).run();
 }
 

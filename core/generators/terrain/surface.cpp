@@ -160,13 +160,18 @@ void fill_band(const Field& field, const Window& part, std::int32_t first, std::
       const std::uint32_t corner = static_cast<std::uint32_t>(j) * wide + static_cast<std::uint32_t>(i);
       const auto nw = static_cast<Index>(corner), ne = static_cast<Index>(corner + 1),
                  sw = static_cast<Index>(corner + wide), se = static_cast<Index>(corner + wide + 1);
+      // Without branches, which the processor could not predict.
       const bool falls = falls_to_south_east(north[i], north[i + 1], south[i], south[i + 1]);
+      const auto mask = static_cast<Index>(-static_cast<std::int32_t>(falls));
+      const auto either = [mask](Index falling, Index rising) {
+        return static_cast<Index>(rising ^ ((rising ^ falling) & mask));
+      };
       out[0] = nw;
       out[1] = sw;
-      out[2] = falls ? se : ne;
-      out[3] = falls ? nw : ne;
-      out[4] = falls ? se : sw;
-      out[5] = falls ? ne : se;
+      out[2] = either(se, ne);
+      out[3] = either(nw, ne);
+      out[4] = either(se, sw);
+      out[5] = either(ne, se);
     }
   }
 }
@@ -296,7 +301,7 @@ Mesh grid_mesh(const Field& field, const Window& part, const Array<glm::u8vec4>&
   return mesh;
 }
 
-void lean_back(Mesh& mesh, const Job& job) {
+void turn_normals_up(Mesh& mesh, const Job& job) {
   Array<float> least(job, mesh.position.size(), 0.0F);
   const Array<std::uint32_t>& index = mesh.index.wide;
   for (std::size_t i = 0; i < index.size(); i += 3) {
@@ -313,7 +318,8 @@ void lean_back(Mesh& mesh, const Job& job) {
     mesh.normal[i] = leaning_back(slope_of(mesh.normal[i]), least[i]);
 }
 
-Mesh reduced_mesh(const Field& field, Triangulation plan, ColorOf color_of, const Coarse& coarse, Job& job) {
+Mesh reduced_mesh(const Field& field, Triangulation plan, ColorOf color_of, const CoarseShading& coarse,
+                  Job& job) {
   if (!coarse.ordered) order_for_cache(plan, field, job);
   const std::size_t count = plan.samples.size();
   const Ground ground(field);
@@ -344,7 +350,7 @@ Mesh reduced_mesh(const Field& field, Triangulation plan, ColorOf color_of, cons
   if (coarse.shading == Shading::upright) {
     make_upright(mesh, job);
   } else {
-    lean_back(mesh, job);
+    turn_normals_up(mesh, job);
   }
   return mesh;
 }

@@ -22,7 +22,7 @@ Mesh grid_mesh(const Field& field, const Window& part, const Array<glm::u8vec4>&
                Job& job);
 
 /// Distance of the samples from which a coarse mesh takes its slopes.
-struct Coarse {
+struct CoarseShading {
   Shading shading = Shading::smooth;
   std::int32_t reach = 1;  ///< samples to either side
   Window part = {};        ///< window on whose border the reach is 1, so that neighbours agree
@@ -33,11 +33,12 @@ struct Coarse {
 using ColorOf = std::function<glm::u8vec4(std::uint32_t sample)>;
 
 /// Returns a reduced mesh. Releases `color_of` after the last colour. Cost: about 50 ns for each triangle.
-Mesh reduced_mesh(const Field& field, Triangulation plan, ColorOf color_of, const Coarse& coarse, Job& job);
+Mesh reduced_mesh(const Field& field, Triangulation plan, ColorOf color_of, const CoarseShading& coarse,
+                  Job& job);
 
 /// Turns normals upward until none faces away from a triangle of its vertex. The mesh must have 32-bit
 /// indices.
-void lean_back(Mesh& mesh, const Job& job);
+void turn_normals_up(Mesh& mesh, const Job& job);
 
 /// The lower ends of walls(). Walls are `depth` metres high. If `closed`, they end at the height `floor`
 /// instead, and a floor closes the mesh.

@@ -7,10 +7,10 @@
 
 #include "core/base/math.h"
 #include "core/generators/child.h"
-#include "core/generators/terrain/dress.h"
-#include "core/generators/terrain/engines.h"
+#include "core/generators/terrain/build_model.h"
+#include "core/generators/terrain/displacement.h"
+#include "core/generators/terrain/game_engines.h"
 #include "core/generators/terrain/maps.h"
-#include "core/generators/terrain/onto.h"
 #include "core/generators/terrain/plan.h"
 #include "core/generators/terrain/profile.h"
 #include "core/generators/terrain/refinement.h"
@@ -18,6 +18,7 @@
 #include "core/generators/terrain/voids.h"
 #include "core/model/build.h"
 #include "core/schema/warning_list.h"
+#include "core/texture/file_size.h"
 #include "generated/params/terrain.h"
 
 namespace seedmesh::terrain {
@@ -147,7 +148,7 @@ Result<Model> generate(const TerrainParams& params, const GenerateContext& conte
   if (auto refused = refusal(params, job.limits())) return std::move(*refused);
   refuse_large_grid(params, job);
   job.progress("derive", 0);
-  if (params.shape == TerrainShape::sphere) return dressed_planet(params, context);
+  if (params.shape == TerrainShape::sphere) return build_planet_model(params, context);
   if (params.shape == TerrainShape::profile) return profile_model(params, job);
   const Result<Field> field = field_of(params, job);
   if (!field) return field.error();
@@ -156,12 +157,12 @@ Result<Model> generate(const TerrainParams& params, const GenerateContext& conte
     return no_rtin_of(*field);
   }
   job.progress("mesh", 0);
-  return with_voids(dressed_field(params, *field, context), *field);
+  return with_voids(build_field_model(params, *field, context), *field);
 }
 
 Result<Model> dressed(const TerrainParams& params, const Field& field, const GenerateContext& context) {
   if (params.mesh == TerrainMesh::rtin && !fits_rtin(field.width, field.depth)) return no_rtin_of(field);
-  return with_voids(dressed_field(params, field, context), field);
+  return with_voids(build_field_model(params, field, context), field);
 }
 
 Result<Json> derive(const TerrainParams& params, const GenerateContext& context) {
@@ -223,6 +224,18 @@ Result<Json> derive(const TerrainParams& params, const GenerateContext& context)
   return answer;
 }
 
+/// The bytes that details add to a planet or a rock: tangents and the textures of its rock. Vertices between faces that
+/// are mapped from different sides are duplicated, a fifth of those of the rocks among the presets.
+static std::uint64_t bytes_of_rock(std::uint64_t vertices, const Demand& demand) {
+  constexpr std::uint64_t of_five = 6;
+  Material material;
+  material.recipe.kind = rock_kind;
+  texture::TextureSizes sizes;
+  sizes.add(material);
+  const std::uint64_t of_vertex = bytes_a_vertex + (demand.tangents ? bytes_of_tangent : 0);
+  return sizes.bytes(demand.textures) + vertices * of_five / 5 * of_vertex - vertices * bytes_a_vertex;
+}
+
 /// The bytes of the file of a grid. The grounds of a terrain with details follow from its heights, so their number is a
 /// mean of the presets, 2.7, as is the share of vertices that several grounds have.
 static std::uint64_t estimated_bytes(const TerrainParams& params, std::uint64_t triangles,
@@ -234,8 +247,9 @@ static std::uint64_t estimated_bytes(const TerrainParams& params, std::uint64_t 
   const auto squares = static_cast<std::uint64_t>(finished_side(params) - 1);
   const std::uint64_t vertices = triangles / 2 + 2 * squares + 1;
   const std::uint64_t least = document + vertices * bytes_a_vertex + triangles * bytes_a_triangle;
-  const bool has_detail = params.detail && params.shape == TerrainShape::plane && params.texture == 0;
-  if (!has_detail || demand.textures == 0) return least;
+  const bool has_detail = params.detail && demand.textures > 0;
+  if (has_detail && params.shape == TerrainShape::sphere) return least + bytes_of_rock(vertices, demand);
+  if (!has_detail || params.shape != TerrainShape::plane || params.texture != 0) return least;
   const std::uint64_t of_vertex =
       bytes_a_vertex + bytes_of_coordinates + (demand.tangents ? bytes_of_tangent : 0);
   const double texels = static_cast<double>(demand.textures) * demand.textures;

@@ -34,7 +34,7 @@ Result<Model> dressed(const TerrainParams& params, const Field& field, const Gen
 
 /// Returns {width, height, min, max, mean, heights, engines, warnings}. Heights are in metres, row by row
 /// from the north-west, for fields of at most 257 x 257; otherwise, and for spheres, they are null. `engines`
-/// has the import settings of the height map (engines.h); it is null for spheres, and for tiles without low
+/// has the import settings of the height map (game_engines.h); it is null for spheres, and for tiles without low
 /// and high.
 Result<Json> derive(const TerrainParams& params, const GenerateContext& context);
 

@@ -9,7 +9,8 @@ namespace seedmesh::tree {
 /// `first_young` or later count as young.
 void gather_light(GrownPlant& plant, int first_young);
 
-/// Returns the apical control in a year.
+/// Returns the parameter lambda of divide_by_lambda() in a year: `lambda` until the first of `lambda_years`, and
+/// `lambda_old` from the second on. Between them it changes linearly.
 double lambda_in(const TreeGrown& grown, double year);
 
 /// Divides the vigour alpha * light of each tree among its branches and buds. Let m be the light of the axis
@@ -17,9 +18,9 @@ double lambda_in(const TreeGrown& grown, double year);
 /// lambda) s) of the vigour. Side branches share the rest by their light.
 void divide_by_lambda(GrownPlant& plant, double alpha, double lambda);
 
-/// Divides the vigour along each axis among its side branches, its side buds and the bud at its end. Their
-/// weights decrease linearly from 1 to `priority_least`, in descending order of their mean light. Each gets
-/// vigour in proportion to light times weight.
+/// Divides the vigour along each axis among its side branches, its side buds and the bud at its end. They
+/// are ranked by their mean light, the brightest first. Their weights decrease linearly from 1 to `priority_least` over
+/// the first `priority_share` of the ranks, and then stay. Each gets vigour in proportion to light times weight.
 void divide_by_priority(GrownPlant& plant, const TreeGrown& grown, Job& job);
 
 }  // namespace seedmesh::tree

@@ -1,8 +1,8 @@
 #pragma once
 /// The orientations of leaves on their stems, after Weber and Penn, SIGGRAPH 1995. A leaf is rotated about
 /// the stem, then down from it, then to the light (their section 4.5). Its upper side is then turned up.
-/// Computed for a batch of leaves at once, in single precision, so that the compiler can use vectors: about 3
-/// ns a leaf.
+/// A batch of leaves is computed at once in single precision, so that the compiler can use vectors. Cost: about 3 ns
+/// for each leaf.
 #include <cstddef>
 
 #include "core/generators/tree/skeleton_writer.h"

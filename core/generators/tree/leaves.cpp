@@ -196,8 +196,8 @@ void add_shared(Model& model, const Leaves& leaves, const LeafMaterials& materia
     group.primitives.push_back({leaf_of(leaves.params, level, job), materials.material, materials.variants});
     if (level == 0) {
       options.surfaces = std::span(&group.primitives.front().mesh, 1);
-      for (FoliagePlaces& places : organ_places(leaves.organs, options, job))
-        node.instances.transforms = std::move(places.places);
+      for (FoliageInstances& instances : organ_transforms(leaves.organs, options, job))
+        node.instances.transforms = std::move(instances.transforms);
     }
     attach(model, node, std::move(group));
   }

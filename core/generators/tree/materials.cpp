@@ -232,7 +232,7 @@ LeafMaterials add_leaf_materials(Model& model, const TreeParams& params, const G
   return result;
 }
 
-LeafMaterials double_sided(Model& model, const LeafMaterials& materials, const FarLook& look) {
+LeafMaterials double_sided(Model& model, const LeafMaterials& materials, const FarLeafMaterial& look) {
   const auto add_copy = [&](int original) {
     Material copy = model.materials[static_cast<std::size_t>(original)];
     copy.name += look.name;

@@ -54,12 +54,12 @@ struct LeafMaterials {
 LeafMaterials add_leaf_materials(Model& model, const TreeParams& params, const GenerateContext& context);
 
 /// The appearance of leaves that have one double-sided face.
-struct FarLook {
+struct FarLeafMaterial {
   float gain = 1;          ///< factor of the colour
   bool is_sparse = false;  ///< few are left: a lower alpha cutoff makes leaves and needles wider
   std::string name;        ///< end of the names of the materials
 };
 /// Adds double-sided copies of the materials of leaves.
-LeafMaterials double_sided(Model& model, const LeafMaterials& materials, const FarLook& look);
+LeafMaterials double_sided(Model& model, const LeafMaterials& materials, const FarLeafMaterial& look);
 
 }  // namespace seedmesh::tree

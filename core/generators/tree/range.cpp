@@ -60,7 +60,7 @@ void degrade(Skeleton& skeleton, const TreeParams& params, Job& job) {
   }
   KeptLimbs kept = keep(limbs, stays, job);
   for (Organ& organ : skeleton.organs.organ) {
-    if (organ.limb_joint != Limbs::none) organ.limb_joint = kept.new_place[stands_for[organ.limb_joint]];
+    if (organ.limb_joint != Limbs::none) organ.limb_joint = kept.new_index[stands_for[organ.limb_joint]];
   }
   skeleton.limbs = std::move(kept.limbs);
 }

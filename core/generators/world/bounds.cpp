@@ -50,7 +50,7 @@ constexpr double plant_error = 1.0 / 192;  ///< of the side of a tile
 
 /// What deviations are multiplied by, so that no tile of the presets has a greater one: errors_test.cpp measures them.
 double margin_of(const Roughness& rough) {
-  return rough.met.is_estimate && !rough.met.has_detail ? 1.4 : 1.05;
+  return rough.mesh_deviation.is_estimate && !rough.mesh_deviation.has_detail ? 1.4 : 1.05;
 }
 
 /// What the model gives too much for terraces, whose edges rarely lie beside other deviations. Skirts keep it.
@@ -60,15 +60,15 @@ double terrace_factor(const World& world) { return 1 - 0.13 * world.params.relie
 /// twice as wide, of the model without and with water, and of what the most bent cells have. The shares are fitted to
 /// 5,600 tiles of the presets and of worlds with random parameters. They leave 0.2 % of them below their deviation.
 double estimated_deviation(const World& world, double spacing, const Roughness& rough) {
-  constexpr double met_share = 0.66, land_share = 0.78, water_share = 1.15, bent_share = 0.76;
+  constexpr double mesh_share = 0.66, land_share = 0.78, water_share = 1.15, bent_share = 0.76;
   Roughness model = rough;
-  model.met.most = 0;
+  model.mesh_deviation.most = 0;
   model.measured = 0;
   const double all = deviation_of(world, spacing, model);
   model.valley = 0;
   const double land = deviation_of(world, spacing, model);
-  return met_share * rough.met.most + land_share * land + water_share * std::max(0.0, all - land) +
-         bent_share * rough.measured;
+  return mesh_share * rough.mesh_deviation.most + land_share * land +
+         water_share * std::max(0.0, all - land) + bent_share * rough.measured;
 }
 
 /// What cells with an edge of this length lack of the bed of a river on level ground, which is the only water of
@@ -77,7 +77,8 @@ double bed_error(double spacing, const Roughness& rough) {
   constexpr double bank = 0.17;      ///< slope from samples on both sides to the bed
   constexpr double depth = 2.3;      ///< metres of the land beside a narrow river above its bed
   constexpr double by_width = 0.22;  ///< more of them for each metre of half the width
-  const bool is_measured = rough.met.spacing == spacing && rough.met.has_valleys && !rough.met.is_estimate;
+  const bool is_measured = rough.mesh_deviation.spacing == spacing && rough.mesh_deviation.has_valleys &&
+                           !rough.mesh_deviation.is_estimate;
   const double deep = depth + (is_measured ? 0 : by_width * rough.river);
   return rough.valley > 0 ? std::min(bank * spacing, deep) : 0;
 }
@@ -86,7 +87,8 @@ double bed_error(double spacing, const Roughness& rough) {
 /// are, up to the height of the plants.
 double error_of(const World& world, const TileFrame& frame, const Roughness& rough, double plant_height) {
   const double plants = std::min(plant_error * frame.side, plant_height);
-  const bool is_estimate = rough.met.is_estimate && !rough.met.has_detail && frame.spacing == coarse_spacing;
+  const bool is_estimate =
+      rough.mesh_deviation.is_estimate && !rough.mesh_deviation.has_detail && frame.spacing == coarse_spacing;
   const double deviation = is_estimate ? estimated_deviation(world, frame.spacing, rough)
                                        : margin_of(rough) * deviation_of(world, frame.spacing, rough);
   const double ground = std::max(terrace_factor(world) * deviation, bed_error(frame.spacing, rough));
@@ -96,7 +98,7 @@ double error_of(const World& world, const TileFrame& frame, const Roughness& rou
 /// The measurements of the square that four squares form.
 Area joined(const Area& sw, const Area& se, const Area& nw, const Area& ne) {
   Area all = sw;
-  all.rough.met = {};
+  all.rough.mesh_deviation = {};
   for (const Area* area : {&se, &nw, &ne}) {
     all.low = std::min(all.low, area->low);
     all.high = std::max(all.high, area->high);
@@ -124,7 +126,7 @@ struct Margins {
   double below = 0, above = 0;
 };
 Margins margins(const World& world, double spacing, Roughness rough) {
-  rough.met = {};
+  rough.mesh_deviation = {};
   const double all = deviation_of(world, spacing, rough);
   rough.valley = 0;
   rough.works = 0;
@@ -139,7 +141,7 @@ Margins detail_margins(const World& world, double spacing, Roughness rough) {
   rough.valley = 0;
   rough.works = 0;
   rough.measured = 0;
-  rough.met = {0, spacing, known, true, false, false};
+  rough.mesh_deviation = {0, spacing, known, true, false, false};
   const double detail = deviation_of(world, spacing, rough);
   return {detail, detail};
 }
@@ -219,11 +221,11 @@ void limit(TileBounds& box, const TileBounds& above) {
 
 /// Keeps what was found of the triangles of a tile `depth` levels below that of a block.
 void set_met(Area& area, const Areas& found, int depth, std::size_t tile, const TileFrame& frame) {
-  const std::vector<double>& met = found.deviations[static_cast<std::size_t>(depth)];
-  if (met.empty()) return;
+  const std::vector<double>& mesh_deviation = found.deviations[static_cast<std::size_t>(depth)];
+  if (mesh_deviation.empty()) return;
   const double finer = std::min(found.spacing, frame.spacing / (frame.spacing == coarse_spacing ? 4 : 2));
-  area.rough.met = {met[tile],         frame.spacing,    finer,
-                    found.has_valleys, found.has_detail, found.spacing >= frame.spacing};
+  area.rough.mesh_deviation = {mesh_deviation[tile], frame.spacing,    finer,
+                               found.has_valleys,    found.has_detail, found.spacing >= frame.spacing};
 }
 
 Block make_block(const World& world, const TileKey& root, Job& job) {

@@ -61,8 +61,8 @@ struct Site {
 };
 
 /// What the valley of another water allows: land at this height has water below it.
-double below_valley(const Site& site, const Beside& beside) {
-  return std::max(beside.water, valley_side(site.land, site.ruggedness, beside).height - shallow);
+double below_valley(const Site& site, const WatersidePoint& waterside) {
+  return std::max(waterside.water, valley_side(site.land, site.ruggedness, waterside).height - shallow);
 }
 
 /// Whether no point within bounds has a valley that is lower than `highest` at a position: the side of a valley is
@@ -150,10 +150,10 @@ class Lowering {
       for (std::size_t k = std::max(from, piece * points_a_piece); k < end; ++k) {
         const double x = site.east - points[k].east, y = site.north - points[k].north, square = x * x + y * y;
         if (square >= valley_reach * valley_reach || points[k].water >= most) continue;
-        const Beside beside{std::sqrt(square), points[k].width / 2, points[k].water};
+        const WatersidePoint waterside{std::sqrt(square), points[k].width / 2, points[k].water};
         const double highest = most + shallow;
-        if (highest <= site.land && is_above(highest, site.land, site.ruggedness, beside)) continue;
-        most = std::min(most, below_valley(site, beside));
+        if (highest <= site.land && is_above(highest, site.land, site.ruggedness, waterside)) continue;
+        most = std::min(most, below_valley(site, waterside));
       }
     }
   }

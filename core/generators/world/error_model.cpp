@@ -117,11 +117,13 @@ double deviation_of(const World& world, double spacing, const Roughness& rough) 
   const WorldRelief& relief = world.params.relief;
   Sum sum;
   // what was measured leaves to the model what lies between the samples
-  const bool is_met = rough.met.spacing > 0 && rough.met.spacing == spacing;
-  const double of_land = is_met ? rough.met.finer_spacing : spacing;
-  const double of_valleys = is_met && rough.met.has_valleys ? rough.met.finer_spacing : spacing;
-  const double of_ground = is_met && rough.met.has_detail ? rough.met.finer_spacing : spacing;
-  if (is_met) sum.add(rough.met.most);
+  const bool has_mesh_deviation = rough.mesh_deviation.spacing > 0 && rough.mesh_deviation.spacing == spacing;
+  const double of_land = has_mesh_deviation ? rough.mesh_deviation.finer_spacing : spacing;
+  const double of_valleys =
+      has_mesh_deviation && rough.mesh_deviation.has_valleys ? rough.mesh_deviation.finer_spacing : spacing;
+  const double of_ground =
+      has_mesh_deviation && rough.mesh_deviation.has_detail ? rough.mesh_deviation.finer_spacing : spacing;
+  if (has_mesh_deviation) sum.add(rough.mesh_deviation.most);
   const double coast = (rough.has_sea_floor ? sea_fall : land_rise) * 1.5 / 1.875;
   add_octaves(sum, of_land, relief.continents, 4, coast);
   if (rough.ruggedness > 0) add_ranges(sum, relief, of_land, rough);
@@ -135,7 +137,7 @@ double deviation_of(const World& world, double spacing, const Roughness& rough) 
   add_valley(sum, of_valleys, rough);
   sum.add(std::min(rough.works, 0.2 * of_ground));
   // parts saturate where samples are farther apart than their wavelengths
-  const double far = spacing > 1024 && !is_met ? 1 + 0.12 * (spacing / (spacing + 8192)) : 1;
+  const double far = spacing > 1024 && !has_mesh_deviation ? 1 + 0.12 * (spacing / (spacing + 8192)) : 1;
   const double modelled = (deviation_share + terrace_share * relief.terraces) * far * sum.value();
   return std::max(modelled,
                   measured_share * rough.measured * std::min(1.0, spacing / rough.measured_spacing));

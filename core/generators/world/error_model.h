@@ -18,7 +18,7 @@ constexpr double widest_known_rivers = 8192;
 constexpr double guessed_valley(double range) { return 20 + 0.4 * range; }
 
 /// The measured distance of samples from the triangles of a tile.
-struct MetDeviation {
+struct MeshDeviation {
   double most = 0;           ///< metres
   double spacing = 0;        ///< spacing of the vertices of the tile; 0 if nothing was measured
   double finer_spacing = 0;  ///< spacing of the samples
@@ -40,7 +40,7 @@ struct Roughness {
 
   double measured = 0, measured_spacing = 1;  ///< measured deviation from triangles with this spacing
 
-  MetDeviation met;  ///< deviation of the triangles of this area
+  MeshDeviation mesh_deviation;  ///< deviation of the triangles of this area
 
   void add(const GroundSample& sample);
   void add(const Roughness& other);

@@ -40,13 +40,13 @@ struct Waters {
 
 /// Slopes are weighted by distance, so that they do not jump between two waters: gullies would have steps there.
 /// `offset`: from the water, of any length.
-void add_side(Waters& waters, const Beside& beside, const Slope& offset, const Land& land) {
-  const ValleySide side = valley_side(land.height.value, land.ruggedness, beside);
+void add_side(Waters& waters, const WatersidePoint& waterside, const Slope& offset, const Land& land) {
+  const ValleySide side = valley_side(land.height.value, land.ruggedness, waterside);
   waters.valley = std::min(waters.valley, side.height);
   waters.share = std::min(waters.share, side.share);
   if (offset.value <= 1e-9) return;
-  const double t = beside.away * (1 / valley_reach), left = 1 - t * t,
-               square = beside.away * beside.away + 400;
+  const double t = waterside.distance * (1 / valley_reach), left = 1 - t * t,
+               square = waterside.distance * waterside.distance + 400;
   const double weight = left * left / (square * square), along = weight * side.along / offset.value;
   waters.pull += weight;
   waters.east += along * offset.east;
@@ -94,7 +94,7 @@ double with_river(double height, const Waters& waters, double share) {
 }  // namespace
 
 Ground::Ground(const World& world, const Rectangle& box, Job& job)
-    : Ground(world, box, job, world.reach(Reads::water, valley_reach)) {}
+    : Ground(world, box, job, world.reach(LayerInput::water, valley_reach)) {}
 
 Ground::Ground(const World& world, const Rectangle& box, Job& job, double reach) : world_(&world) {
   const auto is_near = [&](double w, double s, double e, double n) {

@@ -133,11 +133,11 @@ void carve(HeightGrid& grid, const UncutLand& land, const Reach& reach, double w
     const double x = east - a.east, y = north - a.north;
     const double share = std::clamp((x * reach.x + y * reach.y) * reach.by, 0.0, 1.0);
     const double dx = x - share * reach.x, dy = y - share * reach.y;
-    const Beside beside{std::sqrt(dx * dx + dy * dy), (a.width + share * (b.width - a.width)) / 2,
-                        a.water + share * (b.water - a.water)};
+    const WatersidePoint waterside{std::sqrt(dx * dx + dy * dy), (a.width + share * (b.width - a.width)) / 2,
+                                   a.water + share * (b.water - a.water)};
     const double uncut = land.heights[n], ruggedness = static_cast<double>(land.ruggedness[n]);
-    if (is_above(grid.heights[n], uncut, ruggedness, beside)) return;
-    grid.heights[n] = std::min(grid.heights[n], valley_side(uncut, ruggedness, beside).height);
+    if (is_above(grid.heights[n], uncut, ruggedness, waterside)) return;
+    grid.heights[n] = std::min(grid.heights[n], valley_side(uncut, ruggedness, waterside).height);
   });
 }
 
@@ -147,10 +147,10 @@ void carve(HeightGrid& grid, const UncutLand& land, const Lake& lake) {
   for_samples(grid, around, valley_reach, [&](std::size_t n, double east, double north) {
     const double x = east - lake.east, y = north - lake.north, away = std::sqrt(x * x + y * y);
     const double shore = shore_distance(lake, east, north, away), t = away / shore;
-    const Beside beside{away - shore, 5, lake.level};
+    const WatersidePoint waterside{away - shore, 5, lake.level};
     const double height =
         t < 1 ? lake.level - lake.depth * (1 - t * t)
-              : valley_side(land.heights[n], static_cast<double>(land.ruggedness[n]), beside).height;
+              : valley_side(land.heights[n], static_cast<double>(land.ruggedness[n]), waterside).height;
     grid.heights[n] = std::min(grid.heights[n], height);
   });
 }

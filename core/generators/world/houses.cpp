@@ -367,7 +367,7 @@ std::shared_ptr<const Plan> plan_of(const World& world, const Site& site, Job& j
 
 std::vector<House> houses_near(const World& world, const Rectangle& box, double reach, Job& job) {
   std::vector<House> found;
-  const double around = reach + world.reach(Reads::houses, farm_reach * greatest_radius(world) + 30);
+  const double around = reach + world.reach(LayerInput::houses, farm_reach * greatest_radius(world) + 30);
   for (const auto& site : sites_near(world, box, around, job)) {
     const auto plan = plan_of(world, *site, job);
     for (const std::vector<House>* all : {&plan->houses, &plan->walls}) {

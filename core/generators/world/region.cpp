@@ -75,7 +75,7 @@ class Drainage {
       : world_(world),
         job_(job),
         region_(region),
-        margin_(math::to_int32(world.reach(Reads::cells, window_margin))),
+        margin_(math::to_int32(world.reach(LayerInput::cells, window_margin))),
         window_(region_cells + 2 * margin_) {}
 
   Region make() {

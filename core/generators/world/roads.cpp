@@ -248,7 +248,8 @@ std::vector<std::shared_ptr<const Road>> roads_near(const World& world, const Re
   std::vector<std::shared_ptr<const Road>> found;
   const double longest = world.params.roads.longest;
   if (longest <= 0) return found;
-  const auto sites = sites_near(world, box, reach + world.reach(Reads::roads, reach_of_sites(longest)), job);
+  const auto sites =
+      sites_near(world, box, reach + world.reach(LayerInput::roads, reach_of_sites(longest)), job);
   for (std::size_t i = 0; i < sites.size(); ++i) {
     for (std::size_t j = i + 1; j < sites.size(); ++j) {
       const Site &a = *sites[i], &b = *sites[j];

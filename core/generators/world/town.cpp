@@ -52,7 +52,7 @@ class TownPlanner {
       : world_(world),
         site_(site),
         job_(job),
-        around_(world.reach(Reads::towns, site.radius + town_margin)),
+        around_(world.reach(LayerInput::towns, site.radius + town_margin)),
         box_{site.east - around_, site.north - around_, site.east + around_, site.north + around_},
         ground_(Ground::with_main_roads(world, box_, job)),
         rng_(cell_key(world.key ^ 0x544F574EU, site.cell.x, site.cell.y)) {}

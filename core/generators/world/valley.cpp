@@ -19,29 +19,29 @@ double blend_at(double from_bank) {
 }
 
 /// The height of the side before it meets the land.
-double plain_side(const Beside& beside, double slope) {
-  const double flat = 40 + 8 * beside.half_width;
-  return beside.water + 1 + 0.02 * beside.away + slope * std::max(0.0, beside.away - flat);
+double plain_side(const WatersidePoint& waterside, double slope) {
+  const double flat = 40 + 8 * waterside.half_width;
+  return waterside.water + 1 + 0.02 * waterside.distance + slope * std::max(0.0, waterside.distance - flat);
 }
 
 double slope_of_side(double ruggedness) { return 0.16 + 0.36 * ruggedness; }
 
 }  // namespace
 
-bool is_above(double height, double land, double ruggedness, const Beside& beside) {
-  if (beside.away >= valley_reach) return true;
-  const double side = plain_side(beside, slope_of_side(ruggedness));
+bool is_above(double height, double land, double ruggedness, const WatersidePoint& waterside) {
+  if (waterside.distance >= valley_reach) return true;
+  const double side = plain_side(waterside, slope_of_side(ruggedness));
   // where the side is above the land by the blend, the valley is the land; elsewhere a quarter of the blend is cut
   return side >= land + most_blend || std::min(land, side) - most_blend / 4 >= height;
 }
 
-ValleySide valley_side(double land, double ruggedness, const Beside& beside) {
-  const double away = beside.away;
+ValleySide valley_side(double land, double ruggedness, const WatersidePoint& waterside) {
+  const double away = waterside.distance;
   if (away >= valley_reach) return {land, 1, 0};
   const double slope = slope_of_side(ruggedness);
-  const double beyond = std::max(0.0, away - (40 + 8 * beside.half_width));
-  const double side = plain_side(beside, slope);
-  const double blend = blend_at(std::max(0.0, away - beside.half_width));
+  const double beyond = std::max(0.0, away - (40 + 8 * waterside.half_width));
+  const double side = plain_side(waterside, slope);
+  const double blend = blend_at(std::max(0.0, away - waterside.half_width));
   const double overlap = std::max(0.0, blend - std::abs(land - side));
   const double low = std::min(land, side) - overlap * overlap / (4 * blend);
   const Slope back = smooth_step(Slope{away * (1 / valley_reach), 1 / valley_reach, 0}, first_return, 1);

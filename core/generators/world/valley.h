@@ -8,8 +8,8 @@ namespace seedmesh::world {
 constexpr double valley_reach = 1400;
 
 /// A position beside some water.
-struct Beside {
-  double away = 0;        ///< metres from the middle of a river, or from the shore of a lake
+struct WatersidePoint {
+  double distance = 0;    ///< metres from the middle of a river, or from the shore of a lake
   double half_width = 0;  ///< metres, of the river
   double water = 0;       ///< height of the water
 };
@@ -21,11 +21,11 @@ struct ValleySide {
 };
 
 /// Whether valley_side() is certainly not below `height`, which is at most `land`. Takes less time than valley_side().
-bool is_above(double height, double land, double ruggedness, const Beside& beside);
+bool is_above(double height, double land, double ruggedness, const WatersidePoint& waterside);
 
 /// Returns the side of a valley below land of the height `land`. It rises from the water, more steeply beyond the
 /// flood plain, and meets the land within valley_reach. Beside the water it is never below the water, if the land is
 /// not.
-ValleySide valley_side(double land, double ruggedness, const Beside& beside);
+ValleySide valley_side(double land, double ruggedness, const WatersidePoint& waterside);
 
 }  // namespace seedmesh::world

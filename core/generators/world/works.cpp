@@ -14,7 +14,7 @@ constexpr double least_bin = 32, most_bins = 64;
 constexpr double bin_margin = 48;  ///< metres around a rectangle in which plants compete
 
 /// How far from a position roads are read.
-double works_reach_of(const World& world) { return world.reach(Reads::works, works_reach + 16); }
+double works_reach_of(const World& world) { return world.reach(LayerInput::works, works_reach + 16); }
 
 /// The share of earthworks that a position allows: none at the samples of coarse tiles.
 double away_from_pins(double east, double north) {
@@ -72,7 +72,7 @@ Ground Ground::with_roads(const World& world, const Rectangle& box, Job& job) {
   Ground ground(world, box, job);
   const WorldFields& fields = world.params.fields;
   const double around = std::max(cleared_reach, fields.reach) * greatest_radius(world) + 2 * fields.size;
-  for (const auto& site : sites_near(world, box, world.reach(Reads::fields, around), job))
+  for (const auto& site : sites_near(world, box, world.reach(LayerInput::fields, around), job))
     ground.farmland_.push_back({site->east, site->north, site->radius, site->is_town});
   const double reach = works_reach_of(world);
   for (const auto& road : roads_near(world, box, reach, job))

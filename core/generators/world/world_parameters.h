@@ -40,7 +40,7 @@ NoiseKeys noise_keys(std::uint64_t key);
 /// The data that a layer reads around the part that it makes: cells of a region; water; settlements that
 /// determine roads; earthworks of roads; settlements with fields; settlements with houses; the data of the plan
 /// of a town.
-enum class Reads : std::uint8_t { cells, water, roads, works, fields, houses, towns };
+enum class LayerInput : std::uint8_t { cells, water, roads, works, fields, houses, towns };
 
 /// Immutable; copies share the store. Positions of the plane ("absolute") are metres from its own zero; those of
 /// tiles and maps are relative to the middle of the world.
@@ -63,11 +63,11 @@ struct World {
 
   /// Returns the distance within which a layer with a declared reach reads. Tests change `reach_factor` and
   /// `reach_more` of one layer, to show that its reach is enough and that half of it is not.
-  double reach(Reads layer, double declared) const {
+  double reach(LayerInput layer, double declared) const {
     const auto n = static_cast<std::size_t>(layer);
     return reach_factor[n] * declared + reach_more[n];
   }
-  static constexpr std::size_t reaches = static_cast<std::size_t>(Reads::towns) + 1;
+  static constexpr std::size_t reaches = static_cast<std::size_t>(LayerInput::towns) + 1;
   std::array<double, reaches> reach_factor{1, 1, 1, 1, 1, 1, 1}, reach_more{};
 };
 

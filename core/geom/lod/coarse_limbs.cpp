@@ -29,7 +29,7 @@ constexpr float pointed_share = 0.5F;
 
 void Coarsening::read() {
   for (const std::uint32_t head : chains_.head) {
-    if (first_.size() % look_every == 0) job_.check();
+    if (first_.size() % check_interval == 0) job_.check();
     first_.push_back(stations_.size());
     corners_.push_back(finest_corners(head));
     read_limb(head);
@@ -45,12 +45,12 @@ void Coarsening::read_limb(std::uint32_t head) {
   std::uint32_t joint = is_root ? chains_.next[head] : head;
   const auto add_station = [&](std::uint32_t at, float radius, float error) {
     const int own = options_.skin ? 0 : corners(radius, options_.sides);
-    stations_.push_back({at, place_of(at), radius, error, static_cast<float>(own)});
+    stations_.push_back({at, position_of(at), radius, error, static_cast<float>(own)});
   };
   add_station(start, joint == Limbs::none ? 0.0F : limbs_.base_radius[joint], forever);
   double area = 0;
   for (; joint != Limbs::none; joint = chains_.next[joint]) {
-    const glm::vec3 step = place_of(joint) - stations_.back().position;
+    const glm::vec3 step = position_of(joint) - stations_.back().position;
     const float width = limbs_.base_radius[joint] + limbs_.radius[joint];
     area += static_cast<double>(std::sqrt(glm::dot(step, step)) * width * shown(joint));
     add_station(joint, limbs_.radius[joint], 0);
@@ -179,7 +179,7 @@ std::uint64_t Coarsening::count(float multiplier) {
   is_fork_.assign(limbs_.size(), 0);
   double total = 0;
   for (std::size_t limb = area_.size(); limb-- > 0;) {  // children before parents
-    if (limb % look_every == 0) job_.check();
+    if (limb % check_interval == 0) job_.check();
     bool carries = false;
     for (std::size_t i = begin(limb) + 1; i < end(limb); ++i)
       carries = carries || is_fork_[stations_[i].joint] != 0;

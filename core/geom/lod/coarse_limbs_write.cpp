@@ -13,7 +13,7 @@ void copy_row(const Array<T>& from, std::uint32_t joint, Array<T>& to) {
 std::uint32_t Coarsening::add(std::size_t limb, std::uint32_t joint, std::uint32_t parent,
                               CoarseLimbs& out) const {
   Limbs& to = out.limbs;
-  to.position.push_back(place_of(joint));
+  to.position.push_back(position_of(joint));
   copy_row(limbs_.radius, joint, to.radius);
   copy_row(limbs_.base_radius, joint, to.base_radius);
   to.parent.push_back(parent);
@@ -83,7 +83,7 @@ CoarseLimbs Coarsening::write(float multiplier) {
   CoarseLimbs out{Limbs(job_), Array<std::uint32_t>(job_), {}};
   Array<std::uint32_t> place(job_, limbs_.size(), Limbs::none);
   for (std::size_t limb = 0; limb < area_.size(); ++limb) {
-    if (limb % look_every == 0) job_.check();
+    if (limb % check_interval == 0) job_.check();
     if (kept_[limb]) write_limb(limb, multiplier, out, place);
   }
   // An anchor at a removed joint moves to the nearest ancestor that is kept.

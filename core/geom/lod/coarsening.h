@@ -43,7 +43,7 @@ class Coarsening {
 
  private:
   static constexpr float forever = std::numeric_limits<float>::infinity();
-  static constexpr std::size_t look_every = 1024;
+  static constexpr std::size_t check_interval = 1024;
   // The least visible share assumed for hidden limbs. They show through gaps and where leaves are removed.
   static constexpr float least_shown = 0.08F;
   // The random factor of each limb's error differs from 1 by at most this.
@@ -70,7 +70,7 @@ class Coarsening {
 
   int corners(float radius, int sides) const { return corners_by_radius(radius, thickest_, sides); }
   float corners_at(std::size_t limb, std::size_t station) const {
-    return options_.skin ? static_cast<float>(corners_[limb].now) : stations_[station].corners;
+    return options_.skin ? static_cast<float>(corners_[limb].current) : stations_[station].corners;
   }
   /// Returns the radius at the base of a limb.
   float first_radius(std::uint32_t head) const {
@@ -101,7 +101,7 @@ class Coarsening {
         options_.skin ? corners_[limb]
                       : LimbCorners{static_cast<std::uint8_t>(corners(radius, options_.sides)),
                                     static_cast<std::uint8_t>(corners(radius, options_.finest_sides))};
-    return own.now == own.finest ? 1.0F : static_cast<float>(round(own.finest) / round(own.now));
+    return own.current == own.finest ? 1.0F : static_cast<float>(round(own.finest) / round(own.current));
   }
   /// Returns the random factor of a limb. Without it, equal limbs would all be removed at the same multiplier.
   float random_factor(std::uint32_t head) const {
@@ -109,7 +109,7 @@ class Coarsening {
     return 1 + most_deviation * (static_cast<float>(hash >> 40U) * 0x1p-23F - 1);
   }
   std::uint64_t key_of(std::uint32_t joint) const { return limbs_.key.empty() ? joint : limbs_.key[joint]; }
-  const glm::vec3& place_of(std::uint32_t joint) const {
+  const glm::vec3& position_of(std::uint32_t joint) const {
     return options_.drawn.empty() ? limbs_.position[joint] : options_.drawn[joint];
   }
   float shown(std::uint32_t joint) const {

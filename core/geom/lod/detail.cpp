@@ -19,13 +19,13 @@ int shared_out(int most, int level) {
 }
 
 template <class T>
-Array<T> chosen(const Array<T>& values, const Array<std::uint32_t>& new_place, std::uint32_t count,
+Array<T> chosen(const Array<T>& values, const Array<std::uint32_t>& new_index, std::uint32_t count,
                 const Job& job) {
   Array<T> kept(job);
   if (values.empty()) return kept;
   kept.resize(count);
   for (std::size_t i = 0; i < values.size(); ++i) {
-    if (new_place[i] != Limbs::none) kept[new_place[i]] = values[i];
+    if (new_index[i] != Limbs::none) kept[new_index[i]] = values[i];
   }
   return kept;
 }
@@ -55,26 +55,26 @@ float thickest(const Limbs& limbs) {
 
 KeptLimbs keep(const Limbs& limbs, const Array<std::uint8_t>& stays, Job& job) {
   const std::size_t size = limbs.size();
-  Array<std::uint32_t> new_place(job, size);
+  Array<std::uint32_t> new_index(job, size);
   std::uint32_t count = 0;
-  for (std::size_t i = 0; i < size; ++i) new_place[i] = stays[i] ? count++ : Limbs::none;
+  for (std::size_t i = 0; i < size; ++i) new_index[i] = stays[i] ? count++ : Limbs::none;
   Limbs kept(job);
-  kept.position = chosen(limbs.position, new_place, count, job);
-  kept.radius = chosen(limbs.radius, new_place, count, job);
-  kept.base_radius = chosen(limbs.base_radius, new_place, count, job);
-  kept.parent = chosen(limbs.parent, new_place, count, job);
-  kept.starts_limb = chosen(limbs.starts_limb, new_place, count, job);
-  kept.color = chosen(limbs.color, new_place, count, job);
-  kept.order = chosen(limbs.order, new_place, count, job);
-  kept.frame = chosen(limbs.frame, new_place, count, job);
-  kept.contour = chosen(limbs.contour, new_place, count, job);
-  kept.birth = chosen(limbs.birth, new_place, count, job);
-  kept.key = chosen(limbs.key, new_place, count, job);
-  const auto moved = [&](std::uint32_t& joint) { joint = joint == Limbs::none ? joint : new_place[joint]; };
+  kept.position = chosen(limbs.position, new_index, count, job);
+  kept.radius = chosen(limbs.radius, new_index, count, job);
+  kept.base_radius = chosen(limbs.base_radius, new_index, count, job);
+  kept.parent = chosen(limbs.parent, new_index, count, job);
+  kept.starts_limb = chosen(limbs.starts_limb, new_index, count, job);
+  kept.color = chosen(limbs.color, new_index, count, job);
+  kept.order = chosen(limbs.order, new_index, count, job);
+  kept.frame = chosen(limbs.frame, new_index, count, job);
+  kept.contour = chosen(limbs.contour, new_index, count, job);
+  kept.birth = chosen(limbs.birth, new_index, count, job);
+  kept.key = chosen(limbs.key, new_index, count, job);
+  const auto moved = [&](std::uint32_t& joint) { joint = joint == Limbs::none ? joint : new_index[joint]; };
   for (std::uint32_t& parent : kept.parent) moved(parent);
-  kept.anchor = chosen(limbs.anchor, new_place, count, job);
+  kept.anchor = chosen(limbs.anchor, new_index, count, job);
   for (std::uint32_t& anchor : kept.anchor) moved(anchor);
-  return {std::move(kept), std::move(new_place)};
+  return {std::move(kept), std::move(new_index)};
 }
 
 KeptLimbs without_repeats(const Limbs& limbs, int sides, Job& job) {
@@ -84,7 +84,7 @@ KeptLimbs without_repeats(const Limbs& limbs, int sides, Job& job) {
   KeptLimbs kept = keep(limbs, stays, job);
   for (std::size_t i = 0; i < limbs.size(); ++i) {
     if (stays[i] && limbs.parent[i] != Limbs::none)
-      kept.limbs.parent[kept.new_place[i]] = kept.new_place[original[limbs.parent[i]]];
+      kept.limbs.parent[kept.new_index[i]] = kept.new_index[original[limbs.parent[i]]];
   }
   return kept;
 }

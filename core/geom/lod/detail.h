@@ -44,7 +44,7 @@ class Detail {
 /// removed).
 struct KeptLimbs {
   Limbs limbs;
-  Array<std::uint32_t> new_place;
+  Array<std::uint32_t> new_index;
 };
 
 /// Keeps the joints whose entry in `stays` is not 0. The parent of a kept joint must be kept too.

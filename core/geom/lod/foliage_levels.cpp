@@ -8,7 +8,7 @@ namespace seedmesh {
 namespace {
 
 constexpr std::uint32_t none = 0xFFFFFFFFU;
-constexpr std::size_t look_every = 1024;
+constexpr std::size_t check_interval = 1024;
 // Meshes with more triangles are replaced by their bounding boxes.
 constexpr std::size_t most_triangles = 16;
 // Texels that one organ alone covers, in all views; greater scores are treated as equal.
@@ -86,7 +86,7 @@ FoliageLevels::FoliageLevels(const Plant& plant, Job& job)
   draw_limbs(plant.limbs, job);
   const Array<Organ>& organs = plant.organs.organ;
   for (std::size_t i = 0; i < organs.size(); ++i) {
-    if (i % look_every == 0) job.check();
+    if (i % check_interval == 0) job.check();
     cover(organs[i], [&](std::size_t at) {
       leaves_[at] = static_cast<std::uint16_t>(std::min(leaves_[at] + 1, 0xFFFF));
       owner_[at] ^= static_cast<std::uint32_t>(i);
@@ -130,7 +130,7 @@ void FoliageLevels::cover(const Organ& organ, const Put& put) {
 void FoliageLevels::draw_limbs(const Limbs& limbs, Job& job) {
   const double scale = view_samples_.texels_a_metre();
   for (std::size_t i = 0; i < limbs.size(); ++i) {
-    if (i % look_every == 0) job.check();
+    if (i % check_interval == 0) job.check();
     const std::uint32_t parent = limbs.parent[i];
     if (parent == Limbs::none) continue;
     const double base = scale * static_cast<double>(limbs.base_radius[i]),
@@ -156,7 +156,7 @@ void FoliageLevels::draw_limbs(const Limbs& limbs, Job& job) {
 Array<float> FoliageLevels::shown(const Limbs& limbs, Job& job) const {
   Array<float> shown(job, limbs.size(), 1.0F);
   for (std::size_t i = 0; i < limbs.size(); ++i) {
-    if (i % look_every == 0) job.check();
+    if (i % check_interval == 0) job.check();
     const std::uint32_t parent = limbs.parent[i];
     if (parent == Limbs::none) continue;
     std::uint32_t looked = 0, free = 0;
@@ -185,7 +185,7 @@ void FoliageLevels::rank(const Organs& organs, Job& job) {
   Array<std::uint32_t> score(job, count, 0U), order(job, count), next(job, count, none);
   const auto is_sole = [&](std::size_t at) { return left[at] == 1 && limbs_[at] == 0; };
   for (std::uint32_t i = 0; i < count; ++i) {
-    if (i % look_every == 0) job.check();
+    if (i % check_interval == 0) job.check();
     order[i] = i;
     cover(organs.organ[i], [&](std::size_t at) { score[i] += is_sole(at) ? 1 : 0; });
   }
@@ -208,7 +208,7 @@ void FoliageLevels::rank(const Organs& organs, Job& job) {
   lost_.reserve(gone + 1);
   std::uint32_t lowest = 0;
   for (std::uint32_t taken = 0; taken < gone;) {
-    if (taken % look_every == 0) job.check();
+    if (taken % check_interval == 0) job.check();
     while (first[lowest] == none) ++lowest;
     const std::uint32_t organ = first[lowest];
     first[lowest] = next[organ];
@@ -272,7 +272,7 @@ Organs FoliageLevels::keep(const Organs& organs, double share, Job& job) {
     cover_with(kept.organ.back(), 1);
   }
   for (std::size_t i = 0; i < kept.organ.size(); ++i) {
-    if (i % look_every == 0) job.check();
+    if (i % check_interval == 0) job.check();
     Organ& organ = kept.organ[i];
     const float growth = best_growth(organ, gain);
     if (growth == 1) continue;

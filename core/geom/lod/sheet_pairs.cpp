@@ -12,7 +12,7 @@
 namespace seedmesh {
 namespace {
 
-constexpr std::size_t look_every = 4096;
+constexpr std::size_t check_interval = 4096;
 // Stalks of one leaf in two levels are at most this apart, as a share of its length. Levels that are thinned out scale
 // leaves about a vertex instead of the stalk.
 constexpr float reach = 0.6F;
@@ -32,7 +32,7 @@ float difference(const Sheets::Frame& a, const Sheets::Frame& b) {
 std::vector<Sheets::Frame> frames_of(const Sheets& sheets, const Job& job) {
   std::vector<Sheets::Frame> frames(sheets.size());
   for (std::size_t i = 0; i < frames.size(); ++i) {
-    if (i % look_every == 0) job.check();
+    if (i % check_interval == 0) job.check();
     frames[i] = sheets.frame(i);
   }
   return frames;
@@ -84,7 +84,7 @@ Sheets::Sheets(const Mesh& mesh, const Job& job) : mesh_(mesh) {
   const std::size_t triangles = mesh.index.size() / 3;
   DisjointSets sets(mesh.position.size());
   for (std::size_t i = 0; i < 3 * triangles; ++i) {
-    if (i % look_every == 0) job.check();
+    if (i % check_interval == 0) job.check();
     sets.join(mesh.index.at(i / 3 * 3), mesh.index.at(i));
   }
   std::vector<std::uint32_t> key(triangles);
@@ -156,7 +156,7 @@ std::vector<std::uint32_t> paired_sheets(const Sheets& fine, const Sheets& coars
   const StalkGrid grid(of_fine);
   std::vector<Pair> pairs;
   for (std::uint32_t i = 0; i < of_coarse.size(); ++i) {
-    if (i % look_every == 0) job.check();
+    if (i % check_interval == 0) job.check();
     const Sheets::Frame& own = of_coarse[i];
     grid.each_near(own.stalk, reach * own.length, [&](std::uint32_t k) {
       const float by = difference(of_fine[k], own);

@@ -41,10 +41,7 @@ class Net {
       points_[point].is_waiting = true;
       heap_.push_back({points_[point].bound, point, none, points_[point].stamp});
     }
-    std::make_heap(heap_.begin(), heap_.end(), [&](const auto& a, const auto& b) {
-      look();
-      return a < b;
-    });
+    std::make_heap(heap_.begin(), heap_.end(), [&](const auto& a, const auto& b) { return look(), a < b; });
     for (std::uint64_t step = 1; left_ > target && heap_.size() > 0; ++step) {
       if (step % 1024 == 0) job_.check();
       std::pop_heap(heap_.begin(), heap_.end());
@@ -106,7 +103,7 @@ class Net {
 
   /// Checks the deadline at each 4,096th call.
   void look() {
-    if (++looks_ % 4'096 == 0) job_.check();
+    if (++steps_ % 4'096 == 0) job_.check();
   }
 
   void read(std::span<Mesh* const> meshes, const std::vector<bool>& fixed) {
@@ -352,12 +349,14 @@ class Net {
     }
     points_[from].head = none;
     points_[to].quadric.add(points_[from].quadric);
-    Ring ring;
-    const std::uint32_t count = neighbours(to, ring);
     points_[to].bound = infinite;
-    for (std::uint32_t i = 0; i < count; ++i) {
-      if (!points_[to].is_locked) points_[to].bound = std::min(points_[to].bound, cost_of(to, ring[i]));
-      refresh(ring[i], cost_of(ring[i], to));
+    const std::uint32_t mark = ++mark_;
+    for (std::uint32_t c = points_[to].head; c != none; c = next(c)) {  // all, even more than `most_faces`
+      for (const std::uint32_t each : {point(after(c)), point(before(c))}) {
+        if (std::exchange(points_[each].seen, mark) == mark) continue;
+        if (!points_[to].is_locked) points_[to].bound = std::min(points_[to].bound, cost_of(to, each));
+        refresh(each, cost_of(each, to));
+      }
     }
     points_[to].is_waiting = false;
     wait(to);
@@ -381,7 +380,7 @@ class Net {
   Array<CollapseCandidate> heap_{job_};
   Array<std::uint32_t> beside_{job_};  ///< by point: the last mark of the neighbours of a target
   std::uint32_t mark_ = 0;
-  std::size_t looks_ = 0;
+  std::size_t steps_ = 0;
   std::vector<std::pair<std::uint32_t, std::uint32_t>> heirs_;  ///< new vertex of each corner that moves
   std::vector<std::uint32_t> gone_, first_;                     ///< triangles; vertex of each mesh
   std::uint64_t left_ = 0;

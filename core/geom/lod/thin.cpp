@@ -16,7 +16,7 @@ namespace {
 constexpr std::uint32_t fewest_pieces = 16;   ///< of a mesh that may lose some
 constexpr std::uint32_t most_triangles = 64;  ///< of a leaf
 constexpr float largest_growth = 2;
-constexpr std::size_t look_every = 65'536;
+constexpr std::size_t check_interval = 65'536;
 
 /// The connected pieces of a mesh. Faces are connected by a common vertex, or by an edge at the same
 /// position, which includes hard edges. Leaves that only touch at one position are separate pieces.
@@ -34,9 +34,9 @@ std::vector<std::uint32_t> least_at_position(const Mesh& mesh, const Job& job) {
     const glm::vec3& p = mesh.position[v];
     return std::tuple(p.x + 0.0F, p.y + 0.0F, p.z + 0.0F);
   };
-  std::size_t looks = 0;
+  std::size_t steps = 0;
   std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-    if (++looks % look_every == 0) job.check();
+    if (++steps % check_interval == 0) job.check();
     return at(a) != at(b) ? at(a) < at(b) : a < b;
   });
   for (std::size_t i = 0; i < order.size(); ++i) {
@@ -51,25 +51,25 @@ Pieces pieces_of(const Mesh& mesh, const Job& job) {
   std::vector<std::pair<std::uint64_t, std::uint32_t>> edges;  // two positions, a vertex at one of them
   edges.reserve(mesh.index.size());
   for (std::size_t i = 0; i < mesh.index.size(); ++i) {
-    if (i % look_every == 0) job.check();
+    if (i % check_interval == 0) job.check();
     sets.join(mesh.index.at(i / 3 * 3), mesh.index.at(i));
     const std::uint32_t a = mesh.index.at(i), b = mesh.index.at(i % 3 == 2 ? i - 2 : i + 1);
     const std::uint64_t low = std::min(least[a], least[b]), high = std::max(least[a], least[b]);
     edges.emplace_back(low << 32U | high, a);
   }
-  std::size_t looks = 0;
+  std::size_t steps = 0;
   std::sort(edges.begin(), edges.end(), [&](const auto& a, const auto& b) {
-    if (++looks % look_every == 0) job.check();
+    if (++steps % check_interval == 0) job.check();
     return a < b;
   });
   for (std::size_t i = 1; i < edges.size(); ++i) {
-    if (i % look_every == 0) job.check();
+    if (i % check_interval == 0) job.check();
     if (edges[i].first == edges[i - 1].first) sets.join(edges[i].second, edges[i - 1].second);
   }
   Pieces pieces;
   pieces.of_vertex.resize(sets.size());
   for (std::uint32_t v = 0; v < sets.size(); ++v) {
-    if (v % look_every == 0) job.check();
+    if (v % check_interval == 0) job.check();
     if (sets.of(v) == v) {
       pieces.of_vertex[v] = static_cast<std::uint32_t>(pieces.first.size());
       pieces.first.push_back(v);
@@ -93,7 +93,7 @@ Areas areas_of(const Mesh& mesh, const Pieces& pieces, const Job& job) {
   Areas areas{std::vector<double>(pieces.first.size(), 0),
               std::vector<glm::dvec3>(pieces.first.size(), glm::dvec3(0))};
   for (std::size_t i = 0; i < mesh.index.size(); i += 3) {
-    if (i % (3 * look_every) == 0) job.check();
+    if (i % (3 * check_interval) == 0) job.check();
     const glm::dvec3 a(mesh.position[mesh.index.at(i)]);
     const glm::dvec3 across = glm::cross(glm::dvec3(mesh.position[mesh.index.at(i + 1)]) - a,
                                          glm::dvec3(mesh.position[mesh.index.at(i + 2)]) - a);
@@ -131,7 +131,7 @@ void keep_pieces(Mesh& mesh, const Pieces& pieces, const std::vector<bool>& stay
 bool has_many_parts(const Mesh& mesh, const Job& job) {
   DisjointSets sets(mesh.position.size());
   for (std::size_t i = 0; i < mesh.index.size(); ++i) {
-    if (i % look_every == 0) job.check();
+    if (i % check_interval == 0) job.check();
     sets.join(mesh.index.at(i / 3 * 3), mesh.index.at(i));
   }
   std::uint32_t parts = 0;

@@ -11,7 +11,7 @@
 namespace seedmesh {
 namespace {
 
-constexpr std::size_t look_every = 4096;
+constexpr std::size_t check_interval = 4096;
 
 std::vector<std::uint64_t> uses_of(const Model& model) {
   std::vector<std::uint64_t> uses(model.meshes.size(), 0);
@@ -107,7 +107,7 @@ class Joining {
     mesh_.color.append(from.color.span());
     const bool mirrored = determinant < 0 && from.topology == Topology::triangles;
     for (std::size_t i = 0; i < from.index.size(); ++i) {
-      if (i % look_every == 0) job_.check();
+      if (i % check_interval == 0) job_.check();
       mesh_.index.wide.push_back(first + from.index.at(mirrored ? i / 3 * 3 + 2 - i % 3 : i));
     }
   }

@@ -35,23 +35,23 @@ bool is_empty(const Mesh& mesh) { return mesh.vertices() == 0 || mesh.elements()
 
 /// Removes meshes without primitives, and updates all indices of meshes.
 void drop_empty_meshes(Model& model) {
-  std::vector<int> new_place(model.meshes.size(), -1);
+  std::vector<int> new_index(model.meshes.size(), -1);
   std::vector<MeshGroup> kept;
   for (std::size_t i = 0; i < model.meshes.size(); ++i) {
     std::erase_if(model.meshes[i].primitives,
                   [](const Primitive& primitive) { return is_empty(primitive.mesh); });
     if (model.meshes[i].primitives.empty()) continue;
-    new_place[i] = static_cast<int>(kept.size());
+    new_index[i] = static_cast<int>(kept.size());
     kept.push_back(std::move(model.meshes[i]));
   }
   model.meshes = std::move(kept);
   for (Node& node : model.nodes) {
     const auto is_empty_now = [&](int lod) {
-      return lod >= 0 && new_place[static_cast<std::size_t>(lod)] < 0;
+      return lod >= 0 && new_index[static_cast<std::size_t>(lod)] < 0;
     };
     std::erase_if(node.lods, is_empty_now);
-    for (int& lod : node.lods) lod = lod < 0 ? lod : new_place[static_cast<std::size_t>(lod)];
-    if (node.mesh >= 0) node.mesh = new_place[static_cast<std::size_t>(node.mesh)];
+    for (int& lod : node.lods) lod = lod < 0 ? lod : new_index[static_cast<std::size_t>(lod)];
+    if (node.mesh >= 0) node.mesh = new_index[static_cast<std::size_t>(node.mesh)];
     if (node.mesh < 0 && !node.lods.empty()) {
       node.mesh = node.lods.front();
       node.lods.erase(node.lods.begin());
@@ -62,21 +62,21 @@ void drop_empty_meshes(Model& model) {
 /// Moves element i of every repeated piece to new_index[i] of that piece. Elements whose index is not below
 /// `used` are removed.
 template <class T>
-void reorder(Array<T>& values, const Array<std::uint32_t>& new_place, std::size_t used, const Job& job) {
-  const std::size_t piece = new_place.size();
+void reorder(Array<T>& values, const Array<std::uint32_t>& new_index, std::size_t used, const Job& job) {
+  const std::size_t piece = new_index.size();
   if (values.empty()) return;
   if (piece < values.size()) {
     std::vector<T> own(piece);
     for (std::size_t first = 0; first < values.size(); first += piece) {
       T* at = values.data() + first;
       std::copy_n(at, piece, own.data());
-      for (std::size_t i = 0; i < piece; ++i) at[new_place[i]] = own[i];
+      for (std::size_t i = 0; i < piece; ++i) at[new_index[i]] = own[i];
     }
     return;
   }
   Array<T> moved(job, used);
   for (std::size_t i = 0; i < values.size(); ++i) {
-    if (new_place[i] < used) moved[new_place[i]] = values[i];
+    if (new_index[i] < used) moved[new_index[i]] = values[i];
   }
   values = std::move(moved);
 }
@@ -210,12 +210,12 @@ void order_for_cache(Mesh& mesh, const Job& job) {
   if (piece.corners == 0) piece = {mesh.position.size(), index.size()};
   Array<std::uint32_t> ordered(job, piece.corners);
   meshopt_optimizeVertexCacheFifo(ordered.data(), index.data(), piece.corners, piece.vertices, cache_entries);
-  Array<std::uint32_t> new_place(job, piece.vertices);
+  Array<std::uint32_t> new_index(job, piece.vertices);
   const std::size_t used =
-      meshopt_optimizeVertexFetchRemap(new_place.data(), ordered.data(), piece.corners, piece.vertices);
+      meshopt_optimizeVertexFetchRemap(new_index.data(), ordered.data(), piece.corners, piece.vertices);
   bool is_ordered = true;
   for (std::size_t i = 0; i < piece.corners; ++i) {
-    ordered[i] = new_place[ordered[i]];
+    ordered[i] = new_index[ordered[i]];
     is_ordered = is_ordered && ordered[i] == index[i];
   }
   mesh.cache_ordered = true;
@@ -225,14 +225,14 @@ void order_for_cache(Mesh& mesh, const Job& job) {
     for (std::size_t i = 0; i < piece.corners; ++i) index[first + i] = ordered[i] + shift;
     shift += static_cast<std::uint32_t>(piece.vertices);
   }
-  reorder(mesh.position, new_place, used, job);
-  reorder(mesh.normal, new_place, used, job);
-  for (auto& uv : mesh.uv) reorder(uv, new_place, used, job);
-  reorder(mesh.color, new_place, used, job);
-  reorder(mesh.tangent, new_place, used, job);
-  reorder(mesh.joints, new_place, used, job);
-  reorder(mesh.weights, new_place, used, job);
-  reorder(mesh.bone, new_place, used, job);
+  reorder(mesh.position, new_index, used, job);
+  reorder(mesh.normal, new_index, used, job);
+  for (auto& uv : mesh.uv) reorder(uv, new_index, used, job);
+  reorder(mesh.color, new_index, used, job);
+  reorder(mesh.tangent, new_index, used, job);
+  reorder(mesh.joints, new_index, used, job);
+  reorder(mesh.weights, new_index, used, job);
+  reorder(mesh.bone, new_index, used, job);
 }
 
 void finish_meshes(Model& model, const Job& job) {

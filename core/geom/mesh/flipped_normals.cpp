@@ -34,11 +34,11 @@ struct Turned {
 };
 
 std::vector<Turned> corners_looking_in(const Mesh& mesh, const Job& job) {
-  constexpr std::size_t look_every = 65'536;
+  constexpr std::size_t check_interval = 65'536;
   const Array<std::uint32_t>& index = mesh.index.wide;
   std::vector<Turned> found;
   for (std::size_t i = 0; i + 2 < index.size(); i += 3) {
-    if (i % (3 * look_every) == 0) job.check();
+    if (i % (3 * check_interval) == 0) job.check();
     const glm::vec3 a = mesh.position[index[i]];
     const glm::vec3 across = glm::cross(mesh.position[index[i + 1]] - a, mesh.position[index[i + 2]] - a);
     const float area = std::sqrt(glm::dot(across, across));

@@ -9,7 +9,7 @@ namespace seedmesh {
 namespace {
 
 constexpr std::uint32_t triangles_a_leaf = 8;
-constexpr std::size_t look_every = 4096;
+constexpr std::size_t check_interval = 4096;
 
 /// Ericson, "Real-Time Collision Detection", 2005, section 5.1.5.
 glm::dvec3 nearest_on_triangle(const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3& b,
@@ -84,7 +84,7 @@ MeshField::MeshField(const Model& model, const glm::dvec3& stretch, const glm::d
       const Mesh& mesh = primitive.mesh;
       if (mesh.topology != Topology::triangles) continue;
       for (std::size_t i = 0; i < mesh.index.size(); ++i) {
-        if (i % look_every == 0) job.check();
+        if (i % check_interval == 0) job.check();
         const glm::dvec3 at = matrix * glm::dvec4(glm::dvec3(mesh.position[mesh.index.at(i)]), 1);
         corner_.push_back(glm::vec3(at * stretch + shift));
       }
@@ -104,7 +104,7 @@ MeshField::MeshField(const Model& model, const glm::dvec3& stretch, const glm::d
 MeshField::MeshField(std::span<const Mesh* const> meshes, const Job& job) : corner_(job) {
   for (const Mesh* mesh : meshes) {
     for (std::size_t i = 0; i < mesh->index.size(); ++i) {
-      if (i % look_every == 0) job.check();
+      if (i % check_interval == 0) job.check();
       corner_.push_back(mesh->position[mesh->index.at(i)]);
     }
   }
@@ -115,7 +115,7 @@ void MeshField::build_all(const Job& job) {
   std::vector<std::uint32_t> order(triangles());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<std::uint32_t>(i);
   if (order.empty()) return;
-  knot_.reserve(order.size() / 2 + 1);
+  bvh_nodes_.reserve(order.size() / 2 + 1);
   build(0, static_cast<std::uint32_t>(order.size()), order);
   Array<glm::vec3> sorted(job, corner_.size());
   for (std::size_t i = 0; i < order.size(); ++i) {
@@ -125,9 +125,9 @@ void MeshField::build_all(const Job& job) {
 }
 
 std::uint32_t MeshField::build(std::uint32_t first, std::uint32_t count, std::vector<std::uint32_t>& order) {
-  const auto own = static_cast<std::uint32_t>(knot_.size());
-  Knot knot;
-  knot.low = knot.high = corner_[3 * std::size_t{order[first]}];
+  const auto own = static_cast<std::uint32_t>(bvh_nodes_.size());
+  BvhNode bvh_node;
+  bvh_node.low = bvh_node.high = corner_[3 * std::size_t{order[first]}];
   glm::vec3 low(1e30F), high(-1e30F);  // of the triangles' centres, times three
   const auto centre = [&](std::uint32_t t) {
     const std::size_t at = 3 * std::size_t{t};
@@ -135,15 +135,15 @@ std::uint32_t MeshField::build(std::uint32_t first, std::uint32_t count, std::ve
   };
   for (std::uint32_t i = first; i < first + count; ++i) {
     for (std::size_t k = 0; k < 3; ++k) {
-      knot.low = glm::min(knot.low, corner_[3 * std::size_t{order[i]} + k]);
-      knot.high = glm::max(knot.high, corner_[3 * std::size_t{order[i]} + k]);
+      bvh_node.low = glm::min(bvh_node.low, corner_[3 * std::size_t{order[i]} + k]);
+      bvh_node.high = glm::max(bvh_node.high, corner_[3 * std::size_t{order[i]} + k]);
     }
     low = glm::min(low, centre(order[i]));
     high = glm::max(high, centre(order[i]));
   }
-  knot.first = first;
-  knot.count = count;
-  knot_.push_back(knot);
+  bvh_node.first = first;
+  bvh_node.count = count;
+  bvh_nodes_.push_back(bvh_node);
   if (count <= triangles_a_leaf) return own;
   const glm::vec3 extent = high - low;
   const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0 : extent.y >= extent.z ? 1 : 2;
@@ -155,8 +155,8 @@ std::uint32_t MeshField::build(std::uint32_t first, std::uint32_t count, std::ve
   });
   build(first, half, order);
   const std::uint32_t second = build(first + half, count - half, order);
-  knot_[own].first = second;
-  knot_[own].count = 0;
+  bvh_nodes_[own].first = second;
+  bvh_nodes_[own].count = 0;
   return own;
 }
 
@@ -164,11 +164,11 @@ MeshField::Nearest MeshField::nearest(const glm::dvec3& point) const {
   glm::dvec3 best = corner(0, 0);
   double least = glm::dot(best - point, best - point);
   struct Waiting {
-    std::uint32_t knot;
+    std::uint32_t bvh_node;
     double distance;  ///< squared, to its box
   };
   const auto waiting_for = [&](std::uint32_t number) {
-    return Waiting{number, squared_distance(point, knot_[number].low, knot_[number].high)};
+    return Waiting{number, squared_distance(point, bvh_nodes_[number].low, bvh_nodes_[number].high)};
   };
   Waiting waiting[64];
   int count = 0;
@@ -176,15 +176,15 @@ MeshField::Nearest MeshField::nearest(const glm::dvec3& point) const {
   while (count > 0) {
     const auto [number, apart] = waiting[--count];
     if (apart >= least) continue;
-    const Knot& knot = knot_[number];
-    if (knot.count == 0) {
-      const Waiting near = waiting_for(number + 1), far = waiting_for(knot.first);
+    const BvhNode& bvh_node = bvh_nodes_[number];
+    if (bvh_node.count == 0) {
+      const Waiting near = waiting_for(number + 1), far = waiting_for(bvh_node.first);
       const bool swapped = far.distance < near.distance;
       waiting[count++] = swapped ? near : far;
       waiting[count++] = swapped ? far : near;
       continue;
     }
-    for (std::uint32_t t = knot.first; t < knot.first + knot.count; ++t) {
+    for (std::uint32_t t = bvh_node.first; t < bvh_node.first + bvh_node.count; ++t) {
       const glm::dvec3 on = nearest_on_triangle(point, corner(t, 0), corner(t, 1), corner(t, 2));
       const double distance = glm::dot(on - point, on - point);
       if (distance >= least) continue;
@@ -196,22 +196,22 @@ MeshField::Nearest MeshField::nearest(const glm::dvec3& point) const {
 }
 
 bool MeshField::holds(const glm::dvec3& point) const {
-  if (squared_distance(point, knot_[0].low, knot_[0].high) > 0) return false;
-  const glm::dvec3 ray = ray_across(knot_[0].high - knot_[0].low), by_ray = 1.0 / ray;
+  if (squared_distance(point, bvh_nodes_[0].low, bvh_nodes_[0].high) > 0) return false;
+  const glm::dvec3 ray = ray_across(bvh_nodes_[0].high - bvh_nodes_[0].low), by_ray = 1.0 / ray;
   bool inside = false;
   std::uint32_t waiting[64];
   int count = 0;
   waiting[count++] = 0;
   while (count > 0) {
     const std::uint32_t number = waiting[--count];
-    const Knot& knot = knot_[number];
-    if (!ray_meets_box(point, by_ray, knot.low, knot.high)) continue;
-    if (knot.count == 0) {
-      waiting[count++] = knot.first;
+    const BvhNode& bvh_node = bvh_nodes_[number];
+    if (!ray_meets_box(point, by_ray, bvh_node.low, bvh_node.high)) continue;
+    if (bvh_node.count == 0) {
+      waiting[count++] = bvh_node.first;
       waiting[count++] = number + 1;
       continue;
     }
-    for (std::uint32_t t = knot.first; t < knot.first + knot.count; ++t) {
+    for (std::uint32_t t = bvh_node.first; t < bvh_node.first + bvh_node.count; ++t) {
       if (ray_meets_triangle(point, ray, corner(t, 0), corner(t, 1), corner(t, 2))) inside = !inside;
     }
   }

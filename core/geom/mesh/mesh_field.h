@@ -34,7 +34,7 @@ class MeshField {
   bool holds(const glm::dvec3& point) const;
 
  private:
-  struct Knot {
+  struct BvhNode {
     glm::vec3 low{0}, high{0};
     /// First triangle of a leaf. Of an inner node, the second child; the first child is the next node.
     std::uint32_t first = 0;
@@ -48,7 +48,7 @@ class MeshField {
   }
 
   Array<glm::vec3> corner_;  ///< three for each triangle
-  std::vector<Knot> knot_;
+  std::vector<BvhNode> bvh_nodes_;
 };
 
 }  // namespace seedmesh

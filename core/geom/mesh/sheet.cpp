@@ -64,20 +64,20 @@ void drop_unused(Mesh& mesh, const Job& job) {
     if (glm::dot(across, across) > least * least) kept.append({corner, 3});
   }
   constexpr std::uint32_t unused = 0xFFFFFFFFU;
-  std::vector<std::uint32_t> new_place(mesh.position.size(), unused);
-  for (const std::uint32_t i : kept) new_place[i] = 0;
+  std::vector<std::uint32_t> new_index(mesh.position.size(), unused);
+  for (const std::uint32_t i : kept) new_index[i] = 0;
   std::uint32_t count = 0;
-  for (std::size_t i = 0; i < new_place.size(); ++i) {
-    if (new_place[i] == unused) continue;
+  for (std::size_t i = 0; i < new_index.size(); ++i) {
+    if (new_index[i] == unused) continue;
     mesh.position[count] = mesh.position[i];
     mesh.normal[count] = mesh.normal[i];
     if (!mesh.uv[0].empty()) mesh.uv[0][count] = mesh.uv[0][i];
-    new_place[i] = count++;
+    new_index[i] = count++;
   }
   mesh.position.resize(count);
   mesh.normal.resize(count);
   if (!mesh.uv[0].empty()) mesh.uv[0].resize(count);
-  for (std::uint32_t& i : kept) i = new_place[i];
+  for (std::uint32_t& i : kept) i = new_index[i];
   mesh.index.wide = std::move(kept);
 }
 

@@ -9,9 +9,9 @@
 #include "core/base/parallel.h"
 #include "core/base/quick_math.h"
 #include "core/base/wide.h"
-#include "core/geom/mesh/four.h"
 #include "core/geom/mesh/negative_zero.h"
 #include "core/geom/mesh/repeated_pieces.h"
+#include "core/geom/mesh/vec3x4.h"
 
 namespace seedmesh {
 namespace {
@@ -21,10 +21,10 @@ using EightFloats = float __attribute__((vector_size(32)));
 /// The directions of u and v, summed over the triangles at a vertex; each in the first three lanes. Both are
 /// added to as eight floats.
 struct Sums {
-  FourFloats u{}, v{};
+  Float4 u{}, v{};
 };
 
-glm::vec3 first_three(const FourFloats& v) { return {v[0], v[1], v[2]}; }
+glm::vec3 first_three(const Float4& v) { return {v[0], v[1], v[2]}; }
 
 glm::vec4 tangent_of(const glm::vec3& normal, const Sums& sums) {
   const glm::vec3 u = first_three(sums.u);
@@ -46,9 +46,9 @@ struct Piece {
 
 /// A vertex in the first three lanes. The float behind it is read too, except at the last vertex of the mesh.
 template <bool has_last>
-FourFloats vertex_of(const Mesh& mesh, std::size_t i) {
+Float4 vertex_of(const Mesh& mesh, std::size_t i) {
   const glm::vec3* from = mesh.position.data() + i;
-  return has_last && i + 1 == mesh.position.size() ? spread_out(*from) : Four::row(from);
+  return has_last && i + 1 == mesh.position.size() ? spread_out(*from) : Vec3x4::row(from);
 }
 
 template <bool has_last, class Index>
@@ -58,15 +58,14 @@ void sum_all(const Mesh& mesh, const Piece<Index>& piece, const Array<glm::vec2>
     const glm::vec2 s = uv[corner[1]] - uv[corner[0]], t = uv[corner[2]] - uv[corner[0]];
     const float area = s.x * t.y - s.y * t.x;
     if (area == 0) continue;
-    const FourFloats from = vertex_of<has_last>(mesh, corner[0]),
-                     a = vertex_of<has_last>(mesh, corner[1]) - from,
-                     b = vertex_of<has_last>(mesh, corner[2]) - from;
+    const Float4 from = vertex_of<has_last>(mesh, corner[0]), a = vertex_of<has_last>(mesh, corner[1]) - from,
+                 b = vertex_of<has_last>(mesh, corner[2]) - from;
     // Divided by the sign of the area in the texture, not by the area: large triangles count more.
     const float sign = area < 0 ? -1.0F : 1.0F;
     const EightFloats both_a = __builtin_shufflevector(a, a, 0, 1, 2, 3, 0, 1, 2, 3),
                       both_b = __builtin_shufflevector(b, b, 0, 1, 2, 3, 0, 1, 2, 3);
-    const FourFloats a_for_u = all_lanes(t.y), a_for_v = all_lanes(-t.x), b_for_u = all_lanes(-s.y),
-                     b_for_v = all_lanes(s.x);
+    const Float4 a_for_u = all_lanes(t.y), a_for_v = all_lanes(-t.x), b_for_u = all_lanes(-s.y),
+                 b_for_v = all_lanes(s.x);
     // Along u: a t.y - b s.y; along v: b s.x - a t.x.
     const EightFloats along = (both_a * __builtin_shufflevector(a_for_u, a_for_v, 0, 1, 2, 3, 4, 5, 6, 7) +
                                both_b * __builtin_shufflevector(b_for_u, b_for_v, 0, 1, 2, 3, 4, 5, 6, 7)) *

@@ -7,7 +7,7 @@
 namespace seedmesh {
 namespace {
 
-constexpr std::size_t look_every = 4096;
+constexpr std::size_t check_interval = 4096;
 // The last pieces need time to grow, and a trunk should not be bare for long.
 constexpr double last_birth = 0.6;
 // The scale of a bone that is not born yet. Not 0: viewers invert matrices.
@@ -59,12 +59,12 @@ void measure_births(const Limbs& limbs, Measures& measures) {
 Measures measure(const Limbs& limbs, Job& job) {
   Measures measures(limbs, job);
   for (std::size_t i = 0; i < limbs.size(); ++i) {
-    if (i % look_every == 0) job.check();
+    if (i % check_interval == 0) job.check();
     const std::uint32_t carrier = carrier_of(limbs, i);
     if (carrier != Limbs::none) measures.path[i] = measures.path[carrier] + length_of(limbs, i);
   }
   for (std::size_t i = limbs.size(); i-- > 0;) {
-    if (i % look_every == 0) job.check();
+    if (i % check_interval == 0) job.check();
     measures.carried[i] += length_of(limbs, i);
     const std::uint32_t carrier = carrier_of(limbs, i);
     if (carrier != Limbs::none) measures.carried[carrier] += measures.carried[i];
@@ -88,7 +88,7 @@ std::vector<std::uint32_t> chosen_joints(const Limbs& limbs, const Measures& mea
                                          Job& job) {
   std::vector<std::uint32_t> joints;
   for (std::size_t i = 0; i < limbs.size(); ++i) {
-    if (i % look_every == 0) job.check();
+    if (i % check_interval == 0) job.check();
     const auto joint = static_cast<std::uint32_t>(i);
     if (may_begin(limbs, measures, joint)) joints.push_back(joint);
   }
@@ -150,7 +150,7 @@ GrowthPlan plan_growth(const Limbs& limbs, const GrowthOptions& options, Job& jo
   const std::vector<std::uint32_t> begins = chosen_joints(limbs, measures, options.most_bones - 1, job);
   auto next = begins.begin();
   for (std::size_t i = 0; i < limbs.size(); ++i) {
-    if (i % look_every == 0) job.check();
+    if (i % check_interval == 0) job.check();
     const std::uint32_t carrier = carrier_of(limbs, i);
     const std::uint16_t under = plan.bone_of(carrier);
     plan.bone[i] = under;

@@ -1,5 +1,6 @@
 #pragma once
-/// Sums by a key, in a table with open addressing. The order of the keys in the table is never visible.
+/// A sum for each key, in a hash table with open addressing. There is no iteration, so that no result depends on the
+/// order of the keys.
 #include <cstdint>
 #include <utility>
 
@@ -21,7 +22,7 @@ class KeySums {
   void add(std::uint64_t key, double amount) {
     if (!(amount > 0)) return;
     if (2 * (count_ + 1) > entries_.size()) grow();
-    Entry& entry = entries_[place_of(key)];
+    Entry& entry = entries_[slot_of(key)];
     if (entry.sum == 0) {
       entry.key = key;
       ++count_;
@@ -29,7 +30,7 @@ class KeySums {
     entry.sum += amount;
   }
   /// Returns the sum of a key, or 0.
-  double at(std::uint64_t key) const { return entries_.empty() ? 0 : entries_[place_of(key)].sum; }
+  double at(std::uint64_t key) const { return entries_.empty() ? 0 : entries_[slot_of(key)].sum; }
 
  private:
   struct Entry {
@@ -37,11 +38,11 @@ class KeySums {
     double sum;  ///< 0: empty
   };
 
-  std::size_t place_of(std::uint64_t key) const {
+  std::size_t slot_of(std::uint64_t key) const {
     const std::size_t mask = entries_.size() - 1;
-    std::size_t place = mix(key) & mask;
-    while (entries_[place].sum != 0 && entries_[place].key != key) place = (place + 1) & mask;
-    return place;
+    std::size_t slot = mix(key) & mask;
+    while (entries_[slot].sum != 0 && entries_[slot].key != key) slot = (slot + 1) & mask;
+    return slot;
   }
 
   void grow() {
@@ -52,7 +53,7 @@ class KeySums {
     entries_.resize(before.empty() ? least : 2 * before.size());
     for (Entry& entry : entries_) entry = {0, 0};
     for (const Entry& entry : before) {
-      if (entry.sum != 0) entries_[place_of(entry.key)] = entry;
+      if (entry.sum != 0) entries_[slot_of(entry.key)] = entry;
     }
   }
 

@@ -103,7 +103,7 @@ class MitreCheck {
   bool allows(const Internode& a, const Internode& b, float radius_before, Turn& turn);
 
   /// Returns the length of the last internode between the ring where it begins and its far end.
-  float free_of(const Internode& a) const { return a.length - last_.turn.reach; }
+  float free_length(const Internode& a) const { return a.length - last_.turn.reach; }
 
  private:
   /// The ring where the current internode begins.
@@ -146,7 +146,7 @@ void walk_limb(InternodeReader reader, MitreCheck check, const Chains& chains, c
     sink.close(a.end < scale.thinnest ? TubeClosing::point
                : is_covered           ? TubeClosing::cap
                                       : TubeClosing::tip,
-               check.free_of(a));
+               check.free_length(a));
     a = b;
   }
 }

@@ -179,17 +179,18 @@ std::vector<Foliage> place_organs(const Organs& organs, const FoliageOptions& op
   return foliage;
 }
 
-std::vector<FoliagePlaces> organ_places(const Organs& organs, const FoliageOptions& options, Job& job) {
-  std::vector<FoliagePlaces> all;
+std::vector<FoliageInstances> organ_transforms(const Organs& organs, const FoliageOptions& options,
+                                               Job& job) {
+  std::vector<FoliageInstances> all;
   for (const OrganGroup& group : organ_groups(organs, options, job)) {
     const Mesh& surface = options.surfaces[group.surface];
     job.spend(Resource::triangles, surface.index.wide.size() / 3 * group.organs.size());
-    FoliagePlaces places{group.surface, group.color, {}};
+    FoliageInstances instances{group.surface, group.color, {}};
     for (const std::uint32_t i : group.organs) {
       const Organ& organ = organs.organ[i];
-      places.places.push_back({organ.position, organ.frame, organ.scale});
+      instances.transforms.push_back({organ.position, organ.frame, organ.scale});
     }
-    all.push_back(std::move(places));
+    all.push_back(std::move(instances));
   }
   return all;
 }

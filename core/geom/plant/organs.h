@@ -19,10 +19,10 @@ struct Foliage {
 };
 
 /// The same as transforms of one mesh.
-struct FoliagePlaces {
+struct FoliageInstances {
   std::uint32_t surface = 0;
   std::int16_t color = 0;
-  std::vector<Transform> places;
+  std::vector<Transform> transforms;
 };
 
 struct FoliageOptions {
@@ -61,6 +61,6 @@ struct FoliageOptions {
 std::vector<Foliage> place_organs(const Organs& organs, const FoliageOptions& options, Job& job);
 
 /// Returns the same organs as transforms, for formats where nodes share a mesh.
-std::vector<FoliagePlaces> organ_places(const Organs& organs, const FoliageOptions& options, Job& job);
+std::vector<FoliageInstances> organ_transforms(const Organs& organs, const FoliageOptions& options, Job& job);
 
 }  // namespace seedmesh

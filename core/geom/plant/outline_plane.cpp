@@ -6,20 +6,20 @@
 namespace seedmesh {
 
 bool FlatOutline::read(const Outlines& outlines, const Outline& outline,
-                       std::span<const std::uint32_t> places, double least_area) {
+                       std::span<const std::uint32_t> numbers, double least_area) {
   vertex.clear();
-  place.clear();
+  number.clear();
   flat.clear();
   for (std::uint32_t k = outline.first; k < outline.first + outline.count; ++k) {
-    if (!place.empty() && place.back() == places[k]) continue;
+    if (!number.empty() && number.back() == numbers[k]) continue;
     vertex.push_back(k);
-    place.push_back(places[k]);
+    number.push_back(numbers[k]);
   }
-  while (place.size() > 1 && place.front() == place.back()) {
-    place.pop_back();
+  while (number.size() > 1 && number.front() == number.back()) {
+    number.pop_back();
     vertex.pop_back();
   }
-  return place.size() >= 3 && flatten(outlines, least_area);
+  return number.size() >= 3 && flatten(outlines, least_area);
 }
 
 bool FlatOutline::flatten(const Outlines& outlines, double least_area) {

@@ -35,14 +35,14 @@ struct Piece {
 };
 
 /// The positions of an outline in an order that depends neither on its first point nor on its direction.
-std::uint64_t cycle_key(const std::vector<std::uint32_t>& places) {
-  const std::size_t count = places.size();
+std::uint64_t cycle_key(const std::vector<std::uint32_t>& numbers) {
+  const std::size_t count = numbers.size();
   const auto least =
-      static_cast<std::size_t>(std::min_element(places.begin(), places.end()) - places.begin());
-  const bool forward = places[(least + 1) % count] <= places[(least + count - 1) % count];
+      static_cast<std::size_t>(std::min_element(numbers.begin(), numbers.end()) - numbers.begin());
+  const bool forward = numbers[(least + 1) % count] <= numbers[(least + count - 1) % count];
   std::uint64_t key = count;
   for (std::size_t i = 0; i < count; ++i) {
-    key = key_at(key, places[forward ? (least + i) % count : (least + count - i) % count]);
+    key = key_at(key, numbers[forward ? (least + i) % count : (least + count - i) % count]);
   }
   return key;
 }
@@ -51,7 +51,7 @@ std::uint64_t cycle_key(const std::vector<std::uint32_t>& places) {
 /// not agree with any.
 struct Neighbourhood {
   Neighbourhood(const Outlines& outlines, Job& job)
-      : is_shared(job), place(job, outlines.vertex.size()), outlines_(outlines) {
+      : is_shared(job), number(job, outlines.vertex.size()), outlines_(outlines) {
     const Box box = bounds_of(outlines.vertex.span());
     const glm::vec3 extent = box.max - box.min;
     size_ = std::sqrt(glm::dot(extent, extent));
@@ -62,31 +62,31 @@ struct Neighbourhood {
       if (i % 256 == 0) job.check();
       for (std::uint32_t k = outline.first; k < outline.first + outline.count; ++k) {
         if (k + look_ahead < outlines.vertex.size()) weld.expect(k + look_ahead);
-        place[k] = weld.number(k);
-        if (k > outline.first && place[k - 1] == place[k]) continue;
-        if (place[k] == is_shared.size()) {
+        number[k] = weld.number(k);
+        if (k > outline.first && number[k - 1] == number[k]) continue;
+        if (number[k] == is_shared.size()) {
           is_shared.push_back(0);
         } else {
-          is_shared[place[k]] = 1;
+          is_shared[number[k]] = 1;
         }
       }
     }
   }
 
   bool is_alone(const Outline& outline) const {
-    const std::span<const std::uint32_t> places = place.span().subspan(outline.first, outline.count);
-    return std::none_of(places.begin(), places.end(), [&](auto p) { return is_shared[p]; });
+    const std::span<const std::uint32_t> numbers = number.span().subspan(outline.first, outline.count);
+    return std::none_of(numbers.begin(), numbers.end(), [&](auto p) { return is_shared[p]; });
   }
 
   /// Fills in the polygon. Returns false where the outline has no area.
   bool read(const Outline& outline, FlatOutline& polygon) const {
-    return polygon.read(outlines_, outline, place.span(), 4 * least_area());
+    return polygon.read(outlines_, outline, number.span(), 4 * least_area());
   }
   double least_area() const { return area_share * size_ * size_; }
 
   Array<std::uint8_t>
       is_shared;  ///< of each position: several outlines contain it. Only there can triangles meet.
-  Array<std::uint32_t> place;  ///< the position of each vertex of the outlines
+  Array<std::uint32_t> number;  ///< the position of each vertex of the outlines
 
  private:
   const Outlines& outlines_;
@@ -121,11 +121,11 @@ class PolygonCutter {
     if (!near_.read(outlines_.outline[number], polygon_)) return;
     if (touches_itself()) {
       // Its own triangles may overlap, so they are checked like those of neighbours.
-      for (std::uint32_t each : polygon_.place) near_.is_shared[each] = 1;
+      for (std::uint32_t each : polygon_.number) near_.is_shared[each] = 1;
     }
-    if (std::all_of(polygon_.place.begin(), polygon_.place.end(),
+    if (std::all_of(polygon_.number.begin(), polygon_.number.end(),
                     [&](auto p) { return near_.is_shared[p]; })) {
-      std::uint32_t& seen = seen_[cycle_key(polygon_.place)];
+      std::uint32_t& seen = seen_[cycle_key(polygon_.number)];
       if (seen != NumberTable::none) return;
       seen = number;
     }
@@ -143,22 +143,22 @@ class PolygonCutter {
   }
 
   bool touches_itself() {
-    const auto shared = std::count_if(polygon_.place.begin(), polygon_.place.end(),
+    const auto shared = std::count_if(polygon_.number.begin(), polygon_.number.end(),
                                       [&](auto p) { return near_.is_shared[p]; });
     if (shared < 2) return false;
-    sorted_ = polygon_.place;
+    sorted_ = polygon_.number;
     std::sort(sorted_.begin(), sorted_.end());
     return std::adjacent_find(sorted_.begin(), sorted_.end()) != sorted_.end();
   }
 
   /// A triangle of outlines that coincide in part: two of them would be drawn in the same pixels.
   bool is_made_before(std::span<const std::uint32_t> triangle) {
-    std::array<std::uint32_t, 3> places{polygon_.place[triangle[0]], polygon_.place[triangle[1]],
-                                        polygon_.place[triangle[2]]};
-    if (!near_.is_shared[places[0]] || !near_.is_shared[places[1]] || !near_.is_shared[places[2]])
+    std::array<std::uint32_t, 3> numbers{polygon_.number[triangle[0]], polygon_.number[triangle[1]],
+                                         polygon_.number[triangle[2]]};
+    if (!near_.is_shared[numbers[0]] || !near_.is_shared[numbers[1]] || !near_.is_shared[numbers[2]])
       return false;
-    std::sort(places.begin(), places.end());
-    std::uint32_t& seen = faces_[key_at(std::uint64_t{places[0]} << 32U | places[1], places[2])];
+    std::sort(numbers.begin(), numbers.end());
+    std::uint32_t& seen = faces_[key_at(std::uint64_t{numbers[0]} << 32U | numbers[1], numbers[2])];
     return std::exchange(seen, 1) != NumberTable::none;
   }
 
@@ -167,7 +167,7 @@ class PolygonCutter {
     edges_.clear();
     for (std::uint32_t t = first; t < first + count; t += 3) {
       for (std::uint32_t k = 0; k < 3; ++k) {
-        const EdgeAdjacency::Edge edge{near_.place[corner[t + k]], near_.place[corner[t + (k + 1) % 3]]};
+        const EdgeAdjacency::Edge edge{near_.number[corner[t + k]], near_.number[corner[t + (k + 1) % 3]]};
         if (near_.is_shared[edge.from] && near_.is_shared[edge.to]) edges_.push_back(edge);
       }
     }
@@ -328,7 +328,7 @@ class PieceWriter {
     for (std::uint32_t i = 0; i < outline.count; ++i) {
       if (vertex_[i] == unused) continue;
       const glm::vec2 uv = glm::min((flat_[i] - low) * scale, glm::vec2(1)) + 0.0F;
-      vertex_[i] = find_vertex(mesh, where(piece), near_.place[outline.first + i],
+      vertex_[i] = find_vertex(mesh, where(piece), near_.number[outline.first + i],
                                {outlines_.vertex[outline.first + i] + 0.0F, normal, uv, bone});
     }
     std::uint32_t* out = mesh.index.wide.extend(corners.size());
@@ -340,9 +340,9 @@ class PieceWriter {
   }
 
   /// The number of an equal vertex of another outline, or of a new one.
-  std::uint32_t find_vertex(Mesh& mesh, const Where& where, std::uint32_t place, const Vertex& vertex) {
+  std::uint32_t find_vertex(Mesh& mesh, const Where& where, std::uint32_t position, const Vertex& vertex) {
     const auto fresh = static_cast<std::uint32_t>(mesh.position.size());
-    if (near_.is_shared[place]) {
+    if (near_.is_shared[position]) {
       std::uint64_t key =
           key_at(static_cast<std::uint64_t>(where.first), static_cast<std::uint16_t>(where.second));
       for (float value : {vertex.position.x, vertex.position.y, vertex.position.z, vertex.normal.x,

@@ -7,13 +7,13 @@
 namespace seedmesh {
 namespace {
 
-constexpr std::size_t look_every = 1024;
+constexpr std::size_t check_interval = 1024;
 // The number of points of an internode that are tested.
 constexpr int probes = 8;
 
 class Pruning {
  public:
-  Pruning(Skeleton& skeleton, const Surroundings& surroundings, Membership membership, KnownShares* known,
+  Pruning(Skeleton& skeleton, const Surroundings& surroundings, Membership membership, ShareCache* known,
           Job& job)
       : skeleton_(skeleton),
         limbs_(skeleton.limbs),
@@ -21,11 +21,11 @@ class Pruning {
         membership_(membership),
         known_(known),
         job_(job),
-        place_(job, skeleton.limbs.size()) {}
+        new_number_(job, skeleton.limbs.size()) {}
 
   void run() {
     for (std::size_t i = 0; i < limbs_.size(); ++i) {
-      if (i % look_every == 0) job_.check();
+      if (i % check_interval == 0) job_.check();
       test(static_cast<std::uint32_t>(i));
     }
     compact();
@@ -42,10 +42,10 @@ class Pruning {
     const std::uint32_t parent = limbs_.parent[joint];
     if (parent == Limbs::none) {
       const std::uint32_t anchor = limbs_.anchor.empty() ? Limbs::none : limbs_.anchor[joint];
-      keep(joint, (anchor == Limbs::none || place_[anchor] != gone) && is_in(limbs_.position[joint]));
+      keep(joint, (anchor == Limbs::none || new_number_[anchor] != gone) && is_in(limbs_.position[joint]));
       return;
     }
-    if (place_[parent] == gone || was_cut_[parent]) return keep(joint, false);
+    if (new_number_[parent] == gone || was_cut_[parent]) return keep(joint, false);
     const double share = share_of(limbs_.position[parent], limbs_.position[joint]);
     keep(joint, share > 0.01);
     if (share == 1 || share <= 0.01) return;
@@ -99,20 +99,20 @@ class Pruning {
 
   void keep(std::uint32_t joint, bool yes) {
     was_cut_.resize(std::max<std::size_t>(was_cut_.size(), joint + std::size_t{1}), false);
-    place_[joint] = yes ? kept_++ : gone;
+    new_number_[joint] = yes ? kept_++ : gone;
   }
 
   template <class T>
   void compact(Array<T>& values) {
     if (values.empty()) return;
-    for (std::size_t i = 0; i < place_.size(); ++i) {
-      if (place_[i] != gone) values[place_[i]] = values[i];
+    for (std::size_t i = 0; i < new_number_.size(); ++i) {
+      if (new_number_[i] != gone) values[new_number_[i]] = values[i];
     }
     values.resize(kept_);
   }
 
   std::uint32_t renamed(std::uint32_t joint) const {
-    return joint == Limbs::none ? Limbs::none : place_[joint];
+    return joint == Limbs::none ? Limbs::none : new_number_[joint];
   }
 
   void compact() {
@@ -137,11 +137,11 @@ class Pruning {
     Outlines& outlines = skeleton_.outlines;
     std::size_t kept = 0;
     for (std::size_t i = 0; i < outlines.outline.size(); ++i) {
-      if (i % look_every == 0) job_.check();
+      if (i % check_interval == 0) job_.check();
       Outline outline = outlines.outline[i];
       if (outline.limb_joint != Limbs::none) {
-        if (place_[outline.limb_joint] == gone || was_cut_[outline.limb_joint]) continue;
-        outline.limb_joint = place_[outline.limb_joint];
+        if (new_number_[outline.limb_joint] == gone || was_cut_[outline.limb_joint]) continue;
+        outline.limb_joint = new_number_[outline.limb_joint];
       }
       glm::dvec3 centre{0};
       bool whole = true;
@@ -160,8 +160,8 @@ class Pruning {
     for (std::size_t i = 0; i < organs.size(); ++i) {
       Organ organ = organs[i];
       if (organ.limb_joint != Limbs::none) {
-        if (place_[organ.limb_joint] == gone || was_cut_[organ.limb_joint]) continue;
-        organ.limb_joint = place_[organ.limb_joint];
+        if (new_number_[organ.limb_joint] == gone || was_cut_[organ.limb_joint]) continue;
+        organ.limb_joint = new_number_[organ.limb_joint];
       }
       if (is_in(organ.position)) organs[kept++] = organ;
     }
@@ -172,16 +172,16 @@ class Pruning {
   Limbs& limbs_;
   const Surroundings& surroundings_;
   Membership membership_;
-  KnownShares* known_;
+  ShareCache* known_;
   Job& job_;
-  Array<std::uint32_t> place_;  ///< new number of each joint, or gone
+  Array<std::uint32_t> new_number_;  ///< new number of each joint, or gone
   std::vector<bool> was_cut_;
   std::uint32_t kept_ = 0;
 };
 
 }  // namespace
 
-std::size_t KnownShares::place_of(const glm::vec3& from, const glm::vec3& to) const {
+std::size_t ShareCache::slot_of(const glm::vec3& from, const glm::vec3& to) const {
   const auto bits = [](float x) { return std::uint64_t{std::bit_cast<std::uint32_t>(x)}; };
   std::uint64_t key = mix(bits(from.x) << 32U | bits(from.y)) + (bits(from.z) << 32U | bits(to.x));
   key = mix(mix(key) + (bits(to.y) << 32U | bits(to.z)));
@@ -192,31 +192,31 @@ std::size_t KnownShares::place_of(const glm::vec3& from, const glm::vec3& to) co
   return place;
 }
 
-const double* KnownShares::find(const glm::vec3& from, const glm::vec3& to) const {
+const double* ShareCache::find(const glm::vec3& from, const glm::vec3& to) const {
   if (entries_.empty()) return nullptr;
-  const Entry& entry = entries_[place_of(from, to)];
+  const Entry& entry = entries_[slot_of(from, to)];
   return entry.share >= 0 ? &entry.share : nullptr;
 }
 
-void KnownShares::keep(const glm::vec3& from, const glm::vec3& to, double share) {
+void ShareCache::keep(const glm::vec3& from, const glm::vec3& to, double share) {
   if (2 * (count_ + 1) > entries_.size()) grow();
-  Entry& entry = entries_[place_of(from, to)];
+  Entry& entry = entries_[slot_of(from, to)];
   if (entry.share < 0) ++count_;
   entry = {from, to, share};
 }
 
-void KnownShares::grow() {
+void ShareCache::grow() {
   constexpr std::size_t least = 1024;
   Array<Entry> before = std::move(entries_);
   entries_ = before.empty_array_of<Entry>();
   entries_.resize(before.empty() ? least : 2 * before.size());
   std::fill(entries_.begin(), entries_.end(), Entry{});
   for (const Entry& entry : before) {
-    if (entry.share >= 0) entries_[place_of(entry.from, entry.to)] = entry;
+    if (entry.share >= 0) entries_[slot_of(entry.from, entry.to)] = entry;
   }
 }
 
-void prune(Skeleton& skeleton, const Surroundings& surroundings, Membership membership, KnownShares* known,
+void prune(Skeleton& skeleton, const Surroundings& surroundings, Membership membership, ShareCache* known,
            Job& job) {
   if (surroundings.bounds_growth()) Pruning(skeleton, surroundings, membership, known, job).run();
 }

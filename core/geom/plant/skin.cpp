@@ -138,21 +138,21 @@ void mark_straight(const Limbs& limbs, const SkinOptions& options, const Scale& 
 }
 
 void count_tubes(Plan& plan, const Limbs& limbs, const SkinOptions& options, const Job& job) {
-  parallel_for(job, plan.chains.head.size(), plan.chunk,
-               [&](std::size_t begin, std::size_t end, std::size_t index) {
-                 TubeCounter counter(limbs, options, plan.scale, plan.palette, plan.row(index));
-                 Checked sink(counter, job);
-                 MitreCheck check(plan.scale, options.sides);
-                 int sides = options.sides;
-                 for (std::size_t i = begin; i < end; ++i) {
-                   if (const int own = plan.corners(limbs, options, plan.chains.head[i]).now; own != sides) {
-                     check = MitreCheck(plan.scale, sides = own);
-                     counter.begin_limb(sides);
-                   }
-                   walk_limb({limbs, plan.chains, plan.scale, plan.chains.head[i]}, check, plan.chains,
-                             plan.scale, sink);
-                 }
-               });
+  parallel_for(
+      job, plan.chains.head.size(), plan.chunk, [&](std::size_t begin, std::size_t end, std::size_t index) {
+        TubeCounter counter(limbs, options, plan.scale, plan.palette, plan.row(index));
+        Checked sink(counter, job);
+        MitreCheck check(plan.scale, options.sides);
+        int sides = options.sides;
+        for (std::size_t i = begin; i < end; ++i) {
+          if (const int own = plan.corners(limbs, options, plan.chains.head[i]).current; own != sides) {
+            check = MitreCheck(plan.scale, sides = own);
+            counter.begin_limb(sides);
+          }
+          walk_limb({limbs, plan.chains, plan.scale, plan.chains.head[i]}, check, plan.chains, plan.scale,
+                    sink);
+        }
+      });
 }
 
 /// Replaces counts by the sums of the counts before; returns the totals of each colour.
@@ -223,7 +223,7 @@ void write_tubes(Plan& plan, const Limbs& limbs, const SkinOptions& options, con
         int sides = options.sides;
         for (std::size_t i = begin; i < end; ++i) {
           const LimbCorners corners = plan.corners(limbs, options, plan.chains.head[i]);
-          if (corners.now != sides) check = MitreCheck(plan.scale, sides = corners.now);
+          if (corners.current != sides) check = MitreCheck(plan.scale, sides = corners.current);
           writer.begin_limb(corners);
           walk_limb({limbs, plan.chains, plan.scale, plan.chains.head[i]}, check, plan.chains, plan.scale,
                     sink);
@@ -283,12 +283,12 @@ std::vector<Bark> skin(const Limbs& limbs, const SkinOptions& options, Job& job)
   return barks;
 }
 
-TubeCount skin_count(const Limbs& limbs, const SkinOptions& options, const Job& request, Redrawn repeats) {
+TubeCount skin_count(const Limbs& limbs, const SkinOptions& options, const Job& request, RepeatMode repeats) {
   TubeCount sum;
   if (limbs.size() == 0) return sum;
   Job job = request.for_estimate();
   const Scale scale = scale_of(limbs, finest_sides(options));
-  Plan plan(limbs, repeats == Redrawn::found ? find_chains(limbs, scale, job) : link_chains(limbs, job),
+  Plan plan(limbs, repeats == RepeatMode::found ? find_chains(limbs, scale, job) : link_chains(limbs, job),
             scale);
   for (const std::uint32_t head : plan.chains.head) {
     if (options.adapt) plan.thickest = std::max(plan.thickest, first_radius(limbs, plan.chains, head));

@@ -12,8 +12,8 @@ namespace seedmesh {
 
 /// The number of corners of all rings of a limb.
 struct LimbCorners {
-  std::uint8_t now = 3;     ///< number of corners at this level of detail
-  std::uint8_t finest = 3;  ///< number of corners at the finest level
+  std::uint8_t current = 3;  ///< number of corners at this level of detail
+  std::uint8_t finest = 3;   ///< number of corners at the finest level
 };
 
 struct SkinOptions {
@@ -102,7 +102,7 @@ std::vector<Bark> wires(const Limbs& limbs, Job& job);
 std::vector<Bark> wires(Limbs&& limbs, Job& job);
 
 /// How a count treats repeated internodes: it counts them twice, or finds them, which takes ten times as long.
-enum class Redrawn { counted, found };
+enum class RepeatMode { counted, found };
 
 struct TubeCount {
   std::uint64_t vertices = 0, triangles = 0;
@@ -111,6 +111,6 @@ struct TubeCount {
 /// Returns the size of all that skin() would write; exact, except for repeated internodes. Spends nothing of the
 /// job, but stops with it.
 TubeCount skin_count(const Limbs& limbs, const SkinOptions& options, const Job& job,
-                     Redrawn repeats = Redrawn::counted);
+                     RepeatMode repeats = RepeatMode::counted);
 
 }  // namespace seedmesh

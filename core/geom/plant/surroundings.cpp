@@ -10,7 +10,7 @@
 namespace seedmesh {
 namespace {
 
-constexpr std::size_t look_every = 1024;
+constexpr std::size_t check_interval = 1024;
 constexpr double everywhere = 1e9;
 // The number of points of a step that are tested.
 constexpr int probes = 8;
@@ -98,7 +98,7 @@ glm::dvec3 Surroundings::toward_surface(const glm::dvec3& point) const {
   return math::unit(to, glm::dvec3{0});
 }
 
-void Surroundings::set_internodes(std::span<const Stretch> grown) {
+void Surroundings::set_internodes(std::span<const GrownInternode> grown) {
   grown_.assign(grown.begin(), grown.end());
   has_cells_ = has_shades_ = false;
 }
@@ -106,19 +106,19 @@ void Surroundings::set_internodes(std::span<const Stretch> grown) {
 void Surroundings::fill_cells() {
   has_cells_ = true;
   double longest = 0, thickest = 0;
-  for (const Stretch& each : grown_) {
+  for (const GrownInternode& each : grown_) {
     longest = std::max(longest, length_of(each.to - each.from));
     thickest = std::max(thickest, each.radius);
   }
   // Cells of about the mean length hold few internodes; none lies in more than most_cells along an axis.
   double sum = 0;
-  for (const Stretch& each : grown_) sum += length_of(each.to - each.from);
+  for (const GrownInternode& each : grown_) sum += length_of(each.to - each.from);
   const double mean = grown_.empty() ? 1 : sum / static_cast<double>(grown_.size());
   cell_ = std::max({mean, 2 * thickest + options_.clearance, longest / most_cells, 1e-4});
   Array<Cell> found = cells_.empty_array_of<Cell>();
   for (std::size_t i = 0; i < grown_.size(); ++i) {
-    if (i % look_every == 0) job_.check();
-    const Stretch& each = grown_[i];
+    if (i % check_interval == 0) job_.check();
+    const GrownInternode& each = grown_[i];
     const double reach = each.radius + options_.clearance;
     visit_cells(glm::min(each.from, each.to) - reach, glm::max(each.from, each.to) + reach, cell_,
                 [&](std::uint64_t key) {
@@ -141,7 +141,7 @@ void Surroundings::cast_shadows() {
   const ShadowOptions& shadow = options_.shadow;
   // Each cell once: many short internodes are no darker than one long twig.
   Array<std::uint64_t> filled = cells_.empty_array_of<std::uint64_t>();
-  for (const Stretch& each : grown_) {
+  for (const GrownInternode& each : grown_) {
     const glm::dvec3 end = each.to;
     filled.push_back(
         cell_key(cell_of(end.x, shadow.cell), cell_of(end.y, shadow.cell), cell_of(end.z, shadow.cell)));
@@ -155,7 +155,7 @@ void Surroundings::cast_shadows() {
   };
   std::size_t steps = 0;
   for (const std::uint64_t* key = filled.begin(); key != last; ++key) {
-    if (++steps % look_every == 0) job_.check();
+    if (++steps % check_interval == 0) job_.check();
     double amount = shadow.shade;
     const std::int64_t x = coordinate(*key, 42), y = coordinate(*key, 21), z = coordinate(*key, 0);
     for (int layer = 0; layer <= shadow.layers; ++layer, amount /= shadow.falloff) {
@@ -175,27 +175,28 @@ double Surroundings::light_at(const glm::dvec3& point) {
   return amount == 0 ? 1 : std::clamp(1 - (amount - options_.shadow.shade), 0.0, 1.0);
 }
 
-bool Surroundings::collides(const Prober& prober, const glm::dvec3& from, const glm::dvec3& to) const {
+bool Surroundings::collides(const GrowthTip& tip, const glm::dvec3& from, const glm::dvec3& to) const {
   std::uint32_t relatives[kin];
   int count = 0;
-  for (std::uint32_t joint = prober.joint; joint != Limbs::none && count < kin;) {
+  for (std::uint32_t joint = tip.joint; joint != Limbs::none && count < kin;) {
     relatives[count++] = joint;
-    const auto own = std::lower_bound(
-        grown_.begin(), grown_.end(), std::pair(prober.system, joint),
-        [](const Stretch& each, const auto& wanted) { return std::pair(each.system, each.joint) < wanted; });
-    joint = own != grown_.end() && own->system == prober.system && own->joint == joint ? own->parent
-                                                                                       : Limbs::none;
+    const auto own = std::lower_bound(grown_.begin(), grown_.end(), std::pair(tip.system, joint),
+                                      [](const GrownInternode& each, const auto& wanted) {
+                                        return std::pair(each.system, each.joint) < wanted;
+                                      });
+    joint =
+        own != grown_.end() && own->system == tip.system && own->joint == joint ? own->parent : Limbs::none;
   }
-  const glm::dvec3 place = glm::vec3(prober.position) + 0.0F;  // rounded as internodes are stored
-  const auto is_kin = [&](const Stretch& each) {
-    if (each.system != prober.system) return false;
-    if (each.limb == prober.limb || each.limb == prober.limb_ahead) return true;
-    if (each.limb_below == prober.limb_ahead && (prober.joint == Limbs::none || each.parent > prober.joint))
+  const glm::dvec3 place = glm::vec3(tip.position) + 0.0F;  // rounded as internodes are stored
+  const auto is_kin = [&](const GrownInternode& each) {
+    if (each.system != tip.system) return false;
+    if (each.limb == tip.limb || each.limb == tip.limb_ahead) return true;
+    if (each.limb_below == tip.limb_ahead && (tip.joint == Limbs::none || each.parent > tip.joint))
       return true;  // grows from what has grown on
-    if (each.parent == prober.joint || each.from == place) return true;
+    if (each.parent == tip.joint || each.from == place) return true;
     return std::find(relatives, relatives + count, each.joint) != relatives + count;
   };
-  const double reach = prober.radius;
+  const double reach = tip.radius;
   bool hit = false;
   std::size_t seen = 0;
   visit_cells(glm::min(from, to) - reach, glm::max(from, to) + reach, cell_, [&](std::uint64_t key) {
@@ -204,19 +205,19 @@ bool Surroundings::collides(const Prober& prober, const glm::dvec3& from, const 
     for (std::uint32_t i = starts_[bucket]; i < starts_[bucket + 1] && !hit; ++i) {
       const Cell* found = &cells_[i];
       if (found->key != key) continue;
-      if (++seen % look_every == 0) job_.check();
-      const Stretch& each = grown_[found->stretch];
+      if (++seen % check_interval == 0) job_.check();
+      const GrownInternode& each = grown_[found->internode];
       if (is_kin(each)) continue;
-      hit = segments_apart(from, to, each.from, each.to) < prober.radius + each.radius + options_.clearance;
+      hit = segments_apart(from, to, each.from, each.to) < tip.radius + each.radius + options_.clearance;
     }
   });
   return hit;
 }
 
-bool Surroundings::is_free(const Prober& prober, double length) {
+bool Surroundings::is_free(const GrowthTip& tip, double length) {
   if (bounds_growth()) {
     for (int i = 0; i <= probes; ++i) {
-      if (forbids(prober.position + prober.heading * (length * i / probes))) return false;
+      if (forbids(tip.position + tip.heading * (length * i / probes))) return false;
     }
   }
   if (grown_.empty()) return true;
@@ -226,10 +227,10 @@ bool Surroundings::is_free(const Prober& prober, double length) {
   const double pieces = std::ceil(std::abs(length) / (4 * cell_));
   if (!(pieces <= most_pieces)) return false;
   const int count = std::max(1, static_cast<int>(math::to_int32(pieces)));
-  glm::dvec3 from = prober.position;
+  glm::dvec3 from = tip.position;
   for (int i = 1; i <= count; ++i) {
-    const glm::dvec3 end = prober.position + prober.heading * (length * i / count);
-    if (collides(prober, from, end)) return false;
+    const glm::dvec3 end = tip.position + tip.heading * (length * i / count);
+    if (collides(tip, from, end)) return false;
     from = end;
   }
   return true;

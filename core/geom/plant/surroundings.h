@@ -23,7 +23,7 @@ struct ShadowOptions {
 };
 
 /// An internode with which others can collide.
-struct Stretch {
+struct GrownInternode {
   glm::dvec3 from{0}, to{0};
   double radius = 0;
   std::uint32_t system = 0;
@@ -36,7 +36,7 @@ struct Stretch {
 /// - the limb of the tip, and the limb that continues it with the first internodes of its side limbs;
 /// - internodes that start at the joint or the position of the tip;
 /// - the last internodes below the tip.
-struct Prober {
+struct GrowthTip {
   glm::dvec3 position{0}, heading{0, 1, 0};
   double radius = 0;
   std::uint32_t system = 0;
@@ -65,10 +65,10 @@ class Surroundings {
   glm::dvec3 toward_surface(const glm::dvec3& point) const;
 
   /// Replaces all internodes by copies of `grown`.
-  void set_internodes(std::span<const Stretch> grown);
+  void set_internodes(std::span<const GrownInternode> grown);
   /// True where the tip may grow by `length` along its heading: inside guides, outside obstacles, and clear of
   /// other limbs.
-  bool is_free(const Prober& prober, double length);
+  bool is_free(const GrowthTip& tip, double length);
   /// Returns the light at a point, from 0 (dark) to 1 (open sky). A tip's own shade is not counted.
   double light_at(const glm::dvec3& point);
 
@@ -77,17 +77,17 @@ class Surroundings {
  private:
   struct Cell {
     std::uint64_t key;
-    std::uint32_t stretch;
+    std::uint32_t internode;
   };
   void fill_cells();
   void cast_shadows();
   std::size_t bucket_of(std::uint64_t key) const { return mix(key) & (starts_.size() - 2); }
-  bool collides(const Prober& prober, const glm::dvec3& from, const glm::dvec3& to) const;
+  bool collides(const GrowthTip& tip, const glm::dvec3& from, const glm::dvec3& to) const;
 
   Options options_;
   Job& job_;
   double cell_ = 1;  ///< cell size of the grid of internodes
-  std::vector<Stretch> grown_;
+  std::vector<GrownInternode> grown_;
   /// Whether `cells_` and `shades_` belong to `grown_`. They are computed on first use.
   bool has_cells_ = false, has_shades_ = false;
   Array<Cell> cells_;            ///< cells by bucket of their key, then by number of the stretch
@@ -99,9 +99,9 @@ enum class Membership { centre, whole, clipped };
 
 /// The shares of internodes that lie inside, kept from one call of prune() to the next: a growing plant is pruned after
 /// each step, and most of its internodes do not change.
-class KnownShares {
+class ShareCache {
  public:
-  explicit KnownShares(const Job& job) : entries_(job) {}
+  explicit ShareCache(const Job& job) : entries_(job) {}
 
   /// Returns the share of an internode, or null. The pointer is valid until the next call of keep().
   const double* find(const glm::vec3& from, const glm::vec3& to) const;
@@ -112,7 +112,7 @@ class KnownShares {
     glm::vec3 from{0}, to{0};
     double share = -1;  ///< -1: empty
   };
-  std::size_t place_of(const glm::vec3& from, const glm::vec3& to) const;
+  std::size_t slot_of(const glm::vec3& from, const glm::vec3& to) const;
   void grow();
 
   Array<Entry> entries_;
@@ -123,7 +123,7 @@ class KnownShares {
 /// Membership is decided by its centre, by nine points along it, or the internode is cut at the surface.
 /// Outlines and organs are removed with their joint, and where their own centre is not inside (with whole
 /// membership: any vertex). `known` may be null; it belongs to these surroundings and this membership.
-void prune(Skeleton& skeleton, const Surroundings& surroundings, Membership membership, KnownShares* known,
+void prune(Skeleton& skeleton, const Surroundings& surroundings, Membership membership, ShareCache* known,
            Job& job);
 
 }  // namespace seedmesh

@@ -43,7 +43,8 @@ inline glm::vec3 carried(const glm::vec3& side, const glm::vec3& along, const Tu
   return out;
 }
 
-/// Turns `side`, where an internode begins, to the turtle's left, or as far as one internode may twist.
+/// Turns `side`, the direction at the start of an internode, to the turtle's left. One internode turns it at most by
+/// the greatest twist.
 inline Twist twist_of(const Limbs& limbs, const Scale& scale, const Internode& internode,
                       const glm::vec3& side) {
   const glm::vec3 left = across(limbs, internode, {-1, 0, 0});

@@ -141,7 +141,7 @@ void TubeWriter::open(const Internode& first, TubeOpening opening) {
   first_u_ = u_;
   twist_ = 1;
   spin_ = 0;
-  is_waiting_ = opening != TubeOpening::point;
+  has_pending_ring_ = opening != TubeOpening::point;
   switch (opening) {
     case TubeOpening::point:
       radius_ = 0;
@@ -152,26 +152,26 @@ void TubeWriter::open(const Internode& first, TubeOpening opening) {
     case TubeOpening::root: {
       const bool is_revisit = context_.chains.mark[context_.limbs.parent[first.first]] & revisit;
       const float up = is_revisit ? std::min(nudge(hash, radius_), 0.2F * first.length) : 0;
-      waiting_ = plain_ring(first.from + first.along * up, radius_, v_so_far_);
-      waiting_.contour = first_contour(first.joint);
+      pending_ring_ = plain_ring(first.from + first.along * up, radius_, v_so_far_);
+      pending_ring_.contour = first_contour(first.joint);
       if (begins_flat(context_.options)) {
-        write_flat(waiting_, -1);
+        write_flat(pending_ring_, -1);
       } else {
-        write_disc(waiting_);
+        write_disc(pending_ring_);
       }
       break;
     }
     case TubeOpening::branch: {
       const float back = nudge(hash, radius_), cone = cap_share * radius_;
-      waiting_ = plain_ring(first.from - first.along * back, radius_, v_so_far_ - back * by_length_);
-      waiting_.contour = first_contour(first.joint);
+      pending_ring_ = plain_ring(first.from - first.along * back, radius_, v_so_far_ - back * by_length_);
+      pending_ring_.contour = first_contour(first.joint);
       if (begins_flat(context_.options)) {
-        write_flat(waiting_, -1);
+        write_flat(pending_ring_, -1);
         break;
       }
-      waiting_.before = slope_of(0, radius_, cone);
-      piece_.start_apex = write_apex(waiting_.centre - first.along * cone, -first.along,
-                                     {half_round(radius_), waiting_.v - cone * by_length_});
+      pending_ring_.before = slope_of(0, radius_, cone);
+      piece_.start_apex = write_apex(pending_ring_.centre - first.along * cone, -first.along,
+                                     {half_round(radius_), pending_ring_.v - cone * by_length_});
       break;
     }
   }
@@ -181,7 +181,7 @@ void TubeWriter::open(const Internode& first, TubeOpening opening) {
 void TubeWriter::join(const Turn& turn, const Internode& next) {
   const glm::vec3 &along = internode_.along, &tangent = turn.tangent;
   const Slope slope = slope_of(radius_, next.base, internode_.length);
-  write_waiting(slope);
+  write_pending_ring(slope);
   write_inner_rings({next.base, internode_.length, reach_, internode_.length - turn.reach});
 
   v_so_far_ += internode_.length * by_length_;
@@ -208,8 +208,8 @@ void TubeWriter::join(const Turn& turn, const Internode& next) {
   ring.contour = last_contour(internode_.joint);
   ring.spin = spin_;
   ring.is_turned = is_turned_;
-  waiting_ = ring;
-  is_waiting_ = true;
+  pending_ring_ = ring;
+  has_pending_ring_ = true;
 
   u_ = carried(u_, along, turn, next.along);
   internode_ = next;
@@ -229,7 +229,7 @@ void TubeWriter::close(TubeClosing closing, float free) {
   const float ring_at = closing == TubeClosing::tip ? internode_.length - cone : internode_.length;
   const Slope slope = slope_of(radius_, end, ring_at);
   spin_ *= internode_.length / ring_at;  // the whole twist happens before the cone
-  write_waiting(slope);
+  write_pending_ring(slope);
   write_inner_rings({end, ring_at, reach_, ring_at});
 
   v_so_far_ += internode_.length * by_length_;
@@ -258,14 +258,14 @@ void TubeWriter::close(TubeClosing closing, float free) {
   end_piece();
 }
 
-void TubeWriter::write_waiting(Slope after) {
-  if (!is_waiting_) return;
-  is_waiting_ = false;
-  write_ring(waiting_, after);
-  if (&cursors_[context_.palette.slot(waiting_.next_color)] == here_) return;
+void TubeWriter::write_pending_ring(Slope after) {
+  if (!has_pending_ring_) return;
+  has_pending_ring_ = false;
+  write_ring(pending_ring_, after);
+  if (&cursors_[context_.palette.slot(pending_ring_.next_color)] == here_) return;
   end_piece();
-  begin_piece(waiting_.next_color);
-  write_ring(waiting_, after);
+  begin_piece(pending_ring_.next_color);
+  write_ring(pending_ring_, after);
 }
 
 void TubeWriter::write_inner_rings(const Taper& taper) {

@@ -56,7 +56,7 @@ class TubeWriter {
 
   /// Begins a limb: its v starts at 0.
   void begin_limb(LimbCorners corners) {
-    section_ = CrossSection(context_.options, corners.now);
+    section_ = CrossSection(context_.options, corners.current);
     finest_sides_ = corners.finest;
     v_so_far_ = 0;
     turns_ = 0;
@@ -123,7 +123,7 @@ class TubeWriter {
   void write_disc(const Ring& ring);
   void write_flat(const Ring& ring, float way);
   void write_ring(const Ring& ring, Slope after);
-  void write_waiting(Slope after);
+  void write_pending_ring(Slope after);
   void write_inner_rings(const Taper& taper);
   std::uint32_t write_apex(const glm::vec3& position, const glm::vec3& normal, glm::vec2 uv);
   void write_bones(std::size_t first, std::size_t count, std::uint32_t joint);
@@ -137,8 +137,8 @@ class TubeWriter {
   TubeCursor* cursors_;
   TubeCursor* here_ = nullptr;
   Piece piece_;
-  Ring waiting_;  ///< the last ring: its normals depend on what follows
-  bool is_waiting_ = false;
+  Ring pending_ring_;  ///< the last ring: its normals depend on what follows
+  bool has_pending_ring_ = false;
   bool is_turned_ = false;            ///< was the last ring turned by half a side?
   std::vector<bool> is_ring_turned_;  ///< whether each ring of the piece is turned, where rings may be turned
   Internode internode_;               ///< the current one

@@ -22,7 +22,7 @@ void Turtle::advance(double length) {
       std::abs(p.z) < largest_coordinate) {
     state_.position = p;
   } else {
-    is_lost_ = true;
+    is_out_of_range_ = true;
   }
 }
 
@@ -165,7 +165,7 @@ Turtle::Pose Turtle::pose() const {
   return pose;
 }
 
-void Turtle::take_share(const Pose& earlier, double share, double turned) {
+void Turtle::interpolate_from(const Pose& earlier, double share, double turned) {
   const auto part = [share](const auto& from, const auto& to) { return from + (to - from) * share; };
   const auto differs = [](const glm::dvec3& a, const glm::dvec3& b) {
     return a.x != b.x || a.y != b.y || a.z != b.z;

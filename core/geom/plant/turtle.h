@@ -120,7 +120,7 @@ class Turtle {
   Pose pose() const;
   /// Interpolates from `earlier` to the present pose: `share` is the share of all but the rotation, `turned` that of the
   /// rotation.
-  void take_share(const Pose& earlier, double share, double turned);
+  void interpolate_from(const Pose& earlier, double share, double turned);
   /// Continues from the last joint if the turtle has moved away from it and back.
   void rejoin();
   /// Sets the share of the turn by tropisms that later segments get. Not part of the state.
@@ -147,7 +147,7 @@ class Turtle {
   void append_copy(const Recording& recording);
   /// Goes to the end of the recording without drawing it, for callers that place its drawing themselves. The next
   /// internode then starts a limb of its own. The report counts the copy; with `is_measured`, its bounds too.
-  void pass_copy(const Recording& recording, bool is_measured);
+  void skip_copy(const Recording& recording, bool is_measured);
 
   /// Last joint of this branch; none before its first segment.
   std::uint32_t last_joint() const { return state_.last; }
@@ -161,7 +161,7 @@ class Turtle {
 
   /// A command would have taken a coordinate of the position beyond 1e15 metres. The caller refuses the
   /// request, since it knows the module and the text that wrote it.
-  bool is_lost() const { return is_lost_; }
+  bool is_out_of_range() const { return is_out_of_range_; }
   static constexpr const char* too_far = "the turtle went further than 1e15 metres from its start";
 
  private:
@@ -213,7 +213,7 @@ class Turtle {
 
   Skeleton* skeleton_;
   Job& job_;
-  bool is_lost_ = false;
+  bool is_out_of_range_ = false;
   State state_;
   std::vector<State> stack_;
   Control control_;                ///< while is_sweeping

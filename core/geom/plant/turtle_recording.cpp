@@ -73,7 +73,7 @@ void Turtle::append_copy(const Recording& recording) {
   go_to_end(recording, static_cast<std::uint32_t>(before) - recording.shared_joints_);
 }
 
-void Turtle::pass_copy(const Recording& recording, bool is_measured) {
+void Turtle::skip_copy(const Recording& recording, bool is_measured) {
   job_.check();
   refuse_far(recording);
   if (is_measured) {

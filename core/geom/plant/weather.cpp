@@ -8,7 +8,7 @@
 namespace seedmesh {
 namespace {
 
-constexpr std::size_t look_every = 4096;
+constexpr std::size_t check_interval = 4096;
 constexpr double gravity = 9.81;     // m/s^2
 constexpr double air_density = 1.2;  // kg/m^3 at 20 degrees
 constexpr double drag = 1.0;         // coefficient of a cylinder and of a plate across the flow
@@ -82,7 +82,7 @@ class Bending {
     load_outlines();
     pass_loads_down();
     for (std::size_t i = 0; i < limbs_.size(); ++i) {
-      if (i % look_every == 0) job_.check();
+      if (i % check_interval == 0) job_.check();
       move(static_cast<std::uint32_t>(i));
     }
     move_outlines();
@@ -97,7 +97,7 @@ class Bending {
 
   void load_internodes() {
     for (std::size_t i = 0; i < limbs_.size(); ++i) {
-      if (i % look_every == 0) job_.check();
+      if (i % check_interval == 0) job_.check();
       if (limbs_.parent[i] == Limbs::none) continue;
       const glm::dvec3 from = before_[limbs_.parent[i]], to = before_[i];
       const double thickness = double{limbs_.radius[i]} + limbs_.base_radius[i];
@@ -121,7 +121,7 @@ class Bending {
 
   void pass_loads_down() {
     for (std::size_t i = limbs_.size(); i-- > 0;) {
-      if (i % look_every == 0) job_.check();
+      if (i % check_interval == 0) job_.check();
       const std::uint32_t carrier = carrier_of(i);
       if (carrier != Limbs::none) load_[carrier].add(load_[i]);
     }

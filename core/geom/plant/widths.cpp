@@ -8,7 +8,7 @@
 namespace seedmesh {
 namespace {
 
-constexpr std::size_t look_every = 4096;
+constexpr std::size_t check_interval = 4096;
 
 bool continues(const Limbs& limbs, std::size_t joint) {
   return limbs.parent[joint] != Limbs::none && !limbs.starts_limb[joint];
@@ -36,7 +36,7 @@ double share_of(const Limbs& limbs, std::size_t joint) {
 void narrow_by_order(Limbs& limbs, double factor, Job& job) {
   std::vector<float> by_order{1};
   for (std::size_t i = 0; i < limbs.size(); ++i) {
-    if (i % look_every == 0) job.check();
+    if (i % check_interval == 0) job.check();
     while (by_order.size() <= limbs.order[i])
       by_order.push_back(static_cast<float>(by_order.back() * factor));
     limbs.radius[i] *= by_order[limbs.order[i]];
@@ -49,7 +49,7 @@ void widen_by_longest_chain(Limbs& limbs, const ChainWidths& widths, Job& job) {
   Array<double> beyond(job, limbs.size(), 0.0);  // internodes in the longest chain after a joint
   double longest = 0;
   for (std::size_t i = limbs.size(); i-- > 0;) {
-    if (i % look_every == 0) job.check();
+    if (i % check_interval == 0) job.check();
     longest = std::max(longest, beyond[i]);
     if (limbs.parent[i] == Limbs::none) continue;
     double& before = beyond[limbs.parent[i]];
@@ -58,7 +58,7 @@ void widen_by_longest_chain(Limbs& limbs, const ChainWidths& widths, Job& job) {
   const double a_link = longest == 0 ? 0 : (widths.base - widths.tip) / longest;
   const auto radius = [&](double links) { return static_cast<float>(widths.tip + a_link * links); };
   for (std::size_t i = 0; i < limbs.size(); ++i) {
-    if (i % look_every == 0) job.check();
+    if (i % check_interval == 0) job.check();
     limbs.radius[i] = radius(beyond[i]);
     limbs.base_radius[i] =
         radius(limbs.parent[i] == Limbs::none ? beyond[i] : beyond[i] + share_of(limbs, i));
@@ -71,7 +71,7 @@ void widen_by_pipes(Limbs& limbs, const PipeWidths& widths, Job& job) {
   // The share of a tip that exists along the fullest chain from a joint: only what is missing ends here.
   Array<float> above(job, limbs.share.size(), 0.0F);
   for (std::size_t i = limbs.size(); i-- > 0;) {
-    if (i % look_every == 0) job.check();
+    if (i % check_interval == 0) job.check();
     if (above.empty()) {
       if (pipes[i] == 0) pipes[i] = tip;
     } else {

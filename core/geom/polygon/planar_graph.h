@@ -36,7 +36,7 @@ class PlanarGraph {
   void remove(std::uint32_t edge);
 
   const std::vector<CmPoint>& nodes() const { return nodes_; }
-  /// Edges that were split or removed stay in the list as such.
+  /// Edges that were split or removed stay in the list; their is_removed() is true.
   const std::vector<PlanarEdge>& edges() const { return edges_; }
 
  private:

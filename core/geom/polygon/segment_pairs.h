@@ -30,7 +30,7 @@ inline bool is_beside(const Segment& segment, const Segment& other, double reach
 /// Cost: n log n and the number of pairs that share a cell of a grid with n cells.
 template <class Visit>
 void each_near_pair(std::span<const Segment> segments, double reach, const Job* job, const Visit& visit) {
-  constexpr std::size_t looks_a_check = 50'000;
+  constexpr std::size_t check_interval = 50'000;
   if (segments.empty()) return;
   glm::dvec2 low = segments[0].from, high = low;
   for (const Segment& each : segments) {
@@ -51,26 +51,26 @@ void each_near_pair(std::span<const Segment> segments, double reach, const Job* 
   const double far = reach + 1e-12 * (size.x + size.y);
   std::vector<std::size_t> mark(segments.size(), segments.size());
   std::vector<std::uint32_t> others;
-  std::size_t looks = 0;
+  std::size_t steps = 0;
   for (std::size_t i = 0; i < segments.size(); ++i) {
     others.clear();
     each_cell(i, [&](std::size_t cell) {
       grid.each(cell, [&](std::uint32_t k) {
-        ++looks;
+        ++steps;
         if (k <= i || mark[k] == i) return;
         mark[k] = i;
-        ++looks;
+        ++steps;
         if (!is_beside(segments[i], segments[k], far) && !is_beside(segments[k], segments[i], far))
           others.push_back(k);
       });
     });
     std::sort(others.begin(), others.end());
-    looks += 8 * others.size() + 8;
+    steps += 8 * others.size() + 8;
     for (const std::uint32_t k : others) {
       if (!visit(i, static_cast<std::size_t>(k))) return;
     }
-    if (looks < looks_a_check) continue;
-    looks = 0;
+    if (steps < check_interval) continue;
+    steps = 0;
     if (job) job->check();
   }
 }

@@ -16,7 +16,7 @@ namespace {
 constexpr std::size_t least_in_grid = 24;
 constexpr std::size_t most_cells_along = 1024;
 // A look takes about 10 ns.
-constexpr std::uint32_t looks_a_check = 16'384;
+constexpr std::uint32_t check_interval = 16'384;
 
 }  // namespace
 
@@ -79,13 +79,13 @@ void Triangulator::link() {
   before_.resize(count);
   is_cut_.assign(count, 0);
   for (std::uint32_t i = 0; i < count; ++i) {
-    count_look();
+    count_step();
     next_[i] = (i + 1) % count;
     before_[i] = (i + count - 1) % count;
   }
   reflex_.clear();
   for (std::uint32_t i = 0; i < count; ++i) {
-    count_look();
+    count_step();
     if (corner(i) <= least_) reflex_.push_back(i);
   }
 }
@@ -106,14 +106,14 @@ void Triangulator::fill_grid() {
   }
   first_.assign(side_ * side_ + 1, 0);
   for (std::uint32_t point : reflex_) {
-    count_look();
+    count_step();
     ++first_[cell_of(points_[point]) + 1];
   }
   for (std::size_t i = 1; i < first_.size(); ++i) first_[i] += first_[i - 1];
   members_.resize(reflex_.size());
   // Backwards, so that the counter of each cell ends at its beginning.
   for (std::size_t i = reflex_.size(); i-- > 0;) {
-    count_look();
+    count_step();
     members_[--first_[cell_of(points_[reflex_[i]]) + 1]] = reflex_[i];
   }
   first_.erase(first_.begin());
@@ -125,9 +125,9 @@ std::size_t Triangulator::along(double value, int axis) const {
   return static_cast<std::size_t>(std::clamp<std::int64_t>(cell, 0, static_cast<std::int64_t>(side_) - 1));
 }
 
-void Triangulator::count_look() const {
-  if (++looks_ < looks_a_check) return;
-  looks_ = 0;
+void Triangulator::count_step() const {
+  if (++steps_ < check_interval) return;
+  steps_ = 0;
   if (job_) job_->check();
 }
 
@@ -135,7 +135,7 @@ void Triangulator::cut_ears() {
   std::uint32_t at = 0;
   std::size_t since_ear = 0;
   while (left_ > 3) {
-    count_look();
+    count_step();
     if (corner(at) > least_ && is_ear(at)) {
       keep(at);
       drop(at);
@@ -163,7 +163,7 @@ bool Triangulator::is_convex(std::uint32_t i) const {
 /// triangle the one nearest to b is reflex.
 bool Triangulator::blocks(std::uint32_t other, const glm::dvec2& a, const glm::dvec2& b,
                           const glm::dvec2& c) const {
-  count_look();
+  count_step();
   if (is_cut_[other]) return false;
   const glm::dvec2 p = points_[other];
   // A corner at the same position is the outline touching itself, which blocks no ear; nor does a corner that
@@ -208,7 +208,7 @@ bool Triangulator::cut_thin_ear(std::uint32_t start) {
   std::uint32_t i = start;
   bool is_found = false;
   for (std::size_t seen = 0; seen < left_ && !is_found; ++seen, i = next_[i]) {
-    count_look();
+    count_step();
     const glm::dvec2 &a = points_[before_[i]], &b = points_[i], &c = points_[next_[i]];
     const bool is_spike = a == b || b == c || a == c;
     is_found = is_spike || (is_convex(i) && is_ear(i));
@@ -230,7 +230,7 @@ std::uint32_t Triangulator::unblock(std::uint32_t start) {
   std::uint32_t best = start, i = start;
   const std::size_t before = left_;
   for (std::size_t seen = 0; seen < before && left_ > 2; ++seen, i = next_[i]) {
-    count_look();
+    count_step();
     if (std::abs(corner(i)) <= least_) {
       drop(i);
     } else if (is_cut_[best] || corner(i) > corner(best)) {

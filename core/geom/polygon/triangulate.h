@@ -48,10 +48,10 @@ class Triangulator {
   std::size_t along(double value, int axis) const;
   std::size_t cell_of(const glm::dvec2& p) const { return along(p.y, 1) * side_ + along(p.x, 0); }
 
-  void count_look() const;
+  void count_step() const;
 
   const Job* job_;
-  mutable std::uint32_t looks_ = 0;  ///< looks at corners since the last check of the job
+  mutable std::uint32_t steps_ = 0;  ///< looks at corners since the last check of the job
   std::span<const glm::dvec2> points_;
   double least_ = 0;              ///< twice the least area
   bool uses_all_points_ = false;  ///< thin triangles are kept where no others are possible

@@ -65,21 +65,21 @@ void Wavefront::add_ring(const PlanRing& ring, std::uint32_t first) {
   }
 }
 
-dvec2 Wavefront::place_at(std::uint32_t corner, double time) const {
+dvec2 Wavefront::position_at(std::uint32_t corner, double time) const {
   const Corner& c = corners_[corner];
-  return c.place + c.velocity * (time - c.time);
+  return c.position + c.velocity * (time - c.time);
 }
 
-dvec2 Wavefront::place_of(std::uint32_t corner) const { return place_at(corner, now_); }
+dvec2 Wavefront::position_of(std::uint32_t corner) const { return position_at(corner, now_); }
 
-dvec2 Wavefront::far_place(std::uint32_t edge, bool at_start) const {
+dvec2 Wavefront::far_position(std::uint32_t edge, bool at_start) const {
   const Edge& e = edges_[edge];
   const std::uint32_t corner = at_start ? e.start : e.end, node = at_start ? e.start_node : e.end_node;
-  return corner != none ? place_of(corner) : dvec2(nodes[node]);
+  return corner != none ? position_of(corner) : dvec2(nodes[node]);
 }
 
-std::uint32_t Wavefront::add_node(const dvec2& place) {
-  nodes.emplace_back(place, now_);
+std::uint32_t Wavefront::add_node(const dvec2& position) {
+  nodes.emplace_back(position, now_);
   return static_cast<std::uint32_t>(nodes.size() - 1);
 }
 
@@ -154,7 +154,7 @@ void Wavefront::add_corner(std::uint32_t in, std::uint32_t out, std::uint32_t no
   const dvec2 sum = a.normal + b.normal, apart = b.normal - a.normal;
   const double mean = 0.5 * (a.speed + b.speed), half = 0.5 * (b.speed - a.speed);
   Corner corner;
-  corner.place = dvec2(nodes[node]);
+  corner.position = dvec2(nodes[node]);
   corner.time = now_;
   corner.node = node;
   corner.in = in;
@@ -210,7 +210,7 @@ void Wavefront::close_fronts() {
   std::vector<std::uint32_t> node_of(corners_.size(), none);
   for (std::uint32_t i = 0; i < corners_.size(); ++i) {
     if (!corners_[i].is_alive) continue;
-    node_of[i] = now_ > corners_[i].time ? add_node(place_of(i)) : corners_[i].node;
+    node_of[i] = now_ > corners_[i].time ? add_node(position_of(i)) : corners_[i].node;
     if (node_of[i] == corners_[i].node) continue;
     borders.push_back({edges_[corners_[i].in].source, corners_[i].node, node_of[i]});
     borders.push_back({edges_[corners_[i].out].source, node_of[i], corners_[i].node});

@@ -35,7 +35,7 @@ class Wavefront {
 
   Wavefront(const Plan& plan, const SkeletonOptions& options, const Job& job);
 
-  /// Runs to the end time. False: the outline does not close in the expected number of steps.
+  /// Runs to the end time. Returns false if the outline does not close in the expected number of steps.
   bool run();
 
   std::vector<Source> sources;  ///< one for each edge of the plan, then steps
@@ -47,7 +47,7 @@ class Wavefront {
  private:
   static constexpr std::uint32_t none = 0xFFFFFFFFU;
   struct Corner {
-    glm::dvec2 place{0}, velocity{0};
+    glm::dvec2 position{0}, velocity{0};
     double time = 0;
     double speed = 0;               ///< the length of `velocity`
     std::uint32_t node = 0;         ///< node where it began
@@ -74,7 +74,7 @@ class Wavefront {
   };
   /// A corner at the position of an event, or a position on an edge.
   struct Touch {
-    glm::dvec2 place{0};
+    glm::dvec2 position{0};
     std::uint32_t corner = none, edge = none;
     std::uint32_t first = 0;  ///< the first touch at the same position; later the node
   };
@@ -84,10 +84,10 @@ class Wavefront {
   };
 
   const Source& source(std::uint32_t edge) const { return sources[edges_[edge].source]; }
-  glm::dvec2 place_of(std::uint32_t corner) const;
-  glm::dvec2 place_at(std::uint32_t corner, double time) const;
-  glm::dvec2 far_place(std::uint32_t edge, bool at_start) const;
-  std::uint32_t add_node(const glm::dvec2& place);
+  glm::dvec2 position_of(std::uint32_t corner) const;
+  glm::dvec2 position_at(std::uint32_t corner, double time) const;
+  glm::dvec2 far_position(std::uint32_t edge, bool at_start) const;
+  std::uint32_t add_node(const glm::dvec2& position);
 
   void add_ring(const PlanRing& ring, std::uint32_t first);
   bool is_current(const Event& event) const;

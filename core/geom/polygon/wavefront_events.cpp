@@ -32,7 +32,7 @@ std::vector<Wavefront::Touch> Wavefront::touches_of(const std::vector<Event>& ba
   };
   const auto add_corner = [&](std::uint32_t corner) {
     const auto [found, is_new] = number.try_emplace(corner, static_cast<std::uint32_t>(touches.size()));
-    if (is_new) add({place_of(corner), corner, none, 0});
+    if (is_new) add({position_of(corner), corner, none, 0});
     return found->second;
   };
   for (const Event& event : batch) {
@@ -42,33 +42,34 @@ std::vector<Wavefront::Touch> Wavefront::touches_of(const std::vector<Event>& ba
       continue;
     }
     const std::uint32_t hit = add_corner(event.corner);
-    const dvec2 place = touches[hit].place;
+    const dvec2 position = touches[hit].position;
     bool is_at_end = false;
     for (const std::uint32_t end : {edge.start, edge.end}) {
-      if (distance(place, place_of(end)) > near_) continue;
+      if (distance(position, position_of(end)) > near_) continue;
       sets.join(hit, add_corner(end));
       is_at_end = true;
     }
-    if (!is_at_end) sets.join(hit, add({place, none, event.edge, 0}));
+    if (!is_at_end) sets.join(hit, add({position, none, event.edge, 0}));
   }
   // Shrinking edges shorter than the tolerance beside an event end with it. Otherwise a front that shrinks to one
   // point would take thousands of events there, whose times differ by rounding errors alone.
   const std::size_t seeds = touches.size();
   for (std::uint32_t seed = 0; seed < seeds; ++seed) {
     if (touches[seed].corner == none) continue;
-    const dvec2 place = touches[seed].place;
+    const dvec2 position = touches[seed].position;
     for (const bool forward : {true, false}) {
       for (std::uint32_t at = touches[seed].corner;;) {
         const Edge& edge = edges_[forward ? corners_[at].out : corners_[at].in];
         at = forward ? edge.end : edge.start;
-        if (!std::isfinite(edge.until) || distance(place, place_of(at)) > near_ || number.contains(at)) break;
+        if (!std::isfinite(edge.until) || distance(position, position_of(at)) > near_ || number.contains(at))
+          break;
         sets.join(seed, add_corner(at));
       }
     }
   }
-  std::vector<glm::dvec3> places;
-  for (const Touch& touch : touches) places.emplace_back(touch.place, 0.0);
-  const std::vector<std::uint32_t> group = near_groups(places, near_, job_);
+  std::vector<glm::dvec3> positions;
+  for (const Touch& touch : touches) positions.emplace_back(touch.position, 0.0);
+  const std::vector<std::uint32_t> group = near_groups(positions, near_, job_);
   for (std::uint32_t i = 0; i < touches.size(); ++i) sets.join(i, group[i]);
   for (std::uint32_t i = 0; i < touches.size(); ++i) touches[i].first = sets.of(i);
   return touches;
@@ -76,11 +77,11 @@ std::vector<Wavefront::Touch> Wavefront::touches_of(const std::vector<Event>& ba
 
 /// Adds a node for each group, at the mean of its positions; `first` becomes its number.
 void Wavefront::name_nodes(std::vector<Touch>& touches) {
-  std::map<std::uint32_t, std::vector<std::uint32_t>> places;
-  for (std::uint32_t i = 0; i < touches.size(); ++i) places[touches[i].first].push_back(i);
-  for (const auto& [first, members] : places) {
+  std::map<std::uint32_t, std::vector<std::uint32_t>> positions;
+  for (std::uint32_t i = 0; i < touches.size(); ++i) positions[touches[i].first].push_back(i);
+  for (const auto& [first, members] : positions) {
     dvec2 middle{0};
-    for (const std::uint32_t i : members) middle += touches[i].place;
+    for (const std::uint32_t i : members) middle += touches[i].position;
     const std::uint32_t node = add_node(middle / static_cast<double>(members.size()));
     for (const std::uint32_t i : members) touches[i].first = node;
   }

@@ -47,7 +47,7 @@ void Wavefront::expect_collapse(std::uint32_t edge) {
   const Source& line = source(edge);
   lines_[edge] = {line.normal, line.offset, line.speed, e.until};
   if (!(rate < 0)) return;
-  const double span = glm::dot(along, place_of(e.end) - place_of(e.start));
+  const double span = glm::dot(along, position_of(e.end) - position_of(e.start));
   lines_[edge].until = e.until = now_ + std::max(span, 0.0) / -rate;
   if (e.until <= end_time_ + soon_) events_.push({e.until, edge, e.version, none});
 }
@@ -61,7 +61,7 @@ void Wavefront::expect_hit(std::uint32_t corner, std::uint32_t edge) {
   const double closing = line.speed - glm::dot(line.normal, c.velocity);
   if (!(closing > 1e-12 * fastest_)) return;
   const double since = std::max(c.time, e.since);
-  const double ahead = glm::dot(line.normal, place_at(corner, since)) - line.offset - line.speed * since;
+  const double ahead = glm::dot(line.normal, position_at(corner, since)) - line.offset - line.speed * since;
   if (ahead < -2 * near_) return;
   const double time = since + std::max(ahead, 0.0) / closing;
   if (time > std::min(horizon_, end_time_ + soon_) || time > e.until + soon_ || time <= horizon_before_)
@@ -77,9 +77,9 @@ void Wavefront::expect_hit(std::uint32_t corner, std::uint32_t edge) {
   if (time <= since + 2 * soon_ && (corners_[e.start].node == c.node || corners_[e.end].node == c.node)) {
     return;
   }
-  const double at = glm::dot(line.direction, place_at(corner, time));
-  if (at < glm::dot(line.direction, place_at(e.start, time)) - near_) return;
-  if (at > glm::dot(line.direction, place_at(e.end, time)) + near_) return;
+  const double at = glm::dot(line.direction, position_at(corner, time));
+  if (at < glm::dot(line.direction, position_at(e.start, time)) - near_) return;
+  if (at > glm::dot(line.direction, position_at(e.end, time)) + near_) return;
   events_.push({time, edge, e.version, corner});
 }
 
@@ -88,8 +88,8 @@ template <class Visit>
 void Wavefront::each_cell_of_edge(std::uint32_t edge, double from, double until, const Visit& visit) const {
   const Edge& e = edges_[edge];
   const double end = std::max(from, std::min(until, e.until + soon_));
-  const std::array<dvec2, 4> hull{place_at(e.start, from), place_at(e.end, from), place_at(e.start, end),
-                                  place_at(e.end, end)};
+  const std::array<dvec2, 4> hull{position_at(e.start, from), position_at(e.end, from),
+                                  position_at(e.start, end), position_at(e.end, end)};
   edge_grid_.each_cell(hull, 4 * near_, visit);
 }
 
@@ -100,7 +100,7 @@ void Wavefront::each_cell_of_corner(std::uint32_t corner, double from, double un
   const Corner& c = corners_[corner];
   const double last = std::min(edges_[c.in].until, edges_[c.out].until) + soon_;
   const double end = std::max(from, std::min(until, last));
-  const std::array<dvec2, 2> hull{place_at(corner, from), place_at(corner, end)};
+  const std::array<dvec2, 2> hull{position_at(corner, from), position_at(corner, end)};
   edge_grid_.each_cell(hull, 4 * near_, visit);
 }
 
@@ -165,7 +165,7 @@ void Wavefront::place_grid(double time) {
   high_ = -low_;
   double length = 0;
   for (const std::uint32_t edge : front_) {
-    const dvec2 p = place_at(edges_[edge].start, time), q = place_at(edges_[edge].end, time);
+    const dvec2 p = position_at(edges_[edge].start, time), q = position_at(edges_[edge].end, time);
     low_ = glm::min(low_, p);
     high_ = glm::max(high_, p);
     length += std::abs(p.x - q.x) + std::abs(p.y - q.y);
@@ -215,7 +215,7 @@ void Wavefront::find_hits_of_corner(std::uint32_t corner, double from) {
   const Corner& c = corners_[corner];
   const double last = std::min(edges_[c.in].until, edges_[c.out].until);
   const double most = std::min({horizon_, end_time_, last}) + 2 * soon_;
-  const dvec2 velocity = c.velocity, origin = c.place - velocity * c.time;
+  const dvec2 velocity = c.velocity, origin = c.position - velocity * c.time;
   each_cell_of_corner(corner, from, horizon_, [&](std::size_t cell) {
     edge_grid_.each(cell, [&](std::uint32_t edge) {
       ++comparisons;

@@ -203,8 +203,8 @@ bool Wavefront::is_closing(std::uint32_t in, std::uint32_t out) const {
 
 /// Opens the nearer of the far ends of two edges that lie on each other, and cuts the other edge there.
 void Wavefront::zip(std::uint32_t in, std::uint32_t out, std::uint32_t node) {
-  const dvec2 place(nodes[node]), a = far_place(in, true), b = far_place(out, false);
-  const double long_in = distance(a, place), long_out = distance(b, place);
+  const dvec2 position(nodes[node]), a = far_position(in, true), b = far_position(out, false);
+  const double long_in = distance(a, position), long_out = distance(b, position);
   const std::uint32_t in_far = edges_[in].start, out_far = edges_[out].end;
   const bool are_equal = std::abs(long_in - long_out) <= near_ || (in_far != none && in_far == out_far);
   if (are_equal && (in_far != none || out_far != none)) {

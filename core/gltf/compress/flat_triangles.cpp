@@ -88,15 +88,15 @@ void drop_doubled_triangles(const Column& position, Array<std::uint32_t>& corner
     if (t % check_interval == 0) job.check();
     hashes[t] = hash_of(face_of(position, corners, t)) << 32U | t;
   }
-  std::size_t looks = 0;
+  std::size_t steps = 0;
   std::sort(hashes.begin(), hashes.end(), [&](std::uint64_t a, std::uint64_t b) {
-    if (++looks % check_interval == 0) job.check();
+    if (++steps % check_interval == 0) job.check();
     return a < b;
   });
   std::vector<bool> dropped(triangles, false);
   std::vector<Face> alike;
   for (std::size_t i = 0; i < triangles;) {
-    if (++looks % check_interval == 0) job.check();
+    if (++steps % check_interval == 0) job.check();
     std::size_t end = i + 1;
     while (end < triangles && hashes[end] >> 32U == hashes[i] >> 32U) ++end;
     alike.clear();

@@ -121,9 +121,9 @@ class Separation {
       if (vertex % check_interval == 0) job_.check();
       if (is_merged(word(vertex))) occupants_.push_back({word(vertex), exact(vertex), vertex});
     }
-    std::size_t looks = 0;
+    std::size_t steps = 0;
     std::sort(occupants_.begin(), occupants_.end(), [&](const Occupant& a, const Occupant& b) {
-      if (++looks % check_interval == 0) job_.check();
+      if (++steps % check_interval == 0) job_.check();
       return std::tie(a.at, a.exact, a.vertex) < std::tie(b.at, b.exact, b.vertex);
     });
   }
@@ -311,7 +311,7 @@ class Separation {
 
 }  // namespace
 
-bool part_merged_points(Part& part, const Slice& exact, Job& job) {
+bool split_merged_points(Part& part, const Slice& exact, Job& job) {
   if (part.topology != Topology::triangles || !part.index || part.columns.front().component != Component::u16)
     return true;
   return Separation(part, exact, job).run();

@@ -12,6 +12,6 @@ namespace seedmesh::gltf {
 /// Triangles that collapse to an edge or to a point are left as they are. Returns false if edges with more
 /// than two faces remain, because the grid is too coarse for the part. Cost: 20 ns and 8 to 16 bytes for each
 /// vertex.
-bool part_merged_points(Part& part, const Slice& exact, Job& job);
+bool split_merged_points(Part& part, const Slice& exact, Job& job);
 
 }  // namespace seedmesh::gltf

@@ -255,7 +255,7 @@ void quantize(Part& part, const Grid& grid, Job& job, Encoding encoding) {
   const std::vector<std::size_t> inward = inward_corners(part, job);
   Slice exact = part.columns.front().slice;
   quantize_columns(part, grid, job, encoding);
-  const bool is_closed = part_merged_points(part, exact, job);
+  const bool is_closed = split_merged_points(part, exact, job);
   if (!is_closed) keep_positions(part.columns.front(), exact, grid, job);
   exact = {};
   repair_normals(part, inward, job);

@@ -23,7 +23,7 @@ class Charge {
   Charge(const Job& job, std::uint64_t bytes) : budget_(job.budget()), bytes_(bytes) { budget_->take(bytes); }
   Charge(const Charge&) = delete;
   Charge& operator=(const Charge&) = delete;
-  ~Charge() { budget_->give_back(bytes_); }
+  ~Charge() { budget_->release(bytes_); }
 
  private:
   std::shared_ptr<MemoryBudget> budget_;

@@ -38,8 +38,8 @@ class Describer {
         materials_{Numbering(model.materials.size())} {}
 
   /// Finds what each node shows at this level, and numbers meshes and skins.
-  Shown show_nodes() {
-    Shown shown;
+  NodeMeshes show_nodes() {
+    NodeMeshes shown;
     shown.exact = options_.dialect.compressed || options_.dialect.quantized;
     shown.parts = options_.parts;
     for (std::size_t i = 0; i < model_.nodes.size(); ++i) {
@@ -66,7 +66,7 @@ class Describer {
   }
 
   /// Stores the copies of nodes as arrays where the dialect has them. Copies of a skinned mesh stay nodes.
-  void add_copies(Shown& shown) {
+  void add_copies(NodeMeshes& shown) {
     if (!options_.dialect.gpu_instances) return;
     for (std::size_t i = 0; i < model_.nodes.size(); ++i) {
       std::vector<Transform>& copies = model_.nodes[i].instances.transforms;
@@ -160,7 +160,7 @@ class Describer {
     bin.arrange(accessors_.packing());
     for (const int item : image_items_) {
       image_list_.replace(image_list_.find(view_mark), view_mark.size(),
-                          std::to_string(bin.place(item).view));
+                          std::to_string(bin.location(item).view));
     }
     if (options_.dialect.compressed) return compress_views();
     if (options_.dialect.quantized && !mesh_list_.empty()) require("KHR_mesh_quantization");
@@ -209,7 +209,7 @@ class Describer {
   }
 
   /// Turns the mesh of a collision shape, which the node showed, into a shape.
-  static void add_shape(const Node& node, Shown& shown) {
+  static void add_shape(const Node& node, NodeMeshes& shown) {
     int& mesh = shown.meshes.back();
     const bool is_shape = node.collision != CollisionShape::none && mesh >= 0;
     shown.shapes.push_back(is_shape ? static_cast<int>(shown.shape_meshes.size()) : -1);
@@ -322,7 +322,7 @@ const std::shared_ptr<const Image>& image_numbered(const Model& model, std::size
 
 Document describe(Model& model, Columns& columns, const DocumentOptions& options, Job& job) {
   Describer describer(model, columns, options, job);
-  Shown shown = describer.show_nodes();
+  NodeMeshes shown = describer.show_nodes();
   describer.add_meshes();
   describer.add_copies(shown);
   describer.add_animations();

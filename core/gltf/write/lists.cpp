@@ -59,10 +59,10 @@ std::string_view name_of(Interpolation interpolation) {
   return interpolation == Interpolation::step ? "STEP" : "LINEAR";
 }
 
-void append_accessor(JsonWriter& json, const Column& column, const Bin::Place& place) {
+void append_accessor(JsonWriter& json, const Column& column, const Bin::Location& location) {
   json.object([&] {
-    json.member("bufferView", place.view);
-    if (place.offset > 0) json.member("byteOffset", place.offset);
+    json.member("bufferView", location.view);
+    if (location.offset > 0) json.member("byteOffset", location.offset);
     json.member("componentType", static_cast<int>(column.component));
     json.member("count", column.count);
     if (column.normalized) json.member("normalized", true);
@@ -142,7 +142,7 @@ void Accessors::append(std::string& out, Job& job) const {
   JsonWriter json(out);
   json.array([&] {
     for (const Row& row : rows_) {
-      append_accessor(json, *row.column, bin_.place(row.item));
+      append_accessor(json, *row.column, bin_.location(row.item));
       meter.step();
     }
   });

@@ -52,7 +52,7 @@ class Accessors {
   Bin bin_;
 };
 
-/// The materials that primitives use. `any_variants`: at least one primitive has materials by variant.
+/// The materials that primitives use. `any_variants` is true if a primitive has a material for each variant.
 struct MaterialUse {
   Numbering numbering;
   bool any_variants = false;

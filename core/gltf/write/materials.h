@@ -7,7 +7,7 @@
 
 namespace seedmesh::gltf {
 
-/// The number of the texture object for a use, -1 for none.
+/// A function that returns the number of the texture object for a use, or -1 for none.
 using TextureNumber = std::function<int(const TextureUse&)>;
 
 /// Returns the value of KHR_materials_emissive_strength: 1, or the largest component of the emission if that is above

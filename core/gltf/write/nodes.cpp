@@ -97,7 +97,7 @@ Family family_of(const Model& model) {
 
 class NodeWriter {
  public:
-  NodeWriter(std::string& out, const Model& model, const Shown& shown)
+  NodeWriter(std::string& out, const Model& model, const NodeMeshes& shown)
       : json_(out), model_(model), shown_(shown), family_(family_of(model)), next_copy_(model.nodes.size()) {
     find_bodies();
     next_level_ = next_copy_;
@@ -322,7 +322,7 @@ class NodeWriter {
 
   JsonWriter json_;
   const Model& model_;
-  const Shown& shown_;
+  const NodeMeshes& shown_;
   Family family_;
   std::vector<bool> is_body_;
   std::size_t next_copy_, next_level_ = 0;        ///< numbers of the next nodes after those of the model
@@ -333,7 +333,7 @@ class NodeWriter {
 
 }  // namespace
 
-void append_nodes(std::string& out, const Model& model, const Shown& shown, Job& job) {
+void append_nodes(std::string& out, const Model& model, const NodeMeshes& shown, Job& job) {
   TextMeter meter(out, job);
   NodeWriter writer(out, model, shown);
   out += '[';

@@ -16,7 +16,7 @@ struct CopyAccessors {
 };
 
 /// The meshes and skins that the nodes of one document show. -1: none.
-struct Shown {
+struct NodeMeshes {
   std::vector<int> meshes;  ///< for each node of the model, the number of its mesh in the document
   std::vector<std::vector<int>>
       lods;                ///< the same for its coarser levels; empty without Dialect::lods_inside
@@ -35,6 +35,6 @@ struct Shown {
 /// ("bark_LOD1"), to which MSFT_lod refers and which are in no scene. Those of an object are grouped below a
 /// node for each level ("oak_LOD1"). Identity transforms are left out. Spends the bytes of the text from
 /// `job`.
-void append_nodes(std::string& out, const Model& model, const Shown& shown, Job& job);
+void append_nodes(std::string& out, const Model& model, const NodeMeshes& shown, Job& job);
 
 }  // namespace seedmesh::gltf

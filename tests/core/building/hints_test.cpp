@@ -59,6 +59,12 @@ TEST(StrictWeights, RefuseSumsOtherThanOneAtTheirRule) {
   EXPECT_EQ(error_of(params), "none");
 }
 
+TEST(Hints, PointAtTheCommentThatIsNotClosed) {
+  EXPECT_EQ(error_of(with("A --> B.\n  /* B --> C.\nD --> E.")),
+            "/rules 2:3 the comment that opens here is not closed");
+  EXPECT_THAT(warnings("A --> B. /* B --> C.\n*/"), IsEmpty());
+}
+
 TEST(Hints, ReportThatNothingIsDrawn) {
   const auto nothing = ElementsAre(HasSubstr("nothing is drawn"));
   EXPECT_THAT(warnings("A ~> Comp(\"edge\", 3){ B. }"), nothing);
@@ -80,7 +86,8 @@ TEST(Hints, PointAtTheSizeThatABlueprintCannotStandOn) {
 TEST(Hints, PointAtTheRestrictionThatABlueprintBreaks) {
   BuildingParams params = house();
   params.restrict = BuildingRestrict::non_erasing;
-  EXPECT_THAT(error_of(params), HasSubstr("/restrict 0:0 the rules of the blueprint are not of this kind"));
+  EXPECT_THAT(error_of(params),
+              HasSubstr("/restrict 0:0 the rules of the blueprint do not satisfy this restriction"));
 }
 
 TEST(Hints, PointAtTheAttributeThatIsAText) {
@@ -120,10 +127,10 @@ TEST(Hints, ReportThatAFootprintWithoutAnAreaCrossesItself) {
 }
 
 TEST(Hints, AskWhetherAMaterialIsMisspelt) {
-  EXPECT_THAT(
-      warnings("A -->\n material(\"brik\") B."),
-      ElementsAre("/rules 2:2 there is no material `brik`, so that it becomes a new one; did you mean "
-                  "`brick`?"));
+  EXPECT_THAT(warnings("A -->\n material(\"brik\") B."),
+              ElementsAre("/rules 2:2 there is no material `brik`; the shape gets a plain material of this "
+                          "name; did you mean "
+                          "`brick`?"));
   EXPECT_THAT(warnings("A --> material(\"velvet\") B."), IsEmpty());
   BuildingParams params = with("A --> material(\"brik\") B.");
   params.materials["brik"] = {};

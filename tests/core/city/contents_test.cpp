@@ -1,4 +1,5 @@
 /// What stands in a city: houses and their requests, landmarks, furniture, trees and borders.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -16,6 +17,7 @@
 #include "core/generators/city/objects.h"
 #include "core/generators/city/surface.h"
 #include "core/geom/mesh/finish.h"
+#include "core/texture/wall.h"
 #include "generated/params/city.h"
 #include "tests/support/context.h"
 #include "tests/support/mesh_faults.h"
@@ -629,6 +631,35 @@ TEST(CityInAScene, IsAModelOfALayer) {
   // The variant of the layer has a seed of its own, so its town differs a little.
   EXPECT_NEAR(static_cast<double>(count(*model).triangles), 2.0 * static_cast<double>(alone),
               0.1 * 2 * static_cast<double>(alone));
+}
+
+TEST(CityModel, GroundsRepeatTheirTexturesByTheSizeOfTheTexture) {
+  Demand demand;
+  demand.textures = 512;
+  const Model model = model_with(params_of(R"({"area": {"size": [300, 300]}, "surfaces": [
+      {"name": "sidewalk", "roughness": 0.5}, {"name": "lot", "color": "#336633"},
+      {"name": "junction", "color": "#f0f0f0"}]})"),
+                                 3, demand);
+  std::map<std::string, std::string> kinds;
+  for (const Material& material : model.materials) kinds[material.name] = material.recipe.kind;
+  EXPECT_EQ(kinds.at("asphalt"), "asphalt_ground");
+  EXPECT_EQ(kinds.at("lot"), "grass_ground");
+  EXPECT_EQ(kinds.at("sidewalk"), "") << "its roughness would be that of the texture";
+  EXPECT_EQ(kinds.at("junction"), "") << "its colour is brighter than the texture";
+  for (const MeshGroup& group : model.meshes) {
+    for (const Primitive& primitive : group.primitives) {
+      const Material& material = model.materials[static_cast<std::size_t>(primitive.material)];
+      if (material.name != "lot") continue;
+      const Mesh& mesh = primitive.mesh;
+      for (std::size_t i = 0; i < mesh.position.size(); ++i) {
+        if (mesh.normal[i].y < 0.5F) continue;
+        // The image covers 2 m, east is +X, and north is -Z.
+        EXPECT_NEAR(mesh.uv[0][i].x, mesh.position[i].x / 2, 1e-4);
+        EXPECT_NEAR(mesh.uv[0][i].y, -mesh.position[i].z / 2, 1e-4);
+      }
+      EXPECT_NEAR(material.recipe.factor.g * texture::grey_of("grass_ground"), linear_of_srgb(0x66), 1e-4);
+    }
+  }
 }
 
 }  // namespace

@@ -7,7 +7,7 @@
 
 #include "core/generators/city/city.h"
 #include "core/generators/city/given.h"
-#include "core/generators/city/remarks.h"
+#include "core/generators/city/plan_warnings.h"
 #include "generated/params/city.h"
 
 namespace seedmesh::city {
@@ -219,7 +219,7 @@ TEST(GeoJsonOfCities, WarnsOfStreetsOutsideOfTheArea) {
   Job job(1, Job::Options{});
   const Result<CityPlan> plan = plan_of(params, job);
   ASSERT_TRUE(plan);
-  const std::vector<Warning> warnings = remarks_on(params, *plan);
+  const std::vector<Warning> warnings = plan_warnings(params, *plan);
   ASSERT_EQ(warnings.size(), 1U);
   EXPECT_EQ(warnings[0].pointer, "/given/streets");
 }
@@ -233,7 +233,7 @@ std::vector<Warning> warnings_for(const Json& streets, const char* method) {
   Job job(1, Job::Options{});
   const Result<CityPlan> plan = plan_of(params, job);
   EXPECT_TRUE(plan);
-  return remarks_on(params, *plan);
+  return plan_warnings(params, *plan);
 }
 
 // The line x + y = 198 is 2.8 m long within the corner of the area at 100, 100.
@@ -245,9 +245,12 @@ TEST(GeoJsonOfCities, WarnsOfEachStreetThatIsLeftOut) {
   const std::vector<Warning> warnings = warnings_for(streets, "given");
   ASSERT_EQ(warnings.size(), 2U);
   EXPECT_EQ(warnings[0].pointer, "/given/streets/features/1");
-  EXPECT_NE(warnings[0].message.find("at 99, 99 is left out"), std::string::npos) << warnings[0].message;
+  EXPECT_EQ(warnings[0].message,
+            "a piece at 99, 99 is left out; expected pieces of more than 3.1 m in the area");
   EXPECT_EQ(warnings[1].pointer, "/given/streets/features/2");
-  EXPECT_NE(warnings[1].message.find("at 0, 50 is left out"), std::string::npos) << warnings[1].message;
+  EXPECT_EQ(warnings[1].message,
+            "the bridge or tunnel at 0, 50 is left out; expected ends or corners of streets of level 0 at "
+            "both ends");
 }
 
 // A rest of 2 m at the border, parts outside of the area, and a bridge between streets give no warning.

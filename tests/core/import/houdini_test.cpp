@@ -23,6 +23,16 @@ b: 0.7
 Random Seed: 4
 )";
 
+TEST(Houdini, ReadsAPremiseThatIsCalledAxiom) {
+  const auto named = imported("houdini", "Axiom: F+A\nRule 1: A=F-A\nAngle: 30\n");
+  const auto usual = imported("houdini", "Premise: F+A\nRule 1: A=F-A\nAngle: 30\n");
+  ASSERT_TRUE(named) << reports(named)[0];
+  ASSERT_TRUE(usual);
+  EXPECT_EQ(named->answer, usual->answer);
+  EXPECT_THAT(reports(imported("houdini", "Premise: A\nAxiom: B\nA=FA\n")),
+              testing::Contains(testing::HasSubstr("2:1 found a second premise")));
+}
+
 TEST(Houdini, ExchangesTurnsThatHoudiniExchanges) {
   const auto result = imported("houdini", plant);
   ASSERT_TRUE(result) << reports(result)[0];

@@ -45,6 +45,36 @@ TEST(Import, MindsTheEncodingOfCommentsNot) {
   EXPECT_FALSE(imported("proctree", "{\"mLevels\": 4, \"\xE9\": 1}"));
 }
 
+TEST(Import, SaysThatAFileIsUtf16) {
+  using namespace std::string_literals;
+  const std::string text = "{'shape': 7, 'g_scale': 9}";
+  std::string little, big;
+  for (const char c : text) {
+    little += {c, '\0'};
+    big += {'\0', c};
+  }
+  for (const std::string& each : {"\xFF\xFE" + little, "\xFE\xFF" + big, little, big})
+    EXPECT_THAT(read_as(each), StartsWith("found text in UTF-16, expected UTF-8"));
+}
+
+TEST(Import, ReadsLinesThatEndInACarriageReturn) {
+  for (const char* end : {"\r", "\r\n"}) {
+    std::string koch = "Koch {\n Angle 6\n Axiom F--F--F\n F=F+F--F+F\n}\n",
+                node = "Premise: A\nRule 1: A=FA\n";
+    for (std::string* text : {&koch, &node}) {
+      for (std::size_t at = 0; (at = text->find('\n', at)) != std::string::npos;
+           at += std::string(end).size())
+        text->replace(at, 1, end);
+    }
+    EXPECT_EQ(read_as(koch), "fractint");
+    const auto result = imported("houdini", node);
+    ASSERT_TRUE(result);
+    EXPECT_EQ(parameters_of(result).at("productions").size(), 1U);
+    EXPECT_THAT(reports(imported("houdini", "Premise: A" + std::string(end) + "A=F(")),
+                testing::Contains(StartsWith("2:4 ")));
+  }
+}
+
 TEST(Import, ReportsWarningsOfTheRequestBeforeItIsMade) {
   const auto result = imported("cpfg", "Lsystem: 1\nderivation length: 500\nAxiom: F\nF --> FFF\n");
   ASSERT_TRUE(result);

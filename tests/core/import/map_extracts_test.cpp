@@ -136,5 +136,21 @@ TEST(MapExtracts, WarnOfWidthsThatCannotBeRead) {
   EXPECT_THAT(reports(imported("osm", osm.text())), ElementsAre(HasSubstr("\"two\" is no value of lanes")));
 }
 
+TEST(MapExtracts, WarnsOfAltitudesOnce) {
+  const auto town = [](double altitude) {
+    nlohmann::json ring = nlohmann::json::array();
+    for (const auto& [x, y] : {std::pair{10.0, 50.0}, {10.001, 50.0}, {10.001, 50.001}, {10.0, 50.0}})
+      ring.push_back({x, y, altitude});
+    return nlohmann::json{{"type", "Feature"},
+                          {"properties", {{"building", "yes"}, {"height", 9}}},
+                          {"geometry", {{"type", "Polygon"}, {"coordinates", {ring}}}}}
+        .dump();
+  };
+  EXPECT_THAT(
+      reports(imported("geojson", town(310))),
+      testing::ElementsAre(testing::HasSubstr("altitudes of positions are left out; the map is flat")));
+  EXPECT_THAT(reports(imported("geojson", town(0))), testing::IsEmpty());
+}
+
 }  // namespace
 }  // namespace seedmesh

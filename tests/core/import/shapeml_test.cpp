@@ -176,6 +176,41 @@ TEST(Shapeml, ReadsIncludedFiles) {
               Contains(HasSubstr("the direction 0, 1, 0 only")));
 }
 
+/// The faces in each direction that a plan of 10 by 8 m has as a prism, if its area is the given one.
+std::map<std::string, int> faces_of_plan(const std::string& plan, int area) {
+  const std::string condition = "abs(area - " + std::to_string(area) + ") < 0.001";
+  return leaves_of(imported("shapeml", "rule Axiom = { size(10, 0, 8) [ " + plan +
+                                           " Plan ] };\n"
+                                           "rule Plan :: " +
+                                           condition +
+                                           " = { extrude(3) splitFace(\"front\", { F_ }, \"back\", { B_ },"
+                                           " \"left\", { L_ }, \"right\", { R_ }) };\n"
+                                           "rule Plan :: !(" +
+                                           condition + ") = { Other_ };\n"));
+}
+
+TEST(Shapeml, MakesPlansWithWings) {
+  using Faces = std::map<std::string, int>;
+  // At the back 2 m, on the left 3 m: 2 * 10 + 3 * 6.
+  EXPECT_EQ(faces_of_plan("shapeL(2, 3)", 38), (Faces{{"F_", 2}, {"B_", 1}, {"L_", 1}, {"R_", 2}}));
+  // On the right 1 m more.
+  EXPECT_EQ(faces_of_plan("shapeU(2, 3, 1)", 44), (Faces{{"F_", 3}, {"B_", 1}, {"L_", 2}, {"R_", 2}}));
+  // Two wings of 8 m, and 6 m of a connection that is 2.5 m wide.
+  EXPECT_EQ(faces_of_plan("shapeH(3, 2.5, 1, 0.25)", 47),
+            (Faces{{"F_", 3}, {"B_", 3}, {"L_", 3}, {"R_", 3}}));
+  EXPECT_THAT(reports(imported("shapeml", "rule Axiom = { shapeT(1, 2, 0.5) A_ };")),
+              Contains(HasSubstr("no rule, and no operation")));
+}
+
+TEST(Shapeml, ReportsBracketsWithoutPartners) {
+  EXPECT_THAT(reports(imported("shapeml", "rule Axiom = { size(4, 3, 2)\n cube")),
+              Contains(HasSubstr("1:14 found `{` without its `}`")));
+  EXPECT_THAT(reports(imported("shapeml", "rule Axiom = { [ cube A_ };\nrule B = { cube B_ };")),
+              Contains(HasSubstr("1:26 found `}` without its opening bracket")));
+  EXPECT_THAT(reports(imported("shapeml", "rule Axiom = { cube A_ } };")),
+              Contains(HasSubstr("1:26 found `}` without its opening bracket")));
+}
+
 TEST(Shapeml, ReportsWhatHasNoCounterpart) {
   EXPECT_THAT(reports(imported("shapeml", "rule Axiom = { torus(1, 2, 3, 4) A_ };")),
               Contains(HasSubstr("no rule, and no operation")));

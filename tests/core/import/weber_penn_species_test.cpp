@@ -131,7 +131,7 @@ TEST(TreeGen, ReadsPresetsOfSapling) {
                                " 'bevel': True, 'handleType': '0', 'seed': 12, 'leaves': 11}");
   ASSERT_TRUE(result) << reports(result)[0];
   const nlohmann::json request = nlohmann::json::parse(result->request.canonical());
-  const nlohmann::json parameters = request.at("parameters");
+  const nlohmann::json& parameters = request.at("parameters");
   EXPECT_EQ(request.at("seed"), 12);
   EXPECT_EQ(parameters.at("Shape"), 4);
   EXPECT_EQ(parameters.at("Scale"), 7.5);
@@ -140,6 +140,58 @@ TEST(TreeGen, ReadsPresetsOfSapling) {
   EXPECT_EQ(parameters.at("1Branches"), 21);
   EXPECT_FALSE(parameters.contains("PruneRatio")) << "pruning is off";
   EXPECT_EQ(parameters.at("leaf").at("build"), "none");
+}
+
+TEST(TreeGen, HasTheDefaultsOfTreeGenWhereTheFileHasNone) {
+  const nlohmann::json parameters =
+      parameters_of(imported("tree_gen", "{'shape': 0, 'g_scale': 9, 'seg_splits': [0.5, 0, 0, 0]}"));
+  // The numbers are those of tree-gen's tree_param.py where they are not those of the aspen.
+  EXPECT_EQ(parameters.value("BaseSize", -1.0), 0.3);
+  EXPECT_EQ(parameters.value("1BaseSize", -1.0), 0.02);
+  EXPECT_EQ(parameters.value("2BaseSize", -1.0), 0.02);
+  EXPECT_EQ(parameters.value("LeafBend", -1.0), 0);
+  EXPECT_EQ(parameters.value("0CurveRes", -1), 5);
+  EXPECT_EQ(parameters.value("0SplitAngle", -1.0), 40);
+  EXPECT_EQ(parameters.value("0SplitAngleV", -1.0), 5);
+  EXPECT_FALSE(parameters.contains("Flare")) << "it is 0.6, as that of the aspen";
+}
+
+constexpr const char* sapling = R"({'shape': '7', 'levels': 3, 'curveRes': (8, 5, 3, 1), 'baseSize': 0.4,
+ 'baseSize_s': 0.25, 'branches': (3, 50, 30, 1), 'useOldDownAngle': False, 'downAngle': (90.0, 110.0, 45.0, 45.0),
+ 'downAngleV': (0.0, 80.0, -10.0, 10.0), 'leafDownAngle': 48.0, 'leafDownAngleV': 16.0, 'leafRotate': 137.5,
+ 'rotate': (99.5, 137.5, 137.5, 77.0), 'radiusTweak': (1.0, 1.0, 1.0, 1.0), 'rootFlare': 1.0, 'pruneRatio': 1.0,
+ 'branchDist': 1.0, 'leaves': 9})";
+
+TEST(TreeGen, ReadsTheBasesAndAnglesOfNewerVersionsOfSapling) {
+  const auto result = imported("", sapling);
+  ASSERT_TRUE(result) << reports(result)[0];
+  EXPECT_THAT(reports(result), testing::IsEmpty());
+  const nlohmann::json parameters = parameters_of(result);
+  // Each level has a quarter of the base of the level before; the last of the three has none.
+  EXPECT_NEAR(parameters.at("1BaseSize").get<double>(), 0.4 * 0.25, 1e-12);
+  EXPECT_FALSE(parameters.contains("2BaseSize"));
+  // 110 and 80 are the 60 and -50 of the older formula, as a comment in Sapling's source says.
+  EXPECT_FALSE(parameters.contains("1DownAngle")) << "60, as that of the aspen: " << parameters["1DownAngle"];
+  EXPECT_FALSE(parameters.contains("1DownAngleV"));
+  EXPECT_FALSE(parameters.contains("2DownAngleV")) << "-10 is random, and the aspen has 10 degrees, too";
+  // Leaves turn from 48 degrees at the base to 32 at the tip: D + |V| and D - 0.6 |V|.
+  EXPECT_NEAR(parameters.at("3DownAngle").get<double>(), 38, 1e-12);
+  EXPECT_NEAR(parameters.at("3DownAngleV").get<double>(), -10, 1e-12);
+  EXPECT_EQ(parameters.at("3Rotate"), 137.5);
+  EXPECT_FALSE(parameters.contains("0Branches")) << "Sapling does not read the first number";
+  EXPECT_FALSE(parameters.contains("PruneRatio")) << "pruning is off unless it is on";
+  EXPECT_EQ(parameters.at("AttractionUp"), 0);
+}
+
+TEST(TreeGen, KeepsTheSignsOfOlderVersionsOfSapling) {
+  const nlohmann::json parameters = parameters_of(imported(
+      "",
+      "{'shape': '7', 'levels': 2, 'curveRes': (8, 5, 3, 1), 'baseSize': 0.4, 'baseSize_s': 0.25,\n"
+      " 'downAngle': (0, 70.0, 30, 45), 'downAngleV': (0.0, -35.0, 20, 10), 'branches': (0, 20, 30, 1)}"));
+  EXPECT_EQ(parameters.at("1DownAngle"), 70);
+  EXPECT_EQ(parameters.at("1DownAngleV"), -35);
+  EXPECT_EQ(parameters.at("2DownAngle"), 30);
+  EXPECT_FALSE(parameters.contains("1BaseSize")) << "the last level has none";
 }
 
 TEST(TreeGen, GivesSeveralTrunksTheSpaceOfTheOriginal) {

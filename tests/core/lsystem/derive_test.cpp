@@ -208,7 +208,7 @@ TEST(Width, ThinsByTheStepInWhichASegmentWasWritten) {
     std::vector<std::uint32_t>& steps;
     void module(KindId, const double*, std::uint64_t, std::uint32_t step) { steps.push_back(step); }
   } sink{steps};
-  FreeDerivation<Steps>(grammar, 3, false, job, sink).run();
+  ContextFreeDerivation<Steps>(grammar, 3, false, job, sink).run();
   EXPECT_THAT(steps, testing::ElementsAre(0, 1, 2, 3, 3));
 }
 

@@ -31,10 +31,10 @@ Drawn drawn(const LsystemParams& params) {
   Drawn result{Skeleton(job), {}, {}};
   Drawing drawing(grammar, params, &result.skeleton, {job});
   if constexpr (std::is_same_v<Sink, Drawing>) {
-    FreeDerivation<Drawing>(grammar, steps, false, job, drawing).run();
+    ContextFreeDerivation<Drawing>(grammar, steps, false, job, drawing).run();
   } else {
     DrawingCache cache(grammar, params, steps, drawing, {job});
-    FreeDerivation<DrawingCache>(grammar, steps, false, job, cache).run();
+    ContextFreeDerivation<DrawingCache>(grammar, steps, false, job, cache).run();
   }
   result.report = drawing.turtle().report();
   result.end = drawing.turtle().position();
@@ -124,7 +124,7 @@ TEST(DrawingCache, RefusesTheSameAsTheTurtle) {
   Drawing drawing(grammar, params, &skeleton, {job});
   drawing.set_most_segments(5000);
   DrawingCache cache(grammar, params, 9, drawing, {job});
-  EXPECT_THROW((FreeDerivation<DrawingCache>(grammar, 9, false, job, cache).run()), Stop);
+  EXPECT_THROW((ContextFreeDerivation<DrawingCache>(grammar, 9, false, job, cache).run()), Stop);
   EXPECT_LE(drawing.turtle().report().segments, 5000U);
 }
 
@@ -139,7 +139,7 @@ TEST(DrawingCache, SpendsTheModulesOfTheWord) {
     Skeleton skeleton(job);
     Drawing drawing(grammar, params, &skeleton, {job});
     DrawingCache cache(grammar, params, 9, drawing, {job});
-    FreeDerivation<DrawingCache> derivation(grammar, 9, false, job, cache);
+    ContextFreeDerivation<DrawingCache> derivation(grammar, 9, false, job, cache);
     if (allowed) {
       EXPECT_NO_THROW(derivation.run());
     } else {

@@ -201,7 +201,8 @@ std::vector<std::array<double, 4>> organs_of(LsystemParams params) {
   EXPECT_TRUE(issues.empty()) << issues.front().message;
   Skeleton skeleton(job);
   Drawing drawing(grammar, params, &skeleton, context_of(job));
-  FreeDerivation<Drawing>(grammar, static_cast<std::uint32_t>(params.iterations), false, job, drawing).run();
+  ContextFreeDerivation<Drawing>(grammar, static_cast<std::uint32_t>(params.iterations), false, job, drawing)
+      .run();
   std::vector<std::array<double, 4>> out;
   for (const Organ& organ : skeleton.organs.organ) {
     out.push_back({static_cast<double>(organ.surface), static_cast<double>(organ.position.x),

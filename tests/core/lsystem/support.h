@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/generators/lsystem/free.h"
+#include "core/generators/lsystem/context_free_derivation.h"
 #include "core/generators/lsystem/lsystem.h"
 #include "core/generators/lsystem/text.h"
 #include "core/generators/lsystem/word.h"

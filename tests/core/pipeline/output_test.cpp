@@ -317,8 +317,22 @@ TEST(Output, HoldsTheBudgetOfAllVariantsTogether) {
   EXPECT_LE(made("hutsko_tree", R"({"variants":3,"max_triangles":2000})").statistics.triangles, 2'000U);
 }
 
+/// Flat ground is simplified without an error, so one point gets more faces than a collapse may have.
+TEST(Output, HoldsTheBudgetOfWideFlatGround) {
+  const Result<Request> request =
+      read_request(R"({"preset":"mandelbrot_satellite","parameters":{"escape":{"span":20}},)"
+                   R"("output":{"max_triangles":5000}})",
+                   Limits{});
+  ASSERT_TRUE(request);
+  const Result<Product> product = produce(*request, {});
+  ASSERT_TRUE(product);
+  EXPECT_LE(product->statistics.triangles, 5'000U);
+  EXPECT_GT(product->statistics.triangles, 1'000U);
+}
+
 TEST(Output, EstimatesTheBytesOfTerrainsWithTheirTextures) {
-  for (const char* preset : {"midpoint_hills", "mesas", "dunes", "lava_plain"}) {
+  for (const char* preset :
+       {"midpoint_hills", "mesas", "dunes", "lava_plain", "boulder", "mossy_rock", "layered_rock"}) {
     const Result<Request> request = read_request(request_of(preset, "{}"), Limits{});
     ASSERT_TRUE(request);
     const double estimated = json::parse(*validate(*request, {}))["estimate"]["bytes"].get<double>();

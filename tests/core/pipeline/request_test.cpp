@@ -63,6 +63,18 @@ TEST(ReadRequest, ReportsNoConflictWithTheDefaultOfARefusedMember) {
               UnorderedElementsAre("/parameters/note", "/parameters/size", "/parameters/resolution"));
 }
 
+/// The default method needs a distance, but the request does not ask for the default.
+TEST(ReadRequest, ReportsNothingMissingForTheDefaultOfARefusedMember) {
+  const auto scene = [](const std::string& place) {
+    return R"({"generator":"scene","parameters":{"layers":[{"model":{"preset":"oak"},"place":)" + place +
+           "}]}}";
+  };
+  EXPECT_THAT(pointers(scene(R"({"method":"grid"})")), ElementsAre("/parameters/layers/0/place/method"));
+  EXPECT_THAT(pointers(scene("{}")), ElementsAre("/parameters/layers/0/place"));
+  EXPECT_THAT(pointers(scene(R"({"count":-1})")),
+              UnorderedElementsAre("/parameters/layers/0/place/count", "/parameters/layers/0/place"));
+}
+
 TEST(ReadRequest, ReportsNumbersThatAreTooLargeWithAllOtherErrors) {
   EXPECT_THAT(pointers(R"({"a":1e999})"), UnorderedElementsAre("/a", "/a", ""));
   EXPECT_THAT(

@@ -84,7 +84,7 @@ struct Drawn {
       : items(items_of(model, job)),
         surfaces(model, job),
         scene(scene_of(model, items, surfaces, job)),
-        shown(show(scene, Eye(camera_for(model, items, frame, share), size), job)),
+        shown(project(scene, Eye(camera_for(model, items, frame, share), size), job)),
         samples(draw_samples(shown, job)) {}
   float near(std::uint32_t x, std::uint32_t y) const { return samples.near[samples.at(x, y)]; }
   Fragment fragment(std::uint32_t x, std::uint32_t y) const {
@@ -97,7 +97,7 @@ struct Drawn {
   Items items;
   Surfaces surfaces;
   Scene scene;
-  Shown shown;
+  ProjectedScene shown;
   Samples samples;
 };
 
@@ -200,7 +200,7 @@ TEST(Picture, CastsTheShadowOfABox) {
     const glm::dvec3 p(6 * rng.at(0).unit() - 3, -0.02, 6 * rng.at(1).unit() - 3);
     const bool expected = meets(p, towards, glm::dvec3(low), glm::dvec3(high));
     dark += expected ? 1 : 0;
-    const ShadowMap::Place at = map.place_of(glm::vec3(p));
+    const ShadowMap::Position at = map.position_of(glm::vec3(p));
     wrong += expected != map.is_dark(at, 0, 0) ? 1 : 0;
     const float common = map.common_light(at);
     known += common >= 0 ? 1 : 0;

@@ -61,7 +61,7 @@ double distance_of(const Base& base, const glm::dvec2& p) {
 }
 
 /// Returns true where two footprints overlap, tested by their edges and corners.
-bool meet(const Base& a, const Base& b) {
+bool intersects(const Base& a, const Base& b) {
   if (a.corners.empty()) return glm::distance(a.at, b.at) < a.radius + b.radius - 1e-4;
   const auto is_deep_inside = [](const Base& base, const glm::dvec2& p) {
     if (distance_of(base, p) > 0) return false;
@@ -187,7 +187,7 @@ class Checked {
         const Base own = base_of(layer(i), placement);
         reach = own.corners.empty() ? own.radius : glm::distance(own.at, own.corners[0]);
         for (const Placement* other = made_.layer(i).begin(); other != &placement; ++other)
-          EXPECT_FALSE(meet(base_of(layer(i), *other), own)) << "two of layer " << i;
+          EXPECT_FALSE(intersects(base_of(layer(i), *other), own)) << "two of layer " << i;
       }
       for (std::size_t k = 0; k < i; ++k) {
         if (!layer(k).contains("footprint")) continue;

@@ -138,13 +138,13 @@ TEST(Island, SinksTheRimBelowTheLowestHeight) {
 TEST(ThermalErosion, ConservesMaterial) {
   Field field = hills(65);
   const double before = sum_of(field);
-  slip(field, {.iterations = 200, .talus = 0.3, .rate = 0.5}, any_job());
+  erode_thermally(field, {.iterations = 200, .talus = 0.3, .rate = 0.5}, any_job());
   EXPECT_NEAR(sum_of(field), before, 1e-3 * std::abs(before) + 1);
 }
 
 TEST(ThermalErosion, BringsSlopesToTheTalus) {
   Field field = field_from(65, 65, [](int x, int z) { return x == 32 && z == 32 ? 300 : 0; });
-  slip(field, {.iterations = 1000, .talus = 0.5, .rate = 1}, any_job());
+  erode_thermally(field, {.iterations = 1000, .talus = 0.5, .rate = 1}, any_job());
   for (int z = 0; z < 65; ++z) {
     for (int x = 1; x < 65; ++x) ASSERT_LE(std::abs(field.at(x, z) - field.at(x - 1, z)), 0.75F);
   }
@@ -153,8 +153,8 @@ TEST(ThermalErosion, BringsSlopesToTheTalus) {
 TEST(HydraulicErosion, IsTheSameWithAnyNumberOfThreads) {
   Field one = hills(129), eight = hills(129);
   const DropletPlan plan{.droplets = 5000};
-  erode(one, plan, Rng(3), any_job(1));
-  erode(eight, plan, Rng(3), any_job(8));
+  erode_by_droplets(one, plan, Rng(3), any_job(1));
+  erode_by_droplets(eight, plan, Rng(3), any_job(8));
   EXPECT_EQ(values(one), values(eight));
 }
 
@@ -212,7 +212,7 @@ TEST(HydraulicErosion, MovesGroundByTheFormulasOfBeyer) {
   const Field before = slope();
   Field field = slope();
   const std::vector<double> expected = changes_by_drops(before, plan, Rng(11));
-  erode(field, plan, Rng(11), any_job());
+  erode_by_droplets(field, plan, Rng(11), any_job());
   double moved = 0;
   for (std::int32_t z = 0; z < 40; ++z) {
     for (std::int32_t x = 0; x < 48; ++x) {
@@ -227,7 +227,7 @@ TEST(HydraulicErosion, MovesGroundByTheFormulasOfBeyer) {
 TEST(HydraulicErosion, StaysWithinTheOldRangeOfHeights) {
   Field field = hills(129);
   const Field before = hills(129);
-  erode(field, {.droplets = 20'000}, Rng(3), any_job());
+  erode_by_droplets(field, {.droplets = 20'000}, Rng(3), any_job());
   const Range old = range_of(before, any_job()), now = range_of(field, any_job());
   EXPECT_GE(now.low, old.low);
   EXPECT_LE(now.high, old.high);
@@ -237,8 +237,8 @@ TEST(HydraulicErosion, StaysWithinTheOldRangeOfHeights) {
 
 TEST(HydraulicErosion, EndsADropThatCirclesInAHollow) {
   Field far = hills(33), farther = hills(33);
-  erode(far, {.droplets = 500, .lifetime = 4 * (33 + 33), .evaporation = 0}, Rng(3), any_job());
-  erode(farther, {.droplets = 500, .lifetime = 1e9, .evaporation = 0}, Rng(3), any_job());
+  erode_by_droplets(far, {.droplets = 500, .lifetime = 4 * (33 + 33), .evaporation = 0}, Rng(3), any_job());
+  erode_by_droplets(farther, {.droplets = 500, .lifetime = 1e9, .evaporation = 0}, Rng(3), any_job());
   EXPECT_EQ(values(far), values(farther));
 }
 
@@ -247,7 +247,8 @@ TEST(HydraulicErosion, KeepsTheMemoryLimit) {
   Job::Options options;
   options.limits.memory_bytes = 1 << 20;
   const Job job(0, options);
-  EXPECT_THROW(erode(field, {.droplets = 100'000, .lifetime = 1e9, .evaporation = 0}, Rng(3), job), Stop);
+  EXPECT_THROW(
+      erode_by_droplets(field, {.droplets = 100'000, .lifetime = 1e9, .evaporation = 0}, Rng(3), job), Stop);
 }
 
 TEST(Drainage, DrainsEveryDepressionOverItsRim) {
@@ -311,7 +312,7 @@ TEST(Drainage, DrainsEverySampleToTheBorder) {
 TEST(StreamPower, CutsTheInteriorAndKeepsTheBorder) {
   Field field = hills(65);
   const Field before = hills(65);
-  cut_rivers(field, {.iterations = 5}, any_job());
+  erode_by_streams(field, {.iterations = 5}, any_job());
   for (int z = 0; z < 65; ++z) {
     for (int x = 0; x < 65; ++x) {
       const bool border = x == 0 || z == 0 || x == 64 || z == 64;

@@ -66,7 +66,7 @@ TEST(Fracture, MakesFlatFacets) {
                     {.planes = planes, .axes = {1, 1, 1}, .nearest = 0.6, .farthest = 0.75, .bevel = 0},
                     Rng(4), job);
     Job work = any_job();
-    const Mesh mesh = planet_mesh(planet, nullptr, Upward::outward, Rng(1), work);
+    const Mesh mesh = planet_mesh(planet, nullptr, UpDirection::outward, Rng(1), work);
     std::size_t flat = 0, all = 0;
     for (std::size_t i = 0; i + 3 < mesh.index.size(); i += 6, ++all) {
       const auto normal = [&](std::size_t first) {

@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "core/generators/terrain/engines.h"
+#include "core/generators/terrain/game_engines.h"
 #include "core/generators/terrain/plan.h"
 #include "core/generators/terrain/terrain.h"
 #include "core/texture/png.h"
@@ -137,14 +137,14 @@ TEST(HeightMap, IsRefusedInSizesAndFormatsThatAnEngineDoesNotSupport) {
 
 TEST(Engines, SupportTheSizesOfTheirManuals) {
   for (const int side : {127, 253, 505, 1009, 2017, 4033, 8129})
-    EXPECT_TRUE(takes_side(Engine::unreal, side));
+    EXPECT_TRUE(supports_side(GameEngine::unreal, side));
   for (const int side : {33, 65, 129, 257, 513, 1025, 2049, 4097}) {
-    EXPECT_TRUE(takes_side(Engine::unity, side));
-    EXPECT_FALSE(takes_side(Engine::unreal, side) && side > 1025);
+    EXPECT_TRUE(supports_side(GameEngine::unity, side));
+    EXPECT_FALSE(supports_side(GameEngine::unreal, side) && side > 1025);
   }
-  EXPECT_THAT(nearest_sides(Engine::unity, 20), ElementsAre(33));
-  EXPECT_THAT(nearest_sides(Engine::unity, 9000), ElementsAre(4097));
-  EXPECT_THAT(nearest_sides(Engine::unreal, 1009), ElementsAre(1009));
+  EXPECT_THAT(nearest_sides(GameEngine::unity, 20), ElementsAre(33));
+  EXPECT_THAT(nearest_sides(GameEngine::unity, 9000), ElementsAre(4097));
+  EXPECT_THAT(nearest_sides(GameEngine::unreal, 1009), ElementsAre(1009));
 }
 
 TEST(Engines, GetUnrealsScaleOf600Metres) {

@@ -5,7 +5,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "core/generators/terrain/dress.h"
+#include "core/generators/terrain/build_model.h"
 #include "core/generators/terrain/refined_mesh.h"
 #include "core/generators/terrain/surface.h"
 #include "core/generators/terrain/terrain.h"

@@ -108,10 +108,11 @@ TEST(WorldLayers, ValleysAreNotBelowHeightsThatTheyAreSaidToBeAbove) {
   int above = 0, below = 0;
   for (int k = 0; k < 20000; ++k) {
     const double land = rng.uniform(0, 900), ruggedness = rng.unit(), height = land - rng.uniform(0, 300);
-    const Beside beside{rng.uniform(0, 1.1 * valley_reach), rng.uniform(1, 60), rng.uniform(0, land)};
-    const bool is_lower = valley_side(land, ruggedness, beside).height < height;
-    const bool is_said = is_above(height, land, ruggedness, beside);
-    EXPECT_FALSE(is_lower && is_said) << land << " " << beside.away << " " << beside.water;
+    const WatersidePoint waterside{rng.uniform(0, 1.1 * valley_reach), rng.uniform(1, 60),
+                                   rng.uniform(0, land)};
+    const bool is_lower = valley_side(land, ruggedness, waterside).height < height;
+    const bool is_said = is_above(height, land, ruggedness, waterside);
+    EXPECT_FALSE(is_lower && is_said) << land << " " << waterside.distance << " " << waterside.water;
     above += is_said ? 1 : 0;
     below += is_lower ? 1 : 0;
   }

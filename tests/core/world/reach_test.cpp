@@ -177,7 +177,7 @@ std::size_t differences(const Made& a, const Made& b) {
 
 struct Trial {
   const char* name;
-  Reads layer;
+  LayerInput layer;
   double cell;  ///< metres, or cells of a region
   WorldParams params;
   std::function<Made(const World&)> made;
@@ -191,16 +191,17 @@ TEST(WorldReach, IsEnoughAndHalfOfItIsNot) {
   ASSERT_GE(roads.size(), 150U);
   const auto leaves = [&](const World& world) { return leaves_of(world, job); };
   const Trial trials[] = {
-      {"region", Reads::cells, 1, with_valleys(), [&](const World& w) { return regions_of(w, job); }},
-      {"water", Reads::water, drain_cell, with_valleys(),
+      {"region", LayerInput::cells, 1, with_valleys(), [&](const World& w) { return regions_of(w, job); }},
+      {"water", LayerInput::water, drain_cell, with_valleys(),
        [&](const World& w) { return heights_of(w, rivers, false, job); }},
-      {"roads", Reads::roads, site_cell, inhabited(),
+      {"roads", LayerInput::roads, site_cell, inhabited(),
        [&](const World& w) { return heights_of(w, roads, true, job); }},
-      {"works", Reads::works, 128, inhabited(),
+      {"works", LayerInput::works, 128, inhabited(),
        [&](const World& w) { return heights_of(w, roads, true, job); }},
-      {"fields", Reads::fields, site_cell, inhabited(), leaves},
-      {"houses", Reads::houses, site_cell, inhabited(), leaves},
-      {"towns", Reads::towns, town_lattice, with_towns(), [&](const World& w) { return towns_of(w, job); }}};
+      {"fields", LayerInput::fields, site_cell, inhabited(), leaves},
+      {"houses", LayerInput::houses, site_cell, inhabited(), leaves},
+      {"towns", LayerInput::towns, town_lattice, with_towns(),
+       [&](const World& w) { return towns_of(w, job); }}};
   for (const Trial& trial : trials) {
     const Made known = trial.made(world_of(trial.params));
     const auto layer = static_cast<std::size_t>(trial.layer);

@@ -75,7 +75,7 @@ export const placement_field: Draw = (spec) => {
         change(value) { entries[index] = value as Members; tell(); mark(); },
       }).map((member) => member.element)));
     });
-    if (entries.length > most_rows) box.append(el('p', { class: 'soft' }, `${entries.length - most_rows} more stand in the picture.`));
+    if (entries.length > most_rows) box.append(el('p', { class: 'soft' }, `${entries.length - most_rows} more are shown in the view only.`));
     box.append(el('button', { type: 'button', class: 'add', onclick() { chosen_in(spec.pointer); add(fresh_value(item) as Members); redraw('.chosen'); } },
       icon('add'), `Add ${title.toLowerCase()}`));
 

@@ -54,7 +54,7 @@ void add_window(PartWriter& out, const dvec3& low, const dvec3& high, const Part
     hole = rectangle({x, y + split + bar}, {x + width, y + height});
     outline.rings.emplace_back(hole.rbegin(), hole.rend());
   }
-  out.push("frame", outline, {Along::z, low.z, high.z});
+  out.extrude("frame", outline, {ExtrusionAxis::z, low.z, high.z});
   const double inset = 0.5 * frame;
   const dvec3 glass_low{low.x + inset, low.y + inset, low.z + 0.4 * size.z},
       glass_high{high.x - inset, high.y - inset, low.z + 0.55 * size.z};
@@ -86,16 +86,16 @@ std::vector<PartPiece> make_door(const dvec3& size, const PartOptions& options, 
   PartWriter out(job);
   const double frame = frame_width(size, options, 0.08), depth = 0.7 * size.z;
   const double right = size.x - frame, top = size.y - frame;
-  out.push("frame",
-           Plan{{{{0, 0},
-                  {frame, 0},
-                  {frame, top},
-                  {right, top},
-                  {right, 0},
-                  {size.x, 0},
-                  {size.x, size.y},
-                  {0, size.y}}}},
-           {Along::z, 0, depth});
+  out.extrude("frame",
+              Plan{{{{0, 0},
+                     {frame, 0},
+                     {frame, top},
+                     {right, top},
+                     {right, 0},
+                     {size.x, 0},
+                     {size.x, size.y},
+                     {0, size.y}}}},
+              {ExtrusionAxis::z, 0, depth});
   // One leaf, or two if the door is wide.
   const int leaves = size.x > 0.75 * size.y ? 2 : 1;
   const double gap = 0.1 * frame, width = (right - frame) / leaves, leaf_back = 0.25 * depth,
@@ -123,23 +123,23 @@ std::vector<PartPiece> make_dormer(const dvec3& size, const PartOptions& options
   const double angle = options.angle > 0 ? options.angle : math::pi / 4;
   const double middle = 0.5 * size.x, rise = std::min(middle * math::tan(angle), 0.6 * size.y);
   const double eave = size.y - rise, thick = 0.06 * size.y, inset = 0.06 * size.x, front = 0.93 * size.z;
-  out.push("roof",
-           Plan{{{{0, eave - thick},
-                  {middle, size.y - thick},
-                  {size.x, eave - thick},
-                  {size.x, eave},
-                  {middle, size.y},
-                  {0, eave}}}},
-           {Along::z, 0, size.z});
+  out.extrude("roof",
+              Plan{{{{0, eave - thick},
+                     {middle, size.y - thick},
+                     {size.x, eave - thick},
+                     {size.x, eave},
+                     {middle, size.y},
+                     {0, eave}}}},
+              {ExtrusionAxis::z, 0, size.z});
   // Walls end in the middle of the roof's thickness.
   const double slope = rise / middle, shoulder = eave - 0.5 * thick + slope * inset;
-  out.push("wall",
-           Plan{{{{inset, 0},
-                  {size.x - inset, 0},
-                  {size.x - inset, shoulder},
-                  {middle, size.y - 0.5 * thick},
-                  {inset, shoulder}}}},
-           {Along::z, 0.02 * size.z, front});
+  out.extrude("wall",
+              Plan{{{{inset, 0},
+                     {size.x - inset, 0},
+                     {size.x - inset, shoulder},
+                     {middle, size.y - 0.5 * thick},
+                     {inset, shoulder}}}},
+              {ExtrusionAxis::z, 0.02 * size.z, front});
   const double left = 0.25 * size.x, sill = 0.12 * size.y, head = std::min(shoulder, 0.75 * size.y);
   add_window(out, {left, sill, front - 0.04 * size.z}, {size.x - left, head, 0.98 * size.z}, options);
   return out.take();

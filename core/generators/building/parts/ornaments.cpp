@@ -59,32 +59,32 @@ std::vector<PartPiece> make_bell(const dvec3& size, const PartOptions& options, 
   const dvec3 foot{0.5 * size.x, 0, 0.5 * size.z};
   const dvec2 half{0.5 * size.x, 0.5 * size.z};
   const int sides = options.count > 0 ? options.count : 32;
-  out.turn("bronze",
-           {{0, 0.82 * h},
-            {0.4, 0.78 * h},
-            {0.5, 0.6 * h},
-            {0.58, 0.35 * h},
-            {0.72, 0.14 * h},
-            {0.9, 0.01 * h},
-            {0.97, 0},
-            {1, 0.03 * h},
-            {0.84, 0.17 * h},
-            {0.68, 0.38 * h},
-            {0.6, 0.62 * h},
-            {0.52, 0.83 * h},
-            {0.4, 0.93 * h},
-            {0.2, 0.98 * h},
-            {0, h}},
-           {foot, half, sides});
-  out.turn("metal",
-           {{0, 0.03 * h},
-            {0.1, 0.06 * h},
-            {0.14, 0.14 * h},
-            {0.1, 0.2 * h},
-            {0.035, 0.24 * h},
-            {0.035, 0.84 * h},
-            {0, 0.88 * h}},
-           {foot, half, 12});
+  out.revolve("bronze",
+              {{0, 0.82 * h},
+               {0.4, 0.78 * h},
+               {0.5, 0.6 * h},
+               {0.58, 0.35 * h},
+               {0.72, 0.14 * h},
+               {0.9, 0.01 * h},
+               {0.97, 0},
+               {1, 0.03 * h},
+               {0.84, 0.17 * h},
+               {0.68, 0.38 * h},
+               {0.6, 0.62 * h},
+               {0.52, 0.83 * h},
+               {0.4, 0.93 * h},
+               {0.2, 0.98 * h},
+               {0, h}},
+              {foot, half, sides});
+  out.revolve("metal",
+              {{0, 0.03 * h},
+               {0.1, 0.06 * h},
+               {0.14, 0.14 * h},
+               {0.1, 0.2 * h},
+               {0.035, 0.24 * h},
+               {0.035, 0.84 * h},
+               {0, 0.88 * h}},
+              {foot, half, 12});
   out.box("wood", {0.06 * size.x, 0.95 * h, 0.4 * size.z}, {0.94 * size.x, size.y, 0.6 * size.z});
   return out.take();
 }
@@ -105,7 +105,7 @@ std::vector<PartPiece> make_factory_roof(const dvec3& size, const PartOptions& o
     if (edge < 2 || edge == last) return "wall";
     return edge % 2 == 0 ? "glass" : "roof";
   };
-  out.push("wall", Plan{{ring}}, {Along::z, 0, size.z, side});
+  out.extrude("wall", Plan{{ring}}, {ExtrusionAxis::z, 0, size.z, side});
   return out.take();
 }
 
@@ -114,21 +114,21 @@ std::vector<PartPiece> make_chimney(const dvec3& size, const PartOptions& option
   PartWriter out(job);
   if (size.y > 5 * std::max(size.x, size.z)) {
     const double h = size.y;
-    out.turn("brick",
-             {{0, 0},
-              {1, 0},
-              {1, 0.04 * h},
-              {0.9, 0.05 * h},
-              {0.66, 0.94 * h},
-              {0.78, 0.955 * h},
-              {0.78, 0.985 * h},
-              {0.7, h},
-              {0.52, h},
-              {0.5, 0.93 * h},
-              {0, 0.93 * h}},
-             {{0.5 * size.x, 0, 0.5 * size.z},
-              {0.5 * size.x, 0.5 * size.z},
-              options.count > 0 ? options.count : 24});
+    out.revolve("brick",
+                {{0, 0},
+                 {1, 0},
+                 {1, 0.04 * h},
+                 {0.9, 0.05 * h},
+                 {0.66, 0.94 * h},
+                 {0.78, 0.955 * h},
+                 {0.78, 0.985 * h},
+                 {0.7, h},
+                 {0.52, h},
+                 {0.5, 0.93 * h},
+                 {0, 0.93 * h}},
+                {{0.5 * size.x, 0, 0.5 * size.z},
+                 {0.5 * size.x, 0.5 * size.z},
+                 options.count > 0 ? options.count : 24});
     return out.take();
   }
   const double inset = 0.1 * std::min(size.x, size.z), cap = 0.78 * size.y, slab = 0.06 * size.y;
@@ -140,16 +140,16 @@ std::vector<PartPiece> make_chimney(const dvec3& size, const PartOptions& option
   const double radius = 0.26 * across, foot = cap + 0.5 * slab, rise = size.y - foot;
   for (int pot = 0; pot < pots; ++pot) {
     const double at = along * (pot + 0.5) / pots;
-    out.turn("clay",
-             {{0, 0},
-              {1, 0},
-              {0.85, 0.8 * rise},
-              {1, 0.85 * rise},
-              {1, rise},
-              {0.72, rise},
-              {0.7, 0.6 * rise},
-              {0, 0.6 * rise}},
-             {{is_wide ? at : 0.5 * size.x, foot, is_wide ? 0.5 * size.z : at}, {radius, radius}, 12});
+    out.revolve("clay",
+                {{0, 0},
+                 {1, 0},
+                 {0.85, 0.8 * rise},
+                 {1, 0.85 * rise},
+                 {1, rise},
+                 {0.72, rise},
+                 {0.7, 0.6 * rise},
+                 {0, 0.6 * rise}},
+                {{is_wide ? at : 0.5 * size.x, foot, is_wide ? 0.5 * size.z : at}, {radius, radius}, 12});
   }
   return out.take();
 }
@@ -158,16 +158,16 @@ std::vector<PartPiece> make_chimney(const dvec3& size, const PartOptions& option
 std::vector<PartPiece> make_ledge(const dvec3& size, const PartOptions&, Job& job) {
   PartWriter out(job);
   const double d = size.z, h = size.y;
-  out.push("stone",
-           Plan{{{{-0.35 * d, 0},
-                  {0, 0},
-                  {0, h},
-                  {-d, 0.94 * h},
-                  {-d, 0.6 * h},
-                  {-0.7 * d, 0.5 * h},
-                  {-0.5 * d, 0.3 * h},
-                  {-0.35 * d, 0.2 * h}}}},
-           {Along::x, 0, size.x});
+  out.extrude("stone",
+              Plan{{{{-0.35 * d, 0},
+                     {0, 0},
+                     {0, h},
+                     {-d, 0.94 * h},
+                     {-d, 0.6 * h},
+                     {-0.7 * d, 0.5 * h},
+                     {-0.5 * d, 0.3 * h},
+                     {-0.35 * d, 0.2 * h}}}},
+              {ExtrusionAxis::x, 0, size.x});
   return out.take();
 }
 
@@ -186,7 +186,7 @@ std::vector<PartPiece> make_balcony(const dvec3& size, const PartOptions& option
                    {size.x - edge - rail, -size.z + edge + rail},
                    {edge + rail, -size.z + edge + rail},
                    {edge + rail, 0}}}};
-  out.push("metal", top, {Along::y, low, size.y});
+  out.extrude("metal", top, {ExtrusionAxis::y, low, size.y});
   const double bar = 0.3 * rail, middle = edge + 0.5 * rail;
   const auto post = [&](double x, double z, double half) {
     out.box("metal", {x - half, 0.5 * slab, z - half}, {x + half, low + 0.5 * rail, z + half});
@@ -227,10 +227,10 @@ std::vector<PartPiece> make_column(const dvec3& size, const PartOptions& options
                                {0.88, h - 0.5 * abacus},
                                {0, h - 0.5 * abacus}})
     profile.push_back(p);
-  out.turn("stone", profile,
-           {{0.5 * size.x, 0, 0.5 * size.z},
-            {0.5 * size.x, 0.5 * size.z},
-            options.count > 0 ? options.count : 20});
+  out.revolve("stone", profile,
+              {{0.5 * size.x, 0, 0.5 * size.z},
+               {0.5 * size.x, 0.5 * size.z},
+               options.count > 0 ? options.count : 20});
   return out.take();
 }
 
@@ -244,7 +244,7 @@ std::vector<PartPiece> make_stairs(const dvec3& size, const PartOptions& options
     ring.emplace_back(-z, size.y * (step + 1) / steps);
     if (step > 0) ring.emplace_back(-z, size.y * step / steps);
   }
-  out.push("stone", Plan{{ring}}, {Along::x, 0, size.x});
+  out.extrude("stone", Plan{{ring}}, {ExtrusionAxis::x, 0, size.x});
   return out.take();
 }
 

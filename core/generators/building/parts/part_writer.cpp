@@ -16,19 +16,21 @@ using glm::dvec3;
 // Profiles are smooth at angles below 40 degrees (as a cosine).
 constexpr double smooth = 0.766;
 
-dvec3 placed(Along along, const dvec2& p, double depth) {
+dvec3 placed(ExtrusionAxis along, const dvec2& p, double depth) {
   switch (along) {
-    case Along::x:
+    case ExtrusionAxis::x:
       return {depth, p.y, -p.x};
-    case Along::y:
+    case ExtrusionAxis::y:
       return {p.x, depth, -p.y};
     default:
       return {p.x, p.y, depth};
   }
 }
 
-dvec3 axis_of(Along along) {
-  return along == Along::x ? dvec3{1, 0, 0} : along == Along::y ? dvec3{0, 1, 0} : dvec3{0, 0, 1};
+dvec3 axis_of(ExtrusionAxis along) {
+  return along == ExtrusionAxis::x   ? dvec3{1, 0, 0}
+         : along == ExtrusionAxis::y ? dvec3{0, 1, 0}
+                                     : dvec3{0, 0, 1};
 }
 
 /// Texture coordinates in metres: v is the height unless the face is horizontal.
@@ -79,7 +81,7 @@ void PartWriter::face(std::string_view role, const std::vector<dvec3>& corners) 
 }
 
 void PartWriter::box(std::string_view role, const dvec3& low, const dvec3& high) {
-  push(role, Plan{{rectangle({low.x, low.y}, {high.x, high.y})}}, {Along::z, low.z, high.z});
+  extrude(role, Plan{{rectangle({low.x, low.y}, {high.x, high.y})}}, {ExtrusionAxis::z, low.z, high.z});
 }
 
 void PartWriter::picture_box(std::string_view role, const dvec3& low, const dvec3& high,
@@ -98,13 +100,13 @@ void PartWriter::picture_box(std::string_view role, const dvec3& low, const dvec
   }
 }
 
-void PartWriter::push(std::string_view role, const Plan& outline, const Push& push) {
-  const dvec3 axis = axis_of(push.along);
+void PartWriter::extrude(std::string_view role, const Plan& outline, const Extrusion& extrusion) {
+  const dvec3 axis = axis_of(extrusion.along);
   std::vector<dvec3> near_end, far_end;
   for (const PlanRing& ring : outline.rings) {
     for (const dvec2& p : ring) {
-      near_end.push_back(placed(push.along, p, push.from));
-      far_end.push_back(placed(push.along, p, push.to));
+      near_end.push_back(placed(extrusion.along, p, extrusion.from));
+      far_end.push_back(placed(extrusion.along, p, extrusion.to));
     }
   }
   std::vector<std::uint32_t> triangles = triangulate(outline, ThinTriangles::keep, &job_);
@@ -116,18 +118,19 @@ void PartWriter::push(std::string_view role, const Plan& outline, const Push& pu
     const auto count = static_cast<std::uint32_t>(ring.size());
     for (std::uint32_t i = 0; i < count; ++i) {
       const std::uint32_t a = first + i, b = first + (i + 1) % count;
-      face(push.side ? push.side(a) : role, {near_end[a], near_end[b], far_end[b], far_end[a]});
+      face(extrusion.side ? extrusion.side(a) : role, {near_end[a], near_end[b], far_end[b], far_end[a]});
     }
     first += count;
   }
 }
 
-void PartWriter::turn(std::string_view role, const std::vector<ProfilePoint>& profile, const Turn& turn) {
-  const int sides = std::max(4, (turn.sides + 3) / 4 * 4);
+void PartWriter::revolve(std::string_view role, const std::vector<ProfilePoint>& profile,
+                         const Revolution& revolution) {
+  const int sides = std::max(4, (revolution.sides + 3) / 4 * 4);
   const auto columns = static_cast<std::uint32_t>(sides);
   job_.spend(Resource::triangles, 2 * columns * profile.size());
   Mesh& mesh = mesh_of(role);
-  const double mean = 0.5 * (turn.radius.x + turn.radius.y);
+  const double mean = 0.5 * (revolution.radius.x + revolution.radius.y);
   const auto direction = [&](std::size_t i) {
     const dvec2 d{(profile[i + 1].radius - profile[i].radius) * mean,
                   profile[i + 1].height - profile[i].height};
@@ -149,12 +152,13 @@ void PartWriter::turn(std::string_view role, const std::vector<ProfilePoint>& pr
         const bool is_apex = !(ends[row].radius > 0);
         if (is_apex && i == columns) continue;
         const math::SinCos at = math::sincos_degrees(360.0 * (i % columns + (is_apex ? 0.5 : 0)) / sides);
-        const dvec3 normal{turn.radius.y * slope[row].y * at.cos,
-                           -turn.radius.x * turn.radius.y * slope[row].x / mean,
-                           turn.radius.x * slope[row].y * at.sin};
+        const dvec3 normal{revolution.radius.y * slope[row].y * at.cos,
+                           -revolution.radius.x * revolution.radius.y * slope[row].x / mean,
+                           revolution.radius.x * slope[row].y * at.sin};
         mesh.position.push_back(
-            glm::vec3(turn.foot + dvec3(turn.radius.x * ends[row].radius * at.cos, ends[row].height,
-                                        turn.radius.y * ends[row].radius * at.sin)) +
+            glm::vec3(revolution.foot + dvec3(revolution.radius.x * ends[row].radius * at.cos,
+                                              ends[row].height,
+                                              revolution.radius.y * ends[row].radius * at.sin)) +
             0.0F);
         mesh.normal.push_back(glm::vec3(math::unit(normal, {0, 1, 0})) + 0.0F);
         mesh.uv[0].push_back({static_cast<float>(-2 * math::pi * mean * (i + (is_apex ? 0.5 : 0)) / sides),

@@ -10,7 +10,7 @@
 namespace seedmesh::building {
 
 /// The axis along which an outline is extruded.
-enum class Along { x, y, z };
+enum class ExtrusionAxis { x, y, z };
 
 /// A point of the profile of a solid of revolution: the distance from the axis as a share of the radius, and
 /// the height in metres.
@@ -32,24 +32,24 @@ class PartWriter {
   void picture_box(std::string_view role, const glm::dvec3& low, const glm::dvec3& high,
                    const PictureWindow& window);
 
-  /// An extrusion from `from` to `to`. The two coordinates of the outline are (x, y) for Along::z, (-z, y)
-  /// for Along::x and (x, -z) for Along::y. Seen from the `to` end it is counter-clockwise, and holes are
+  /// An extrusion from `from` to `to`. The two coordinates of the outline are (x, y) for ExtrusionAxis::z, (-z, y)
+  /// for ExtrusionAxis::x and (x, -z) for ExtrusionAxis::y. Seen from the `to` end it is counter-clockwise, and holes are
   /// clockwise. `side` gives the role of each edge, numbered through all rings; null: `role` for all.
-  struct Push {
-    Along along = Along::z;
+  struct Extrusion {
+    ExtrusionAxis along = ExtrusionAxis::z;
     double from = 0, to = 1;
     std::function<std::string_view(std::uint32_t)> side = nullptr;
   };
-  void push(std::string_view role, const Plan& outline, const Push& push);
+  void extrude(std::string_view role, const Plan& outline, const Extrusion& extrusion);
 
   /// A solid of revolution about a vertical axis. The solid is to the left of the profile: outer sides run
   /// upwards. `sides` is rounded up to a multiple of 4, so that the solid touches all sides of its box.
-  struct Turn {
+  struct Revolution {
     glm::dvec3 foot{0};      ///< middle of the lower end
     glm::dvec2 radius{0.5};  ///< radii along x and z
     int sides = 24;
   };
-  void turn(std::string_view role, const std::vector<ProfilePoint>& profile, const Turn& turn);
+  void revolve(std::string_view role, const std::vector<ProfilePoint>& profile, const Revolution& revolution);
 
   /// A flat convex polygon, counter-clockwise seen from outside.
   void face(std::string_view role, const std::vector<glm::dvec3>& corners);

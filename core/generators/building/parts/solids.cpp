@@ -30,10 +30,10 @@ std::vector<PartPiece> make_floor(const dvec3& size, const PartOptions&, Job& jo
 
 std::vector<PartPiece> make_cylinder(const dvec3& size, const PartOptions& options, Job& job) {
   PartWriter out(job);
-  out.turn("wall", {{0, 0}, {1, 0}, {1, size.y}, {0, size.y}},
-           {{0.5 * size.x, 0, 0.5 * size.z},
-            {0.5 * size.x, 0.5 * size.z},
-            options.count > 0 ? options.count : 24});
+  out.revolve("wall", {{0, 0}, {1, 0}, {1, size.y}, {0, size.y}},
+              {{0.5 * size.x, 0, 0.5 * size.z},
+               {0.5 * size.x, 0.5 * size.z},
+               options.count > 0 ? options.count : 24});
   return out.take();
 }
 
@@ -71,9 +71,10 @@ std::vector<PartPiece> make_pyramid(const dvec3& size, const PartOptions&, Job& 
 std::vector<PartPiece> make_triangular_prism(const dvec3& size, const PartOptions&, Job& job) {
   PartWriter out(job);
   if (size.x >= size.z) {
-    out.push("roof", Plan{{{{-size.z, 0}, {0, 0}, {-0.5 * size.z, size.y}}}}, {Along::x, 0, size.x});
+    out.extrude("roof", Plan{{{{-size.z, 0}, {0, 0}, {-0.5 * size.z, size.y}}}},
+                {ExtrusionAxis::x, 0, size.x});
   } else {
-    out.push("roof", Plan{{{{0, 0}, {size.x, 0}, {0.5 * size.x, size.y}}}}, {Along::z, 0, size.z});
+    out.extrude("roof", Plan{{{{0, 0}, {size.x, 0}, {0.5 * size.x, size.y}}}}, {ExtrusionAxis::z, 0, size.z});
   }
   return out.take();
 }

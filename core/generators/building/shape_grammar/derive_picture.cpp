@@ -158,14 +158,14 @@ class PictureRun {
         [&](const std::vector<glm::dvec3>& points) {
           for (const bool is_mirrored : {false, true}) {
             if (is_mirrored && !grammar_.mirrors) break;
-            const std::optional<OpenPlace> place =
-                solve_place(anchors, order, points, grammar_.is_flat, is_mirrored);
+            const std::optional<OpenPlacement> place =
+                solve_placement(anchors, order, points, grammar_.is_flat, is_mirrored);
             if (place) try_open(index, *place);
           }
         });
   }
 
-  void try_open(std::size_t index, const OpenPlace& found) {
+  void try_open(std::size_t index, const OpenPlacement& found) {
     const PicturePair& pair = grammar_.pairs[index];
     PictureMatch match;
     match.pair = index;

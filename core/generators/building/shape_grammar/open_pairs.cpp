@@ -186,9 +186,10 @@ std::vector<OpenAnchor> open_anchors(const PicturePair& pair) {
   return anchors;
 }
 
-std::optional<OpenPlace> solve_place(const std::vector<OpenAnchor>& anchors,
-                                     std::span<const std::uint32_t> order, std::span<const glm::dvec3> points,
-                                     bool is_flat, bool is_mirrored) {
+std::optional<OpenPlacement> solve_placement(const std::vector<OpenAnchor>& anchors,
+                                             std::span<const std::uint32_t> order,
+                                             std::span<const glm::dvec3> points, bool is_flat,
+                                             bool is_mirrored) {
   // The points are centred and scaled, so that the equations are well conditioned.
   const glm::dvec3 centre = points[0];
   double extent = 0;
@@ -209,7 +210,7 @@ std::optional<OpenPlace> solve_place(const std::vector<OpenAnchor>& anchors,
   std::vector<double> x;
   const std::size_t count = rows[0].size() - 1;
   if (solve(rows, x) < count) return std::nullopt;
-  OpenPlace found;
+  OpenPlacement found;
   found.values.assign(x.begin() + 4, x.end());
   double reach = 0;
   for (const std::uint32_t each : order) {

@@ -48,15 +48,16 @@ std::vector<OpenAnchor> open_anchors(const PicturePair& pair);
 std::vector<std::uint32_t> search_order(const std::vector<OpenAnchor>& anchors, bool is_flat,
                                         const std::map<std::uint32_t, std::size_t>& counts, double per_line);
 
-struct OpenPlace {
+struct OpenPlacement {
   Similarity place;
   std::vector<double> values;
 };
 
 /// Returns the similarity, mirrored or not, and the values that map these anchors to these points, by least squares;
 /// nothing if there are none.
-std::optional<OpenPlace> solve_place(const std::vector<OpenAnchor>& anchors,
-                                     std::span<const std::uint32_t> order, std::span<const glm::dvec3> points,
-                                     bool is_flat, bool is_mirrored);
+std::optional<OpenPlacement> solve_placement(const std::vector<OpenAnchor>& anchors,
+                                             std::span<const std::uint32_t> order,
+                                             std::span<const glm::dvec3> points, bool is_flat,
+                                             bool is_mirrored);
 
 }  // namespace seedmesh::building

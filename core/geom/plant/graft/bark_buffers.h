@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/geom/mesh/four.h"
+#include "core/geom/mesh/vec3x4.h"
 #include "core/geom/plant/graft/graft.h"
 
 namespace seedmesh {
@@ -31,7 +31,7 @@ struct Loop {
 
 /// The normal of a group, or the sum that it is computed from, in the first three lanes.
 struct GroupNormal {
-  FourFloats row{};
+  Float4 row{};
   glm::vec3 get() const { return {row[0], row[1], row[2]}; }
   void set(const glm::vec3& normal) { row = spread_out(normal); }
 };
@@ -97,7 +97,7 @@ void resize_vertices(BarkBuffers& bark, std::size_t vertices);
 
 /// Provides capacity for `count` more vertices and for the vertices that blocks of four write beyond them.
 inline void reserve_vertices(BarkBuffers& bark, std::size_t count) {
-  if (bark.vertices + count + Four::size > bark.mesh.position.size())
+  if (bark.vertices + count + Vec3x4::size > bark.mesh.position.size())
     resize_vertices(bark, bark.vertices + bark.vertices / 2 + count + 64);
 }
 

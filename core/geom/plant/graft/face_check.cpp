@@ -15,17 +15,17 @@ namespace {
 constexpr float least_area = 4e-12F;
 
 /// Of four faces those that are sound.
-FourFlags sound_four(const FaceCheck& check, const std::uint32_t* corner) {
+Mask4 sound_four(const FaceCheck& check, const std::uint32_t* corner) {
   constexpr float flattest = least_face_cosine * least_face_cosine;
-  const Four a = Four::picked(check.position, corner);
-  const Four face = cross(difference(Four::picked(check.position, corner + 1), a),
-                          difference(Four::picked(check.position, corner + 2), a));
-  const FourFloats size = dot(face, face), least = flattest * size;
-  FourFlags flags = size > check.least_square;
+  const Vec3x4 a = Vec3x4::gather(check.position, corner);
+  const Vec3x4 face = cross(difference(Vec3x4::gather(check.position, corner + 1), a),
+                            difference(Vec3x4::gather(check.position, corner + 2), a));
+  const Float4 size = dot(face, face), least = flattest * size;
+  Mask4 flags = size > check.least_square;
   for (std::size_t k = 0; k < 3; ++k) {
     // Three floats are read: the next one may belong to a normal that another thread writes.
     const auto normal = [&](std::size_t i) { return spread_out(check.normal[corner[k + i]]); };
-    const FourFloats over = dot(face, Four::of_rows(normal(0), normal(3), normal(6), normal(9)));
+    const Float4 over = dot(face, Vec3x4::of_rows(normal(0), normal(3), normal(6), normal(9)));
     flags &= (over > 0.0F) & (over * over > least);
   }
   return flags;
@@ -35,7 +35,8 @@ FourFlags sound_four(const FaceCheck& check, const std::uint32_t* corner) {
 SEEDMESH_WIDE std::size_t sound_faces(const FaceCheck& check, const std::uint32_t* corner,
                                       std::size_t count) {
   std::size_t sound = 0;
-  while (sound + Four::size <= count && all_of(sound_four(check, corner + 3 * sound))) sound += Four::size;
+  while (sound + Vec3x4::size <= count && all_of(sound_four(check, corner + 3 * sound)))
+    sound += Vec3x4::size;
   return sound;
 }
 
@@ -117,12 +118,12 @@ void find_bad_faces(const FaceCheck& check, const std::uint32_t* index, std::uin
                     std::uint32_t last, std::vector<std::uint32_t>& bad) {
   for (std::uint32_t t = first; t < last;) {
     t += static_cast<std::uint32_t>(sound_faces(check, index + std::size_t{3} * t, last - t));
-    const std::uint32_t begin = t, end = std::min(last, t + static_cast<std::uint32_t>(Four::size));
+    const std::uint32_t begin = t, end = std::min(last, t + static_cast<std::uint32_t>(Vec3x4::size));
     if (begin == end) return;
-    std::uint32_t corner[3 * Four::size];
-    for (std::uint32_t i = 0; i < Four::size; ++i)
+    std::uint32_t corner[3 * Vec3x4::size];
+    for (std::uint32_t i = 0; i < Vec3x4::size; ++i)
       std::copy_n(index + std::size_t{3} * std::min(t + i, end - 1), 3, corner + std::size_t{3} * i);
-    const FourFlags sound = sound_four(check, corner);
+    const Mask4 sound = sound_four(check, corner);
     for (; t < end; ++t) {
       if (!sound[t - begin]) bad.push_back(t);
     }

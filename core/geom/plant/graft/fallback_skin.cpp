@@ -151,8 +151,8 @@ void append_some(const GraftInput& in, bool are_trunks, int sides, JoinedBark& b
 
 }  // namespace
 
-void leave_to_skin(const Limbs& limbs, const Chains& chains, const Scale& scale, const GraftOptions& options,
-                   Job& job, std::vector<JoinMode>& join) {
+void find_fallback_limbs(const Limbs& limbs, const Chains& chains, const Scale& scale,
+                         const GraftOptions& options, Job& job, std::vector<JoinMode>& join) {
   Chains overlaps;
   if (options.overlaps) overlaps = find_chains(limbs, scale, job);
   const bool has_contours = !options.contours.empty() && !limbs.contour.empty();

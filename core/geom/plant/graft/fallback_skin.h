@@ -9,8 +9,8 @@ namespace seedmesh {
 
 /// Sets JoinMode::none for limbs that only skin() can draw: limbs with contours. With GraftOptions::points these are
 /// also limbs whose radius becomes 0. With GraftOptions::overlaps these are also limbs that coincide with others.
-void leave_to_skin(const Limbs& limbs, const Chains& chains, const Scale& scale, const GraftOptions& options,
-                   Job& job, std::vector<JoinMode>& join);
+void find_fallback_limbs(const Limbs& limbs, const Chains& chains, const Scale& scale,
+                         const GraftOptions& options, Job& job, std::vector<JoinMode>& join);
 
 /// Appends the bark of all limbs with JoinMode::none, trunks first. Throws Stop, or sets
 /// GraftOptions::has_no_surface, where a limb bends so sharply that even skin() makes it face inward.

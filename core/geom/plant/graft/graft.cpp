@@ -29,9 +29,9 @@ Mesh part_with(const Mesh& mesh, const Array<std::uint8_t>& marked, const Job& j
   part.index.wide = Array<std::uint32_t>(job);
   const Array<std::uint32_t>& index = mesh.index.wide;
   Array<std::uint32_t> number(job, mesh.position.size(), Limbs::none);
-  constexpr std::size_t look_every = 3 * 16'384;
+  constexpr std::size_t check_interval = 3 * 16'384;
   const auto is_wanted = [&](std::size_t t) {
-    if (t % look_every == 0) job.check();
+    if (t % check_interval == 0) job.check();
     return (marked[index[t]] | marked[index[t + 1]] | marked[index[t + 2]]) != 0;
   };
   for (std::size_t t = 0; t < index.size(); t += 3) {
@@ -148,7 +148,7 @@ Mesh graft(const Limbs& limbs, const GraftOptions& options, Job& job, GraftCount
         in.emplace(limbs, chains, scale, options, join);
         bark.emplace(options, chains.head.size(), limbs.size(), job);
       },
-      [&] { leave_to_skin(limbs, chains, scale, options, job, join); },
+      [&] { find_fallback_limbs(limbs, chains, scale, options, job, join); },
   };
   parallel_for(job, std::size(tasks), 1, [&](std::size_t i, std::size_t, std::size_t) { tasks[i](); });
   const std::vector<Crease> creases = write_sound_bark(*in, *bark, join, job);

@@ -18,20 +18,20 @@ constexpr std::size_t pairs_a_chunk = 1024;
 
 SEEDMESH_WIDE void measure_sides(FaceBlock& block, const glm::vec3* position,
                                  float (&along)[3][FaceBlock::most]) {
-  for (std::size_t first = 0; first < FaceBlock::most; first += Four::size) {
+  for (std::size_t first = 0; first < FaceBlock::most; first += Vec3x4::size) {
     const std::uint32_t* corner = block.corner + 3 * first;
-    const Four p[3] = {Four::picked(position, corner), Four::picked(position, corner + 1),
-                       Four::picked(position, corner + 2)};
-    const Four normal = cross(difference(p[1], p[0]), difference(p[2], p[0]));
-    const FourFloats size = root(dot(normal, normal));
-    const Four unit = scaled(normal, 1.0F / size);
+    const Vec3x4 p[3] = {Vec3x4::gather(position, corner), Vec3x4::gather(position, corner + 1),
+                         Vec3x4::gather(position, corner + 2)};
+    const Vec3x4 normal = cross(difference(p[1], p[0]), difference(p[2], p[0]));
+    const Float4 size = root(dot(normal, normal));
+    const Vec3x4 unit = scaled(normal, 1.0F / size);
     normal.to_rows(block.normal + first);
     unit.to_rows(block.unit + first);
-    const FourFloats columns[4] = {size, dot(difference(p[1], p[0]), difference(p[2], p[0])),
-                                   dot(difference(p[2], p[1]), difference(p[0], p[1])),
-                                   dot(difference(p[0], p[2]), difference(p[1], p[2]))};
+    const Float4 columns[4] = {size, dot(difference(p[1], p[0]), difference(p[2], p[0])),
+                               dot(difference(p[2], p[1]), difference(p[0], p[1])),
+                               dot(difference(p[0], p[2]), difference(p[1], p[2]))};
     float* const out[4] = {block.size, along[0], along[1], along[2]};
-    for (int k = 0; k < 4; ++k) std::memcpy(out[k] + first, &columns[k], sizeof(FourFloats));
+    for (int k = 0; k < 4; ++k) std::memcpy(out[k] + first, &columns[k], sizeof(Float4));
   }
 }
 
@@ -80,8 +80,8 @@ class FaceSums {
     GroupNormal* const sums = bark_.group_normal.data();
     for (std::size_t i = 0; i < count_; ++i) {
       if (!(block_.size[i] > 0)) continue;
-      const FourFloats normal = block_.normal[i];
-      std::memcpy(static_cast<void*>(face_), &block_.unit[i], sizeof(FourFloats));  // the groups follow
+      const Float4 normal = block_.normal[i];
+      std::memcpy(static_cast<void*>(face_), &block_.unit[i], sizeof(Float4));  // the groups follow
       for (std::size_t k = 0; k < 3; ++k) {
         std::uint32_t group = bark_.group[block_.corner[3 * i + k]];
         if (!all && group != none && !rounds_.touched[group / 2]) group = none;

@@ -3,8 +3,8 @@
 ///
 /// Rings know their normals by formula; vertices on loops do not. A loop's normal is the mean of two normals,
 /// one of each surface. Each of these is the mean of the faces weighted by their angle at the vertex (Thürmer
-/// and Wüthrich, "Computing vertex normals from polygonal facets", 1998). It is then turned until it is in
-/// front of all its faces, where that is possible.
+/// and Wüthrich, "Computing vertex normals from polygonal facets", 1998). It is then turned, where possible, until its
+/// dot product with the normal of each of its faces is positive.
 #include <span>
 #include <vector>
 
@@ -21,19 +21,20 @@ struct LoopFace {
 /// Faces and their corner angles, sixteen at a time.
 struct FaceBlock {
   static constexpr std::size_t most = 16;
-  std::uint32_t corner[3 * most];       ///< in; all of them, so repeat a face where there are fewer
-  FourFloats normal[most], unit[most];  ///< out: with the length of twice the area; unit
-  float size[most];                     ///< out: twice the area
-  float weight[3][most];                ///< out: the angle at each corner divided by `size`
+  std::uint32_t corner[3 * most];  ///< input: 16 faces; the caller repeats one where there are fewer
+  Float4 normal[most],
+      unit[most];         ///< output: `normal` has the length of twice the area, `unit` the length 1
+  float size[most];       ///< output: twice the area
+  float weight[3][most];  ///< output: the angle at each corner in radians, divided by `size`
 };
 
-/// Fills a block. Angles are exact within 2e-5 radians. Reads a float behind each position.
+/// Fills a block. Angles are exact within 2e-5 radians. Reads one float beyond the end of each position, which must be
+/// readable memory.
 void measure_faces(FaceBlock& block, const glm::vec3* position);
 
-/// Turns normals, each of which belongs to several faces, until each is slightly in front of all its faces. A
-/// normal that faces away from a face is turned to the front of that face, in at most 24 passes over the
-/// faces. `normals` are by group and those of odd groups are not used. Linear time where no normal has to
-/// turn.
+/// Turns normals, each of which belongs to several faces, until none faces away from one of its faces. There are at
+/// most 24 passes over the faces. `normals` is indexed by group; entries of odd groups are not used. Linear time
+/// where no normal has to turn.
 void relax_normals(std::span<const LoopFace> faces, std::span<GroupNormal> normals);
 
 /// Computes the normals of all changed loops (BarkRounds::touched), as group normals.
@@ -42,7 +43,7 @@ void solve_junction_normals(BarkBuffers& bark, const BarkRounds& rounds, const J
 /// Writes the group normals to the vertices of a limb, and their tangents.
 void store_junction_normals(BarkBuffers& bark, const BarkRounds& rounds, std::size_t limb);
 
-/// Returns the number of limbs that one thread processes at once.
+/// Returns the number of limbs in one task, for `limbs` limbs in all.
 std::size_t limbs_a_chunk(std::size_t limbs);
 
 }  // namespace seedmesh

@@ -8,9 +8,9 @@ namespace seedmesh {
 bool has_rib_seams(const BarkBuffers& bark, std::size_t limb);
 
 /// Replaces the normals of a limb with ribs, except on loops, by the means of the normals of adjacent faces, weighted
-/// by angle. Turns them to the front of their faces, as relax_normals() does. Used if normals by formula face away
-/// from faces of the limb. With few corners for a ring, the faces of deep ribs or of a flare are steeper than the
-/// ribs themselves.
+/// by angle. Then turns them until none faces away from its faces, as relax_normals() does. Used if normals by
+/// formula face away from faces of the limb. With few corners for a ring, the faces of deep ribs or of a flare are
+/// steeper than the ribs themselves.
 void smooth_rib_normals(BarkBuffers& bark, std::size_t limb);
 
 }  // namespace seedmesh

@@ -1,7 +1,7 @@
 #include "core/geom/plant/graft/ring_shape.h"
 
 #include "core/base/quick_math.h"
-#include "core/geom/mesh/four.h"
+#include "core/geom/mesh/vec3x4.h"
 
 namespace seedmesh {
 namespace {
@@ -17,7 +17,7 @@ std::vector<UnitCircle> circles_up_to(int most) {
       circle.x.push_back(static_cast<float>(at.cos));
       circle.y.push_back(static_cast<float>(at.sin));
     }
-    for (std::size_t i = 0; i <= Four::size; ++i) {
+    for (std::size_t i = 0; i <= Vec3x4::size; ++i) {
       circle.x.push_back(circle.x[i]);
       circle.y.push_back(circle.y[i]);
     }

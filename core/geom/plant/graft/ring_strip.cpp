@@ -3,14 +3,14 @@
 #include <cmath>
 
 #include "core/base/wide.h"
-#include "core/geom/mesh/four.h"
+#include "core/geom/mesh/vec3x4.h"
 
 namespace seedmesh {
 namespace {
 
 float square_distance(const glm::vec3& one, const glm::vec3& other) {
-  const FourFloats between = Four::row(&one) - Four::row(&other);
-  const FourFloats squares = between * between;
+  const Float4 between = Vec3x4::row(&one) - Vec3x4::row(&other);
+  const Float4 squares = between * between;
   return squares[0] + squares[1] + squares[2];
 }
 

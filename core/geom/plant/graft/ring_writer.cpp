@@ -27,23 +27,24 @@ const UnitCircle& circle_of(const LimbWriter& w, int sides) {
 
 /// Four corners of a ring.
 struct CornerBlock {
-  Four position, normal, around;  ///< around: the direction of rising angle
+  Vec3x4 position, normal, around;  ///< around: the direction of rising angle
 };
 
 /// Corners in the directions (x, y) before the seam turns them. `factor` multiplies the radius; `fall` is its
 /// relative decrease for each radian, by which normals lean.
-CornerBlock corner_block(const LimbWriter& w, const RingPlane& plane, FourFloats x, FourFloats y,
-                         float factor, float fall) {
-  const FourFloats along_u = x * w.seam_turn.x - y * w.seam_turn.y,
-                   along_v = x * w.seam_turn.y + y * w.seam_turn.x;
+CornerBlock corner_block(const LimbWriter& w, const RingPlane& plane, Float4 x, Float4 y, float factor,
+                         float fall) {
+  const Float4 along_u = x * w.seam_turn.x - y * w.seam_turn.y,
+               along_v = x * w.seam_turn.y + y * w.seam_turn.x;
   const glm::vec3 &u = plane.u, &v = plane.v, lean = plane.tangent * plane.slope;
-  const Four out{u.x * along_u + v.x * along_v, u.y * along_u + v.y * along_v, u.z * along_u + v.z * along_v};
-  const Four around{v.x * along_u - u.x * along_v, v.y * along_u - u.y * along_v,
-                    v.z * along_u - u.z * along_v};
+  const Vec3x4 out{u.x * along_u + v.x * along_v, u.y * along_u + v.y * along_v,
+                   u.z * along_u + v.z * along_v};
+  const Vec3x4 around{v.x * along_u - u.x * along_v, v.y * along_u - u.y * along_v,
+                      v.z * along_u - u.z * along_v};
   const float radius = plane.radius * factor;
   const glm::vec3& c = plane.centre;
-  const Four normal{out.x + lean.x - around.x * fall, out.y + lean.y - around.y * fall,
-                    out.z + lean.z - around.z * fall};
+  const Vec3x4 normal{out.x + lean.x - around.x * fall, out.y + lean.y - around.y * fall,
+                      out.z + lean.z - around.z * fall};
   return {{c.x + out.x * radius, c.y + out.y * radius, c.z + out.z * radius}, units(normal, out), around};
 }
 
@@ -56,17 +57,17 @@ struct RingArrays {
 
 void write_circle(const LimbWriter& w, const RingPlane& plane, int sides, const RingArrays& to) {
   const UnitCircle& circle = circle_of(w, sides);
-  for (std::size_t i = 0; i <= static_cast<std::size_t>(sides); i += Four::size) {
-    FourFloats x, y;
+  for (std::size_t i = 0; i <= static_cast<std::size_t>(sides); i += Vec3x4::size) {
+    Float4 x, y;
     std::memcpy(&x, circle.x.data() + i, sizeof(x));
     std::memcpy(&y, circle.y.data() + i, sizeof(y));
     const CornerBlock block = corner_block(w, plane, x, y, 1, 0);
     block.position.write(to.position + i);
     block.normal.write(to.normal + i);
     if (!to.tangent) continue;
-    FourFloats rows[Four::size];
+    Float4 rows[Vec3x4::size];
     block.around.to_rows(rows);
-    for (FourFloats& row : rows) {
+    for (Float4& row : rows) {
       row += 0.0F;
       row[3] = -1;
     }
@@ -328,7 +329,7 @@ void write_open_ring(LimbWriter& w, const RingPlane& plane, const PlannedRing& r
     most += 2 + junctions[k].lower + junctions[k].upper;
   OpenCornerList list(w, most);
   if (!has_ribs(w)) {
-    const std::size_t capacity = static_cast<std::size_t>(sides) + 1 + Four::size;
+    const std::size_t capacity = static_cast<std::size_t>(sides) + 1 + Vec3x4::size;
     w.ring_position.resize(capacity);
     w.ring_normal.resize(capacity);
     if (w.out.has_tangents) w.ring_tangent.resize(capacity);

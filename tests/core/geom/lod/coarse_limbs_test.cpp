@@ -107,8 +107,8 @@ TEST(Coarsen, GivesSkinLimbsOfFewerCornersThatAreClosed) {
       EXPECT_THAT(faults(bark.mesh), IsEmpty()) << seed;
     }
     EXPECT_EQ(measure(meshes).open_edges, 0U) << seed;
-    EXPECT_EQ(made, skin_count(kept.limbs, coarse, job, Redrawn::found).triangles) << seed;
-    for (const LimbCorners& corners : kept.corners) of_fewer += corners.now < corners.finest ? 1 : 0;
+    EXPECT_EQ(made, skin_count(kept.limbs, coarse, job, RepeatMode::found).triangles) << seed;
+    for (const LimbCorners& corners : kept.corners) of_fewer += corners.current < corners.finest ? 1 : 0;
   }
   EXPECT_GT(of_fewer, 1000U);
 }

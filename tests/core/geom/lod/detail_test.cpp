@@ -68,8 +68,8 @@ TEST(Detail, LeavesOutWhatIsDrawnTwice) {
   maker.grow(again, {1, 2, 0}, {0.05F, 0.05F});
   const KeptLimbs kept = without_repeats(maker.limbs, 8, job);
   ASSERT_EQ(kept.limbs.size(), 3U);
-  EXPECT_EQ(kept.new_place[again], Limbs::none);
-  EXPECT_EQ(kept.limbs.parent[2], kept.new_place[first]) << "what grew from it grows from the first";
+  EXPECT_EQ(kept.new_index[again], Limbs::none);
+  EXPECT_EQ(kept.limbs.parent[2], kept.new_index[first]) << "what grew from it grows from the first";
 }
 
 TEST(Skin, HasFewerSidesOnThinnerLimbsWhereItAdapts) {

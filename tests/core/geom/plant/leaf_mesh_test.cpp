@@ -211,7 +211,7 @@ TEST(PlaceOrgans, SkipsDuplicatesAndOrgansThatAreTooSmall) {
   options.surfaces = surfaces;
   options.model_size = 4;
   EXPECT_EQ(place_organs(organs, options, job)[0].mesh.elements(), 10 * surfaces[0].elements());
-  EXPECT_EQ(organ_places(organs, options, job)[0].places.size(), 10U);
+  EXPECT_EQ(organ_transforms(organs, options, job)[0].transforms.size(), 10U);
 }
 
 }  // namespace

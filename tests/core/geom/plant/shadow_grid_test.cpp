@@ -41,13 +41,13 @@ TEST(ShadowGrid, HasTheLightOfOpenLSystems) {
   around.shadow = options;
   Surroundings surroundings(around, job);
   // One internode in each of several cells.
-  std::vector<Stretch> grown;
+  std::vector<GrownInternode> grown;
   for (int i = 0; i < 5; ++i) {
-    Stretch stretch;
-    stretch.from = {0.25, 8.25, 0.25 + 0.5 * i};
-    stretch.to = {0.25, 8.75, 0.25 + 0.5 * i};
-    grown.push_back(stretch);
-    grid.add(stretch.to);
+    GrownInternode internode;
+    internode.from = {0.25, 8.25, 0.25 + 0.5 * i};
+    internode.to = {0.25, 8.75, 0.25 + 0.5 * i};
+    grown.push_back(internode);
+    grid.add(internode.to);
   }
   surroundings.set_internodes(grown);
   for (const glm::dvec3 point : {glm::dvec3{0.25, 8.25, 0.75}, {0.25, 7.25, 1.25}, {1.25, 6.75, 0.25}}) {

@@ -54,7 +54,7 @@ TEST(Prune, GivesTheSameLimbsWithKnownSharesAndWithoutThem) {
   options.guides = {Solid{SolidShape::box, {0, -0.5, 0}, {1, 1, 1}, nullptr}};
   const Surroundings box(options, job);
   for (const Membership membership : {Membership::centre, Membership::whole, Membership::clipped}) {
-    KnownShares known(job);
+    ShareCache known(job);
     Skeleton expected = rays(job);
     const std::size_t all = expected.limbs.size();
     prune(expected, box, membership, nullptr, job);
@@ -73,9 +73,9 @@ TEST(Prune, GivesTheSameLimbsWithKnownSharesAndWithoutThem) {
   }
 }
 
-TEST(KnownShares, FindsEachOfManyInternodes) {
+TEST(ShareCache, FindsEachOfManyInternodes) {
   Job job(1, Job::Options{});
-  KnownShares known(job);
+  ShareCache known(job);
   EXPECT_EQ(known.find({0, 0, 0}, {0, 1, 0}), nullptr);
   const auto share_of = [](int i) { return i % 101 / 100.0; };
   const auto to = [](int i) { return glm::vec3(static_cast<float>(i), 1, 0); };
@@ -91,32 +91,32 @@ TEST(KnownShares, FindsEachOfManyInternodes) {
 TEST(Surroundings, QueriesSeeTheInternodesThatWereSetLast) {
   Job job(1, Job::Options{});
   Surroundings around(Surroundings::Options{}, job);
-  Prober prober;
-  prober.heading = {1, 0, 0};
+  GrowthTip tip;
+  tip.heading = {1, 0, 0};
   // A pillar of four cells, each of which shades the cells below it by 0.2 / 1.6^layers.
-  std::vector<Stretch> pillar;
+  std::vector<GrownInternode> pillar;
   double shade = 0, amount = ShadowOptions{}.shade;
   for (std::uint32_t i = 0; i < 4; ++i) {
-    Stretch stretch;
-    stretch.from = {0.75, -0.25 + 0.5 * i, 0.25};
-    stretch.to = {0.75, 0.25 + 0.5 * i, 0.25};
-    stretch.radius = 0.1;
-    stretch.system = 1;
-    stretch.joint = i + 1;
-    stretch.parent = i;
-    pillar.push_back(stretch);
+    GrownInternode internode;
+    internode.from = {0.75, -0.25 + 0.5 * i, 0.25};
+    internode.to = {0.75, 0.25 + 0.5 * i, 0.25};
+    internode.radius = 0.1;
+    internode.system = 1;
+    internode.joint = i + 1;
+    internode.parent = i;
+    pillar.push_back(internode);
     amount /= ShadowOptions{}.falloff;
     shade += amount;
   }
-  prober.position = {0, 0.25, 0.25};
+  tip.position = {0, 0.25, 0.25};
   const glm::dvec3 below{0.75, -0.25, 0.25};
   for (int time = 0; time < 2; ++time) {
     around.set_internodes({});
-    EXPECT_TRUE(around.is_free(prober, 1));
+    EXPECT_TRUE(around.is_free(tip, 1));
     EXPECT_EQ(around.light_at(below), 1);
     around.set_internodes(pillar);
-    EXPECT_FALSE(around.is_free(prober, 1));
-    EXPECT_TRUE(around.is_free(prober, 0.5));
+    EXPECT_FALSE(around.is_free(tip, 1));
+    EXPECT_TRUE(around.is_free(tip, 0.5));
     EXPECT_NEAR(around.light_at(below), 1 - (shade - ShadowOptions{}.shade), 1e-12);
   }
 }

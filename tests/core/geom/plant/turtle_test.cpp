@@ -165,9 +165,9 @@ TEST_F(TurtleTest, KeepsKeysBesideTheirJointsWhereOnlySomeHaveOne) {
 TEST_F(TurtleTest, StaysWhereItIsAndSaysSoBeyondTheWorld) {
   turtle.draw(1, 0);
   const glm::dvec3 before = turtle.position();
-  EXPECT_FALSE(turtle.is_lost());
+  EXPECT_FALSE(turtle.is_out_of_range());
   turtle.draw(1e16, 0);
-  EXPECT_TRUE(turtle.is_lost());
+  EXPECT_TRUE(turtle.is_out_of_range());
   EXPECT_EQ(turtle.position(), before);
 }
 

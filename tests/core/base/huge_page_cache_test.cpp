@@ -1,4 +1,4 @@
-#include "core/base/reserve.h"
+#include "core/base/huge_page_cache.h"
 
 #include <gtest/gtest.h>
 
@@ -13,15 +13,15 @@ namespace {
 
 constexpr std::size_t mebibyte = std::size_t{1} << 20U;
 
-Job job_with(const std::shared_ptr<Reserve>& reserve) {
+Job job_with(const std::shared_ptr<HugePageCache>& reserve) {
   Job::Options options;
   options.reserve = reserve;
   return Job(0, options);
 }
 
 #if defined(__linux__)
-TEST(Reserve, GivesTheMemoryOfAnArrayToTheNextOne) {
-  const auto reserve = std::make_shared<Reserve>(32 * mebibyte);
+TEST(HugePageCache, GivesTheMemoryOfAnArrayToTheNextOne) {
+  const auto reserve = std::make_shared<HugePageCache>(32 * mebibyte);
   const char* where = nullptr;
   {
     const Array<char> first(job_with(reserve), 5 * mebibyte, 'x');
@@ -34,8 +34,8 @@ TEST(Reserve, GivesTheMemoryOfAnArrayToTheNextOne) {
   EXPECT_EQ(reserve->kept(), 0U);
 }
 
-TEST(Reserve, CutsWhatIsKeptAndMakesItWholeAgain) {
-  const auto reserve = std::make_shared<Reserve>(32 * mebibyte);
+TEST(HugePageCache, CutsWhatIsKeptAndMakesItWholeAgain) {
+  const auto reserve = std::make_shared<HugePageCache>(32 * mebibyte);
   { const Array<char> whole(job_with(reserve), 12 * mebibyte, 'x'); }
   {
     const Array<char> one(job_with(reserve), 5 * mebibyte, 'a'), other(job_with(reserve), 6 * mebibyte, 'b');
@@ -47,8 +47,8 @@ TEST(Reserve, CutsWhatIsKeptAndMakesItWholeAgain) {
   EXPECT_EQ(reserve->kept(), 0U);
 }
 
-TEST(Reserve, KeepsTheEndThatAnArrayDoesNotNeed) {
-  const auto reserve = std::make_shared<Reserve>(32 * mebibyte);
+TEST(HugePageCache, KeepsTheEndThatAnArrayDoesNotNeed) {
+  const auto reserve = std::make_shared<HugePageCache>(32 * mebibyte);
   Array<char> array(job_with(reserve), 11 * mebibyte, 'x');
   array.resize(5 * mebibyte);
   array.shrink_to_fit();
@@ -56,8 +56,8 @@ TEST(Reserve, KeepsTheEndThatAnArrayDoesNotNeed) {
   EXPECT_EQ(array.back(), 'x');
 }
 
-TEST(Reserve, LetsAnArrayGrowOverMemoryOfTwoThatWere) {
-  const auto reserve = std::make_shared<Reserve>(64 * mebibyte);
+TEST(HugePageCache, LetsAnArrayGrowOverMemoryOfTwoThatWere) {
+  const auto reserve = std::make_shared<HugePageCache>(64 * mebibyte);
   {
     const Array<char> one(job_with(reserve), 6 * mebibyte, 'x'), other(job_with(reserve), 6 * mebibyte, 'x');
   }
@@ -66,8 +66,8 @@ TEST(Reserve, LetsAnArrayGrowOverMemoryOfTwoThatWere) {
   for (std::uint32_t i = 0; i < 9'000'000; i += 977) ASSERT_EQ(array[i], i);
 }
 
-TEST(Reserve, KeepsNoMoreThanItsMost) {
-  const auto reserve = std::make_shared<Reserve>(8 * mebibyte);
+TEST(HugePageCache, KeepsNoMoreThanItsMost) {
+  const auto reserve = std::make_shared<HugePageCache>(8 * mebibyte);
   { const Array<char> greater(job_with(reserve), 10 * mebibyte, 'x'); }
   EXPECT_EQ(reserve->kept(), 0U);
   { const Array<char> one(job_with(reserve), 4 * mebibyte), other(job_with(reserve), 6 * mebibyte); }
@@ -75,8 +75,8 @@ TEST(Reserve, KeepsNoMoreThanItsMost) {
   EXPECT_GE(reserve->kept(), 4 * mebibyte);
 }
 
-TEST(Reserve, DoesNotMakeAGreatRequestGreater) {
-  const auto reserve = std::make_shared<Reserve>(24 * mebibyte);
+TEST(HugePageCache, DoesNotMakeAGreatRequestGreater) {
+  const auto reserve = std::make_shared<HugePageCache>(24 * mebibyte);
   const Job great = job_with(reserve);
   Array<char> used(great, 10 * mebibyte, 'x');
   { const Array<char> passing(great, 4 * mebibyte, 'x'); }
@@ -91,8 +91,8 @@ TEST(Reserve, DoesNotMakeAGreatRequestGreater) {
   EXPECT_EQ(reserve->kept(), 18 * mebibyte) << "with 34 MiB used";
 }
 
-TEST(Reserve, LaysSmallerArraysTogether) {
-  const auto reserve = std::make_shared<Reserve>(32 * mebibyte);
+TEST(HugePageCache, LaysSmallerArraysTogether) {
+  const auto reserve = std::make_shared<HugePageCache>(32 * mebibyte);
   const Job job = job_with(reserve);
   {
     const Array<char> one(job, mebibyte / 2, 'a'), other(job, mebibyte, 'b');
@@ -105,8 +105,8 @@ TEST(Reserve, LaysSmallerArraysTogether) {
   EXPECT_EQ(reserve->kept(), 2 * mebibyte) << "too small for it";
 }
 
-TEST(Reserve, LetsSmallerArraysGrowOneAmongOthers) {
-  const auto reserve = std::make_shared<Reserve>(32 * mebibyte);
+TEST(HugePageCache, LetsSmallerArraysGrowOneAmongOthers) {
+  const auto reserve = std::make_shared<HugePageCache>(32 * mebibyte);
   const Job job = job_with(reserve);
   Array<std::uint32_t> arrays[] = {Array<std::uint32_t>(job), Array<std::uint32_t>(job),
                                    Array<std::uint32_t>(job)};
@@ -123,8 +123,8 @@ TEST(Reserve, LetsSmallerArraysGrowOneAmongOthers) {
   EXPECT_LE(reserve->kept(), 32 * mebibyte);
 }
 
-TEST(Reserve, GivesAllBackWhenItIsCleared) {
-  const auto reserve = std::make_shared<Reserve>(32 * mebibyte);
+TEST(HugePageCache, GivesAllBackWhenItIsCleared) {
+  const auto reserve = std::make_shared<HugePageCache>(32 * mebibyte);
   { const Array<char> array(job_with(reserve), 8 * mebibyte, 'x'); }
   EXPECT_EQ(reserve->kept(), 8 * mebibyte);
   reserve->clear();
@@ -133,8 +133,8 @@ TEST(Reserve, GivesAllBackWhenItIsCleared) {
 }
 #endif
 
-TEST(Reserve, IsNotUsedByRequestsThatPreferLowMemory) {
-  const auto reserve = std::make_shared<Reserve>(32 * mebibyte);
+TEST(HugePageCache, IsNotUsedByRequestsThatPreferLowMemory) {
+  const auto reserve = std::make_shared<HugePageCache>(32 * mebibyte);
   const Job job = job_with(reserve);
   job.budget()->prefer_low_memory();
   { const Array<char> array(job, 9 * mebibyte, 'x'); }

@@ -9,26 +9,26 @@
 
 namespace seedmesh {
 
-class Reserve {
+class HugePageCache {
  public:
-  static constexpr std::size_t usual = std::size_t{128} << 20U;
+  static constexpr std::size_t default_capacity = std::size_t{128} << 20U;
 
   /// Keeps at most `most` bytes.
-  explicit Reserve(std::size_t most = usual);
-  ~Reserve() { clear(); }
-  Reserve(const Reserve&) = delete;
-  Reserve& operator=(const Reserve&) = delete;
+  explicit HugePageCache(std::size_t most = default_capacity);
+  ~HugePageCache() { clear(); }
+  HugePageCache(const HugePageCache&) = delete;
+  HugePageCache& operator=(const HugePageCache&) = delete;
 
-  /// Returns `room` bytes in whole huge pages with unspecified content, or null where the reserve keeps too
-  /// few.
+  /// Returns `room` bytes in whole huge pages with unspecified content, or null if the reserve has no adjacent pages
+  /// of this size.
   std::byte* take(std::size_t room);
   /// Returns `room` bytes, a multiple of largest_page (pages.h), from huge pages that several blocks share, with
   /// unspecified content. Maps a new huge page where none has enough space. Throws std::bad_alloc.
   std::byte* share(std::size_t room);
   /// Keeps pages that a request frees. `used` and `peak` are those of its budget; `used` still includes
   /// `memory`. The pages are kept only if all kept pages and `used` together are at most max(most / 2, peak).
-  /// The reserve thus does not increase the memory that a big request needs. False: the caller unmaps the
-  /// pages.
+  /// The reserve thus does not increase the memory that a big request needs. If it returns false, the caller unmaps
+  /// the pages.
   bool keep(std::byte* memory, std::size_t room, std::uint64_t used, std::uint64_t peak);
   /// Returns all kept pages to the system.
   void clear();

@@ -13,17 +13,17 @@ namespace seedmesh::lsystem {
 /// module that was written at `step`, before it is rewritten. It returns true if the sink has written all that the
 /// module derives to.
 template <class Sink>
-concept TakesWholes = requires(Sink& sink, KindId kind, std::uint32_t step) {
-  { sink.takes(kind, step) } -> std::same_as<bool>;
+concept ReplacesDerivations = requires(Sink& sink, KindId kind, std::uint32_t step) {
+  { sink.replaces(kind, step) } -> std::same_as<bool>;
 };
 
 /// Sink has void module(KindId, const double* parameters, std::uint64_t key, std::uint32_t step), called in
 /// the order of the word. `step` is the derivation step that wrote the module, 0 for the axiom.
 template <class Sink>
-class FreeDerivation {
+class ContextFreeDerivation {
  public:
   /// With `keyed` false, all keys are 0 and cost nothing.
-  FreeDerivation(const Grammar& grammar, std::uint32_t steps, bool keyed, Job& job, Sink& sink)
+  ContextFreeDerivation(const Grammar& grammar, std::uint32_t steps, bool keyed, Job& job, Sink& sink)
       : grammar_(grammar),
         rules_(grammar.productions),
         steps_(steps),
@@ -49,8 +49,8 @@ class FreeDerivation {
       const std::uint64_t key = keyed_ ? child_key(parent, *each) : 0;
       fill_arguments(grammar_, *each, slots, key, own, job_);
       if (step < steps_ && rules_.rewrites(each->kind)) {
-        if constexpr (TakesWholes<Sink>) {
-          if (sink_.takes(each->kind, step)) continue;
+        if constexpr (ReplacesDerivations<Sink>) {
+          if (sink_.replaces(each->kind, step)) continue;
         }
         rewrite(each->kind, own, key, step);
       } else {
@@ -71,7 +71,8 @@ class FreeDerivation {
     const std::span<const Production> candidates = rules_.candidates(kind);
     for (std::uint32_t now = step; now < steps_; ++now) {
       const Production* production = choose(
-          grammar_, candidates, Draws(key, now), [&](const Production&) { return parameters; }, job_);
+          grammar_, candidates, RewriteStreams(key, now), [&](const Production&) { return parameters; },
+          job_);
       if (production) return write(production->successor, parameters, key, now + 1);
       // without random conditions, a failed match fails in every later step
       if (!rules_.redraws[kind]) break;

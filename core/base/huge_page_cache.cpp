@@ -1,4 +1,4 @@
-#include "core/base/reserve.h"
+#include "core/base/huge_page_cache.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -7,13 +7,13 @@
 
 namespace seedmesh {
 
-Reserve::Reserve(std::size_t most) : most_(most) {
+HugePageCache::HugePageCache(std::size_t most) : most_(most) {
   // keep() runs in destructors, so it must not allocate.
   pieces_.reserve(most_pieces);
 }
 
 /// Cuts `room` bytes out of the smallest sufficient piece; null where there is none.
-std::byte* Reserve::cut(std::size_t room, std::size_t aligned) {
+std::byte* HugePageCache::cut(std::size_t room, std::size_t aligned) {
   const auto skipped = [&](const Piece& piece) {
     return (aligned - reinterpret_cast<std::uintptr_t>(piece.memory) % aligned) % aligned;
   };
@@ -35,7 +35,7 @@ std::byte* Reserve::cut(std::size_t room, std::size_t aligned) {
 }
 
 /// Adds a piece and joins it with adjacent ones, so that cut huge pages become whole again.
-void Reserve::join(Piece whole) {
+void HugePageCache::join(Piece whole) {
   kept_ += whole.room;
   for (std::size_t i = pieces_.size(); i-- > 0;) {
     const Piece& piece = pieces_[i];
@@ -48,12 +48,12 @@ void Reserve::join(Piece whole) {
   pieces_.push_back(whole);
 }
 
-std::byte* Reserve::take(std::size_t room) {
+std::byte* HugePageCache::take(std::size_t room) {
   const std::lock_guard lock(mutex_);
   return cut(room, pages::huge_page);
 }
 
-std::byte* Reserve::share(std::size_t room) {
+std::byte* HugePageCache::share(std::size_t room) {
   const std::lock_guard lock(mutex_);
   if (std::byte* memory = cut(room, pages::largest_page)) return memory;
   const std::size_t whole = pages::rounded(room, pages::huge_page);
@@ -66,7 +66,7 @@ std::byte* Reserve::share(std::size_t room) {
   return memory;
 }
 
-bool Reserve::keep(std::byte* memory, std::size_t room, std::uint64_t used, std::uint64_t peak) {
+bool HugePageCache::keep(std::byte* memory, std::size_t room, std::uint64_t used, std::uint64_t peak) {
   const std::lock_guard lock(mutex_);
   if (kept_ + room > most_ || kept_ + used > std::max<std::uint64_t>(most_ / 2, peak)) return false;
   if (pieces_.size() == most_pieces) return false;
@@ -74,14 +74,14 @@ bool Reserve::keep(std::byte* memory, std::size_t room, std::uint64_t used, std:
   return true;
 }
 
-void Reserve::clear() {
+void HugePageCache::clear() {
   const std::lock_guard lock(mutex_);
   for (const Piece& piece : pieces_) pages::unmap(piece.memory, piece.room);
   pieces_.clear();
   kept_ = 0;
 }
 
-std::size_t Reserve::kept() const {
+std::size_t HugePageCache::kept() const {
   const std::lock_guard lock(mutex_);
   return kept_;
 }

@@ -12,12 +12,12 @@ namespace seedmesh::lsystem {
 /// A skeleton that occurs several times, with one transform each.
 struct SharedPart {
   Skeleton* skeleton;  ///< not owned, never null; dress() moves its arrays out
-  std::vector<Transform> places;
+  std::vector<Transform> transforms;
 };
 
 /// Makes the model of a skeleton. `parts`, which have limbs only, become nodes with copies.
-Model dress(Skeleton skeleton, const LsystemParams& params, const GenerateContext& context,
-            std::span<SharedPart> parts = {});
+Model build_model(Skeleton skeleton, const LsystemParams& params, const GenerateContext& context,
+                  std::span<SharedPart> parts = {});
 
 /// Returns the largest number of segments that can be drawn within limits.triangles. Each of several coincident
 /// segments counts.

@@ -1,4 +1,4 @@
-#include "core/generators/city/remarks.h"
+#include "core/generators/city/plan_warnings.h"
 
 #include <algorithm>
 #include <glm/common.hpp>
@@ -123,7 +123,7 @@ void add_unused_geometries(const CityParams& params, const CityPlan& plan, std::
 
 }  // namespace
 
-std::vector<Warning> remarks_on(const CityParams& params, const CityPlan& plan) {
+std::vector<Warning> plan_warnings(const CityParams& params, const CityPlan& plan) {
   std::vector<Warning> warnings = warnings_of(unused_parameters(params));
   add_unused(params, plan, warnings);
   add_unused_geometries(params, plan, warnings);

@@ -1,4 +1,4 @@
-#include "core/generators/terrain/engines.h"
+#include "core/generators/terrain/game_engines.h"
 
 #include <algorithm>
 #include <array>
@@ -15,9 +15,9 @@ constexpr int least_of_unity = 33, most_of_unity = 4097;
 constexpr double below = 256, whole = 65'535.0 / 128, plain_scale = 100, centimetres = 100;
 
 /// Returns every side that an engine supports, in rising order.
-std::vector<int> sides_of(Engine engine) {
+std::vector<int> sides_of(GameEngine engine) {
   std::vector<int> sides;
-  if (engine == Engine::unity) {
+  if (engine == GameEngine::unity) {
     for (int side = least_of_unity; side <= most_of_unity; side = 2 * side - 1) sides.push_back(side);
     return sides;
   }
@@ -32,22 +32,24 @@ std::vector<int> sides_of(Engine engine) {
   return sides;
 }
 
-constexpr std::string_view name_of(Engine engine) { return engine == Engine::unreal ? "Unreal" : "Unity"; }
+constexpr std::string_view name_of(GameEngine engine) {
+  return engine == GameEngine::unreal ? "Unreal" : "Unity";
+}
 
 }  // namespace
 
-std::optional<Engine> engine_of(std::string_view profile) {
-  if (profile == "unreal") return Engine::unreal;
-  if (profile == "unity") return Engine::unity;
+std::optional<GameEngine> game_engine_of(std::string_view profile) {
+  if (profile == "unreal") return GameEngine::unreal;
+  if (profile == "unity") return GameEngine::unity;
   return std::nullopt;
 }
 
-bool takes_side(Engine engine, int side) {
+bool supports_side(GameEngine engine, int side) {
   const std::vector<int> sides = sides_of(engine);
   return std::binary_search(sides.begin(), sides.end(), side);
 }
 
-std::vector<int> nearest_sides(Engine engine, int side) {
+std::vector<int> nearest_sides(GameEngine engine, int side) {
   const std::vector<int> sides = sides_of(engine);
   const auto above = std::lower_bound(sides.begin(), sides.end(), side);
   if (above != sides.end() && *above == side) return {side};
@@ -57,33 +59,33 @@ std::vector<int> nearest_sides(Engine engine, int side) {
   return nearest;
 }
 
-std::string misfit(Engine engine, int width, int depth) {
-  const bool square = engine == Engine::unreal || width == depth;
-  if (square && takes_side(engine, width) && takes_side(engine, depth)) return "";
+std::string size_error(GameEngine engine, int width, int depth) {
+  const bool square = engine == GameEngine::unreal || width == depth;
+  if (square && supports_side(engine, width) && supports_side(engine, depth)) return "";
   std::string text = "found " + std::to_string(width);
   if (width != depth) text += " x " + std::to_string(depth);
   text += " samples; " + std::string(name_of(engine)) + " needs ";
-  text += engine == Engine::unreal ? "127, 253, 505, 1009, 2017, 4033 or 8129 along a side, or another "
-                                     "multiple of its sections plus one"
-                                   : "squares of 33, 65, 129, 257, 513, 1025, 2049 or 4097 samples";
+  text += engine == GameEngine::unreal ? "127, 253, 505, 1009, 2017, 4033 or 8129 along a side, or another "
+                                         "multiple of its sections plus one"
+                                       : "squares of 33, 65, 129, 257, 513, 1025, 2049 or 4097 samples";
   text += "; resample to ";
   const std::vector<int> nearest = nearest_sides(engine, width);
   for (std::size_t i = 0; i < nearest.size(); ++i) text += (i > 0 ? " or " : "") + std::to_string(nearest[i]);
   return text;
 }
 
-Json engine_settings(const Relief& relief) {
-  const auto fits = [&](Engine engine) {
-    return Json{{"fits", misfit(engine, relief.width, relief.depth).empty()},
+Json engine_settings(const HeightMapScale& relief) {
+  const auto fits = [&](GameEngine engine) {
+    return Json{{"fits", size_error(engine, relief.width, relief.depth).empty()},
                 {"nearest", nearest_sides(engine, relief.width)}};
   };
   const double span = relief.high - relief.low;
   const double scale = span > 0 ? span * plain_scale / whole : plain_scale;
   const double quad = relief.cell * centimetres;
-  Json unreal = fits(Engine::unreal);
+  Json unreal = fits(GameEngine::unreal);
   unreal["scale"] = {quad, quad, scale};
   unreal["location_z"] = (relief.low + below * scale / plain_scale) * centimetres;
-  Json unity = fits(Engine::unity);
+  Json unity = fits(GameEngine::unity);
   unity["size"] = {relief.cell * (relief.width - 1), span, relief.cell * (relief.depth - 1)};
   unity["position_y"] = relief.low;
   return {{"unreal", std::move(unreal)}, {"unity", std::move(unity)}};

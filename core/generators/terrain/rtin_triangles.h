@@ -11,27 +11,27 @@ namespace seedmesh::terrain {
 
 /// A triangle by the sample numbers x + z * stride (stride_of in rtin_errors.h). Its long side is a-b and its
 /// right angle is at c. Its corners are counter-clockwise as seen from above, and so are those of both halves.
-struct Half {
+struct RtinTriangle {
   std::uint32_t a = 0, b = 0, c = 0;
   int level = 0;  ///< number of splits down to half a cell; the area doubles with each level
 
   /// The coordinates of the two ends have even sums, so the mean number is that of the midpoint.
   std::uint32_t middle() const { return (a + b) / 2; }
-  Half first() const { return {c, a, middle(), level - 1}; }
-  Half second() const { return {b, c, middle(), level - 1}; }
+  RtinTriangle first() const { return {c, a, middle(), level - 1}; }
+  RtinTriangle second() const { return {b, c, middle(), level - 1}; }
 };
 
 /// Splits the two triangles of the field `depth` times. Triangles whose error is at most `threshold` stay whole.
-inline std::vector<Half> parts_of(const RtinErrors& all, float threshold, int depth) {
+inline std::vector<RtinTriangle> parts_of(const RtinErrors& all, float threshold, int depth) {
   const float* errors = all.data();
   int level = 0;
   for (std::int32_t i = 1; i < all.side() - 1; i *= 2) level += 2;
   const auto east = static_cast<std::uint32_t>(all.side() - 1);
   const std::uint32_t south = static_cast<std::uint32_t>(all.stride()) * east;
-  std::vector<Half> parts{{0, south + east, east, level}, {south + east, 0, south, level}};
+  std::vector<RtinTriangle> parts{{0, south + east, east, level}, {south + east, 0, south, level}};
   for (; depth > 0; --depth) {
-    std::vector<Half> halves;
-    for (const Half& each : parts) {
+    std::vector<RtinTriangle> halves;
+    for (const RtinTriangle& each : parts) {
       if (each.level == 0 || !(errors[each.middle()] > threshold)) {
         halves.push_back(each);
       } else {
@@ -45,19 +45,19 @@ inline std::vector<Half> parts_of(const RtinErrors& all, float threshold, int de
 }
 
 /// The corners of a triangle as positions in the field.
-struct HalfCorners {
+struct RtinTriangleCorners {
   GridPoint a, b, c;
   int level = 0;
 };
 
-inline HalfCorners places_of(const Half& half, std::int32_t stride) {
+inline RtinTriangleCorners corners_of(const RtinTriangle& half, std::int32_t stride) {
   return {grid_point_of(half.a, stride), grid_point_of(half.b, stride), grid_point_of(half.c, stride),
           half.level};
 }
 
 /// Calls visit(z, first x, last x) for each row of the triangle, including its edges.
 template <class Visit>
-void each_row_inside(const HalfCorners& half, const Visit& visit) {
+void each_row_inside(const RtinTriangleCorners& half, const Visit& visit) {
   const GridPoint a = half.a, b = half.b, c = half.c;
   const auto row = [&](std::int32_t z, std::int32_t x, std::int32_t other) {
     visit(z, std::min(x, other), std::max(x, other));
@@ -78,10 +78,10 @@ void each_row_inside(const HalfCorners& half, const Visit& visit) {
 
 /// Counts the triangles within `root` of the mesh whose error is at most `threshold`, without recursion. A mesh sample
 /// inside `root` splits two triangles, one on an edge splits one.
-std::size_t count_whole(const RtinErrors& errors, float threshold, const Half& root);
+std::size_t count_triangles(const RtinErrors& errors, float threshold, const RtinTriangle& root);
 
 /// Returns the plane through the corners. Twice the area is a power of two, so the products here are exact.
-inline Plane plane_of(const HalfCorners& half, double ha, double hb, double hc) {
+inline Plane plane_of(const RtinTriangleCorners& half, double ha, double hb, double hc) {
   const double share = 1.0 / static_cast<double>(std::int64_t{1} << half.level);
   const GridPoint a = half.a, b = half.b, c = half.c;
   const double bx = b.x - a.x, bz = b.z - a.z, cx = c.x - a.x, cz = c.z - a.z;

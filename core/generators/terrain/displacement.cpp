@@ -1,4 +1,4 @@
-#include "core/generators/terrain/onto.h"
+#include "core/generators/terrain/displacement.h"
 
 #include <algorithm>
 #include <cmath>

@@ -14,7 +14,7 @@ namespace seedmesh::city {
 
 /// Returns warnings about parameters without an effect, given streets that were left out, a terrain that is smaller than
 /// the area, landmarks that do not fit, and tunnels below level ground.
-std::vector<Warning> remarks_on(const CityParams& params, const CityPlan& plan);
+std::vector<Warning> plan_warnings(const CityParams& params, const CityPlan& plan);
 
 /// Adds warnings about surfaces that the model does not have. Call it before materials get unique names.
 void warn_of_unused_surfaces(const CityParams& params, Model& model);

@@ -13,14 +13,14 @@ namespace seedmesh {
 /// at most max(4, 2 * workers) arenas. By default glibc raises these thresholds while it runs, to up to 32 and
 /// 64 MiB, and uses up to eight arenas for each core. Call it before the first thread is started. A variable
 /// MALLOC_... of the environment takes precedence.
-void keep_little_memory(int workers);
+void configure_malloc(int workers);
 
 /// While an object exists, its thread reads the resident memory of the process every second. It returns the
 /// free memory of the arenas to the system in two cases:
 /// - The resident memory has grown by 4 MiB since the last return.
 /// - Requests have been answered since then, the resident memory is 4 MiB above its minimum, and either no
 ///   request is in flight or ten seconds have passed.
-class GiveBack {
+class MemoryTrimmer {
  public:
   struct Activity {
     std::uint64_t answered = 0;  ///< requests, ever
@@ -28,14 +28,14 @@ class GiveBack {
   };
 
   /// `also` is called before the memory of the arenas is returned; it empties other stores of free memory, such as
-  /// Reserve.
-  GiveBack(std::function<Activity()> activity, std::function<void()> also);
-  ~GiveBack();
-  GiveBack(const GiveBack&) = delete;
-  GiveBack& operator=(const GiveBack&) = delete;
+  /// HugePageCache.
+  MemoryTrimmer(std::function<Activity()> activity, std::function<void()> also);
+  ~MemoryTrimmer();
+  MemoryTrimmer(const MemoryTrimmer&) = delete;
+  MemoryTrimmer& operator=(const MemoryTrimmer&) = delete;
 
  private:
-  void look();
+  void watch_memory();
 
   const std::function<Activity()> activity_;
   const std::function<void()> also_;

@@ -1,4 +1,4 @@
-#include "core/generators/terrain/dress.h"
+#include "core/generators/terrain/build_model.h"
 
 #include <algorithm>
 #include <memory>
@@ -51,9 +51,9 @@ int add_texture(Model& model, std::string name, const texture::Picture& picture,
 }
 
 /// Builds the model of one request from its heights, colours and meshes.
-class Dressing {
+class FieldModelBuilder {
  public:
-  Dressing(const TerrainParams& params, const Field& field, const GenerateContext& context)
+  FieldModelBuilder(const TerrainParams& params, const Field& field, const GenerateContext& context)
       : params_(params),
         field_(field),
         job_(context.job),
@@ -63,7 +63,7 @@ class Dressing {
         ground_colors_(colors_of(params, range_)),
         shading_(params.texture > 0 ? Shading::upright : Shading::smooth) {}
 
-  Model dress() {
+  Model build() {
     Model model;
     model.name = "terrain";
     Node root;
@@ -173,7 +173,7 @@ class Dressing {
         rim.push_back(sample);
     }
     const bool is_grid = params_.mesh == TerrainMesh::grid;
-    const Coarse coarse{shading_, is_grid ? 1 << level : 1, all, is_grid};
+    const CoarseShading coarse{shading_, is_grid ? 1 << level : 1, all, is_grid};
     return {{reduced_mesh(field_, std::move(plan), color_of(), coarse, job_), {}}, std::move(rim)};
   }
 
@@ -226,7 +226,7 @@ class Dressing {
       Triangulation plan = decimated(field_, part, 1 << level, Border::whole, job_);
       made.notes.push_back(note_of(plan));
       if (plan.index.size() / 3 >= made.meshes.back().elements()) continue;
-      const Coarse coarse{shading_, 1 << level, part, true};
+      const CoarseShading coarse{shading_, 1 << level, part, true};
       made.meshes.push_back(reduced_mesh(field_, std::move(plan), color_of(), coarse, job_));
     }
     return made;
@@ -324,8 +324,8 @@ std::shared_ptr<const RefinedGround> refined_ground(const TerrainParams& params,
                                                window_of(params), job.rng().at("terrain"), job);
 }
 
-Model dressed_field(const TerrainParams& params, const Field& field, const GenerateContext& context) {
-  return Dressing(params, field, context).dress();
+Model build_field_model(const TerrainParams& params, const Field& field, const GenerateContext& context) {
+  return FieldModelBuilder(params, field, context).build();
 }
 
 }  // namespace seedmesh::terrain

@@ -2,7 +2,7 @@
 #include <string>
 
 #include "core/generators/terrain/box_mapping.h"
-#include "core/generators/terrain/dress.h"
+#include "core/generators/terrain/build_model.h"
 #include "core/generators/terrain/model_parts.h"
 #include "core/generators/terrain/plan.h"
 #include "core/generators/terrain/surface.h"
@@ -12,14 +12,12 @@
 namespace seedmesh::terrain {
 namespace {
 
-constexpr const char* rock_kind = "rock_ground";
-
-class PlanetDressing {
+class PlanetModelBuilder {
  public:
-  PlanetDressing(const TerrainParams& params, const GenerateContext& context)
+  PlanetModelBuilder(const TerrainParams& params, const GenerateContext& context)
       : params_(params), job_(context.job), demand_(context.demand) {}
 
-  Model dress() {
+  Model build() {
     Planet planet = planet_of(params_, 0, job_);
     job_.progress("mesh", 0);
     const Range range = colored_range(planet);
@@ -60,10 +58,10 @@ class PlanetDressing {
 
   /// The mesh of a planet, with texture coordinates if it has detail.
   Mesh mesh_of(const Planet& planet, const GroundColors* colors) {
-    const Upward upward = is_rock() ? Upward::along_y : Upward::outward;
+    const UpDirection upward = is_rock() ? UpDirection::along_y : UpDirection::outward;
     Mesh mesh = planet_mesh(planet, colors, upward, job_.rng().at("terrain"), job_);
     if (!has_detail()) return mesh;
-    BoxMapped mapped(mesh, {}, 1 / texture::grey_of(rock_kind), job_);
+    BoxMappedMesh mapped(mesh, {}, 1 / texture::grey_of(rock_kind), job_);
     for (std::size_t i = 0; i < mesh.index.size(); i += 3) {
       if (i % 12'288 == 0) job_.check();
       mapped.add({mesh.index.at(i), mesh.index.at(i + 1), mesh.index.at(i + 2)});
@@ -101,7 +99,7 @@ class PlanetDressing {
       before = own;
       Planet sea = sphere_of(own, params_.size / 2, job_);
       for (float& height : sea.height) height = level_of_water;
-      Mesh mesh = planet_mesh(sea, nullptr, Upward::outward, job_.rng(), job_);
+      Mesh mesh = planet_mesh(sea, nullptr, UpDirection::outward, job_.rng(), job_);
       mesh.cache_ordered = level == 0;
       const int number = add_mesh(model, level_name("water", level), std::move(mesh), water);
       if (node < 0) {
@@ -119,8 +117,8 @@ class PlanetDressing {
 
 }  // namespace
 
-Model dressed_planet(const TerrainParams& params, const GenerateContext& context) {
-  return PlanetDressing(params, context).dress();
+Model build_planet_model(const TerrainParams& params, const GenerateContext& context) {
+  return PlanetModelBuilder(params, context).build();
 }
 
 }  // namespace seedmesh::terrain

@@ -1,4 +1,4 @@
-#include "core/generators/lsystem/dress.h"
+#include "core/generators/lsystem/build_model.h"
 
 #include <algorithm>
 #include <cmath>
@@ -88,7 +88,7 @@ std::uint64_t triangles_of(const std::vector<Primitive>& primitives) {
 /// The largest number of triangles of a level, and how repeated internodes count.
 struct TriangleLimit {
   std::uint64_t triangles = 0;
-  Redrawn repeats = Redrawn::counted;
+  RepeatMode repeats = RepeatMode::counted;
 };
 
 /// Returns fewer limbs and joints, with about `wanted.triangles` triangles and at most `most`. Where that
@@ -158,13 +158,13 @@ std::vector<Bark> coarser_bark(const Limbs& limbs, const CoarseOptions& wanted, 
   if (std::none_of(barks.begin(), barks.end(), [](const Bark& bark) { return faces_inward(bark.mesh); }))
     return barks;
   // Rings whose corners are not rotated against each other.
-  for (LimbCorners& corners : kept.corners) corners.finest = corners.now;
+  for (LimbCorners& corners : kept.corners) corners.finest = corners.current;
   return skin(kept.limbs, options, job);
 }
 
 /// Reports whether internodes coincide. `made` is the number of triangles with all limbs counted.
-Redrawn repeats_of(const Limbs& limbs, const SkinOptions& options, std::uint64_t made, const Job& job) {
-  return skin_count(limbs, options, job).triangles == made ? Redrawn::counted : Redrawn::found;
+RepeatMode repeats_of(const Limbs& limbs, const SkinOptions& options, std::uint64_t made, const Job& job) {
+  return skin_count(limbs, options, job).triangles == made ? RepeatMode::counted : RepeatMode::found;
 }
 
 /// Adds a level to the last node.
@@ -234,12 +234,12 @@ void add_bark(Model& model, Limbs limbs, const BarkUse& use, const LsystemParams
   std::uint64_t before = triangles;
   Array<std::uint16_t> own_bones(job);
   Array<float> shown(job);
-  Redrawn repeats = Redrawn::counted;
+  RepeatMode repeats = RepeatMode::counted;
   if (context.demand.lods > 1 && !welded) {
     KeptLimbs once = without_repeats(limbs, options.sides, job);
     if (once.limbs.size() < limbs.size()) {
       for (std::size_t i = 0; i < bones.size(); ++i) {
-        if (once.new_place[i] != Limbs::none) own_bones.push_back(bones[i]);
+        if (once.new_index[i] != Limbs::none) own_bones.push_back(bones[i]);
       }
       bones = own_bones.span();
       limbs = std::move(once.limbs);
@@ -284,7 +284,7 @@ void add_shared(Model& model, std::span<SharedPart> parts, const LsystemParams& 
     }
     for (std::size_t node = first; node < model.nodes.size(); ++node) {
       model.nodes[node].name += "_part";
-      model.nodes[node].instances.transforms = part.places;
+      model.nodes[node].instances.transforms = part.transforms;
     }
   }
 }
@@ -324,8 +324,8 @@ void add_collision(Model& model, const std::vector<LimbBody>& bodies, const Gene
 
 }  // namespace
 
-Model dress(Skeleton skeleton, const LsystemParams& params, const GenerateContext& context,
-            std::span<SharedPart> parts) {
+Model build_model(Skeleton skeleton, const LsystemParams& params, const GenerateContext& context,
+                  std::span<SharedPart> parts) {
   Job& job = context.job;
   Model model;
   model.name = "lsystem";
@@ -380,7 +380,7 @@ Estimate estimate_of(const Skeleton& skeleton, const LsystemParams& params, Job&
     count.vertices =
         static_cast<std::uint64_t>(math::to_int64(welded_vertices * static_cast<double>(count.triangles)));
   } else {
-    count = skin_count(skeleton.limbs, skin_options(params, contours, Detail(0)), job, Redrawn::found);
+    count = skin_count(skeleton.limbs, skin_options(params, contours, Detail(0)), job, RepeatMode::found);
   }
   const std::uint64_t index = count.vertices > 65'535 ? bytes_a_triangle : bytes_a_triangle / 2;
   return {count.triangles, document + count.triangles * index + count.vertices * bytes_a_vertex, false};

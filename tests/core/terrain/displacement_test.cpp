@@ -1,4 +1,4 @@
-#include "core/generators/terrain/onto.h"
+#include "core/generators/terrain/displacement.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "server/give_back.h"
+#include "server/memory_trimmer.h"
 
 #include <malloc.h>
 #include <unistd.h>
@@ -26,7 +26,7 @@ constexpr std::chrono::seconds pause{1};
 constexpr std::int64_t worth = 4 << 20;  ///< bytes of growth
 constexpr int longest_wait = 10;         ///< looks, where requests never pause
 // Blocks from this size on come from the kernel by themselves and go back at once. What the end of an arena
-// keeps for the next request until GiveBack looks: to clear its pages anew would take a fifth of the time of
+// keeps for the next request until MemoryTrimmer looks: to clear its pages anew would take a fifth of the time of
 // a small model. More of either, and what bursts of bad requests leave in the arenas stays.
 constexpr int mapped = 1 << 20, kept = 4 << 20;
 
@@ -38,7 +38,7 @@ std::int64_t resident() {
 
 }  // namespace
 
-void keep_little_memory(int workers) {
+void configure_malloc(int workers) {
 #ifdef __GLIBC__
   const auto unless_set = [](const char* variable, int parameter, int value) {
     if (std::getenv(variable)) return;  // NOLINT(concurrency-mt-unsafe): the only thread
@@ -50,10 +50,10 @@ void keep_little_memory(int workers) {
 #endif
 }
 
-GiveBack::GiveBack(std::function<Activity()> activity, std::function<void()> also)
-    : activity_(std::move(activity)), also_(std::move(also)), thread_([this] { look(); }) {}
+MemoryTrimmer::MemoryTrimmer(std::function<Activity()> activity, std::function<void()> also)
+    : activity_(std::move(activity)), also_(std::move(also)), thread_([this] { watch_memory(); }) {}
 
-GiveBack::~GiveBack() {
+MemoryTrimmer::~MemoryTrimmer() {
   {
     const std::lock_guard lock(mutex_);
     ending_ = true;
@@ -62,7 +62,7 @@ GiveBack::~GiveBack() {
   thread_.join();
 }
 
-void GiveBack::look() {
+void MemoryTrimmer::watch_memory() {
   std::unique_lock lock(mutex_);
   std::int64_t after = resident(), least = after;  // after the last time, and ever
   std::uint64_t answered = 0;

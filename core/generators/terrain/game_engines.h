@@ -14,29 +14,29 @@
 
 namespace seedmesh::terrain {
 
-enum class Engine { unreal, unity };
+enum class GameEngine { unreal, unity };
 
 /// Returns the engine of a value of output.profile, or nullopt for core and other profiles.
-std::optional<Engine> engine_of(std::string_view profile);
+std::optional<GameEngine> game_engine_of(std::string_view profile);
 
-bool takes_side(Engine engine, int side);
+bool supports_side(GameEngine engine, int side);
 
 /// Returns the nearest supported sides: the largest that is at most `side` and the smallest that is at least
 /// `side`, as far as they exist.
-std::vector<int> nearest_sides(Engine engine, int side);
+std::vector<int> nearest_sides(GameEngine engine, int side);
 
 /// Returns why the engine cannot import a field of `width` by `depth` samples, with sides that fit. Returns
 /// "" for a supported size.
-std::string misfit(Engine engine, int width, int depth);
+std::string size_error(GameEngine engine, int width, int depth);
 
 /// The scale of a height map file: metres between samples, and the heights of its smallest and largest value.
-struct Relief {
+struct HeightMapScale {
   int width = 0, depth = 0;
   double cell = 1, low = 0, high = 0;
 };
 
 /// Returns {unreal: {fits, nearest, scale: [x, y, z], location_z}, unity: {fits, nearest, size: [x, y, z],
 /// position_y}}. Unreal's numbers use its units (scale; centimetres), Unity's use metres.
-Json engine_settings(const Relief& relief);
+Json engine_settings(const HeightMapScale& relief);
 
 }  // namespace seedmesh::terrain
