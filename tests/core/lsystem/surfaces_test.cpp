@@ -87,6 +87,25 @@ TEST(Tubes, WarnOfInternodesThatAreAsWideAsThePlant) {
   EXPECT_TRUE(model_of((R"json({"axiom":"A(1,0.1)")json" + figure).c_str()).warnings.empty());
 }
 
+TEST(Organs, HaveTheColourOfTheirKindInThePaletteInsteadOfThatOfBark) {
+  const auto organ_of = [](const std::string& members) {
+    const Model model = model_of(
+        (R"json({"axiom":"F;(2)F,(0)~leaf","surfaces":{"leaf":{"build":"mesh"}})json" + members + "}")
+            .c_str());
+    const auto& mesh = model.meshes[static_cast<std::size_t>(node_named(model, "organs")->mesh)];
+    return model.materials[static_cast<std::size_t>(mesh.primitives[0].material)].name;
+  };
+  EXPECT_EQ(organ_of(""), "leaf_surface");
+  EXPECT_EQ(
+      organ_of(R"(,"materials":[{"name":"wood","color":"#553311"},{"name":"green","color":"#00ff00"}])"),
+      "wood_surface");
+  const Model model =
+      model_of(R"json({"axiom":"F~aF~bF'~a","surfaces":{"a":{"shape":"petal"},"b":{"shape":"fruit"}}})json");
+  std::vector<std::string> names;
+  for (const Material& material : model.materials) names.push_back(material.name);
+  EXPECT_THAT(names, testing::UnorderedElementsAre("bark", "petal_surface", "berry", "leaf_surface"));
+}
+
 TEST(Organs, AreReportedWhereThereAreNoSurfaces) {
   const Model model = model_of(R"({"axiom":"F~F"})");
   ASSERT_EQ(model.warnings.size(), 1U);
