@@ -12,7 +12,7 @@ http::Response route(Service& service, const http::Request& request);
 http::Response post_generate(RequestContext& call);  // routes_models.cpp
 http::Response get_model(RequestContext& call);
 http::Response get_preset(RequestContext& call);
-/// Returns the Server-Timing field of a response whose head is about to be sent. `asked` is when the model
+/// Returns the Server-Timing field of a response whose head is about to be sent. `asked` is the time when the model
 /// was requested from the caches, and `found` when it was available. The parts, whose sum is the total, are:
 /// - `parse`: from the arrival of the request to `asked`;
 /// - the parts of the generation, unless the model is from a cache;

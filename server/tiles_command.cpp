@@ -25,7 +25,7 @@ namespace fs = std::filesystem;
 
 constexpr std::uint64_t memory_bytes = std::uint64_t{256} << 20U;  ///< of regions, roads and towns
 constexpr std::chrono::seconds progress_interval{10};
-constexpr const char* identity = "seedmesh.json";  ///< says which world and engine a folder has
+constexpr const char* identity = "seedmesh.json";  ///< file with the world and engine of a folder
 
 int print_refusal(const Problem& problem) {
   std::fprintf(stderr, "%s\n", problem_json(problem, "", 2).c_str());
