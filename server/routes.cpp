@@ -131,7 +131,7 @@ http::Response route(Service& service, const http::Request& request) {
     if (!name) continue;
     call.name = std::move(*name);
     http::Response response = allows(row, request.method) ? run(row, call) : other_method(row, call);
-    if (row.answer == get_world) open_to_pages(service, response);
+    if (row.answer == get_world) open_to_pages(service, request, response);
     return response;
   }
   if (service.pages.find(request.path)) {

@@ -359,6 +359,9 @@ int sync_command(const Config& config, const SyncOptions& options) {
   }
   const Scan scan = scan_directory(options.directory, *lock, options.check, config.threads);
   if (!scan.failure.empty()) return fail(scan.failure, "cannot be read");
+  if (scan.files.empty())
+    std::fprintf(stderr, "seedmesh: %s: found no request files; their names end in .seedmesh\n",
+                 options.directory.c_str());
   if (options.list) return list(options, scan);
   const std::unique_ptr<ModelSource> source =
       options.server.empty() ? local_source(config) : remote_source(options.server, options.key);

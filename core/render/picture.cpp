@@ -235,7 +235,7 @@ class Painter {
 
 /// Plants and buildings stand at height 0, with roots and foundations below; other models on their lowest point.
 float ground_of(const Box& box) {
-  constexpr float deepest = 0.25F;  // share of the height that may be below
+  constexpr float deepest = 0.125F;  // share of the height that may be below
   return box.min.y < 0 && -box.min.y < deepest * (box.max.y - box.min.y) ? 0 : box.min.y;
 }
 

@@ -955,7 +955,7 @@ export interface LsystemParametersSurfacesValue {
   droop?: number;
   /** How far the end of a fruit is elongated. */
   pointed?: number;
-  /** The colour index in materials; -1 uses the turtle's. */
+  /** The colour index in materials; -1 uses the turtle's. Without `materials`, a leaf, petal or fruit in the turtle's first colour has the colour of its kind instead of that of bark. */
   color?: number;
   /** Whether a leaf gets the texture of its own shape if its material has none: auto: only if the leaf is made of squares. */
   picture?: "auto" | "own" | "none";

@@ -133,8 +133,6 @@ void extrude_in(Derivation& d, const Step& step, ShapeState& state, const std::s
   take_solid(d, state, std::move(made));
 }
 
-namespace {
-
 bool raises_faces(Op op) {
   constexpr Op raising[] = {Op::extrude,      Op::taper,       Op::envelope,     Op::roof_ridge,
                             Op::roof_hip,     Op::roof_gable,  Op::roof_pyramid, Op::roof_shed,
@@ -142,7 +140,9 @@ bool raises_faces(Op op) {
   return std::ranges::find(raising, op) != std::end(raising);
 }
 
-}  // namespace
+bool is_level_face(const Derivation& d, const ShapeState& state) {
+  return dimension(state.size) == 2 && d.out.axes[state.axes][flat_axis(state.size)].y > 1 - 1e-9;
+}
 
 void face_forward(Derivation& d, const Step& step, ShapeState& state) {
   if (!raises_faces(step.op) || dimension(state.size) != 2 || !state.has_solid()) return;

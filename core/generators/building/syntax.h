@@ -370,6 +370,7 @@ struct Grammar {
   bool uses_tags = false;       ///< tags are read somewhere, so that operations tag what they make
   /// Whether scopes behave as in CityEngine (see stand_up and lift_face); false after @KeepScopes.
   bool turns_scopes = false;
+  bool keeps_scopes = false;   ///< has @KeepScopes: not even the scopes of level faces turn (see stand_up)
   bool is_cityengine = false;  ///< has `version`, `import`, `@StartRule`: errors of steps are warnings
   std::vector<Warning> warnings;
 

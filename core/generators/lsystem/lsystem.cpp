@@ -250,6 +250,7 @@ Result<Model> generate(const LsystemParams& params, const GenerateContext& conte
     warn_of_braces(drawing, grammar->warnings);
   }
   shape(skeleton, params, job);
+  if (params.style == LsystemParams::Style::tubes) warn_of_thick(skeleton.limbs, grammar->warnings);
   job.progress("mesh", 0);
   Model model = build_model(std::move(skeleton), params, context);
   if (systems) systems->add_others(model);

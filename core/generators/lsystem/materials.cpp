@@ -65,6 +65,15 @@ bool wraps_images(const LsystemParams& params) {
   });
 }
 
+std::int16_t palette_color_of(LsystemShape shape) {
+  using Shape = LsystemShape;
+  constexpr std::int16_t leaf = 1, petal = 4, berry = 6;
+  if (shape == Shape::petal) return petal;
+  if (shape == Shape::fruit) return berry;
+  constexpr Shape others[] = {Shape::patches, Shape::model, Shape::sphere, Shape::disc};
+  return std::ranges::find(others, shape) == std::end(others) ? leaf : -1;
+}
+
 MaterialSet::MaterialSet(Model& model, const LsystemParams& params, const Job& job)
     : model_(model),
       params_(params),

@@ -41,8 +41,8 @@ struct Made {
   Statistics statistics;
 };
 
-Made made(const std::string& preset, const std::string& output) {
-  const Result<Request> request = read_request(request_of(preset, output), Limits{});
+Made made_of(const std::string& text) {
+  const Result<Request> request = read_request(text, Limits{});
   if (!request) {
     ADD_FAILURE() << request.error().issues.front().message;
     return {};
@@ -56,6 +56,10 @@ Made made(const std::string& preset, const std::string& output) {
   std::uint32_t size = 0;
   std::memcpy(&size, bytes.data() + 12, sizeof size);
   return {json::parse(bytes.substr(20, size)), product->statistics};
+}
+
+Made made(const std::string& preset, const std::string& output) {
+  return made_of(request_of(preset, output));
 }
 
 std::vector<std::string> required(const json& document) {
@@ -90,6 +94,31 @@ TEST(Impostors, AreTheCoarsestLevelOfTheWholeTree) {
   }
   EXPECT_EQ(with_levels, 1U);  // the root, not bark and leaves each
   EXPECT_EQ(pictures, 1U);
+}
+
+/// The bytes of the images of impostors in a grove that is seen from afar.
+std::size_t bytes_of_impostors(const std::string& budget) {
+  const json document =
+      made_of(R"({"generator":"scene","parameters":{"ground":{"size":100},"camera":{"position":[0,2,90]},
+    "layers":[{"model":{"preset":"proctree_0","parameters":{"mLevels":3}},"variants":1,
+               "place":{"method":"poisson","distance":9}}]},"output":{"textures":128)" +
+              budget + "}}")
+          .document;
+  std::size_t sum = 0;
+  for (const json& image : document.at("images")) {
+    if (image.at("name").get<std::string>().find("impostor") != std::string::npos)
+      sum += document.at("bufferViews")
+                 .at(image.at("bufferView").get<std::size_t>())
+                 .at("byteLength")
+                 .get<std::size_t>();
+  }
+  return sum;
+}
+
+TEST(Impostors, AreDrawnFromTheFinestLevelWhenABudgetRemovesIt) {
+  const std::size_t drawn = bytes_of_impostors("");
+  EXPECT_GT(drawn, 2000U);
+  EXPECT_EQ(bytes_of_impostors(R"(,"max_triangles":4000)"), drawn);
 }
 
 TEST(Impostors, AreMadeOfEveryVariant) {

@@ -236,6 +236,25 @@ TEST(Picture, ShowsTheGroundWhereItIsAsked) {
   EXPECT_NE(brightness(with, 10, 120), brightness(without, 10, 120));  // beside it
 }
 
+/// A box of 1 m, of which the share `below` is below the height 0, and the ground.
+texture::Picture box_on_ground(float below, const Job& job) {
+  Mesh mesh = empty_mesh(job);
+  add_box(mesh, {-0.5F, -below, -0.5F}, {0.5F, 1 - below, 0.5F});
+  return draw_picture(model_of(std::move(mesh)), {128, 128, {35, 18.0}, true}, job);
+}
+
+TEST(Picture, HidesRootsInTheGroundButNoCurveThatDescendsBelowItsStart) {
+  const Job job = job_of();
+  const texture::Picture standing = box_on_ground(0, job);
+  int at_lowest = 0, at_zero = 0;
+  for (std::uint32_t y = 64; y < 128; ++y) {
+    at_lowest += std::abs(brightness(box_on_ground(0.2F, job), 64, y) - brightness(standing, 64, y)) > 8;
+    at_zero += std::abs(brightness(box_on_ground(0.1F, job), 64, y) - brightness(standing, 64, y)) > 8;
+  }
+  EXPECT_LE(at_lowest, 1);
+  EXPECT_GT(at_zero, 4);
+}
+
 /// An upright unit square with a texture of 8 x 8 texels with four channels.
 Model square_with(const Array<std::uint8_t>& pixels, const Job& job) {
   Mesh mesh = empty_mesh(job);
