@@ -16,14 +16,12 @@
 
 namespace seedmesh::world {
 
-/// A tile of the quadtree: level 0 is the whole extent; x runs east, y north, from 0.
+/// A tile of the quadtree: level 0 is the whole extent; x runs east, y north, from 0. A world has the tiles with
+/// 0 <= level < world.levels and 0 <= x, y < 2^level.
 struct TileKey {
   int level = 0;
   std::int64_t x = 0, y = 0;
 };
-
-/// Whether the tree has the tile: 0 <= level < world.levels and 0 <= x, y < 2^level.
-bool has_tile(const World& world, const TileKey& key);
 
 /// The upright box of a tile. It holds all vertices of the tile, skirts and instances included, and the boxes of
 /// its children; it lies inside the box of its parent. In plan it is the tile's square, except where plants and
