@@ -14,7 +14,7 @@ namespace {
 
 constexpr double widest_openings = 64, widest_models = 128, widest_roofs = 512, widest_boxes = 2048,
                  widest_prisms = 8192, widest_walls = 1024;  ///< metres
-constexpr double prisms_along = 64;                          ///< of cells of a tile, each with one prism
+constexpr double prisms_along = 64;                          ///< cells along a tile, each with one prism
 constexpr double widest_town_roofs = 256, widest_town_boxes = 512, narrow_prism = 40, wide_prism = 64;
 
 using Point = glm::dvec3;

@@ -13,10 +13,10 @@ namespace {
 
 constexpr double border_share = 0.9;     ///< the greatest deviation along a line, by that of an area
 constexpr double far_share = 0.9;        ///< the same for tiles three levels coarser
-constexpr double unusual = 1.15;         ///< of the usual skirt: the deepest that boxes allow for
+constexpr double unusual = 1.15;         ///< share of the usual skirt: the deepest that boxes include
 constexpr double widest_fine_rise = 64;  ///< metres
-constexpr double fine_share = 0.7;       ///< of normals that follow the slope of finer levels
-constexpr double rounding_steps = 9;     ///< of heights of tiles three levels coarser
+constexpr double fine_share = 0.7;       ///< share of normals that follow the slope of finer levels
+constexpr double rounding_steps = 9;     ///< steps by which heights of tiles three levels coarser are rounded
 
 /// Rises by a metre east and north.
 struct Rise {
