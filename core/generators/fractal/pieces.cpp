@@ -6,6 +6,7 @@
 #include "core/base/math.h"
 #include "core/geom/mesh/weld.h"
 #include "core/model/build.h"
+#include "core/model/empty_mesh.h"
 
 namespace seedmesh::fractal {
 namespace {
@@ -68,12 +69,10 @@ class CopyJoiner {
   CopyJoiner(const Mesh& element, std::uint64_t copies, double size, Job& job)
       : element_(element), size_(size), job_(job) {
     const std::size_t count = static_cast<std::size_t>(copies);
+    mesh_ = empty_mesh(job);
     mesh_.topology = element.topology;
-    mesh_.position = Array<glm::vec3>(job);
-    mesh_.normal = Array<glm::vec3>(job);
     mesh_.uv[0] = Array<glm::vec2>(job);
     mesh_.color = Array<glm::u8vec4>(job);
-    mesh_.index.wide = Array<std::uint32_t>(job);
     mesh_.position.reserve(count * element.position.size());
     mesh_.normal.reserve(count * element.normal.size());
     mesh_.uv[0].reserve(count * element.uv[0].size());
