@@ -329,9 +329,7 @@ Model build_model(Skeleton skeleton, const LsystemParams& params, const Generate
   Job& job = context.job;
   Model model;
   model.name = "lsystem";
-  Node root;
-  root.name = "lsystem";
-  model.nodes.push_back(std::move(root));
+  add_node(model, "lsystem", -1);
   MaterialSet material_set(model, params, job);
   choose_materials(skeleton, material_set);
   const bool tubes = params.style == LsystemParams::Style::tubes;
