@@ -16,7 +16,7 @@ struct Address {
 
 bool operator==(const Address& a, const Address& b);
 
-/// The box of a tile with all that it holds, and its geometric error, in metres.
+/// The box of a tile with all of its contents, and its geometric error, in metres.
 struct Bounds {
   double west = 0, south = 0, low = 0, east = 0, north = 0, high = 0, geometric_error = 0;
 };

@@ -187,7 +187,7 @@ class Join {
     return false;
   }
 
-  /// Adds the joined shape, unless no rule holds for it.
+  /// Adds the joined shape, unless no rule applies to it.
   bool add(const Joint& joint) {
     std::vector<Shape> replaced;
     for (std::size_t left = 0; left < chosen_.size(); ++left) {

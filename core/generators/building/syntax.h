@@ -50,7 +50,7 @@ struct Query {
   std::uint32_t slot = 0;
 };
 
-/// A node of an expression that lang::Program cannot hold: joined texts, arrays, recursion, geometry. Its
+/// A node of an expression that lang::Program cannot represent: joined texts, arrays, recursion, geometry. Its
 /// operands are in Grammar::value_operands.
 struct ValueNode {
   enum class Kind : std::uint8_t {
@@ -89,7 +89,7 @@ struct FunctionTree {
 
 struct Value {
   lang::Expression expression;
-  std::uint32_t tree = none;  ///< a ValueNode; none: `expression` holds it
+  std::uint32_t tree = none;  ///< a ValueNode; none: it is in `expression`
   /// True: `expression` is tried first; the tree is used only if a parameter is a text or an array at run
   /// time.
   bool is_fallback = false;
@@ -339,7 +339,7 @@ struct Attribute {
 /// A component split inside an expression: comp(fe){ front = 3 | all : 1 }, an array.
 struct ComponentValue {
   std::uint8_t kind = 0;
-  std::vector<Part> parts;  ///< `size` holds the value
+  std::vector<Part> parts;  ///< the value is in `size`
 };
 
 struct Grammar {

@@ -15,7 +15,7 @@ constexpr std::uint64_t most_nodes = 400;
 constexpr std::uint64_t node_bytes = 150;  ///< of JSON
 constexpr double largest_count = 0x1p62;
 
-/// Calls visit(map) for all copies after `rounds`, but point(map) for those for which is_small(map) holds, which
+/// Calls visit(map) for all copies after `rounds`, but point(map) for those for which is_small(map) is true, which
 /// are not divided. Needs only a stack with one map for each round.
 template <class IsSmall, class Visit, class Point>
 void each_division(const Affine& outer, const Instructions& instructions, int rounds, const IsSmall& is_small,

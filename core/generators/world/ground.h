@@ -1,5 +1,5 @@
 #pragma once
-/// The ground around some positions: land, cut by rivers and lakes. A Ground holds the water within reach of a
+/// The ground around some positions: land, cut by rivers and lakes. A Ground contains the water within reach of a
 /// rectangle; the height of a position is the same from each Ground whose rectangle contains it.
 #include <cstdint>
 #include <limits>

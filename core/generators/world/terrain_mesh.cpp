@@ -132,7 +132,7 @@ double skirt_depth(const World& world, int level, const TerrainGrid& grid) {
       }
     }
   }
-  // as areas_below() finds them, so that boxes hold the skirts
+  // as areas_below() finds them, so that boxes contain the skirts
   const double spacing = area_spacing(world, level);
   if (spacing >= coarse_spacing) {
     const int stride = std::max(1, math::to_int32(spacing / frame.spacing));
