@@ -32,11 +32,6 @@ int print_refusal(const Problem& problem) {
   return 1;
 }
 
-int fail(const std::string& what, const std::string& why) {
-  std::fprintf(stderr, "seedmesh: %s: %s\n", what.c_str(), why.c_str());
-  return 2;
-}
-
 Payload payload_of(std::string bytes) {
   Payload payload;
   payload.add(std::move(bytes));
