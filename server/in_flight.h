@@ -18,7 +18,7 @@ class InFlight {
  public:
   using Clock = std::chrono::steady_clock;
 
-  /// Smaller payloads are not counted: the buffers of the kernel take them at once.
+  /// Smaller payloads are not counted: they fit into the buffers of the kernel.
   static constexpr std::uint64_t smallest = 16 * 1'024;
 
   explicit InFlight(std::uint64_t capacity) : capacity_(capacity) {}

@@ -2,6 +2,7 @@
 
 #include <string_view>
 
+#include "core/base/json_pointer.h"
 #include "server/http/text.h"
 #include "server/negotiate.h"
 
@@ -75,11 +76,8 @@ std::optional<http::Response> refuse_query(const Route& row, const RequestContex
   std::vector<Issue> issues;
   for (const auto& [key, value] : std::get<Overrides>(query)) {
     if (issues.size() == most_issues) break;
-    std::string pointer = "/";
-    for (const char c : key.substr(0, longest_key))
-      pointer += c == '~' ? "~0" : c == '/' ? "~1" : std::string(1, c);
-    issues.push_back(
-        {IssueKind::unknown_key, std::move(pointer), std::string(row.pattern) + " takes no query."});
+    issues.push_back({IssueKind::unknown_key, pointer_token(key.substr(0, longest_key)),
+                      std::string(row.pattern) + " takes no query."});
   }
   if (issues.empty()) return std::nullopt;  // `?` or `?&` alone
   return refuse(call, problem_of({Code::invalid, std::move(issues)}));
@@ -133,7 +131,7 @@ http::Response route(Service& service, const http::Request& request) {
     if (!name) continue;
     call.name = std::move(*name);
     http::Response response = allows(row, request.method) ? run(row, call) : other_method(row, call);
-    if (row.answer == get_world) open_to_pages(service, response);
+    if (row.answer == get_world) open_to_pages(service, request, response);
     return response;
   }
   if (service.pages.find(request.path)) {

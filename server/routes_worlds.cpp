@@ -4,6 +4,7 @@
 #include "server/caching.h"
 #include "server/coded_body.h"
 #include "server/compress.h"
+#include "server/cors.h"
 #include "server/http/text.h"
 #include "server/routes.h"
 
@@ -344,10 +345,12 @@ http::Response derive_world(RequestContext& call, const Request& request) {
   return file_answer(call, wanted, Caching::revalidate);
 }
 
-void open_to_pages(const Service& service, http::Response& response) {
+void open_to_pages(const Service& service, const http::Request& request, http::Response& response) {
   const std::vector<std::string>& origins = service.config.cors_origins;
   const bool any = origins.empty() || std::find(origins.begin(), origins.end(), "*") != origins.end();
-  if (any) response.set("Access-Control-Allow-Origin", "*");
+  if (!any) return;
+  response.set("Access-Control-Allow-Origin", "*");
+  if (origins.empty()) allow_origin({"*"}, request, response);
 }
 
 }  // namespace seedmesh

@@ -38,7 +38,7 @@ enum class IssueKind : std::uint8_t {
   conflict,        ///< values that exclude each other, or one that needs another
   not_available,   ///< the generator, format or profile does not offer the requested feature
   evaluation,      ///< an expression or rule has no usable result: division by zero, an infinite size
-  limit,           ///< Issue::limit says which
+  limit,           ///< a limit is exceeded: Issue::limit
   truncated_list,  ///< not an error; Issue::unlisted is the number of errors beyond the list
   deadline,        ///< the time limit has passed
   cancelled,       ///< the work was cancelled

@@ -31,7 +31,7 @@ void set_format(Product& product, std::string_view name) {
   product.extension = format.extension;
 }
 
-/// The generator's own format that the request asks for; null where it asks for a model.
+/// The generator's own format that the request selects; null where it selects a model.
 const OwnFormat* own_format_of(const Request& request) {
   for (const OwnFormat& form : request.body().generator->formats) {
     if (form.format == request.format()) return &form;
@@ -186,8 +186,8 @@ static bool leaves_meshes(const OutputParams& output) {
          !output.impostor;
 }
 
-/// A warning where the model may not fit the budget of the finest level, which is known only when it is made, or where
-/// simplification takes seconds.
+/// Warns where the model may not fit the budget of the finest level, whose triangles are known only when it is made.
+/// Also warns where simplification takes seconds.
 static void warn_of_budget(Appraisal& appraisal, const OutputParams& output) {
   constexpr double seconds_a_triangle = 2e-6, long_time = 1;
   const bool is_listed = !output.max_triangles && has_listed_levels(output) && appraisal.estimate;

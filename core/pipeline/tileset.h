@@ -24,7 +24,7 @@ struct Bounds {
 /// Returns the bounds of a tile. A box lies inside that of its parent, and its error is smaller.
 using BoundsOf = std::function<Bounds(const Address&)>;
 
-/// Levels of an explicit tileset and of a subtree. Clients make all tiles of a file at once, in one frame.
+/// Levels of an explicit tileset and of a subtree. Clients create all tiles of a file in one frame.
 constexpr int levels_a_tileset = 4;
 constexpr int levels_a_subtree = 5;
 

@@ -1,6 +1,6 @@
 #pragma once
 /// The files of a streamed world: a request of the generator "world" in, OGC 3D Tiles 1.1 out. Each file is a function
-/// of the request and its own address. All functions may run on any number of threads at once.
+/// of the request and its own address. All functions may run on any number of threads at the same time.
 #include <cstdint>
 #include <memory>
 #include <optional>

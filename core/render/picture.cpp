@@ -1,5 +1,5 @@
 /// Deferred shading: the nearest surfaces are found first (samples.h). Then each triangle that a pixel shows is lit once,
-/// at the middle of its samples. The four samples of a pixel look up different texels of one disc of the shadow map, so
+/// at the middle of its samples. The four samples of a pixel read different texels of one disc of the shadow map, so
 /// that their mean is soft.
 #include "core/render/picture.h"
 

@@ -9,6 +9,7 @@
 
 #include "core/base/math.h"
 #include "core/base/parallel.h"
+#include "core/model/levels.h"
 #include "core/texture/atlas.h"
 #include "core/texture/decode.h"
 #include "core/texture/raster.h"
@@ -244,19 +245,6 @@ void draw_view(const Scenery& scenery, const std::vector<ImpostorRecipe::Part>& 
                             {cell / times, edge / times, samples * times});
 }
 
-void drop_hidden(Model& model) {
-  std::vector<bool> shown(model.meshes.size(), false);
-  for (const Node& node : model.nodes) {
-    if (node.mesh >= 0) shown[static_cast<std::size_t>(node.mesh)] = true;
-    for (const int lod : node.lods) {
-      if (lod >= 0) shown[static_cast<std::size_t>(lod)] = true;
-    }
-  }
-  for (std::size_t i = 0; i < shown.size(); ++i) {
-    if (!shown[i]) model.meshes[i].primitives.clear();
-  }
-}
-
 }  // namespace
 
 int add_impostor(Model& model, std::vector<ImpostorRecipe::Part> parts, const std::string& name, Job& job) {
@@ -323,7 +311,7 @@ void draw_impostors(Model& model, int size, Job& job) {
     for (auto& image : images[i]) model.textures.push_back(std::move(image));
     material.impostor.parts.clear();
   }
-  drop_hidden(model);
+  empty_hidden_meshes(model);
 }
 
 }  // namespace seedmesh::texture

@@ -115,7 +115,7 @@ bool write_end(Writer& writer) {
   return true;
 }
 
-// --- Writing at once
+// --- Writing without a stream
 
 constexpr std::array<std::uint8_t, 8> signature = {137, 'P', 'N', 'G', '\r', '\n', 26, '\n'};
 constexpr std::size_t chunk_head = 8, chunk_foot = 4;  // length and type; checksum
@@ -205,7 +205,7 @@ void append_quick(Array<std::uint8_t>& out, const Array<std::uint8_t>& rows, std
   out.resize(start + chunk_head + length + chunk_foot);
 }
 
-/// The whole file in memory at once.
+/// The whole file in memory.
 Array<std::uint8_t> encode_at_once(const PictureView& picture, PngEffort effort, const Job& job) {
   const Array<std::uint8_t> rows = filtered_up(picture, row_size(picture), job);
   Array<std::uint8_t> out(job);
@@ -254,7 +254,7 @@ struct Reader {
   png_infop info = nullptr;
   LibraryMessage library_message;
   std::span<const std::byte> rest;
-  bool ended = false;  ///< libpng wanted more than there is
+  bool ended = false;  ///< libpng tried to read beyond the end
 
   explicit Reader(std::span<const std::byte> file) : rest(file) {}
   Reader(const Reader&) = delete;

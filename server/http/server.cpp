@@ -22,7 +22,7 @@ using Clock = Connection::Clock;
 constexpr int accept_queue = 1'024;
 /// Threads beyond this number end when they have nothing to do.
 constexpr std::size_t most_accepting = 32;
-/// Bytes that are read after a refusal, so that the client sees why: a body is worth reading to its end, a
+/// Bytes that are read after a refusal, so that the client receives the reason: a body is read to its end, a
 /// head without end is not.
 constexpr std::size_t most_body_discarded = 24U << 20U, most_head_discarded = 1U << 20U;
 
@@ -34,7 +34,7 @@ bool is_valid_id(std::string_view id) {
   return !id.empty() && id.size() <= 128 && std::all_of(id.begin(), id.end(), valid);
 }
 
-/// Host or port of an address as text; NI_NUMERICHOST or NI_NUMERICSERV says which.
+/// Host (NI_NUMERICHOST) or port (NI_NUMERICSERV) of an address as text.
 std::string text_of(const sockaddr_storage& address, socklen_t size, int which) {
   char text[NI_MAXHOST] = {};
   const bool host = which == NI_NUMERICHOST;
@@ -136,7 +136,7 @@ bool Server::add_thread() {
 }
 
 /// The body of every thread: accepts connections and serves them. At least one thread waits for a connection at
-/// any time, so a further one is answered 503 at once.
+/// any time, so a further one gets 503 without a delay.
 void Server::work() {
   std::unique_lock lock(mutex_);
   while (!draining_ && accepting_ <= most_accepting) {

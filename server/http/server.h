@@ -1,7 +1,7 @@
 #pragma once
 /// An HTTP/1.1 server with one thread for each connection: accepts connections, parses requests, passes them
 /// to one handler and writes the responses. A thread that has served a connection accepts the next one, so a
-/// new connection costs no new thread and no exchange between threads. Decision 5 says why no library does this.
+/// new connection costs no new thread and no exchange between threads. Decision 5 explains why no library does this.
 #include <atomic>
 #include <chrono>
 #include <condition_variable>

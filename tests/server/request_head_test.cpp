@@ -34,7 +34,7 @@ TEST(Head, TakesARequestApart) {
   EXPECT_TRUE(head.keep_alive);
 }
 
-TEST(Head, KnowsWhenTheConnectionEnds) {
+TEST(Head, DeterminesWhenTheConnectionEnds) {
   EXPECT_FALSE(std::get<RequestHead>(read(get("/", "Connection: x, Close\r\n"))).keep_alive);
   EXPECT_FALSE(std::get<RequestHead>(read("GET / HTTP/1.0\r\n\r\n")).keep_alive);
   EXPECT_TRUE(std::get<RequestHead>(read("GET / HTTP/1.0\r\nConnection: keep-alive\r\n\r\n")).keep_alive);
@@ -94,7 +94,7 @@ TEST(Head, RefusesRequestLinesThatAreNone) {
   EXPECT_EQ(status_of("GET / HTTP/2.0\r\nHost: here\r\n\r\n"), 505);
 }
 
-TEST(Head, HoldsBodiesToLengthAndLimit) {
+TEST(Head, LimitsBodiesToTheirLengthAndTheLimit) {
   HeadLimits limits;
   limits.body = 10;
   EXPECT_EQ(status_of(post("Content-Length: 10\r\n"), limits), 0);
@@ -107,7 +107,7 @@ TEST(Head, HoldsBodiesToLengthAndLimit) {
   EXPECT_EQ(status_of(post("Content-Length: 5\r\nExpect: a-miracle\r\n")), 417);
 }
 
-TEST(Head, HoldsLinesAndFieldsToTheirLimits) {
+TEST(Head, LimitsLinesAndFields) {
   HeadLimits limits;
   limits.target = 100;
   limits.fields = 5;

@@ -443,7 +443,7 @@ export interface CityParametersStreets {
   method?: "growth" | "tensor" | "wards" | "given";
   /** The productions of the street L-system, in the notation of the generator lsystem. The modules are R(delay, rule), the tip of a road; B(delay, rule, road), a delayed branch; and I(road, state), the query that checks a proposed road. States are UNASSIGNED, SUCCEED and FAILED. { globalGoals(rule, road) } sets pDel0 to pDel2, pRule0 to pRule2 and pRoad0 to pRoad2: straight on, to the left, to the right. { localConstraints(road) } sets state. Default: those of Parish and Müller. */
   productions?: string[];
-  /** The pattern of the major streets. organic: an irregular net. raster: right angles, also for minor streets unless minor_pattern says otherwise. radial: rings and rays about the centre. slope: along the contours of the ground and straight up its slope; a raster on level ground. */
+  /** The pattern of the major streets. organic: an irregular net. raster: right angles, also for minor streets unless minor_pattern selects another pattern. radial: rings and rays about the centre. slope: along the contours of the ground and straight up its slope; a raster on level ground. */
   pattern?: "organic" | "raster" | "radial" | "slope";
   /** The pattern where maps.pattern is 1. Default: raster, or organic if the pattern is raster. */
   second_pattern?: "organic" | "raster" | "radial" | "slope";
@@ -1185,9 +1185,9 @@ export interface SceneParametersLayersItemVaryItem {
 export interface SceneParametersLayersItemPlacePositionsItem {
   /** East and south of the middle. */
   at: [number, number];
-  /** About the vertical axis, counter-clockwise seen from above. Default: as the layer says. */
+  /** About the vertical axis, counter-clockwise seen from above. Default: the value of the layer. */
   turn?: number;
-  /** Default: as the layer says. */
+  /** Default: the value of the layer. */
   scale?: number;
   /** The age of this plant, for its parameter `age`. */
   age?: number;
@@ -1465,7 +1465,7 @@ export interface TerrainParametersTile {
 
 /** Stretches the heights to a range. */
 export interface TerrainParametersNormalise {
-  /** The two heights that become low and high; heights outside them continue the same line. Default: the lowest and the highest of the field. Tiles require it, since a tile does not know the heights of other tiles. */
+  /** The two heights that become low and high; heights outside them continue the same line. Default: the lowest and the highest of the field. Tiles require it, since a tile is computed without the heights of other tiles. */
   from?: [number, number];
   /** The lowest height. */
   low?: number;
@@ -1537,7 +1537,7 @@ export interface TerrainParametersHydraulic {
 export interface TerrainParametersRefine {
   /** The point, in metres to the east and south of the middle of the field or tile. */
   center?: [number, number];
-  /** The distance from the point within which the step holds. */
+  /** The distance from the point within which squares have this step. */
   radius?: number;
   /** The greatest side of the squares within the radius. It is less than the side of the squares of the grid. */
   step?: number;
@@ -1790,7 +1790,7 @@ export interface TreeParametersEzTree {
   evergreen?: boolean;
   /** Number of levels of branching beyond the trunk. */
   levels?: number;
-  /** The trunk and the levels after it. The last entry applies to all further levels. An empty list stands for the values of a new tree of ez-tree. */
+  /** The trunk and the levels after it. The last entry applies to all further levels. An empty list means the values of a new tree of ez-tree. */
   level?: TreeParametersEzTreeLevelItem[];
   /** Component of the direction toward which limbs bend. */
   force_x?: number;
@@ -2016,7 +2016,7 @@ export interface TreeParameters {
   twig_radius?: number;
   /** The distance from which the tree is seen. A distant tree has fewer corners, limbs and leaves, by the formulas of section 4.9 of Weber and Penn. The image is 1,000 pixels high and has a field of view of 60 degrees. The remaining leaves are larger, so that the crown stays dense. 0 keeps everything. */
   range?: number;
-  /** How much wider the trunk is at the ground than the model says, as a share of its radius. The flare ends at an eighth of the height. */
+  /** How much the trunk widens at the ground, as a share of the radius that the model gives it. The flare ends at an eighth of the height. */
   trunk_flare?: number;
   /** Roots that leave the foot of the trunk and run into the ground. They do not change the rest of the tree. */
   roots?: TreeParametersRoots;

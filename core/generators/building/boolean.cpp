@@ -31,7 +31,7 @@ struct Node {
   int front = -1, back = -1;
 };
 
-/// The four ways in which a polygon lies to a plane.
+/// The four positions of a polygon relative to a plane.
 struct Sides {
   std::vector<Piece> same, opposite, front, back;
 };

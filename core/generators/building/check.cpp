@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "core/base/json_pointer.h"
 #include "core/generators/building/blueprints/blueprints.h"
 #include "core/generators/building/check_grammar.h"
 #include "core/generators/building/edits.h"
@@ -18,21 +19,6 @@
 
 namespace seedmesh::building {
 namespace {
-
-/// A text as a JSON Pointer token.
-std::string escaped(const std::string& name) {
-  std::string out;
-  for (const char c : name) {
-    if (c == '~') {
-      out += "~0";
-    } else if (c == '/') {
-      out += "~1";
-    } else {
-      out += c;
-    }
-  }
-  return out;
-}
 
 constexpr std::size_t most_named = 20;
 
@@ -224,7 +210,7 @@ std::shared_ptr<const RuleSet> read(const BuildingParams& params, std::vector<Is
 void check_values(const BuildingParams& params, const Grammar& grammar, std::vector<Issue>& issues) {
   Texts texts = grammar.texts;
   for (const auto& given : params.attributes)
-    check_attribute_value(grammar, texts, given, "/attributes/", issues);
+    check_attribute_value(grammar, texts, given, "/attributes", issues);
   if (grammar.start != none) check_edits(params, grammar, issues);
 }
 
@@ -304,11 +290,11 @@ void check_attribute_value(const Grammar& grammar, Texts& texts,
   const std::string& name = given.first;
   const auto found = std::ranges::find(grammar.attributes, name, &Attribute::name);
   if (found == grammar.attributes.end()) {
-    issues.emplace_back(IssueKind::unknown_name, base + escaped(name),
+    issues.emplace_back(IssueKind::unknown_name, base + pointer_token(name),
                         "the rules declare no attribute of this name" + help_with(name, grammar));
     return;
   }
-  check_attribute(*found, base + escaped(name), value_of(texts, given.second), texts, issues);
+  check_attribute(*found, base + pointer_token(name), value_of(texts, given.second), texts, issues);
 }
 
 std::optional<Warning> nothing_drawn(const Shapes& shapes) {

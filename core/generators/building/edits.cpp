@@ -120,7 +120,7 @@ void check_edits(const BuildingParams& params, const Grammar& grammar, std::vect
           "the rules have no symbol \"" + *edit.rule + "\"" + suggestion(*edit.rule, grammar));
     }
     for (const auto& given : edit.attributes)
-      check_attribute_value(grammar, texts, given, pointer + "/attributes/", issues);
+      check_attribute_value(grammar, texts, given, pointer + "/attributes", issues);
   }
 }
 

@@ -310,7 +310,7 @@ void roof_ridge(Derivation& d, const Step& step, ShapeState& state, const StepCo
 }
 
 /// footprint(): the faces that look down, moved to the lowest level and turned over. Flat shapes, and those that are open
-/// below, use the faces that look up.
+/// below, use the faces that face up.
 void footprint(Derivation& d, const Step& step, ShapeState& state, const StepContext&) {
   if (state.has_asset() || dimension(state.size) < 2) {
     if (state.has_asset() && dimension(state.size) == 3) {

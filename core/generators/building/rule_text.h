@@ -48,7 +48,4 @@ Issue issue_at(IssueKind kind, const RuleText& text, std::size_t offset, std::st
 /// hides the rest of the text.
 std::string without_comments(std::string_view text, std::optional<std::size_t>* unclosed = nullptr);
 
-/// Returns a name as a token of a JSON Pointer.
-std::string pointer_token(std::string_view name);
-
 }  // namespace seedmesh::building

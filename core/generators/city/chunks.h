@@ -40,7 +40,7 @@ class Chunks {
   std::uint32_t columns_ = 1, rows_ = 1;
 };
 
-/// The nodes of chunks and of groups inside them, made when they are first asked for.
+/// The nodes of chunks and of groups inside them, made at their first use.
 class ChunkNodes {
  public:
   ChunkNodes(Model& model, const Chunks& chunks) : model_(model), chunks_(chunks) {}

@@ -265,7 +265,7 @@ Result<CityPlan> plan_on(const CityParams& params, std::shared_ptr<const Landfor
 
 namespace {
 
-/// Plans of this many parts leave enough unused memory that it is worth the time to return it.
+/// Plans of this many parts leave so much unused memory that returning it justifies the time.
 constexpr std::size_t parts_of_large_plans = 20'000;
 
 /// The model of a request, and the number of parts of its plan, which is freed.

@@ -17,7 +17,7 @@
 #include "core/generators/city/surface.h"
 #include "core/generators/material_members.h"
 #include "core/texture/file_size.h"
-#include "core/texture/png.h"
+#include "core/texture/png_image.h"
 #include "core/texture/wall.h"
 #include "generated/params/city.h"
 
@@ -109,16 +109,12 @@ Material striped_material(const char* name, const std::array<int, 3>& stripes, c
     }
   }
   const auto width = static_cast<std::uint32_t>(stripes[0] + stripes[1] + stripes[2]);
-  const Array<std::uint8_t> file =
-      texture::encode_png({width, height, 3, 8, pixels}, texture::PngEffort::small, job);
-  auto image = std::make_shared<Image>();
-  image->name = name;
-  image->bytes.assign(file.span().begin(), file.span().end());
   Material material = material_of(street, params);
   material.name = name;
   material.base_color = glm::vec4(1);
   material.base_color_texture = {static_cast<int>(model.textures.size()), 0, true};
-  model.textures.push_back(std::move(image));
+  model.textures.push_back(
+      texture::png_image(name, {width, height, 3, 8, pixels}, texture::PngEffort::small, job));
   return material;
 }
 

@@ -83,7 +83,7 @@ class Properties {
       return {in_range("sidewalk", (*value)[0].get<double>(), 0.5, 20),
               in_range("sidewalk", (*value)[1].get<double>(), 0.5, 20)};
     }
-    // OpenStreetMap says on which sides they are: "both", "left", "no". Every street here has both.
+    // In OpenStreetMap the value is the side: "both", "left", "no". Every street here has both.
     if (value->is_string()) return otherwise;
     issues_.emplace_back(IssueKind::wrong_type, pointer_ + "sidewalk",
                          "expected a number, or a list of two numbers");

@@ -83,7 +83,7 @@ glm::dvec2 position_in(const CmRing& ring) {
   return a + along / 2.0 + dvec2(-along.y, along.x) * (2 / length(longest));
 }
 
-/// Fills in what a lot is, from its piece, but its corners.
+/// Returns the lot of a piece, without its corners.
 Lot lot_of(const CityPlan& plan, const Division& division, const Piece& piece) {
   Lot lot;
   lot.key = piece.key;

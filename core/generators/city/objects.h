@@ -35,7 +35,7 @@ struct ObjectKind {
   std::uint32_t model_count() const;
 };
 
-/// Whether a request asks for furniture or trees along streets.
+/// Whether a request has furniture or trees along streets.
 bool has_street_furniture(const CityParams& params);
 
 /// Returns the lamps, trees, benches, bins, signs and parked cars along all streets of level 0 that the request asks

@@ -1,6 +1,6 @@
 #pragma once
 /// The plan of a city: the street graph and the partition of the area that is cut along it. Points are whole
-/// centimetres, x east and y north; lengths are metres and areas square metres, unless a name says otherwise.
+/// centimetres, x east and y north; lengths are metres and areas square metres, unless a name states another unit.
 #include <algorithm>
 #include <array>
 #include <cstdint>

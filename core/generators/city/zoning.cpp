@@ -28,7 +28,7 @@ struct FrontFrame {
   std::vector<dvec2> corners;
 };
 
-/// Makes `frame`, whose memory is kept from one lot to the next, that of a lot.
+/// Sets `frame` to that of a lot. Its memory is reused from one lot to the next.
 void set_frame(const Lot& lot, FrontFrame& frame) {
   frame.corners.clear();
   frame.origin = in_metres(lot.front_start);

@@ -315,7 +315,7 @@ void warn_of_thin(Model& model, const Limbs& limbs, const LsystemParams& params)
                             0, 0});
 }
 
-/// Adds convex bodies, if the output asks for them.
+/// Adds convex bodies, if the output has collision bodies.
 void add_collision(Model& model, const std::vector<LimbBody>& bodies, const GenerateContext& context) {
   if (context.demand.collision == CollisionNames::none) return;
   if (!bodies.empty()) return add_limb_bodies(model, bodies, context);

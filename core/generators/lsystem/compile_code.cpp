@@ -370,7 +370,7 @@ Range compile_code(Compilation& c, Source& source, Slice slice, std::uint32_t& s
   return {first, static_cast<std::uint32_t>(c.grammar.steps.size()) - first};
 }
 
-/// The locals stay visible in the rest of the production.
+/// The locals stay valid in the rest of the production.
 Range compile_assignments(Compilation& c, Source& source, Slice slice, std::uint32_t& slots) {
   const auto first = static_cast<std::uint32_t>(c.grammar.steps.size());
   if (slice.empty()) return {first, 0};

@@ -331,7 +331,7 @@ void Drawing::execute_state(const Kind& kind, const double* parameters, std::uin
       place_object(kind, parameters, parameters[12],
                    {length_of(parameters), length_of(parameters + 3), length_of(parameters + 6)}, key);
       return turtle_.pop();
-    default:  // nothing to draw: queries, cuts and symbols that the turtle does not know
+    default:  // nothing to draw: queries, cuts and symbols that the turtle does not interpret
       return;
   }
 }

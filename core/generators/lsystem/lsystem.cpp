@@ -50,7 +50,7 @@ std::uint32_t steps_of(const LsystemParams& params) {
   return math::to_uint32(std::ceil(*params.age));
 }
 
-/// Returns the share of the last step that has happened.
+/// Returns the share of the last step that has passed.
 double share_of(const LsystemParams& params) {
   if (!params.age || params.timed) return 1;
   return 1 - (std::ceil(*params.age) - *params.age);

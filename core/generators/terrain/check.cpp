@@ -287,7 +287,7 @@ class Check {
     tile_filters(faults);
   }
 
-  /// A filter of a tile must not read samples beyond the margin, unless it knows the values of the whole world.
+  /// A filter of a tile must not read samples beyond the margin, unless it has the values of the whole world.
   void tile_filters(bool faults) {
     constexpr int farthest_smooth = 256;
     if (smooth_reach(params_.smooth) > farthest_smooth) {
@@ -296,11 +296,11 @@ class Check {
                 std::to_string(farthest_smooth) + " samples away; expected at most 93.7 % for a tile");
     }
     error_if(params_.normalise && !params_.normalise->from, IssueKind::missing, "/normalise",
-             "\"from\" is missing; a tile needs it, because it does not know the heights of its neighbours");
+             "\"from\" is missing; a tile needs it, as it does not depend on other tiles");
     error_if(params_.terraces && !params_.terraces->from, IssueKind::missing, "/terraces",
-             "\"from\" is missing; a tile needs it, because it does not know the heights of its neighbours");
+             "\"from\" is missing; a tile needs it, as it does not depend on other tiles");
     error_if(params_.island && !params_.island->floor, IssueKind::missing, "/island",
-             "\"floor\" is missing; a tile needs it, because it does not know the heights of its neighbours");
+             "\"floor\" is missing; a tile needs it, as it does not depend on other tiles");
     error_if(params_.island && !faults && !params_.tile->across, IssueKind::missing, "/tile",
              "\"across\" is missing; an island needs the number of its tiles along a side");
     if (params_.hydraulic) hydraulic_tile();

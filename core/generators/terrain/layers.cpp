@@ -203,7 +203,7 @@ struct PlacedText {
   std::string pointer;
 };
 
-/// Refuses the request if a value is not finite. The position is that of the text: samples do not know its operators.
+/// Refuses the request if a value is not finite. The position is that of the text, not of an operator.
 void refuse_invalid(const Ground& ground, const PlacedText& placed, std::span<const double> values) {
   const auto found = std::ranges::find_if(values, [](double value) { return !(std::abs(value) <= highest); });
   if (found == values.end()) return;

@@ -236,8 +236,8 @@ static std::uint64_t bytes_of_rock(std::uint64_t vertices, const Demand& demand)
   return sizes.bytes(demand.textures) + vertices * of_five / 5 * of_vertex - vertices * bytes_a_vertex;
 }
 
-/// The bytes of the file of a grid. The grounds of a terrain with details follow from its heights, so their number is a
-/// mean of the presets, 2.7, as is the share of vertices that several grounds have.
+/// The bytes of the file of a grid. The classes of ground follow from the heights, which are not computed here. Their
+/// number, 2.7, and the share of vertices that several classes have are means of the presets.
 static std::uint64_t estimated_bytes(const TerrainParams& params, std::uint64_t triangles,
                                      const Demand& demand) {
   constexpr std::uint64_t document = 1200;

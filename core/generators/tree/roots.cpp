@@ -8,8 +8,8 @@ namespace seedmesh::tree {
 namespace {
 
 // A root leaves the trunk at the joint whose height is nearest to `wanted_height` times the radius of the
-// root, if it is above `least_height` times that radius and below `most_height` times the radius of the
-// trunk.
+// root. The height has to be above `least_height` times that radius, and below `most_height` times the radius
+// of the trunk.
 constexpr double least_height = 1.25, wanted_height = 1.6, most_height = 2.2;
 // Number of pieces from the trunk to the ground and along the ground.
 constexpr int pieces_down = 4, pieces_out = 8;

@@ -1,6 +1,6 @@
 #pragma once
 /// The triangles of the terrain of a tile, and the coordinates of its vertices in the texture of the ground. They are the
-/// same in all tiles with the same number of cells. A client that looks at the ground needs all of them, so they are one
+/// same in all tiles with the same number of cells. A client that shows the ground needs all of them, so they are one
 /// file that tiles share.
 #include <cstdint>
 #include <memory>

@@ -145,7 +145,7 @@ double skirt_depth(const World& world, int level, const TerrainGrid& grid) {
 }
 
 double most_skirt(const World& world, const TileFrame& frame, Roughness rough) {
-  rough.mesh_deviation = {};  // tiles know nothing of it, and their skirts cover neighbours
+  rough.mesh_deviation = {};  // no tile depends on it, and skirts cover the gaps to neighbours
   return unusual * usual_skirt(world, frame, rough);
 }
 

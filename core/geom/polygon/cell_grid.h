@@ -2,6 +2,7 @@
 /// Square cells over a part of the plane with lists of numbers, for the search of neighbours among edges and
 /// moving corners.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <glm/common.hpp>
@@ -23,6 +24,7 @@ class CellGrid {
     const double side =
         std::max(std::sqrt(extent.x * extent.y / count), std::max(extent.x, extent.y) / count);
     size_ = std::max({side, least, 1e-300});
+    by_size_ = 1 / size_;
     columns_ = clamped(extent.x / size_, static_cast<std::uint32_t>(2 * cells) + 1) + 1;
     rows_ = clamped(extent.y / size_, static_cast<std::uint32_t>(2 * cells) + 1) + 1;
     head_.assign(static_cast<std::size_t>(columns_) * rows_, none);
@@ -69,24 +71,25 @@ class CellGrid {
     for (std::uint32_t at = head_[cell]; at != none; at = entries_[at].next) visit(entries_[at].number);
   }
 
-  /// Calls visit(cell) for each cell that contains a point within `reach` of the convex hull of a few points,
+  /// Calls visit(cell) for each cell that contains a point within `reach` of the convex hull of two to four points,
   /// and perhaps for cells beside them.
   template <class Visit>
   void each_cell(std::span<const glm::dvec2> hull, double reach, const Visit& visit) const {
+    Extent whole;
     double least = hull[0].y, most = hull[0].y;
     for (const glm::dvec2& p : hull) {
       least = std::min(least, p.y);
       most = std::max(most, p.y);
+      whole.take(p.x);
     }
-    const std::uint32_t last = row_of(most + reach);
-    for (std::uint32_t row = row_of(least - reach); row <= last; ++row) {
+    const std::uint32_t first = row_of(least - reach), last = row_of(most + reach);
+    if (first == last) return visit_columns(first, whole, reach, visit);
+    const Sides sides(hull);
+    for (std::uint32_t row = first; row <= last; ++row) {
       const double below = row == 0 ? -infinite : low_.y + (row - 0.0) * size_ - reach - slack();
       const double above = row + 1 == rows_ ? infinite : low_.y + (row + 1.0) * size_ + reach + slack();
-      const auto [from, to] = width_between(hull, below, above);
-      if (!(from <= to)) continue;
-      const std::uint32_t end = column_of(to + reach + slack());
-      for (std::uint32_t column = column_of(from - reach - slack()); column <= end; ++column)
-        visit(static_cast<std::size_t>(row) * columns_ + column);
+      const Extent extent = sides.extent_between(below, above);
+      if (extent.from <= extent.to) visit_columns(row, extent, reach, visit);
     }
   }
 
@@ -97,6 +100,48 @@ class CellGrid {
     std::uint32_t number, next;
   };
 
+  /// A range of x.
+  struct Extent {
+    double from = infinite, to = -infinite;
+    void take(double x) {
+      from = std::min(from, x);
+      to = std::max(to, x);
+    }
+  };
+
+  /// The lines between all points of a hull, which contain its border.
+  class Sides {
+   public:
+    explicit Sides(std::span<const glm::dvec2> hull) {
+      for (std::size_t i = 0; i < hull.size(); ++i) {
+        for (std::size_t k = i + 1; k < hull.size(); ++k) {
+          const bool rises = hull[i].y <= hull[k].y;
+          const glm::dvec2 &low = rises ? hull[i] : hull[k], &high = rises ? hull[k] : hull[i];
+          sides_[count_++] = {low, high, (high.x - low.x) / (high.y - low.y)};
+        }
+      }
+    }
+    /// Returns the extent in x of the part of the hull between two heights.
+    Extent extent_between(double below, double above) const {
+      Extent extent;
+      for (std::size_t i = 0; i < count_; ++i) {
+        const auto& [low, high, slope] = sides_[i];
+        if (high.y < below || low.y > above) continue;
+        extent.take(low.y < below ? low.x + slope * (below - low.y) : low.x);
+        extent.take(high.y > above ? low.x + slope * (above - low.y) : high.x);
+      }
+      return extent;
+    }
+
+   private:
+    struct Side {
+      glm::dvec2 low, high;
+      double slope;  ///< of x by y; unused for a horizontal side
+    };
+    std::array<Side, 6> sides_;
+    std::size_t count_ = 0;
+  };
+
   /// Against rounding at the borders of cells.
   double slack() const { return 1e-6 * size_; }
 
@@ -104,34 +149,19 @@ class CellGrid {
     if (!(value > 0)) return 0;
     return value >= most ? most : static_cast<std::uint32_t>(value);
   }
-  std::uint32_t column_of(double x) const { return clamped((x - low_.x) / size_, columns_ - 1); }
-  std::uint32_t row_of(double y) const { return clamped((y - low_.y) / size_, rows_ - 1); }
+  std::uint32_t column_of(double x) const { return clamped((x - low_.x) * by_size_, columns_ - 1); }
+  std::uint32_t row_of(double y) const { return clamped((y - low_.y) * by_size_, rows_ - 1); }
 
-  /// Returns the extent in x of the part of the hull between two heights.
-  static std::pair<double, double> width_between(std::span<const glm::dvec2> hull, double below,
-                                                 double above) {
-    double from = infinite, to = -infinite;
-    const auto take = [&](double x) {
-      from = std::min(from, x);
-      to = std::max(to, x);
-    };
-    for (std::size_t i = 0; i < hull.size(); ++i) {
-      const glm::dvec2& p = hull[i];
-      if (p.y >= below && p.y <= above) take(p.x);
-      for (std::size_t k = i + 1; k < hull.size(); ++k) {
-        const glm::dvec2& q = hull[k];
-        if ((p.y < below && q.y < below) || (p.y > above && q.y > above)) continue;
-        for (const double height : {below, above}) {
-          if ((p.y < height) == (q.y < height)) continue;
-          take(p.x + (q.x - p.x) * ((height - p.y) / (q.y - p.y)));
-        }
-      }
-    }
-    return {from, to};
+  template <class Visit>
+  void visit_columns(std::uint32_t row, const Extent& extent, double reach, const Visit& visit) const {
+    const std::size_t begin = static_cast<std::size_t>(row) * columns_;
+    const std::uint32_t end = column_of(extent.to + reach + slack());
+    for (std::uint32_t column = column_of(extent.from - reach - slack()); column <= end; ++column)
+      visit(begin + column);
   }
 
   glm::dvec2 low_{0};
-  double size_ = 1;
+  double size_ = 1, by_size_ = 1;
   std::uint32_t columns_ = 1, rows_ = 1;
   std::vector<std::uint32_t> head_, count_;
   std::vector<Entry> entries_;

@@ -96,7 +96,7 @@ bool refuse_image(tinygltf::Image*, int, std::string*, std::string*, int, int, c
   return false;
 }
 
-/// No file may be looked at. Later versions of the library ask for a file's size, too.
+/// No file of the disk may be read. Later versions of the library query a file's size, too.
 template <class Callbacks>
 Callbacks without_files() {
   Callbacks callbacks = {};

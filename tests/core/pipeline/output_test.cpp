@@ -139,7 +139,7 @@ TEST(Output, RequiresNothingBeyondCoreOfWhoDoesNotReadIt) {
               UnorderedElementsAre("KHR_mesh_quantization", "EXT_meshopt_compression"));
 }
 
-TEST(Output, RefusesLevelsThatNoFileHolds) {
+TEST(Output, RefusesLevelsThatNoFileCanContain) {
   for (const char* profile : {"core", "unreal", "godot", "blender"}) {
     const std::string output = std::string(R"({"lods":3,"profile":")") + profile + "\"";
     EXPECT_THAT(refused("hutsko_tree", output + "}"), ElementsAre("/output/lods")) << profile;
@@ -206,7 +206,7 @@ TEST(Output, MakesLevelsOfASceneWhoseGroundIsPacked) {
   EXPECT_EQ(product->statistics.warnings, 0U);
 }
 
-TEST(Output, SaysWhereThereAreFewerLevelsThanWanted) {
+TEST(Output, WarnsOfFewerLevelsThanRequested) {
   const Made house = made("house", R"({"lods":5,"profile":"unity","textures":"none"})");
   EXPECT_EQ(house.statistics.warnings, 1U);
   EXPECT_THAT(house.document["asset"]["extras"]["warnings"][0]["message"].get<std::string>(),
@@ -214,7 +214,7 @@ TEST(Output, SaysWhereThereAreFewerLevelsThanWanted) {
   EXPECT_EQ(made("house", R"({"lods":3,"profile":"unity","textures":"none"})").statistics.warnings, 0U);
 }
 
-TEST(Output, SaysHowRulesMakeLevels) {
+TEST(Output, ExplainsHowRulesMakeLevels) {
   const auto message = [](const std::string& rules) {
     const std::string body = R"({"generator":"building","parameters":{"rules":")" + rules +
                              R"("},"output":{"lods":2,"profile":"unity"}})";
@@ -309,7 +309,7 @@ TEST(Output, RefusesVariantsBeyondTheLastSeed) {
   EXPECT_THAT(pointers_of(request.error()), ElementsAre("/output/variants"));
 }
 
-TEST(Output, HoldsABudgetOfTriangles) {
+TEST(Output, KeepsABudgetOfTriangles) {
   const std::uint64_t whole = made("growing_tree", R"({"animation":"none"})").statistics.triangles;
   ASSERT_GT(whole, 20'000U);
   for (const int most : {20'000, 9'000, 3'000}) {
@@ -342,12 +342,12 @@ TEST(Output, MakesTheLevelsThatABudgetLeavesNoneOf) {
   for (std::size_t i = 1; i < 4; ++i) EXPECT_LE(drawn[i], drawn[i - 1] * 3 / 4) << i;
 }
 
-TEST(Output, HoldsTheBudgetOfAllVariantsTogether) {
+TEST(Output, KeepsTheBudgetOfAllVariantsTogether) {
   EXPECT_LE(made("hutsko_tree", R"({"variants":3,"max_triangles":2000})").statistics.triangles, 2'000U);
 }
 
 /// Flat ground is simplified without an error, so one point gets more faces than a collapse may have.
-TEST(Output, HoldsTheBudgetOfWideFlatGround) {
+TEST(Output, KeepsTheBudgetOfWideFlatGround) {
   const Result<Request> request =
       read_request(R"({"preset":"mandelbrot_satellite","parameters":{"escape":{"span":20}},)"
                    R"("output":{"max_triangles":5000}})",
@@ -398,7 +398,7 @@ TEST(Output, RefusesWhatAFormThatIsNoModelHasNoUseFor) {
                            "/output/instancing", "/output/tangents"));
 }
 
-TEST(Output, SaysSoWhereNothingIsToBeSeen) {
+TEST(Output, WarnsWhereNothingIsVisible) {
   const Result<Request> seed = read_request(R"({"preset":"oak","parameters":{"age":0}})", Limits{});
   ASSERT_TRUE(seed);
   const Result<Product> product = produce(*seed, {});

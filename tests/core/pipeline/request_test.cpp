@@ -104,7 +104,7 @@ TEST(ReadRequest, ReportsOnceThatAPresetIsOfAnotherGenerator) {
   EXPECT_TRUE(read_request(R"({"preset":"oak","generator":"fractal","parameters":null})", Limits{}));
 }
 
-TEST(ReadRequest, SaysWhichGeneratorsThereAre) {
+TEST(ReadRequest, ListsTheGenerators) {
   EXPECT_EQ(error_of(R"({"generator":"tre"})").issues.front().message,
             "there is no generator \"tre\"; did you mean \"tree\"?");
   EXPECT_THAT(error_of(R"({"generator":"galaxies"})").issues.front().message,
@@ -165,7 +165,7 @@ TEST(ReadRequest, PointsAtEachUnknownMember) {
       UnorderedElementsAre("/sed", "/parameters/angel", "/output/fromat"));
 }
 
-TEST(ReadRequest, SaysWhereAMemberBelongs) {
+TEST(ReadRequest, NamesTheParentOfAMisplacedMember) {
   const Result<Request> request =
       read_request(R"({"generator":"tree","Levels":2,"lods":3,"colour":1})", Limits{});
   ASSERT_FALSE(request);
@@ -198,7 +198,7 @@ TEST(ReadRequest, DoesNotEchoWhatTheSchemaSaid) {
               ElementsAre("/parameters/axiom"));
 }
 
-TEST(ReadRequest, HoldsTheLimitsOfTheService) {
+TEST(ReadRequest, EnforcesTheLimitsOfTheService) {
   Limits limits;
   limits.iterations = 10;
   const Result<Request> request =

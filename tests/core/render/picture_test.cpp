@@ -135,7 +135,7 @@ TEST(Picture, FitsASphereIntoTheShorterSide) {
   }
 }
 
-TEST(Picture, LooksAtLowModelsFromFartherAbove) {
+TEST(Picture, ShowsLowModelsFromAHigherElevation) {
   const auto elevation = [](float width, float height) {
     return elevation_of({}, Box{{0, 0, 0}, {width, height, 1}});
   };

@@ -66,7 +66,7 @@ TEST(World, IsAModelWithTheRiversOfASmallWorld) {
   EXPECT_TRUE(vertices_of(model_of(params), "terrain").empty());
 }
 
-TEST(World, SaysWhichNumbersOfARangeAreInTheWrongOrder) {
+TEST(World, NamesNumbersOfARangeInTheWrongOrder) {
   WorldParams params;
   WorldClass tree;
   tree.class_name = "tree";

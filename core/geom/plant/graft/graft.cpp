@@ -18,7 +18,7 @@
 namespace seedmesh {
 namespace {
 
-// From this round on a limb with defects goes to skin() at once, and after twice as many rounds all limbs do.
+// From this round on a limb with defects is made by skin(), and after twice as many rounds all limbs are.
 constexpr int patient_rounds = 4;
 constexpr std::size_t points_a_chunk = std::size_t{1} << 14U;
 
