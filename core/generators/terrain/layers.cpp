@@ -334,7 +334,7 @@ void check_layer(const TerrainParams& params, std::size_t index, std::vector<Iss
   const TerrainLayer& layer = params.layers[index];
   const bool is_text = layer.layer_algorithm == Source::expression;
   if (is_text && !layer.expression) {
-    issues.emplace_back(IssueKind::missing, "/layers/" + std::to_string(index),
+    issues.emplace_back(missing_for({"expression", "algorithm"}), "/layers/" + std::to_string(index),
                         "\"expression\" is missing; the algorithm expression takes its heights from it");
   }
   check_layer_algorithm(params, index, issues);
