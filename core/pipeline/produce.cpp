@@ -200,7 +200,7 @@ Result<std::string> derive(const Request& request, const Job::Options& options) 
   });
 }
 
-/// Does the output hold exactly the triangles of the generator?
+/// Whether the output has exactly the triangles of the generator.
 static bool leaves_meshes(const OutputParams& output) {
   return !profile_of(output.profile).quantized && level_count(output) == 1 && !has_listed_levels(output) &&
          !output.impostor;

@@ -218,7 +218,7 @@ class Builder {
   JsonLimits limits_;
   std::vector<Json*> open_;        ///< the open lists and objects, outermost first
   std::vector<std::string> keys_;  ///< for each open container its key in its parent, if that is an object
-  std::string key_;                ///< of the value that comes next
+  std::string key_;                ///< key of the value that comes next
   std::size_t values_ = 0;
   std::size_t nulls_ = 0;
   std::span<const TooLarge> numbers_;

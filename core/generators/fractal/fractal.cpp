@@ -81,7 +81,7 @@ std::uint64_t add_stage(Model& model, int parent, const CopyMachine& machine, in
   }
   const std::optional<Lattice> lattice = visible_lattice(params, instructions);
   if (!lattice) {
-    add_pieces(model, parent, instructions, element, rounds, params.size, job);
+    add_pieces(model, parent, instructions, element, {rounds, params.size}, job);
     return 0;
   }
   const bool merges = params.surface == FractalSurface::merged;

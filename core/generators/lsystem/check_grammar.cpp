@@ -79,7 +79,7 @@ void warn_of_weights(Compilation& c, const Rules& rules) {
   }
 }
 
-/// A production after one that always applies is never used. The same holds for a production without
+/// A production after one that always applies is never used. The same is true of a production without
 /// probability after one with a probability. Tables can hide productions that apply in every step.
 void warn_of_dead(Compilation& c, const Rules& rules) {
   for (const Range& range : rules.of_kind) {

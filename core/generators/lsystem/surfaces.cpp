@@ -263,7 +263,7 @@ std::uint64_t shown_at(const Model& model, int level) {
   return triangles;
 }
 
-/// Returns the share of organs that a level keeps: enough to hold the outline, within the `left` triangles of
+/// Returns the share of organs that a level keeps: enough to keep the outline, within the `left` triangles of
 /// the budget. `whole` is the number for all organs.
 double organs_at(const Detail& detail, const FoliageLevels& levels, std::uint64_t whole, std::uint64_t left) {
   const double share = static_cast<double>(left) / static_cast<double>(std::max<std::uint64_t>(whole, 1));

@@ -64,9 +64,7 @@ class FieldModelBuilder {
   Model build() {
     Model model;
     model.name = "terrain";
-    Node root;
-    root.name = "terrain";
-    model.nodes.push_back(std::move(root));
+    add_node(model, "terrain", -1);
     if (has_detail()) {
       sites_.emplace(sites());
       classes_.emplace(field_, window_of(params_), *sites_, ground_colors_, ground_material(params_), model);

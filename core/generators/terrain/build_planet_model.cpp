@@ -25,9 +25,7 @@ class PlanetModelBuilder {
     const GroundColors ground_colors(palette_of(params_), range, level);
     Model model;
     model.name = "terrain";
-    Node root;
-    root.name = "terrain";
-    model.nodes.push_back(std::move(root));
+    add_node(model, "terrain", -1);
     add_ground(model, std::move(planet), ground_colors);
     if (params_.water_level && level > range.low) {
       add_sea(model, level);
