@@ -11,6 +11,7 @@
 #include "core/base/math.h"
 #include "core/generators/material_members.h"
 #include "core/generators/scene/ground.h"
+#include "core/generators/terrain/smooth_step.h"
 #include "core/model/build.h"
 #include "core/model/empty_mesh.h"
 #include "core/model/levels.h"
@@ -36,17 +37,12 @@ constexpr glm::vec3 rut_color{0.78F, 0.77F, 0.76F}, weed_color{0.5F, 0.56F, 0.4F
     middle_color{0.82F, 0.85F, 0.72F};
 constexpr const char* soil = "soil_ground";
 
-float smooth_step(float from, float to, float value) {
-  const float t = std::clamp((value - from) / (to - from), 0.0F, 1.0F);
-  return t * t * (3 - 2 * t);
-}
-
 /// The vertex colour at a distance from the middle line, as a share of half the width.
 glm::u8vec4 color_across(float share) {
   const auto mixed = [](const glm::vec3& a, const glm::vec3& b, float by) { return a + (b - a) * by; };
-  glm::vec3 color = mixed(middle_color, glm::vec3(1), smooth_step(0.05F, 0.3F, share));
-  color = mixed(color, rut_color, 1 - smooth_step(0, rut_width, std::abs(share - rut_at)));
-  color = mixed(color, weed_color, smooth_step(edge_from, 1, share)) * 255.0F + 0.5F;
+  glm::vec3 color = mixed(middle_color, glm::vec3(1), terrain::smooth_step(0.05F, 0.3F, share));
+  color = mixed(color, rut_color, 1 - terrain::smooth_step(0, rut_width, std::abs(share - rut_at)));
+  color = mixed(color, weed_color, terrain::smooth_step(edge_from, 1, share)) * 255.0F + 0.5F;
   return {static_cast<std::uint8_t>(color.x), static_cast<std::uint8_t>(color.y),
           static_cast<std::uint8_t>(color.z), 255};
 }

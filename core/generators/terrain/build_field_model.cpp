@@ -142,7 +142,7 @@ class FieldModelBuilder {
         model.meshes[static_cast<std::size_t>(mesh)].primitives.push_back(
             {wall_mesh(made.border), earth, {}});
       }
-      show(model.nodes[0], mesh);
+      add_level(model.nodes[0], mesh);
     }
     write_levels(model);
   }
@@ -195,8 +195,8 @@ class FieldModelBuilder {
       Piece& made = pieces[i];
       const int node = add_child(model, name, -1);
       for (std::size_t k = 0; k < made.meshes.size(); ++k) {
-        show(model.nodes[static_cast<std::size_t>(node)],
-             add_ground_mesh(model, level_name(name, k), {std::move(made.meshes[k]), {}}, ground));
+        add_level(model.nodes[static_cast<std::size_t>(node)],
+                  add_ground_mesh(model, level_name(name, k), {std::move(made.meshes[k]), {}}, ground));
       }
       for (std::size_t k = 0; k < made.notes.size(); ++k) note(static_cast<int>(k), made.notes[k]);
     }
@@ -226,14 +226,6 @@ class FieldModelBuilder {
       made.meshes.push_back(reduced_mesh(field_, std::move(plan), color_of(), coarse, job_));
     }
     return made;
-  }
-
-  static void show(Node& node, int mesh) {
-    if (node.mesh < 0) {
-      node.mesh = mesh;
-    } else {
-      node.lods.push_back(mesh);
-    }
   }
 
   Note note_of(const Triangulation& plan) const {
