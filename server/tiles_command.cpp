@@ -210,6 +210,7 @@ std::variant<std::shared_ptr<const NamedWorld>, Problem> read_world(const Config
   if (!text) return read_world_name(name, options, memory);
   const Result<Request> request = read_request(*text, options);
   if (!request) return problem_of(request.error());
+  if (const auto error = output_error_of_tiles(*request)) return problem_of(*error);
   Result<OpenWorld> open = open_world(*request, memory);
   if (!open) return problem_of(open.error());
   return std::make_shared<const NamedWorld>(

@@ -68,11 +68,11 @@ std::optional<GrowthPlan> growth_of(const Skeleton& skeleton, const LsystemParam
   Job& job = context.job;
   if (!context.demand.growth) return std::nullopt;
   if (params.style == LsystemParams::Style::lines) {
-    job.refuse({IssueKind::conflict, "/style",
+    job.refuse({conflict_with({"animation"}), "/style",
                 "found lines, which bones cannot move; the growth animation needs tubes"});
   }
   if (!skeleton.organs.organ.empty() && context.demand.share_organs) {
-    job.refuse({IssueKind::conflict, "/output/instancing",
+    job.refuse({conflict_with({"animation"}), "/output/instancing",
                 "found organs that share a mesh, which bones cannot move; the growth animation needs auto or "
                 "merge"});
   }

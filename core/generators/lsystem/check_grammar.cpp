@@ -91,9 +91,9 @@ void warn_of_dead(Compilation& c, const Rules& rules) {
       if (before && folder_of(*before) == folder_of(each) && c.warned.insert(each.pointer).second) {
         const std::string& symbol = c.grammar.kinds[each.predecessor].symbol;
         warn(c, {each.pointer,
-                 "this production of `" + symbol + "` is never used: the production at " + before->pointer +
-                     (plain ? " before it always applies"
-                            : " before it has a probability and this one has none; add one, as in `: 0.5`"),
+                 "this production of `" + symbol + "` is never used: `" + before->pointer.substr(1) +
+                     (plain ? "` before it always applies"
+                            : "` before it has a probability and this one has none; add one, as in `: 0.5`"),
                  0, 0});
       }
       if (plain || !is_sure(each)) continue;

@@ -181,7 +181,7 @@ Model build_model(Skeleton skeleton, const TreeParams& params, const GenerateCon
   Motion motion;
   if (context.demand.growth) {
     if (context.demand.share_organs) {
-      job.refuse({IssueKind::conflict, "/output/instancing",
+      job.refuse({conflict_with({"animation"}), "/output/instancing",
                   "found leaves as nodes; the growth animation needs them merged"});
     }
     motion.growth = plan_growth(skeleton.limbs, {.most_bones = context.demand.most_bones}, job);

@@ -36,6 +36,18 @@ TEST(SplitArea, CutsAFaceIntoCellsOfTheirArea) {
   EXPECT_THAT(refusal(with("A --> splitArea(x){ ~1: B. }")), HasSubstr("expected a face"));
 }
 
+TEST(Resize, MakesACutSolidTheFaceThatItCovers) {
+  BuildingParams params = with(
+      "Lot --> extrude(5) split(x){ ~1: Part | ~1: Part } Part --> s('1, 0, '1) report(\"area\", "
+      "geometry.area) roofShed(20, 0) R.");
+  params.footprint = {{{0, 0}, {20, 0}, {20, 10}, {0, 10}}};
+  const Json answer = derived(params);
+  EXPECT_NEAR(sum_of(answer, "area"), 200, 1e-9);
+  EXPECT_EQ(answer["warnings"].dump().find("no roof"), std::string::npos) << answer["warnings"].dump();
+  params.footprint = l_shape;  // 72 square metres
+  EXPECT_NEAR(sum_of(derived(params), "area"), 72, 1e-9);
+}
+
 TEST(Operations, RefuseArgumentsThatTheyDoNotHave) {
   EXPECT_THAT(refusal(with("A --> s('1, 0, '1) taper(9, 2) B.")),
               HasSubstr("`taper` takes (height), found another argument"));
