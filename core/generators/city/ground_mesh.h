@@ -30,7 +30,7 @@ class GroundMesh {
   /// coordinates are metres along the edge and upwards.
   void add_walls(std::uint32_t part);
 
-  /// Adds the foundation below a building: upright faces from the lowest ground to its floor, 10 cm outside of
+  /// Adds the foundation below a building: upright faces from the lowest ground to its floor, 3 mm to 10 cm outside of
   /// its walls.
   void add_foundation(const Footing& footing);
 

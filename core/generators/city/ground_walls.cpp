@@ -12,13 +12,48 @@ namespace {
 
 using glm::dvec2;
 
-constexpr double same_height = 1e-3;                              // m
-constexpr double foundation_ledge = 0.1, foundation_depth = 0.5;  // m
+constexpr double same_height = 1e-3;      // m
+constexpr double foundation_depth = 0.5;  // m
+// Widths of the part of a foundation beside its building, m. The least one fits on each lot with a house.
+constexpr std::array<double, 3> ledges = {0.1, 0.05, 0.02};
+constexpr double least_ledge = 0.003, apart = 0.002;
 
 /// The direction to the right of an edge, seen from above; north is -Z.
 glm::vec3 right_side(const dvec2& from, const dvec2& to) {
   const dvec2 edge = (to - from) / glm::length(to - from);
   return {static_cast<float>(edge.y), 0, static_cast<float>(edge.x)};
+}
+
+std::array<dvec2, 4> corners_of(const Footing& footing, double ledge) {
+  const math::SinCos turn = math::sincos_degrees(footing.turn);
+  const double x = footing.width / 2 + ledge, y = footing.depth / 2 + ledge;
+  std::array<dvec2, 4> corners = {dvec2(-x, -y), {x, -y}, {x, y}, {-x, y}};
+  for (dvec2& p : corners)
+    p = footing.position + dvec2(p.x * turn.cos - p.y * turn.sin, p.x * turn.sin + p.y * turn.cos);
+  return corners;
+}
+
+/// Whether a ring has all of these corners inside, and none of its own corners between them.
+bool holds(const CmRing& ring, const std::array<dvec2, 4>& corners) {
+  const auto is_left_of_all = [&](const CmPoint& p) {
+    for (std::size_t k = 0; k < 4; ++k) {
+      const dvec2 along = corners[(k + 1) % 4] - corners[k], off = in_metres(p) - corners[k];
+      if (along.x * off.y - along.y * off.x < 0) return false;
+    }
+    return true;
+  };
+  return std::all_of(corners.begin(), corners.end(),
+                     [&](const dvec2& p) { return is_inside(ring, p * 100.0); }) &&
+         std::none_of(ring.begin(), ring.end(), is_left_of_all);
+}
+
+/// The corners of a foundation, with the widest ledge that keeps it on its lot. So foundations of neighbours do not meet.
+std::array<dvec2, 4> foundation_of(const Footing& footing, const Part& part) {
+  for (const double ledge : ledges) {
+    if (part.kind != PartKind::lot || holds(part.rings[0], corners_of(footing, ledge + apart)))
+      return corners_of(footing, ledge);
+  }
+  return corners_of(footing, least_ledge);
 }
 
 }  // namespace
@@ -109,11 +144,7 @@ void GroundMesh::add_foundation(const Footing& footing) {
   double lowest = 0;
   constexpr double plinth = 0.02;  // m: keeps its top apart from the house's underside
   const double top_height = surface_.floor_height(footing, lowest) + plinth;
-  const math::SinCos turn = math::sincos_degrees(footing.turn);
-  const double x = footing.width / 2 + foundation_ledge, y = footing.depth / 2 + foundation_ledge;
-  std::array<dvec2, 4> ring = {dvec2(-x, -y), {x, -y}, {x, y}, {-x, y}};
-  for (dvec2& p : ring)
-    p = footing.position + dvec2(p.x * turn.cos - p.y * turn.sin, p.x * turn.sin + p.y * turn.cos);
+  const std::array<dvec2, 4> ring = foundation_of(footing, plan_.parts[footing.part]);
   const double low = lowest - foundation_depth;
   std::array<std::uint32_t, 4> top{};
   for (std::size_t k = 0; k < 4; ++k) {

@@ -12,6 +12,7 @@
 #include "core/generators/child.h"
 #include "core/generators/city/city.h"
 #include "core/generators/city/furniture_models.h"
+#include "core/generators/city/ground_mesh.h"
 #include "core/generators/city/house_requests.h"
 #include "core/generators/city/landmarks.h"
 #include "core/generators/city/model_copies.h"
@@ -358,6 +359,29 @@ TEST(Landmarks, MakeTheirBlockASquare) {
     EXPECT_TRUE(std::any_of(model.nodes.begin(), model.nodes.end(),
                             [](const Node& each) { return each.name == "landmark_0" && each.mesh >= 0; }));
   }
+}
+
+TEST(Foundations, StayOnTheirLots) {
+  const CityParams params = params_of(R"({"area": {"size": [380, 360]}, "terrain": {"preset": "figure_5_11"},
+    "streets": {"pattern": "slope", "major_spacing": 150}, "lots": {"method": "skeleton"},
+    "buildings": {"rules": [{"blueprint": "warehouse", "front": 0.3, "depth": [8, 12], "width": [4, 30],
+      "shared_walls": true}]}})");
+  const CityPlan plan = plan_with(params, 4);
+  Job job(4, Job::Options{});
+  const Surface surface(plan, 0, job);
+  std::size_t houses = 0;
+  for (const Lot& lot : plan.lots) {
+    if (!lot.house) continue;
+    ++houses;
+    GroundMesh mesh(plan, surface, false, job);
+    mesh.add_foundation(lot.footing());
+    const Mesh foundation = mesh.take(job);
+    for (const glm::vec3& corner : foundation.position.span()) {
+      const dvec2 p(static_cast<double>(corner.x), -static_cast<double>(corner.z));
+      EXPECT_TRUE(is_inside(plan.parts[lot.part].rings[0], p * 100.0)) << p.x << ' ' << p.y;
+    }
+  }
+  EXPECT_GT(houses, 30U);
 }
 
 TEST(Landmarks, AreNotInThePlanWhereTheyAreLargerThanTheirLot) {
