@@ -59,35 +59,53 @@ class HoudiniReader {
  private:
   enum class Role { word, pattern };
 
+  /// Behind the name of a parameter or of a rule at the beginning of a line, and the sign that follows it: a colon, or
+  /// for names of several letters also `=` or a blank. `key` becomes the name; line.to: the line has none.
+  std::size_t behind_name(Line line, std::string& key) const {
+    const auto knows = [&](std::size_t end, bool is_colon) {
+      key = houdini_name(text_.substr(line.from, end - line.from));
+      const bool is_rule = key.starts_with("rule") && std::all_of(key.begin() + 4, key.end(), is_digit);
+      return (is_colon || key.size() > 1) && (is_rule || key == "premise" || key == "axiom" ||
+                                              key == "contextignore" || values_.contains(key));
+    };
+    const std::string_view words = text_.substr(0, line.to);
+    const std::size_t colon = std::min(words.find(':', line.from), line.to);
+    if (colon < line.to && knows(colon, true)) return colon + 1;
+    const std::size_t equals = std::min(words.find('=', line.from), line.to);
+    if (equals < line.to && knows(equals, false)) return equals + 1;
+    for (int skipped = 0; skipped < 3; ++skipped) {  // a name has at most three words, the longest first
+      std::size_t end = line.from;
+      for (int word = 0; word < 3 - skipped && end < line.to; ++word) {
+        while (end < line.to && is_blank(text_[end])) ++end;
+        while (end < line.to && !is_blank(text_[end])) ++end;
+      }
+      if (end < line.to && knows(end, false)) return end;
+    }
+    key.clear();
+    return line.to;
+  }
+
   void read_line(Line line, std::vector<Line>& rules) {
+    std::string key;
+    const std::size_t behind = behind_name(line, key);
+    const Line rest = trimmed(text_, {behind, line.to});
     const std::size_t colon = std::min(text_.substr(0, line.to).find(':', line.from), line.to);
-    const std::string key = houdini_name(text_.substr(line.from, colon - line.from));
-    const Line rest = trimmed(text_, {std::min(colon + 1, line.to), line.to});
-    const bool numbered_rule =
-        key.substr(0, 4) == "rule" &&
-        std::all_of(key.begin() + static_cast<std::ptrdiff_t>(std::min<std::size_t>(4, key.size())),
-                    key.end(), is_digit);
-    if (colon < line.to && (key == "premise" || key == "axiom")) {
+    if (key == "premise" || key == "axiom") {
       if (premise_) source_.report(line.from, "found a second premise");
       premise_ = rest;
-    } else if (colon < line.to && key == "contextignore") {
+    } else if (key == "contextignore") {
       TracedText ignored;
       modules(rest, Role::pattern, ignored);
       put("/ignore", ignored.text(), ignored.runs());
-    } else if (colon < line.to && numbered_rule) {
+    } else if (key.starts_with("rule")) {
       rules.push_back(rest);
-    } else if (const auto value = values_.find(key); colon < line.to && value != values_.end()) {
-      number(rest, value->second);
-    } else if (const std::size_t equals = houdini_equals(text_, line);
-               colon == line.to && equals < line.to && is_setting(line.from, equals)) {
-      source_.report(equals, "found `=` behind a parameter; expected a colon such as in `Angle: 28`");
-    } else if (equals < line.to) {
+    } else if (!key.empty()) {
+      number(rest, values_.find(key)->second);
+    } else if (houdini_equals(text_, line) < line.to) {
       rules.push_back(line);
     } else if (colon < line.to && is_label(line.from, colon)) {
       source_.warn(line.from, lang::in_quotes(text_.substr(line.from, colon - line.from)) +
                                   " is a parameter without a counterpart here");
-    } else if (colon == line.to && begins_setting(line)) {
-      source_.report(line.from, "found no colon; expected a line such as `Premise: A` or `Angle: 28`");
     } else if (!premise_ && colon == line.to) {
       premise_ = line;
       is_bare_ = true;
@@ -96,12 +114,6 @@ class HoudiniReader {
           line.from,
           "found no parameter of the node and no rule; expected something such as `Angle: 28` or `A=FA`");
     }
-  }
-
-  /// Whether a text is the name of a parameter. Names of one letter may be modules.
-  bool is_setting(std::size_t from, std::size_t to) const {
-    const std::string word = houdini_name(text_.substr(from, to - from));
-    return word.size() > 1 && (word == "premise" || values_.count(word) != 0);
   }
 
   /// Whether a text has the form of a parameter's label: words that begin with a letter.
@@ -113,15 +125,6 @@ class HoudiniReader {
         return false;
     }
     return true;
-  }
-
-  /// Whether the line begins with the name of a parameter and a blank.
-  bool begins_setting(Line line) const {
-    std::size_t end = line.from;
-    while (end < line.to && !is_blank(text_[end])) ++end;
-    if (end == line.to || end - line.from < 2) return false;
-    const std::string word = houdini_name(text_.substr(line.from, end - line.from));
-    return word == "premise" || word == "rule" || word == "step" || values_.contains(word);
   }
 
   void put(const std::string& name, Json value, std::vector<TextRun> runs) {
@@ -146,6 +149,10 @@ class HoudiniReader {
     const HoudiniRule parts = houdini_rule(text_, line);
     if (parts.equals == line.to) {
       source_.report(line.from, "found a rule without `=`");
+      return;
+    }
+    if (parts.equals + 1 < line.to && text_[parts.equals + 1] == '>') {
+      source_.report(parts.equals, "found `=>`; expected `=` between the predecessor and the successor");
       return;
     }
     TracedText out;
@@ -252,7 +259,7 @@ class HoudiniReader {
       warn_once(at, c,
                 c == 'g' ? " names a group, which does not exist here"
                          : " copies geometry of an input, which does not exist here");
-      return c == 'g' ? "" : c + arguments;
+      return c == 'g' ? "" : c + with_empty_arguments(arguments);
     }
     if (role == Role::pattern) {
       source_.report(at, lang::in_quotes(std::string_view(&c, 1)) +
@@ -260,6 +267,18 @@ class HoudiniReader {
       return "";
     }
     return written_out(c, arguments, at);
+  }
+
+  /// J(,,2): arguments that are not given are 0. The symbols that have them draw nothing here.
+  static std::string with_empty_arguments(const std::string& arguments) {
+    std::string out;
+    for (const char c : arguments) {
+      const bool is_empty =
+          !out.empty() && (out.back() == '(' || out.back() == ',') && (c == ',' || c == ')');
+      if (is_empty && out != "()") out += '0';
+      out += c;
+    }
+    return out;
   }
 
   /// Symbols that scale or turn by a parameter of the node if they have no argument.

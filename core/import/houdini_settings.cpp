@@ -30,8 +30,11 @@ std::span<const HoudiniSetting> houdini_settings() { return settings; }
 std::string houdini_name(std::string_view text) {
   std::string out;
   for (const char c : text) {
-    if (!is_blank(c)) out += lower(c);
+    if (!is_blank(c) && c != '-' && c != '_') out += lower(c);
   }
+  if (out == "iterations" || out == "generation") return "generations";
+  if (out == "step" || out == "steplength") return "stepsize";
+  if (out == "seed") return "randomseed";
   return out;
 }
 

@@ -15,7 +15,7 @@ struct HoudiniSetting {
 };
 std::span<const HoudiniSetting> houdini_settings();
 
-/// Returns the name of a parameter in lower case, without blanks.
+/// Returns the name of a parameter in lower case, without blanks and hyphens, and for some other names that of the node.
 std::string houdini_name(std::string_view text);
 
 }  // namespace seedmesh

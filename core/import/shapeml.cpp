@@ -29,6 +29,8 @@ Imported ShapemlReader::read() {
   all.copy(declarations_, 0, declarations_.size());
   all.copy(rules_, 0, rules_.size());
   all.copy(repeated_, 0, repeated_.size());
+  for (const std::string& leaf : leaves_)
+    all.write(leaf + "visible --> case own_hidden == 1: NIL else: " + leaf + ".\n", 0);
   if (order_.empty() && source_.error_count() == 0) source_.report(0, "found no rule, expected at least one");
   Imported out;
   out.request["generator"] = "building";

@@ -132,7 +132,7 @@ class ShapemlPattern {
     text(")");
   }
 
-  void operations(std::size_t part) { reader_.block(given_[2 + 2 * part], depth_); }
+  void operations(std::size_t part) { reader_.block(given_[2 + 2 * part], depth_, "split.index"); }
 
   void write_parts(Sizes sizes) {
     text(std::string(" split(") + axis_ + ") {");

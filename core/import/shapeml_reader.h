@@ -52,7 +52,8 @@ class ShapemlReader : private ShapemlText {
   void scale(std::size_t i, const std::vector<std::pair<std::size_t, std::size_t>>& given);
   /// set("name", value): an attribute of the rules
   void set(std::size_t i, const std::vector<std::pair<std::size_t, std::size_t>>& given);
-  void block(const std::pair<std::size_t, std::size_t>& given, int depth);
+  /// Operations in braces. `index` becomes the value of `index` in them.
+  void block(const std::pair<std::size_t, std::size_t>& given, int depth, std::string_view index);
   void split(std::size_t i, const std::vector<std::pair<std::size_t, std::size_t>>& given, int depth);
   /// splitX("s(f)s", size, { ... }, ...); see shapeml_pattern.cpp
   void pattern(std::size_t i, const std::string& signs,
@@ -65,6 +66,7 @@ class ShapemlReader : private ShapemlText {
   std::map<std::string, std::vector<ShapemlRule>> by_name_;
   std::vector<std::string> order_;
   std::set<std::string, std::less<>> warned_;
+  std::set<std::string> leaves_;  ///< that `hide` can make invisible
 };
 
 }  // namespace seedmesh

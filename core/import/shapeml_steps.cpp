@@ -9,22 +9,6 @@ namespace {
 
 constexpr int deepest = 100;  ///< nested braces
 
-/// Plans that replace the mesh. The other operations of the rule stand in the braces behind them. The widths of ShapeML are
-/// those at the back and on the left (L), on the right (U), and left, horizontal, right, and the position (H).
-struct ShapemlPlan {
-  std::string_view name;
-  std::size_t arguments;
-  std::string_view rules, end;
-};
-constexpr ShapemlPlan plans[] = {
-    {"shapeL", 2, "primitiveQuad() shapeO(0, 0, $1, $2) { shape :", " }"},
-    {"shapeU", 3, "primitiveQuad() shapeO(0, $3, $1, $2) { shape :", " }"},
-    {"shapeH", 4,
-     "primitiveQuad() shapeO(0, $3, ($4) * (scope.sz - ($2)) + ($2), $1) { shape : shapeO($2, $3, 0, $1) { "
-     "shape :",
-     " } }"},
-};
-
 }  // namespace
 
 using lang::Token;
@@ -46,14 +30,6 @@ void ShapemlReader::operations(std::size_t from, std::size_t to, int depth) {
       error(i, "found " + in_quotes(token) + ", expected an operation or the name of a rule" +
                    (is(i, "^") ? "; no operations have this name" : ""));
       i = behind;
-    } else if (const auto plan = std::ranges::find(plans, token.text, &ShapemlPlan::name);
-               plan != std::end(plans) && arguments(i).size() == plan->arguments) {
-      write_as(i, plan->rules, arguments(i));
-      i = behind;
-      while (i < to && !is(i, "]")) i = is(i, "(") || is(i, "{") || is(i, "[") ? partner_[i] + 1 : i + 1;
-      i = std::min(i, to);
-      whole(behind, i, depth + 1);
-      rules_.write(plan->end, at(i).offset);
     } else {
       step(i, depth);
       i = behind;
@@ -86,8 +62,11 @@ void ShapemlReader::step(std::size_t i, int depth) {
   }
   if (by_name_.contains(std::string(name)) || name.ends_with('_')) {
     ends_with_shape_ = true;
-    rules_.write(" " + std::string(name) + (name.ends_with('_') ? "." : ""), at(i).offset);
-    if (!given.empty() && !name.ends_with('_')) {
+    const bool is_leaf = name.ends_with('_') && !by_name_.contains(std::string(name));
+    if (is_leaf && attributes_.contains(shapeml_hidden)) leaves_.insert(std::string(name));
+    const std::string_view end = !is_leaf ? "" : attributes_.contains(shapeml_hidden) ? "visible" : ".";
+    rules_.write(" " + std::string(name) + std::string(end), at(i).offset);
+    if (!given.empty() && !is_leaf) {
       rules_.write("(", at(i).offset);
       write_all(given);
       rules_.write(")", at(i).offset);
@@ -162,28 +141,25 @@ void ShapemlReader::repeat(std::size_t i, const std::vector<std::pair<std::size_
                            int depth) {
   const std::string name = "Repeat" + std::to_string(++repeats_);
   const std::size_t from = at(i).offset;
+  const std::string first = "floor(repetitions / 2)", second = "ceil(repetitions / 2)";
   // Each half of the repetitions is made by itself, so that the depth of rules grows with the logarithm only.
   TracedText rule;
   std::swap(rule, rules_);
-  rules_.write(name + "(repetitions" + parameters_ + ") -->\n  case repetitions >= 2: " + name +
-                   "(floor(repetitions / 2)" + parameters_ + ") " + name + "(ceil(repetitions / 2)" +
+  rules_.write(name + "(start, repetitions" + parameters_ + ") -->\n  case repetitions >= 2: " + name +
+                   "(start, " + first + parameters_ + ") " + name + "(start + " + first + ", " + second +
                    parameters_ + ")\n  case repetitions >= 1:",
                from);
-  block(given[1], depth);
+  block(given[1], depth, "start");
   rules_.write("\n  else: NIL\n", from);
   repeated_.copy(rules_, 0, rules_.size());
   std::swap(rule, rules_);
-  rules_.write(" " + name + "(floor(", from);
+  rules_.write(" " + name + "(0, floor(", from);
   expression(given[0].first, given[0].second, rules_);
   rules_.write(")" + parameters_ + ")", from);
-  warn_of_index(i, "`index` is the number of a part of a split; it does not count repetitions");
 }
 
 void ShapemlReader::warn_of_index(std::size_t i, const char* message) {
-  const auto is_index = [](const Token& token) {
-    return token.kind == TokenKind::name && token.text == "index";
-  };
-  if (std::any_of(tokens_.begin(), tokens_.end(), is_index) && warned_.insert(message).second)
+  if (attributes_.contains(shapeml_index) && warned_.insert(message).second)
     source_.warn(at(i).offset, message);
 }
 
@@ -201,9 +177,13 @@ void ShapemlReader::extrude_world(std::size_t i,
   rules_.write(")", at(i).offset);
 }
 
-void ShapemlReader::block(const std::pair<std::size_t, std::size_t>& given, int depth) {
+void ShapemlReader::block(const std::pair<std::size_t, std::size_t>& given, int depth,
+                          std::string_view index) {
   if (!is(given.first, "{"))
     return error(given.first, "found " + in_quotes(at(given.first)) + ", expected operations in braces");
+  if (attributes_.contains(shapeml_index))
+    rules_.write(" set(" + std::string(shapeml_index) + ", " + std::string(index) + ")",
+                 at(given.first).offset);
   whole(given.first + 1, std::min(partner_[given.first], given.second), depth + 1);
 }
 
@@ -213,11 +193,12 @@ void ShapemlReader::split(std::size_t i, const std::vector<std::pair<std::size_t
   const std::size_t from = at(i).offset;
   const std::string axis = name.empty() ? "" : std::string(1, static_cast<char>(name.back() | 0x20));
   if (name == "splitFace" && given.size() >= 2 && given.size() % 2 == 0) {
+    if (given.size() > 2) warn_of_index(i, "`index` begins again with each selector of splitFace");
     rules_.write(" comp(f) {", from);
     for (std::size_t k = 0; k + 1 < given.size(); k += 2) {
       rules_.write((k > 0 ? " | " : " ") + lang::string_value(at(given[k].first)) + " :",
                    at(given[k].first).offset);
-      block(given[k + 1], depth);
+      block(given[k + 1], depth, "comp.index");
     }
     rules_.write(" }", from);
   } else if (name == "splitFaceByIndex" && given.size() >= 2) {
@@ -225,14 +206,14 @@ void ShapemlReader::split(std::size_t i, const std::vector<std::pair<std::size_t
     for (std::size_t k = 0; k + 1 < given.size(); ++k) {
       rules_.write((k > 0 ? " | " : " ") + std::string(at(given[k].first).text) + " :",
                    at(given[k].first).offset);
-      block(given.back(), depth);
+      block(given.back(), depth, std::to_string(k));
     }
     rules_.write(" }", from);
   } else if (name.starts_with("splitRepeat") && given.size() == 2) {
     rules_.write(" split(" + axis + ") { ~(", from);
     expression(given[0].first, given[0].second, rules_);
     rules_.write(") :", from);
-    block(given[1], depth);
+    block(given[1], depth, "split.index");
     rules_.write(" }*", from);
   } else if ((name == "splitX" || name == "splitY" || name == "splitZ") && given.size() >= 3 &&
              given.size() % 2 == 1 && at(given[0].first).kind == TokenKind::string) {

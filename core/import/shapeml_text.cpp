@@ -40,13 +40,17 @@ ShapemlText::ShapemlText(ForeignText& source) : source_(source), text_(without_c
   tokens_ = lang::tokenize(text_, 0, text_.size(), errors);
   for (const lang::TextError& error : errors) source_.report(error.offset, error.message);
   expand_shapeml_operations(tokens_, made_names_, source_);
+  std::vector<std::size_t> constants;
   for (std::size_t i = 0; i + 2 < tokens_.size(); ++i) {
     const std::string_view word = at(i).text;
     if (!is_name(i)) continue;
+    if (word == "index") attributes_.insert(shapeml_index);
+    if (word == "hide" || word == "show") attributes_.insert(shapeml_hidden);
     if (word == "set" && is(i + 1, "(") && at(i + 2).kind == TokenKind::string)
       set_names_.insert(lang::string_value(at(i + 2)));
     if ((word == "param" || word == "const" || word == "func") && is_name(i + 1))
       declared_.insert(std::string(at(i + 1).text));
+    if ((word == "param" || word == "const") && is_name(i + 1) && is(i + 2, "=")) constants.push_back(i + 1);
     if (word != "rule" || !is(i + 2, "(")) continue;
     for (std::size_t k = i + 3; k + 1 < tokens_.size() && !is(k, ")"); ++k)
       declared_.insert(std::string(at(k).text));
@@ -66,6 +70,9 @@ ShapemlText::ShapemlText(ForeignText& source) : source_(source), text_(without_c
   if (!open.empty() && source_.error_count() == 0) {
     error(open.back(), "found " + in_quotes(at(open.back())) + " without its `" +
                            std::string(closing_of(at(open.back()).text)) + "`");
+  }
+  for (const std::size_t i : constants) {
+    if (is_integer(i + 2, find(i, ";"))) integers_.insert(std::string(at(i).text));
   }
 }
 
@@ -89,8 +96,42 @@ std::vector<std::pair<std::size_t, std::size_t>> ShapemlText::arguments(std::siz
   return out;
 }
 
+std::size_t ShapemlText::behind_integer(std::size_t i, std::size_t to) const {
+  if (at(i).kind == TokenKind::number)
+    return at(i).text.find_first_of(".eE") == std::string_view::npos ? i + 1 : i;
+  if (!is_name(i) || i >= to) return i;
+  const bool is_call = is(i + 1, "(");
+  if (is_call) return at(i).text == "int" || at(i).text == "rand_int" ? partner_[i + 1] + 1 : i;
+  return at(i).text == "index" || at(i).text == "depth" || integers_.contains(at(i).text) ? i + 1 : i;
+}
+
+bool ShapemlText::is_integer(std::size_t from, std::size_t to) const {
+  for (std::size_t i = from; i < to;) {
+    const std::size_t behind = behind_integer(i, to);
+    const bool is_sign =
+        is(i, "+") || is(i, "-") || is(i, "*") || is(i, "/") || is(i, "%") || is(i, "(") || is(i, ")");
+    if (behind == i && !is_sign) return false;
+    i = std::max(behind, i + 1);
+  }
+  return from < to;
+}
+
 void ShapemlText::expression(std::size_t from, std::size_t to, TracedText& out) {
   for (std::size_t i = from; i < to; ++i) {
+    // ShapeML cuts the quotient of integers.
+    const std::size_t sign = behind_integer(i, to);
+    const std::size_t behind =
+        sign > i && sign < to && is(sign, "/") ? behind_integer(sign + 1, to) : sign + 1;
+    const bool follows_factor = i > from && (is(i - 1, "*") || is(i - 1, "/") || is(i - 1, "%"));
+    if (sign > i && behind > sign + 1 && behind <= to && !follows_factor) {
+      out.write(" trunc((", at(i).offset);
+      expression(i, sign, out);
+      out.write(") / (", at(sign).offset);
+      expression(sign + 1, behind, out);
+      out.write("))", at(behind - 1).offset);
+      i = behind - 1;
+      continue;
+    }
     const Token& token = at(i);
     const std::size_t offset = token.offset;
     const bool is_call = is(i + 1, "(");

@@ -102,6 +102,35 @@ const char* find(std::span<const Row> rows, std::string_view name) {
   return found == rows.end() ? nullptr : found->ours;
 }
 
+/// Sapling's crown of its own (`customShape`) at the position `r` from the base, 0, to the top, 1, of the crown: lengths at
+/// the base, in the middle and at the top, and as third number the position of the middle.
+double custom_crown(const std::array<double, 4>& custom, double r) {
+  if (r >= custom[2]) {
+    const double share = custom[2] < 1 ? (r - custom[2]) / (1 - custom[2]) : 1;
+    return custom[1] + share * share * (custom[3] - custom[1]);
+  }
+  const double left = 1 - r / custom[2];
+  return custom[0] + (1 - left * left) * (custom[1] - custom[0]);
+}
+
+/// The crown shapes of Weber and Penn but those of a sphere, whose ratio is 1 at the base of the crown.
+double crown_of(int shape, double ratio) {
+  switch (shape) {
+    case 0:
+      return 0.2 + 0.8 * ratio;
+    case 3:
+      return 1;
+    case 4:
+      return 0.5 + 0.5 * ratio;
+    case 5:
+      return ratio <= 0.7 ? ratio / 0.7 : (1 - ratio) / 0.3;
+    case 6:
+      return 1 - 0.8 * ratio;
+    default:
+      return ratio <= 0.7 ? 0.5 + 0.5 * ratio / 0.7 : 0.5 + 0.5 * (1 - ratio) / 0.3;
+  }
+}
+
 class TreeGenReader {
  public:
   explicit TreeGenReader(ForeignText& source) : source_(source), species_(source) {}
@@ -122,6 +151,7 @@ class TreeGenReader {
     if (!names_.contains("shape")) source_.report(0, "found no member `shape`, which every species has");
     set_defaults();
     Imported imported = species_.made(seed_);
+    if (is_sapling_) imported.request["parameters"]["counting"] = "sapling";
     if (!leaf_.empty()) imported.request["parameters"]["leaf"] = {{"shape", leaf_}};
     if (names_.contains("showLeaves") && !shows_leaves_)
       imported.request["parameters"]["leaf"] = {{"build", "none"}};
@@ -142,6 +172,8 @@ class TreeGenReader {
       base_size(each);
     } else if (each.name == "floor_splits" && is_single) {
       set_trunks(each.numbers[0] + 1, each.at[0]);
+    } else if (each.name == "leafDist" && is_single && each.numbers[0] >= 0 && each.numbers[0] <= 7) {
+      species_.set("LeafDistrib", each.numbers[0], each.at[0]);
     } else if (each.name == "leaf_shape" && is_single) {
       leaf_ = leaf_shape_of(each.numbers[0], leaf_shapes);
     } else if ((each.name == "tropism" || each.name == "attractUp") && !each.numbers.empty()) {
@@ -187,8 +219,9 @@ class TreeGenReader {
 
   /// Members that set_sapling() reads.
   static bool is_of_sapling(const DictionaryEntry& each) {
-    constexpr const char* names[] = {"baseSize",      "baseSize_s",     "downAngle",  "downAngleV",
-                                     "leafDownAngle", "leafDownAngleV", "leafRotate", "leafRotateV"};
+    constexpr const char* names[] = {"baseSize",       "baseSize_s",  "downAngle",
+                                     "downAngleV",     "customShape", "leafDownAngle",
+                                     "leafDownAngleV", "leafRotate",  "leafRotateV"};
     return std::find(std::begin(names), std::end(names), each.name) != std::end(names);
   }
 
@@ -199,6 +232,14 @@ class TreeGenReader {
       return Member{found->numbers[i], found->at[i]};
     };
     const int levels = static_cast<int>(std::clamp(species_.value("Levels", 3), 0.0, 9.0));
+    if (species_.value("Shape", 0) == 8) {
+      std::array<double, 4> custom = {0.5, 1, 0.3, 0.5};
+      for (std::size_t i = 0; i < 4; ++i) {
+        if (const auto number = member("customShape", i)) custom[i] = std::clamp(number->value, 0.0, 1.0);
+      }
+      const auto shape = member("shape", 0);
+      set_crown(custom, shape ? shape->at : 0);
+    }
     // Each level has the share `baseSize_s` of the base of the level before, and the last level has none.
     if (auto base = member("baseSize", 0)) {
       species_.set("BaseSize", base->value, base->at);
@@ -221,6 +262,30 @@ class TreeGenReader {
       if (const auto spread = member("leafRotateV", 0))
         species_.replace(n + "RotateV", spread->value, spread->at);
     }
+  }
+
+  /// The crown shape that is most similar to one of Sapling's own, with the factor between them.
+  void set_crown(const std::array<double, 4>& custom, std::size_t at) {
+    double best = -1, factor = 1;
+    int nearest = 7;
+    for (const int shape : {0, 3, 4, 5, 6, 7}) {
+      double both = 0, own = 0, theirs = 0;
+      for (int i = 0; i < 100; ++i) {
+        const double r = (i + 0.5) / 100, a = custom_crown(custom, r), b = crown_of(shape, 1 - r);
+        both += a * b;
+        own += b * b;
+        theirs += a * a;
+      }
+      const double likeness = theirs > 0 ? both * both / (own * theirs) : 0;
+      if (likeness <= best) continue;
+      best = likeness;
+      factor = both / own;
+      nearest = shape;
+    }
+    species_.replace("Shape", nearest, at);
+    species_.replace("1Length", factor * species_.value("1Length", 0.3), at);
+    source_.warn(at, "shape 8 of Sapling is `customShape`; the most similar shape is used, which is " +
+                         std::to_string(nearest));
   }
 
   /// Newer versions of Sapling have other signs: a negative variation is random, and a positive one is subtracted
@@ -246,6 +311,7 @@ class TreeGenReader {
     species_.set_default("Lobes", 0);
     species_.set_default("LeafBend", 0);
     if (is_sapling_) {
+      species_.set_default("LeafDistrib", 6);
       species_.set_default("AttractionUp", 0);
       species_.set_default("Flare", 0);
     } else {

@@ -2090,8 +2090,8 @@ export interface TreeParameters {
   Leaves?: number;
   /** How the number of leaves of a limb depends on its position along the parent: the number of a crown shape (Shape). The paper has 4. */
   LeafDistrib?: number;
-  /** The program whose numbers of stems, branches and leaves the tree has. paper: the formulas of Weber and Penn (1995); a stem and its clones share its branches and leaves, and each split makes further splits half as likely. arbaro: the formulas of the program Arbaro, which imported species of Arbaro have; a stem and its clones share its branches, but each has as many leaves per segment as a stem without clones. Splits do not become rarer, numbers of branches are rounded down, and pruned limbs stay. */
-  counting?: "paper" | "arbaro";
+  /** The program whose numbers of stems, branches and leaves the tree has. paper: the formulas of Weber and Penn (1995); a stem and its clones share its branches and leaves, and each split makes further splits half as likely. arbaro: the formulas of the program Arbaro, which imported species of Arbaro have; a stem and its clones share its branches, but each has as many leaves per segment as a stem without clones. Splits do not become rarer, numbers of branches are rounded down, and pruned limbs stay. sapling: the numbers of branches and leaves of Blender's Sapling, which follow from the lengths of their stems. What would grow below the base of a stem is left out. */
+  counting?: "paper" | "arbaro" | "sapling";
   /** Length of a leaf. */
   LeafScale?: number;
   /** Width of a leaf as a share of its length. */

@@ -160,6 +160,8 @@ constexpr OperatorRow operator_rows[] = {
     {Op::primitive_sphere, operators::primitive, Rest::open},
     {Op::primitive_cylinder, operators::primitive, Rest::open},
     {Op::primitive_cone, operators::primitive, Rest::open},
+    {Op::primitive_fitted, operators::primitive_fitted, Rest::open},
+    {Op::primitive_polygon, operators::primitive_polygon, Rest::open},
     {Op::insert_along_uv, operators::insert_along_uv, Rest::used},
     {Op::roof_ridge, operators::roof_ridge, Rest::open},
     {Op::setback_per_edge, operators::setback, Rest::used},
@@ -195,9 +197,10 @@ static_assert(is_in_order());
 
 /// Whether an operation uses the geometry of a shape, and not only the scope around it.
 bool needs_face(const OperatorRow& row) {
-  constexpr Op filling[] = {Op::symbol,           Op::insert,         Op::place,
-                            Op::primitive_quad,   Op::primitive_disk, Op::primitive_cube,
-                            Op::primitive_sphere, Op::primitive_cone, Op::primitive_cylinder};
+  constexpr Op filling[] = {Op::symbol,           Op::insert,           Op::place,
+                            Op::primitive_quad,   Op::primitive_disk,   Op::primitive_cube,
+                            Op::primitive_sphere, Op::primitive_cone,   Op::primitive_cylinder,
+                            Op::primitive_fitted, Op::primitive_polygon};
   return row.rest != Rest::same && std::ranges::find(filling, row.op) == std::end(filling);
 }
 

@@ -216,6 +216,14 @@ constexpr OperationRow rows[] = {
      "Makes a cylinder (default 32 sides).", "A --> primitiveCylinder(12, 1, 4) B."},
     {"primitiveCone", Op::primitive_cone, "|nnn", Braces::absent, "sides, radius, height",
      "Makes a cone (default 32 sides).", "A --> primitiveCone(12, 1, 4) B."},
+    {"primitiveFitted", Op::primitive_fitted, "tn|nnn", Braces::absent, "name, sides, rows",
+     "Makes a `disk`, `cylinder`, `cone` or `sphere` whose first side is at the front, stretched until it "
+     "touches all sides of the scope; or a `torus` of two radii, sides and sides of its tube.",
+     "A --> s(4, 4, 4) primitiveFitted(\"cone\", 4) B."},
+    {"primitivePolygon", Op::primitive_polygon, "x", Braces::absent, "corners",
+     "Makes a level polygon of an array of corners x and y, counter-clockwise seen from above, where y "
+     "points to the back. It is stretched to the scope.",
+     "A --> s(4, 0, 2) primitivePolygon([0, 0, 4, 0, 0, 2]) B."},
     {"insertAlongUV", Op::insert_along_uv, "ntn|xx", Braces::absent,
      "set, name, height, direction, alignment",
      "Places copies of a part or asset on a flat shape, one for each tile of its texture coordinates: x "
@@ -345,6 +353,8 @@ constexpr OpKind kinds[] = {
     {Op::primitive_sphere, "part"},
     {Op::primitive_cylinder, "part"},
     {Op::primitive_cone, "part"},
+    {Op::primitive_fitted, "part"},
+    {Op::primitive_polygon, "part"},
     {Op::insert_along_uv, "part"},
     {Op::color, "material"},
     {Op::material, "material"},

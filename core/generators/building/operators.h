@@ -25,7 +25,7 @@ Operator tag, texture, change_uv, normalize_uv, tile_uv, copy_uv, delete_uv;
 // Corners and faces (mesh_operators.cpp), built-in solids (primitive_operators.cpp), masses (mass_operators.cpp)
 Operator mirror, reverse_normals, cleanup, convexify, delete_holes, rectify, reduce, set_normals,
     reset_geometry;
-Operator primitive, insert_along_uv, footprint, envelope, roof_ridge;
+Operator primitive, primitive_fitted, primitive_polygon, insert_along_uv, footprint, envelope, roof_ridge;
 // Points (scatter_operator.cpp), shapes made one (inline_operators.cpp), sections of a border (perimeter_operator.cpp)
 Operator scatter, inline_shapes, modify, combine, split_perimeter;
 // Other shapes (split.cpp, comp.cpp, offset_operators.cpp, inner_rectangle_operator.cpp)

@@ -177,6 +177,8 @@ enum class Op : std::uint8_t {
   primitive_sphere,
   primitive_cylinder,
   primitive_cone,
+  primitive_fitted,
+  primitive_polygon,
   insert_along_uv,
   roof_ridge,
   setback_per_edge,

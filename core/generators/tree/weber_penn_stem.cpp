@@ -167,7 +167,27 @@ Frame swayed_frame(const WeberPennTree& tree, const WeberPennStem& stem, const F
   return swayed(frame, sway_angles(tree.params.sway, swaying, z, radius));
 }
 
+namespace {
+
+/// The number of children in Blender's Sapling: it follows from the length of a stem, and those below its base are left out.
+double child_count_of_sapling(const WeberPennTree& tree, const WeberPennStem& stem) {
+  const bool has_leaves = is_last(tree, stem);
+  if (has_leaves && tree.params.Leaves < 0) return std::abs(tree.params.Leaves);
+  double most = has_leaves ? tree.params.Leaves : tree.level(stem.level + 1).branches;
+  double longest = tree.scale;
+  for (int level = 0; level <= stem.level; ++level) longest *= tree.level(level).length;
+  if (stem.level > 0) most *= 0.1 + 0.9 * stem.length / std::max(longest, 1e-9);
+  const double share = stem.parent_length > 0 ? stem.offset / stem.parent_length : 0;
+  if (has_leaves && stem.level > 0) most *= shape_ratio(tree.params, tree.params.LeafDistrib, 1 - share);
+  const double bare = has_leaves ? 0 : stem.level == 0 ? tree.params.BaseSize : tree.level(stem.level).bare;
+  const double count = std::floor(most + 0.5);
+  return count - std::floor(bare * (count + 1));
+}
+
+}  // namespace
+
 double child_count(const WeberPennTree& tree, const WeberPennStem& stem) {
+  if (tree.params.counting == TreeParams::Counting::sapling) return child_count_of_sapling(tree, stem);
   if (is_last(tree, stem)) {
     const double most = std::abs(tree.params.Leaves);
     const double share = stem.parent_length > 0 ? stem.offset / stem.parent_length : 0;

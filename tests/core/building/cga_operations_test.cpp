@@ -55,6 +55,21 @@ TEST(Primitives, HaveTheVolumesOfTheirPolygons) {
   EXPECT_GT(sphere, 0.99 * 4 * pi / 3);
 }
 
+TEST(Primitives, CanTouchAllSidesOfTheScope) {
+  EXPECT_NEAR(volume_after("primitiveFitted(\"cylinder\", 4)"), 1000, 1e-9);
+  EXPECT_NEAR(volume_after("primitiveFitted(\"cone\", 4)"), 1000.0 / 3, 1e-9);
+  EXPECT_NEAR(area_after("primitiveFitted(\"disk\", 3)"), 50, 1e-9);
+  // Pappus: a polygon of 13 corners around a circle, of which the solid has 19 straight pieces.
+  const double section = 0.5 * 13 * 4 * std::sin(2 * pi / 13);
+  const double torus = volume_after("s(0, 0, 0) primitiveFitted(\"torus\", 4, 2, 19, 13)");
+  EXPECT_LT(torus, section * 2 * pi * 4);
+  EXPECT_GT(torus, 0.95 * section * 2 * pi * 4);
+  const double sphere = volume_after("primitiveFitted(\"sphere\", 64, 32)", {2, 2, 2});
+  EXPECT_NEAR(sphere, 4 * pi / 3, 0.02);
+  EXPECT_NEAR(area_after("primitivePolygon([0, 0, 4, 0, 4, 1, 1, 1, 1, 3, 0, 3])"), 100.0 * 6 / 12, 1e-9);
+  EXPECT_NEAR(volume_after("primitivePolygon([0, 0, 0, 2, 2, 0]) extrude(3)", {10, 0, 10}), 150, 1e-9);
+}
+
 TEST(ExtrudeInADirection, KeepsTheVolumeOfTheProjection) {
   // A slope of 30 degrees over 10 x 5 has the plan 50, so that 2 m straight up add 100 cubic metres.
   const std::string slope = "A --> s('1, 0, '1) roofShed(30) comp(f){ aslant: ";

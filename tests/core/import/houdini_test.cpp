@@ -47,10 +47,31 @@ TEST(Houdini, ExchangesTurnsThatHoudiniExchanges) {
   EXPECT_THAT(reports(result), IsEmpty());
 }
 
-TEST(Houdini, RefusesAParameterWithoutItsColonAndAPremiseWithoutRules) {
-  EXPECT_THAT(reports(imported("houdini", "Premise A\nA=FA\n")), Contains(HasSubstr("found no colon")));
-  EXPECT_THAT(reports(imported("houdini", "Premise: A\nGenerations 5\nA=FA\n")),
-              Contains(HasSubstr("found no colon")));
+TEST(Houdini, ReadsParametersWithOtherSignsBehindTheirNames) {
+  const auto expected = imported("houdini", "Premise: A\nRule 1: A(x):x==1=F\nAngle: 30\nStep Size: 2\n");
+  ASSERT_TRUE(expected) << reports(expected)[0];
+  for (const char* text : {"Premise = A\nRule1 = A(x):x==1=F\nangle=30\nStep Size = 2\n",
+                           "premise A\nrule1 A(x):x==1=F\nangle 30\nstep size 2\n",
+                           "Axiom: A\nRule 1: A(x):x==1=F\nAngle: 30\nStep: 2\n",
+                           "Premise\tA\nRule 1 A(x):x==1=F\nAngle 30\nstep-size: 2\n"}) {
+    const auto result = imported("houdini", text);
+    ASSERT_TRUE(result) << text << reports(result)[0];
+    EXPECT_EQ(parameters_of(result), parameters_of(expected)) << text;
+  }
+  // Names of one letter can be modules.
+  EXPECT_EQ(parameters_of(imported("houdini", "b\nb=FA\nA=b\n"))["productions"], json({"b -> FA", "A -> b"}));
+  EXPECT_EQ(parameters_of(imported("houdini", "A\nA=F\nIterations: 3\n"))["iterations"], 3);
+}
+
+TEST(Houdini, FillsArgumentsThatAreNotGivenForCopiesOfGeometry) {
+  const auto result = imported("houdini", "A\nA=FJ(,,2)[K(,)]M()\n");
+  ASSERT_TRUE(result) << reports(result)[0];
+  EXPECT_EQ(parameters_of(result)["productions"], json({"A -> FJ(0,0,2)[K(0,0)]M()"}));
+}
+
+TEST(Houdini, RefusesArrowsAndAPremiseWithoutRules) {
+  EXPECT_THAT(reports(imported("houdini", "Premise: A\nRule 1: A=>FA\n")),
+              Contains(HasSubstr("2:10 found `=>`")));
   EXPECT_THAT(reports(imported("houdini", "dear all\n")), Contains(HasSubstr("found no rule")));
 }
 
@@ -111,7 +132,7 @@ TEST(Houdini, RefusesUnknownTextAtItsLineAndColumn) {
   EXPECT_THAT(fault("A = F(q)\n"), StartsWith("2:7 unknown name `q`"));
   EXPECT_THAT(fault("A=F\n  Generations: 99999\n"), StartsWith("3:16 expected generations"));
   EXPECT_THAT(fault("A=F\nRandom Seed: 0.5\n"), StartsWith("3:14 expected a random seed"));
-  EXPECT_THAT(fault("A=F\nangle=30\n"), StartsWith("3:6 found `=` behind a parameter; expected a colon"));
+  EXPECT_THAT(fault("A=F\nangle=wide\n"), StartsWith("3:7 expected a number"));
   EXPECT_THAT(fault("A=F\nAngle: 4000\n"), StartsWith("3:8 "));
   EXPECT_THAT(reports(imported("houdini", "A=F\n")), Contains(HasSubstr("no premise")));
 }

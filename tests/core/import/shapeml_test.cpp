@@ -198,8 +198,67 @@ TEST(Shapeml, MakesPlansWithWings) {
   // Two wings of 8 m, and 6 m of a connection that is 2.5 m wide.
   EXPECT_EQ(faces_of_plan("shapeH(3, 2.5, 1, 0.25)", 47),
             (Faces{{"F_", 3}, {"B_", 3}, {"L_", 3}, {"R_", 3}}));
-  EXPECT_THAT(reports(imported("shapeml", "rule Axiom = { shapeT(1, 2, 0.5) A_ };")),
-              Contains(HasSubstr("no rule, and no operation")));
+  // A bar of 2 m at the back, and a wing of 3 m at 0.4 of the 7 m left: 20 + 18.
+  EXPECT_EQ(faces_of_plan("shapeT(2, 3, 0.4)", 38), (Faces{{"F_", 3}, {"B_", 1}, {"L_", 2}, {"R_", 2}}));
+  // The triangle has half of the area. Its corners are seen from above, with y to the back.
+  EXPECT_EQ(faces_of_plan("polygon(0, 0, 5, 0, 0, 1)", 40).count("F_"), 1U);
+}
+
+TEST(Shapeml, MakesSolidsThatTouchAllSidesOfTheirScope) {
+  // Source: geometry/primitives.cc; the first side is at the front, and the mesh is stretched to the scope.
+  const auto volume_is = [](const std::string& solid, const std::string& area) {
+    const auto result =
+        imported("shapeml", "rule Axiom = { size(10, 10, 10) [ " + solid + " S ] };\nrule S :: abs(area - (" +
+                                area + ")) < 0.001 = { Yes_ };\nrule S :: !(abs(area - (" + area +
+                                ")) < 0.001) = { No_ };\n");
+    return leaves_of(result).count("Yes_") == 1;
+  };
+  EXPECT_TRUE(volume_is("cylinder(4, 1, 1)", "600"));
+  EXPECT_TRUE(volume_is("circle(4)", "100"));
+  EXPECT_TRUE(volume_is("disk(4, 3)", "100"));
+  EXPECT_TRUE(volume_is("coneFlat(4, 1, 1)", "100 + 4 * 5 * sqrt(125)"));
+  // The front of a prism of three sides is a wall as wide as the scope.
+  const auto result =
+      imported("shapeml",
+               "rule Axiom = { size(6, 4, 9) cylinder(3, 1, 1) splitFace(\"front\", { F } ) };\n"
+               "rule F :: abs(size_x - 6) < 0.001 = { Wide_ };\n");
+  EXPECT_EQ(leaves_of(result), (std::map<std::string, int>{{"Wide_", 1}}));
+  const auto ring =
+      imported("shapeml", "rule Axiom = { torus(4, 2, 19, 13) [ splitFace(\"all\", { T_ }) ] };");
+  EXPECT_EQ(leaves_of(ring), (std::map<std::string, int>{{"T_", 19 * 13}}));
+}
+
+TEST(Shapeml, CountsFacesAndRepetitions) {
+  const auto result = imported(
+      "shapeml",
+      "rule Axiom = { size(4, 4, 4) [ cube splitFace(\"vertical\", { T }) ] repeat(5, { quad R }) };\n"
+      "rule T :: index % 2 == 0 = { Even_ };\nrule T :: index % 2 == 1 = { Odd_ };\n"
+      "rule R :: index == 4 = { Last_ };\nrule R :: index < 4 = { Other_ };\n");
+  ASSERT_TRUE(result) << reports(result)[0];
+  EXPECT_THAT(reports(result), IsEmpty());
+  const std::map<std::string, int> expected = {{"Even_", 2}, {"Last_", 1}, {"Odd_", 2}, {"Other_", 4}};
+  EXPECT_EQ(leaves_of(result), expected);
+}
+
+TEST(Shapeml, CutsQuotientsOfIntegers) {
+  const auto result =
+      imported("shapeml",
+               "const seven = 7; param half = 0.5; const three = seven / 2;\n"
+               "rule Axiom = { sizeX(7 / 2) sizeY(1 + seven / 2 * half) sizeZ(7.0 / 2) cube A_ "
+               "size(three, 9 / half, 2 * 3 + rand_int(5, 5) / 2) B_ };\n");
+  ASSERT_TRUE(result) << reports(result)[0];
+  const json derived = json::parse(*derive(result->request, {}));
+  std::map<std::string, json> sizes;
+  for (const json& shape : derived.at("shapes")) sizes[shape.at("symbol")] = shape.at("scope").at("size");
+  EXPECT_EQ(sizes["A_"], json({3, 2.5, 3.5}));
+  EXPECT_EQ(sizes["B_"], json({3, 18, 8}));
+}
+
+TEST(Shapeml, HidesWhatFollowsUntilItIsShown) {
+  const auto result =
+      imported("shapeml", "rule Axiom = { cube [ hide A_ Inside show B_ ] C_ };\nrule Inside = { D_ };\n");
+  ASSERT_TRUE(result) << reports(result)[0];
+  EXPECT_EQ(leaves_of(result), (std::map<std::string, int>{{"B_", 1}, {"C_", 1}}));
 }
 
 TEST(Shapeml, ReportsBracketsWithoutPartners) {
@@ -212,7 +271,7 @@ TEST(Shapeml, ReportsBracketsWithoutPartners) {
 }
 
 TEST(Shapeml, ReportsWhatHasNoCounterpart) {
-  EXPECT_THAT(reports(imported("shapeml", "rule Axiom = { torus(1, 2, 3, 4) A_ };")),
+  EXPECT_THAT(reports(imported("shapeml", "rule Axiom = { rotate(1, 0, 0, 30) A_ };")),
               Contains(HasSubstr("no rule, and no operation")));
   EXPECT_THAT(reports(imported("shapeml", "rule Axiom = { ^other };")),
               Contains(HasSubstr("no rule, and no operation")));

@@ -183,6 +183,54 @@ TEST(TreeGen, ReadsTheBasesAndAnglesOfNewerVersionsOfSapling) {
   EXPECT_EQ(parameters.at("AttractionUp"), 0);
 }
 
+TEST(TreeGen, TakesTheCrownShapeThatIsMostSimilarToSaplingsOwn) {
+  const auto made = [](const std::string& custom) {
+    return imported(
+        "tree_gen",
+        "{'shape': '8', 'baseSize': 0.4, 'length': (1.0, 0.4, 0.4, 0.3),\n'customShape': " + custom + "}");
+  };
+  // A cylinder of 0.6 of the length, and lengths that rise from a half to 1 at 0.3 and fall to a half again.
+  const auto cylinder = made("(0.6, 0.6, 0.5, 0.6)");
+  ASSERT_TRUE(cylinder) << reports(cylinder)[0];
+  EXPECT_EQ(parameters_of(cylinder)["Shape"], 3);
+  EXPECT_NEAR(double{parameters_of(cylinder)["1Length"]}, 0.24, 1e-9);
+  EXPECT_THAT(reports(cylinder), Contains(HasSubstr("1:11 shape 8 of Sapling")));
+  EXPECT_EQ(parameters_of(made("(0.5, 1.0, 0.3, 0.5)")).value("Shape", 7), 7);
+}
+
+/// Stems of each level and leaves of a file.
+std::vector<double> counts_of(const std::string& file) {
+  const auto result = imported("tree_gen", file);
+  EXPECT_TRUE(result) << reports(result)[0];
+  if (!result) return {};
+  const nlohmann::json tree = nlohmann::json::parse(*derive(result->request, {}));
+  std::vector<double> counts;
+  for (const nlohmann::json& level : tree.at("levels")) counts.push_back(level.at("count"));
+  counts.push_back(tree.at("leaves"));
+  return counts;
+}
+
+TEST(TreeGen, HasAsManyLimbsAndLeavesAsSapling) {
+  // The numbers are those of Sapling's own script with these values.
+  const std::string same = "'prune': False, 'ratio': 0.015, 'ratioPower': 1.2, 'scaleV': 0.0";
+  const std::vector<double> three = counts_of(
+      "{'shape': '7', 'shapeS': '4', 'levels': 3, 'scale': 10.0, 'branches': (0, 40, 12, 0), 'leaves': 20, "
+      "'leafDist': '6', 'baseSize': 0.3, 'baseSize_s': 0.5, 'length': (1.0, 0.4, 0.5, 0.4), 'curveRes': "
+      "(6, 4, 3, 1), " +
+      same + "}");
+  ASSERT_EQ(three.size(), 4U);
+  EXPECT_EQ(three[1], 28);
+  EXPECT_NEAR(three[2], 233, 0.05 * 233);
+  EXPECT_NEAR(three[3], 1847, 0.15 * 1847);
+  const std::vector<double> two = counts_of(
+      "{'shape': '4', 'levels': 2, 'scale': 8.0, 'branches': (0, 31, 10, 0), 'leaves': 33, 'leafDist': '4', "
+      "'baseSize': 0.45, 'baseSize_s': 0.25, 'length': (1.0, 0.3, 0.5, 0.4), 'curveRes': (6, 5, 3, 1), " +
+      same + "}");
+  ASSERT_EQ(two.size(), 3U);
+  EXPECT_EQ(two[1], 17);
+  EXPECT_NEAR(two[2], 275, 0.05 * 275);
+}
+
 TEST(TreeGen, KeepsTheSignsOfOlderVersionsOfSapling) {
   const nlohmann::json parameters = parameters_of(imported(
       "",

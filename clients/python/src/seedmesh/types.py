@@ -1290,7 +1290,7 @@ TreeParameters = TypedDict("TreeParameters", {
     'sway': "TreeParametersSway",
     'Leaves': int,
     'LeafDistrib': int,
-    'counting': Literal['paper', 'arbaro'],
+    'counting': Literal['paper', 'arbaro', 'sapling'],
     'LeafScale': float,
     'LeafScaleX': float,
     'LeafBend': float,
