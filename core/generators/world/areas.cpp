@@ -58,6 +58,7 @@ class AreaFinder {
       guess_works();
     }
     leave_out_absent_plants();
+    for (Area& area : areas_) area.has_valleys = !is_coarse;
     Areas found{std::move(areas_), spacing_, {}, !is_coarse || side_ <= widest_known_rivers, !is_coarse};
     for (int d = 0; (1 << d) <= count_; ++d)
       found.deviations.push_back(deviations_of_tiles(grid_, 1 << d, job_));
@@ -87,6 +88,20 @@ class AreaFinder {
     for (int row = south; row <= north; ++row) {
       for (int column = west; column <= east; ++column) visit(at(column, row));
     }
+  }
+
+  /// Notes that the ground within `reach` of a rectangle is cut down to a height.
+  void cut(const Rectangle& r, double reach, double height) {
+    for_areas(r, reach, [&](Area& area) {
+      area.lowest = std::min(area.lowest, height);
+      const auto place = static_cast<int>(&area - areas_.data());
+      const Rectangle own = box_of(place % count_, place / count_);
+      const std::array<double, 4> inside{r.west - own.west, r.south - own.south, own.east - r.east,
+                                         own.north - r.north};
+      for (std::size_t k = 0; k < 4; ++k) {
+        if (inside[k] <= reach) area.border_cuts[k] = std::min(area.border_cuts[k], height);
+      }
+    });
   }
 
   void add_samples() {
@@ -124,14 +139,9 @@ class AreaFinder {
   void add_sample(const GroundSample& sample, int i, int j) {
     grid_.heights[grid_.index_of(i, j)] = sample.height;
     for_areas_of(i, j, [&](Area& area, int column, int row) {
-      area.low = std::min(area.low, sample.height);
-      area.high = std::max(area.high, sample.height);
       const std::array<bool, 4> is_border{i == column * cells_, j == row * cells_, i == (column + 1) * cells_,
                                           j == (row + 1) * cells_};
-      for (std::size_t k = 0; k < 4; ++k) {
-        if (is_border[k]) area.borders[k] = std::min(area.borders[k], sample.height);
-      }
-      area.rough.add(sample);
+      area.add(sample, is_border);
     });
     add_plants(sample, i, j);
   }
@@ -162,7 +172,10 @@ class AreaFinder {
         grid_.heights[first + k] = static_cast<double>(land.height[k]);
         ruggedness_[first + k] = land.ruggedness[k];
       }
-      for (int column = 0; column < count_; ++column) add_to_areas(part_of(land, column), column, j);
+      for (int column = 0; column < count_; ++column) {
+        const auto west = static_cast<std::size_t>(column * cells_);
+        add_to_areas(area_of_row(land, west, west + static_cast<std::size_t>(cells_)), column, j);
+      }
       for (int i = 0; j % plant_stride_ == 0 && i <= last; i += plant_stride_) {
         GroundSample sample;
         sample.height = grid_.at(i, j);
@@ -175,39 +188,11 @@ class AreaFinder {
     }
   }
 
-  /// The samples of a row that are in a column of areas.
-  Area part_of(const LandRow& land, int column) const {
-    const auto from = static_cast<std::ptrdiff_t>(column) * cells_, to = from + cells_ + 1;
-    const auto greatest = [&](const std::vector<float>& all) {
-      float most = 0;
-      for (std::ptrdiff_t k = from; k < to; ++k) most = std::max(most, all[static_cast<std::size_t>(k)]);
-      return static_cast<double>(most);
-    };
-    Area part;
-    const auto [low, high] = std::minmax_element(land.height.begin() + from, land.height.begin() + to);
-    part.low = static_cast<double>(*low);
-    part.high = static_cast<double>(*high);
-    part.borders[0] = static_cast<double>(land.height[static_cast<std::size_t>(from)]);
-    part.borders[2] = static_cast<double>(land.height[static_cast<std::size_t>(to - 1)]);
-    part.rough.ruggedness = greatest(land.ruggedness);
-    for (std::size_t n = 0; n < land.ridges.size(); ++n) part.rough.ridges[n] = greatest(land.ridges[n]);
-    const float coast = *std::min_element(land.coast.begin() + from, land.coast.begin() + to);
-    part.rough.has_sea_floor = static_cast<double>(coast) < sea_floor_coast;
-    return part;
-  }
-
   void add_to_areas(const Area& part, int column, int j) {
     const int last_row = std::min(j / cells_, count_ - 1);
     for (int row = std::max(0, last_row - (j % cells_ == 0 ? 1 : 0)); row <= last_row; ++row) {
       if (j > (row + 1) * cells_) continue;
-      Area& area = at(column, row);
-      area.low = std::min(area.low, part.low);
-      area.high = std::max(area.high, part.high);
-      for (const std::size_t k : {std::size_t{0}, std::size_t{2}})
-        area.borders[k] = std::min(area.borders[k], part.borders[k]);
-      if (j == row * cells_) area.borders[1] = part.low;
-      if (j == (row + 1) * cells_) area.borders[3] = part.low;
-      area.rough.add(part.rough);
+      at(column, row).add(part, j == row * cells_, j == (row + 1) * cells_);
     }
   }
 
@@ -276,8 +261,7 @@ class AreaFinder {
       const double bed = 0.5 + 0.045 * std::max(a.width, b.width);
       // a valley that is cut deeper is wider
       const double wide = std::clamp(60 + 5 * std::max(a.cut, b.cut), 500.0, valley_reach);
-      for_areas(around, is_coarse ? wide : b.width,
-                [&](Area& area) { area.lowest = std::min(area.lowest, b.water - bed); });
+      cut(around, is_coarse ? wide : b.width, b.water - bed);
       if (is_coarse) carve(grid_, land, reach, wide);
       for_areas(around, b.width, [&](Area& area) {
         area.highest = std::max(area.highest, a.water + highest_lift);
@@ -288,8 +272,7 @@ class AreaFinder {
     for (const Lake& lake : water.lakes()) {
       const double far = 1.3 * lake.radius;
       const Rectangle around{lake.east - far, lake.north - far, lake.east + far, lake.north + far};
-      for_areas(around, is_coarse ? valley_reach : 0,
-                [&](Area& area) { area.lowest = std::min(area.lowest, lake.level - lake.depth); });
+      cut(around, is_coarse ? valley_reach : 0, lake.level - lake.depth);
       if (is_coarse) carve(grid_, land, lake);
       for_areas(around, 0, [&](Area& area) {
         area.highest = std::max(area.highest, lake.level + 0.5);
@@ -307,16 +290,17 @@ class AreaFinder {
     for (int row = 0; row < count_; ++row) {
       for (int column = 0; column < count_; ++column) {
         Area& area = at(column, row);
-        double floor = relief.sea_level;
-        if (!relief.sea) {
-          floor = area.low;
-          for (int j = std::max(0, row - 1); j <= std::min(count_ - 1, row + 1); ++j) {
-            for (int i = std::max(0, column - 1); i <= std::min(count_ - 1, column + 1); ++i)
-              floor = std::min(floor, found[static_cast<std::size_t>(j * count_ + i)].low);
+        double low = area.low, high = area.high;  // of the squares around
+        for (int j = std::max(0, row - 1); j <= std::min(count_ - 1, row + 1); ++j) {
+          for (int i = std::max(0, column - 1); i <= std::min(count_ - 1, column + 1); ++i) {
+            low = std::min(low, found[static_cast<std::size_t>(j * count_ + i)].low);
+            high = std::max(high, found[static_cast<std::size_t>(j * count_ + i)].high);
           }
         }
+        const double floor = (relief.sea ? relief.sea_level : low) - 16;
         area.rough.valley = guessed_valley(area.high - area.low);
-        area.lowest = std::max(floor - 16, area.low - area.rough.valley);
+        area.lowest = std::max(floor, area.low - area.rough.valley);
+        area.border_cuts.fill(std::max(floor, area.low - guessed_valley(high - low)));
       }
     }
   }
@@ -326,8 +310,8 @@ class AreaFinder {
     for (const RoadPiece& p : ground.road_pieces()) {
       const Rectangle around{std::min(p.from_east, p.to_east), std::min(p.from_north, p.to_north),
                              std::max(p.from_east, p.to_east), std::max(p.from_north, p.to_north)};
+      cut(around, works_reach, std::min(p.from_height, p.to_height) - 0.5);
       for_areas(around, works_reach, [&](Area& area) {
-        area.lowest = std::min({area.lowest, p.from_height - 0.5, p.to_height - 0.5});
         area.highest = std::max({area.highest, p.from_height + 1, p.to_height + 1});
         area.rough.works = std::max(area.rough.works, 1.3 * std::max(p.from_works, p.to_works) + 0.5);
       });
@@ -346,12 +330,17 @@ class AreaFinder {
   /// Roads follow the ground, so their works are small where the ground is level.
   void guess_works() {
     const bool knows_sites = side_ <= widest_known_rivers;
+    const auto sink = [](Area& area, double by) {
+      area.lowest = std::min(area.lowest, area.low - by);
+      for (std::size_t k = 0; k < 4; ++k)
+        area.border_cuts[k] = std::min(area.border_cuts[k], area.borders[k] - by);
+    };
     const HouseExtent houses = house_extent(world_);  // also covers the ground of streets and yards
     if (knows_sites) {
       for (const auto& site : sites_near(world_, box(), farm_reach * greatest_radius(world_), job_)) {
         const double reach = farm_reach * site->radius;
         for_areas({site->east, site->north, site->east, site->north}, reach, [&](Area& area) {
-          area.lowest = std::min(area.lowest, area.low - most_cellar);
+          sink(area, most_cellar);
           area.highest = std::max(area.highest, area.high + houses.up);
         });
       }
@@ -359,7 +348,7 @@ class AreaFinder {
     for (Area& area : areas_) {
       const double works = std::min(most_works, 0.2 * (area.high - area.low) + 0.5);
       if (spacing_ < coarse_spacing) area.rough.works = std::max(area.rough.works, works);
-      area.lowest = std::min(area.lowest, area.low - (knows_sites ? works : std::max(works, most_cellar)));
+      sink(area, knows_sites ? works : std::max(works, most_cellar));
       area.highest = std::max(area.highest, area.high + (knows_sites ? works : std::max(works, houses.up)));
     }
   }
@@ -377,11 +366,6 @@ class AreaFinder {
 };
 
 }  // namespace
-
-int cells_a_link(const World& world, int root_level) {
-  if (root_level == 0) return world.levels > 12 ? 32 : 16;
-  return root_level == levels_a_block ? 32 : 8;
-}
 
 Areas areas_below(const World& world, const TileKey& root, int depth, Job& job) {
   return AreaFinder(world, root, depth, job).areas();

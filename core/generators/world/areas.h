@@ -1,10 +1,8 @@
 #pragma once
 /// The contents of the tiles of one file of a tileset, measured with one grid of samples; used by bounds.cpp.
-#include <algorithm>
-#include <array>
 #include <vector>
 
-#include "core/generators/world/error_model.h"
+#include "core/generators/world/area.h"
 #include "core/generators/world/world.h"
 
 namespace seedmesh::world {
@@ -15,18 +13,10 @@ constexpr double coarse_spacing = 128;
 
 /// Cells of the grid of samples along the side of a link, which is a tile of the lowest level of a file. The root has
 /// the widest links and is made once.
-int cells_a_link(const World& world, int root_level);
-
-/// The measurements in a square.
-struct Area {
-  double low = 1e12, high = -1e12;
-  std::array<double, 4> borders{1e12, 1e12, 1e12, 1e12};  ///< lowest at the west, south, east and north
-  double lowest = 1e12, highest = -1e12;                  ///< height range of water, roads and houses
-  Roughness rough;
-  double plant_height = 0;  ///< height of the tallest class that may grow here
-
-  double border() const { return *std::min_element(borders.begin(), borders.end()); }
-};
+inline int cells_a_link(const World& world, int root_level) {
+  if (root_level == 0) return world.levels > 10 ? 32 : 16;
+  return root_level == levels_a_block ? 32 : 8;
+}
 
 /// The measurements in the tiles below a tile. Rows run from the south.
 struct Areas {

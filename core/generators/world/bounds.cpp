@@ -95,28 +95,15 @@ double error_of(const World& world, const TileFrame& frame, const Roughness& rou
   return std::max(ground, plants) + frame.step;
 }
 
-/// The measurements of the square that four squares form.
-Area joined(const Area& sw, const Area& se, const Area& nw, const Area& ne) {
-  Area all = sw;
-  all.rough.mesh_deviation = {};
-  for (const Area* area : {&se, &nw, &ne}) {
-    all.low = std::min(all.low, area->low);
-    all.high = std::max(all.high, area->high);
-    all.lowest = std::min(all.lowest, area->lowest);
-    all.rough.add(area->rough);
-    all.plant_height = std::max(all.plant_height, area->plant_height);
-  }
-  all.borders = {std::min(sw.borders[0], nw.borders[0]), std::min(sw.borders[1], se.borders[1]),
-                 std::min(se.borders[2], ne.borders[2]), std::min(nw.borders[3], ne.borders[3])};
-  return all;
-}
-
 /// Whether tiles show the sea.
 bool has_sea(const World& world) { return world.params.relief.sea && world.has(Layer::water); }
 
-/// The lowest that the own skirt of a tile hangs. `between`: how far ground can be below samples.
-double own_skirt(const World& world, const TileFrame& frame, const Area& area, double between) {
-  return std::min(area.border() - between, area.lowest) - most_skirt(world, frame, area.rough) -
+/// The lowest that the own skirt of a tile hangs. `spacing`: of the samples of the block. `between`: how far ground can
+/// be below samples. Vertices at the border of a tile that are no samples can be rougher than those that are.
+double own_skirt(const World& world, const TileFrame& frame, const Area& area, double spacing,
+                 double between) {
+  const Roughness rough = frame.spacing < spacing ? area.rough : area.rough_border();
+  return std::min(area.border() - between, area.border_cut()) - most_skirt(world, frame, rough) -
          2 * frame.step;
 }
 
@@ -180,7 +167,7 @@ TileBounds link_bounds(const World& world, const TileKey& key, const Area& area,
     high = std::max(high, area.high + between + plants.up);
     low = std::min(low, area.low - below - plants.down);
   }
-  low = std::min(low, own_skirt(world, frame, area, below));
+  low = std::min(low, own_skirt(world, frame, area, spacing, below));
   TileBounds box = in_plan(world, key);
   box.low = rounded_down(low - 2 * frame.step, frame);
   box.high = rounded_up(high + 2 * frame.step, frame);
@@ -197,7 +184,7 @@ TileBounds bounds_above(const World& world, const TileKey& key, const Area& area
   const auto [below_samples, above_samples] = frame.spacing < spacing
                                                   ? margins(world, spacing, area.rough)
                                                   : detail_margins(world, spacing, area.rough);
-  box.low = own_skirt(world, frame, area, below_samples);
+  box.low = own_skirt(world, frame, area, spacing, below_samples);
   box.high = -1e12;
   for (const TileBounds* child : below) {
     box.low = std::min(box.low, child->low);

@@ -28,8 +28,9 @@ std::uint64_t key_of(const World& world, int plant_class) {
 struct CoverOctave {
   double wavelength = 0, amplitude = 0;
 };
-/// Wooded country, woods, clearings and ragged edges.
-constexpr std::array<CoverOctave, 4> cover_octaves{{{4300, 0.5}, {870, 0.75}, {190, 0.35}, {52, 0.12}}};
+/// Wooded and open country, forests, woods, clearings and ragged edges.
+constexpr std::array<CoverOctave, 5> cover_octaves{
+    {{19000, 0.42}, {4300, 0.5}, {870, 0.75}, {190, 0.35}, {52, 0.12}}};
 constexpr double lone_share = 0.012;  ///< share of candidates outside of woods
 constexpr double edge_low = -0.1, edge_high = 0.16;
 
@@ -38,7 +39,7 @@ double cover_at(std::uint64_t key, double density, double east, double north, do
   if (density <= 0) return 0;
   // fitted so that woods cover this share of wide areas
   const double more = density - 0.5;
-  double sum = 0.03 + 0.75 * more + 5 * more * more * more * more * more, left = 0, hidden = 0;
+  double sum = 0.03 + 0.81 * more + 5.4 * more * more * more * more * more, left = 0, hidden = 0;
   for (const CoverOctave& o : cover_octaves) left += 1.1 * o.amplitude;
   for (std::size_t k = 0; k < cover_octaves.size(); ++k) {
     const auto [wavelength, amplitude] = cover_octaves[k];

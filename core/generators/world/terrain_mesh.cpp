@@ -12,11 +12,11 @@ namespace seedmesh::world {
 namespace {
 
 constexpr double border_share = 0.9;     ///< the greatest deviation along a line, by that of an area
-constexpr double far_share = 0.9;        ///< the same for tiles three levels coarser
+constexpr double far_share = 0.9;        ///< the same for the coarsest tiles beside it
 constexpr double unusual = 1.15;         ///< share of the usual skirt: the deepest that boxes include
 constexpr double widest_fine_rise = 64;  ///< metres
 constexpr double fine_share = 0.7;       ///< share of normals that follow the slope of finer levels
-constexpr double rounding_steps = 9;     ///< steps by which heights of tiles three levels coarser are rounded
+constexpr double rounding_steps = 9;     ///< steps by which heights of the coarsest tiles beside it are rounded
 
 /// Rises by a metre east and north.
 struct Rise {
@@ -66,7 +66,7 @@ TileVertex vertex_of(const World& world, const GroundColors& colors, const TileF
 }
 
 double usual_skirt(const World& world, const TileFrame& frame, const Roughness& rough) {
-  return far_share * deviation_of(world, far_spacing(frame.side), rough) +
+  return far_share * deviation_of(world, far_spacing(world, frame.side), rough) +
          border_share * deviation_of(world, frame.spacing, rough) + rounding_steps * frame.step;
 }
 
@@ -112,7 +112,7 @@ void add_skirt(std::vector<TileVertex>& vertices, int count, double skirt, doubl
 double skirt_depth(const World& world, int level, const TerrainGrid& grid) {
   const TileFrame frame = frame_of(world, {level, 0, 0});
   const int last = grid.count - 1;
-  const int widest = math::to_int32(far_spacing(frame.side) / frame.spacing);
+  const int widest = math::to_int32(far_spacing(world, frame.side) / frame.spacing);
   Roughness rough;
   double most = 0, lowest_land = 1e12, highest_land = -1e12;
   for (int side = 0; side < 4; ++side) {
@@ -145,6 +145,7 @@ double skirt_depth(const World& world, int level, const TerrainGrid& grid) {
 }
 
 double most_skirt(const World& world, const TileFrame& frame, Roughness rough) {
+  if (!world.has(Layer::terrain)) return 0;
   rough.mesh_deviation = {};  // no tile depends on it, and skirts cover the gaps to neighbours
   return unusual * usual_skirt(world, frame, rough);
 }

@@ -19,7 +19,7 @@ TerrainMesh terrain_mesh(const World& world, const TileFrame& frame, const Terra
 /// Returns the depth in metres of the skirt of a tile of a level. It hides gaps beside tiles of up to three levels
 /// coarser or finer. `grid` is that of the tile.
 double skirt_depth(const World& world, int level, const TerrainGrid& grid);
-/// Returns a bound of the depths of skirts in an area.
+/// Returns a bound of the depths of skirts in an area; 0 where tiles do not show the terrain.
 double most_skirt(const World& world, const TileFrame& frame, Roughness roughness);
 
 /// Returns `height` minus `base` in whole steps, within 16 bits.

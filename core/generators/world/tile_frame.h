@@ -1,5 +1,6 @@
 #pragma once
 /// The position of a tile on the plane, and its step of quantization.
+#include <algorithm>
 #include <cstdint>
 
 #include "core/generators/world/world.h"
@@ -24,8 +25,12 @@ constexpr double dense_side = 8192;  ///< metres; of the tiles that have `dense_
 /// tilesets less.
 constexpr int cells_of(double side) { return side == dense_side ? dense_cells : tile_cells; }
 
-/// Returns the metres between the samples of tiles three levels above those with this side.
-constexpr double far_spacing(double side) { return 8 * side / cells_of(8 * side); }
+/// Returns the metres between the samples of the coarsest tiles that can be beside a tile: those three levels above it,
+/// or tiles of level 1, because the root covers the whole world.
+inline double far_spacing(const World& world, double side) {
+  const double far = std::max(side, std::min(8 * side, world.extent / 2));
+  return far / cells_of(far);
+}
 
 /// Returns the frame of a tile.
 inline TileFrame frame_of(const World& world, const TileKey& key) {
