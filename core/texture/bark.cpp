@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <vector>
 
+#include "core/base/wide.h"
 #include "core/texture/cells.h"
 #include "core/texture/noise.h"
 
@@ -26,6 +28,25 @@ struct Plates {
   float roughen;   ///< share of the grain
 };
 
+/// The input of a row of bark: up to two sizes of cells, and noises. Barks use those that they name.
+struct BarkInput {
+  CellRows::Row cell, flake;
+  const float *fine, *large, *gap;
+};
+
+SEEDMESH_WIDE void paint_plates(const BarkInput& in, const Plates& plates, int size, float* __restrict height,
+                                float* __restrict tone) {
+  for (int x = 0; x < size; ++x) {
+    const float shade = in.cell.shade[x], fine = in.fine[x];
+    const float flat = step_between(0.01F, plates.crack, in.cell.border[x]);
+    const float own = 1 - plates.differ * shade;
+    height[x] = clamp_share(flat * own * (1 - plates.roughen) +
+                            plates.roughen * (0.5F + fine) * (0.35F + 0.65F * flat));
+    tone[x] = clamp_share(0.08F + 0.62F * height[x] + 0.25F * fine + 0.22F * in.large[x] +
+                          0.3F * plates.differ * (shade - 0.5F));
+  }
+}
+
 Relief plated(const Plates& plates, int size, Rng rng, const Job& job) {
   const Field wobble = field_of({size, plates.wobble, {4, 0.55F}, 1, rng.at("wobble")}, size, job);
   const Cells cells(size, plates.lattice, rng.at("plates"));
@@ -34,20 +55,9 @@ Relief plated(const Plates& plates, int size, Rng rng, const Job& job) {
     CellRows cell_rows(cells, wobble, plates.strength);
     NoiseRows grain_rows(grain_noise), patch_rows(patch_noise);
     for (int y = begin; y < end; ++y) {
-      const CellRows::Row cell = cell_rows.row(y);
-      const float *border = cell.border, *shade = cell.shade;
-      const float *fine = grain_rows.row(y), *large = patch_rows.row(y);
+      const BarkInput in{cell_rows.row(y), {}, grain_rows.row(y), patch_rows.row(y), nullptr};
       const ReliefRow out = row_at(y);
-      for (int x = 0; x < size; ++x) {
-        const float flat = step_between(0.01F, plates.crack, border[x]);
-        const float own = 1 - plates.differ * shade[x];
-        out.height[x] = clamp_share(flat * own * (1 - plates.roughen) +
-                                    plates.roughen * (0.5F + fine[x]) * (0.35F + 0.65F * flat));
-      }
-      for (int x = 0; x < size; ++x) {
-        out.tone[x] = clamp_share(0.08F + 0.62F * out.height[x] + 0.25F * fine[x] + 0.22F * large[x] +
-                                  0.3F * plates.differ * (shade[x] - 0.5F));
-      }
+      paint_plates(in, plates, size, out.height, out.tone);
     }
   });
 }
@@ -59,6 +69,18 @@ struct Ridges {
   float width;     ///< mean width of the slope from a furrow to a ridge, in ridges
 };
 
+SEEDMESH_WIDE void paint_ridges(const BarkInput& in, const Ridges& kind, int size, float* __restrict height,
+                                float* __restrict tone) {
+  for (int x = 0; x < size; ++x) {
+    const float fine = in.fine[x], gap = in.gap[x], shade = in.cell.shade[x];
+    const float width = kind.width + 0.3F * gap;
+    const float round = step_between(-0.06F, width < 0.07F ? 0.07F : width, in.cell.border[x]);
+    const float flat = round * (1 - 0.28F * shade);
+    height[x] = clamp_share(0.68F * flat + 0.32F * (0.5F + fine) * (0.4F + 0.6F * round));
+    tone[x] = clamp_share(0.14F + 0.5F * height[x] + 0.3F * fine + 0.12F * gap + 0.16F * (shade - 0.5F));
+  }
+}
+
 Relief ridged(const Ridges& kind, int size, Rng rng, const Job& job) {
   const Field wobble = field_of({size, kind.wobble, {4, 0.6F}, 1, rng.at("wobble")}, size, job);
   const Cells ridges(size, kind.ridges, rng.at("ridges"));
@@ -68,17 +90,9 @@ Relief ridged(const Ridges& kind, int size, Rng rng, const Job& job) {
     CellRows ridge_rows(ridges, wobble, kind.strength);
     NoiseRows fibre_rows(fibre_noise), gap_rows(gap_noise);
     for (int y = begin; y < end; ++y) {
-      const CellRows::Row ridge = ridge_rows.row(y);
-      const float *fine = fibre_rows.row(y), *gap = gap_rows.row(y);
+      const BarkInput in{ridge_rows.row(y), {}, fibre_rows.row(y), nullptr, gap_rows.row(y)};
       const ReliefRow out = row_at(y);
-      for (int x = 0; x < size; ++x) {
-        const float width = kind.width + 0.3F * gap[x];
-        const float round = step_between(-0.06F, width < 0.07F ? 0.07F : width, ridge.border[x]);
-        const float flat = round * (1 - 0.28F * ridge.shade[x]);
-        out.height[x] = clamp_share(0.68F * flat + 0.32F * (0.5F + fine[x]) * (0.4F + 0.6F * round));
-        out.tone[x] = clamp_share(0.14F + 0.5F * out.height[x] + 0.3F * fine[x] + 0.12F * gap[x] +
-                                  0.16F * (ridge.shade[x] - 0.5F));
-      }
+      paint_ridges(in, kind, size, out.height, out.tone);
     }
   });
 }
@@ -92,6 +106,21 @@ Relief willow(int size, Rng rng, const Job& job) {
   return ridged({{9, 4}, {9, 3}, {34, 10}, {7, 5}, 0.6F, 0.34F}, size, rng, job);
 }
 
+SEEDMESH_WIDE void paint_flaked_plates(const BarkInput& in, int size, float* __restrict height,
+                                       float* __restrict tone) {
+  for (int x = 0; x < size; ++x) {
+    const float fine = in.fine[x];
+    // Furrows are partly narrow, so that plates stay connected.
+    const float width = 0.12F + 0.2F * (0.5F + in.gap[x]);
+    const float flat = step_between(0.02F, width < 0.08F ? 0.08F : width, in.cell.border[x]);
+    const float layer = 0.62F + 0.3F * in.flake.shade[x] + 0.08F * in.cell.shade[x];
+    height[x] = clamp_share(flat * layer * 0.86F + 0.14F * (0.5F + fine) * (0.3F + 0.7F * flat));
+    const float edge = step_between(0.0F, 0.14F, in.flake.border[x]);
+    tone[x] = clamp_share(0.05F + 0.55F * height[x] + 0.07F * edge + 0.36F * fine + 0.1F * in.large[x] +
+                          0.16F * (in.flake.shade[x] - 0.5F));
+  }
+}
+
 /// Long plates of many sizes between deep furrows, each with overlapping thin flakes.
 Relief pine(int size, Rng rng, const Job& job) {
   const Field wobble = field_of({size, {6, 3}, {5, 0.6F}, 1, rng.at("wobble")}, size, job);
@@ -102,21 +131,10 @@ Relief pine(int size, Rng rng, const Job& job) {
     CellRows plate_rows(plates, wobble, 0.4F), flake_rows(flakes, wobble, 0.75F);
     NoiseRows gap_rows(gap_noise), grain_rows(grain_noise), patch_rows(patch_noise);
     for (int y = begin; y < end; ++y) {
-      const CellRows::Row plate = plate_rows.row(y), flake = flake_rows.row(y);
-      const float *gap = gap_rows.row(y), *fine = grain_rows.row(y), *large = patch_rows.row(y);
+      const BarkInput in{plate_rows.row(y), flake_rows.row(y), grain_rows.row(y), patch_rows.row(y),
+                         gap_rows.row(y)};
       const ReliefRow out = row_at(y);
-      for (int x = 0; x < size; ++x) {
-        // Furrows are partly narrow, so that plates stay connected.
-        const float width = 0.12F + 0.2F * (0.5F + gap[x]);
-        const float flat = step_between(0.02F, width < 0.08F ? 0.08F : width, plate.border[x]);
-        const float layer = 0.62F + 0.3F * flake.shade[x] + 0.08F * plate.shade[x];
-        out.height[x] = clamp_share(flat * layer * 0.86F + 0.14F * (0.5F + fine[x]) * (0.3F + 0.7F * flat));
-      }
-      for (int x = 0; x < size; ++x) {
-        const float edge = step_between(0.0F, 0.14F, flake.border[x]);
-        out.tone[x] = clamp_share(0.05F + 0.55F * out.height[x] + 0.07F * edge + 0.36F * fine[x] +
-                                  0.1F * large[x] + 0.16F * (flake.shade[x] - 0.5F));
-      }
+      paint_flaked_plates(in, size, out.height, out.tone);
     }
   });
 }
@@ -238,16 +256,24 @@ Relief cedar(int size, Rng rng, const Job& job) {
 void repeat_edge(Field& field, const Job& job) {
   constexpr float widest = 0.03F;  // of the fading on each side, as a share of the width
   const int size = field.size();
+  struct Strip {
+    int edge, reach;
+    std::vector<float> shares;  ///< of the edge of the image, by distance
+  };
+  std::vector<Strip> strips;
+  for (float strip = 0.5F; strip >= least_bark_strip; strip *= 0.5F) {
+    const float reach = std::min(widest, 0.5F * strip) * static_cast<float>(size);
+    strips.push_back({static_cast<int>(strip * static_cast<float>(size)), static_cast<int>(reach), {}});
+    for (int off = 0; off <= strips.back().reach; ++off)
+      strips.back().shares.push_back(1 - step_between(0, std::max(reach, 1.0F), static_cast<float>(off)));
+  }
   for_rows(job, size, [&](int begin, int end) {
     for (int y = begin; y < end; ++y) {
       float* row = field.row(y);
-      for (float strip = 0.5F; strip >= least_bark_strip; strip *= 0.5F) {
-        const int edge = static_cast<int>(strip * static_cast<float>(size));
-        const float reach = std::min(widest, 0.5F * strip) * static_cast<float>(size);
-        for (int off = -static_cast<int>(reach); off <= static_cast<int>(reach); ++off) {
-          const float share = 1 - step_between(0, std::max(reach, 1.0F), static_cast<float>(std::abs(off)));
+      for (const auto& [edge, reach, shares] : strips) {
+        for (int off = -reach; off <= reach; ++off) {
           float& texel = row[edge + off];
-          texel += share * (row[(off + size) % size] - texel);
+          texel += shares[static_cast<std::size_t>(std::abs(off))] * (row[(off + size) % size] - texel);
         }
       }
     }

@@ -8,7 +8,8 @@
 namespace seedmesh::texture {
 namespace {
 
-constexpr int lanes = 8;
+/// Two vectors of 256 bits, so that the processor computes one while it waits for the other.
+constexpr int lanes = 16;
 constexpr int margin =
     5;  ///< squares beyond the image that displaced texels can reach, with their neighbours
 

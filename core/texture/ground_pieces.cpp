@@ -7,7 +7,8 @@
 #include <glm/vec2.hpp>
 #include <vector>
 
-#include "core/base/math.h"
+#include "core/base/quick_math.h"
+#include "core/base/wide.h"
 
 namespace seedmesh::texture {
 namespace {
@@ -43,10 +44,44 @@ int floor_of(float v) {
   return static_cast<int>(v + below) - static_cast<int>(below);
 }
 
-/// Calls body(x, y, a, b) for the texels of a patch, with their coordinates -1 .. 1 along both axes. x and y may lie
-/// beyond the image, which repeats.
-template <class Body>
-void each_texel(const Patch& patch, int size, Body&& body) {
+constexpr int lanes = 8;  ///< texels of a row that are computed together
+
+constexpr float absent = -1;  ///< the height of a piece outside of it
+
+/// Texels of a row, from `x` on. `off_y`: from the middle of the patch.
+struct RowPart {
+  int x, count;
+  float middle_x, off_y;
+};
+
+/// The image at the texels of a part.
+struct Lanes {
+  float height[lanes], tone[lanes];
+};
+
+/// Draws texels where the piece is higher than what is there. `at(a, b, height, tone)` computes both by the coordinates
+/// -1 .. 1 along both axes.
+template <class At>
+void draw_lanes(const RowPart& part, const glm::vec2& along, const glm::vec2& across, const At& at,
+                Lanes& there) {
+  for (int k = 0; k < lanes; ++k) {
+    const float off_x = static_cast<float>(part.x + k) + 0.5F - part.middle_x;
+    const float a = off_x * along.x + part.off_y * along.y, b = off_x * across.x + part.off_y * across.y;
+    // Without branches, which the processor could not predict.
+    float own = absent, own_tone = 0;
+    at(a, b, own, own_tone);
+    own = std::abs(a) <= 1 ? own : absent;
+    own = std::abs(b) <= 1 ? own : absent;
+    own = k < part.count ? own : absent;
+    there.tone[k] = own > there.height[k] ? own_tone : there.tone[k];
+    there.height[k] = own > there.height[k] ? own : there.height[k];
+  }
+}
+
+/// Draws the texels of a patch, none of which is higher than `most`. The image repeats in both directions.
+template <class At>
+void draw_patch(const Patch& patch, float most, Relief& relief, const At& at) {
+  const int size = relief.height.size(), last = size - 1;
   const auto scale = static_cast<float>(size);
   const float length = std::max(patch.half_length * scale, 0.5F),
               width = std::max(patch.half_width * scale, 0.5F);
@@ -63,16 +98,34 @@ void each_texel(const Patch& patch, int size, Body&& body) {
     const float low = std::max({-reach_x, lengthwise.low(off_y), crosswise.low(off_y)}) - 0.6F,
                 high = std::min({reach_x, lengthwise.high(off_y), crosswise.high(off_y)}) - 0.4F;
     const int last_x = floor_of(middle.x + high);
-    for (int x = floor_of(middle.x + low); x <= last_x; ++x) {
-      const float off_x = static_cast<float>(x) + 0.5F - middle.x;
-      const float a = off_x * along.x + off_y * along.y, b = off_x * across.x + off_y * across.y;
-      if (std::abs(a) <= 1 && std::abs(b) <= 1) body(x, y, a, b);
+    float *const heights = relief.height.row(y & last), *const tones = relief.tone.row(y & last);
+    for (int x = floor_of(middle.x + low); x <= last_x; x += lanes) {
+      const int begin = x & last;
+      Lanes there;
+      if (begin + lanes <= size) {
+        std::copy_n(heights + begin, lanes, there.height);
+        int lower = 0;
+        for (int k = 0; k < lanes; ++k) lower += there.height[k] < most ? 1 : 0;
+        if (lower == 0) continue;  // the piece is hidden
+        std::copy_n(tones + begin, lanes, there.tone);
+      } else {
+        for (int k = 0; k < lanes; ++k) there.height[k] = heights[(x + k) & last];
+        for (int k = 0; k < lanes; ++k) there.tone[k] = tones[(x + k) & last];
+      }
+      draw_lanes({x, last_x - x + 1, middle.x, off_y}, along, across, at, there);
+      if (begin + lanes <= size) {
+        std::copy_n(there.height, lanes, heights + begin);
+        std::copy_n(there.tone, lanes, tones + begin);
+      } else {
+        for (int k = 0; k < lanes; ++k) heights[(x + k) & last] = there.height[k];
+        for (int k = 0; k < lanes; ++k) tones[(x + k) & last] = there.tone[k];
+      }
     }
   }
 }
 
 glm::vec2 direction(float turns) {
-  const math::SinCos turn = math::sincos(2 * math::pi * static_cast<double>(turns));
+  const math::SinCos turn = math::quick_sincos(2 * math::pi * static_cast<double>(turns));
   return {static_cast<float>(turn.cos), static_cast<float>(turn.sin)};
 }
 
@@ -89,11 +142,10 @@ Patch placed(Rng& own) {
   return patch;
 }
 
-/// Makes the pieces by `make(own)` and draws them by `body(piece, x, y, a, b)` for each of their texels, from the highest
-/// piece to the lowest. Each texel shows its highest piece, so the order changes nothing but the time: most texels of the
-/// lower pieces are hidden already.
-template <class Make, class Body>
-void draw_pieces(int count, int size, const Rng& rng, const Job& job, const Make& make, const Body& body) {
+/// Makes the pieces by `make(own)` and draws them by `draw(piece)`, from the highest piece to the lowest. Each texel shows
+/// its highest piece, so the order changes nothing but the time: most texels of the lower pieces are hidden already.
+template <class Make, class Draw>
+void draw_pieces(int count, const Rng& rng, const Job& job, const Make& make, const Draw& draw) {
   std::vector<decltype(make(rng))> pieces;
   pieces.reserve(static_cast<std::size_t>(count));
   for (int i = 0; i < count; ++i) pieces.push_back(make(rng.at(static_cast<std::uint64_t>(i))));
@@ -102,7 +154,7 @@ void draw_pieces(int count, int size, const Rng& rng, const Job& job, const Make
   int drawn = 0;
   for (const auto& piece : pieces) {
     if (drawn++ % pieces_a_look == 0) job.check();
-    each_texel(piece.patch, size, [&](int x, int y, float a, float b) { body(piece, x, y, a, b); });
+    draw(piece);
   }
 }
 
@@ -166,66 +218,63 @@ Leaf leaf_of(const Pieces& pieces, Rng own) {
   return leaf;
 }
 
+SEEDMESH_WIDE void draw_blade(const Blade& blade, Relief& relief) {
+  const float middle = blade.high;
+  draw_patch(blade.patch, middle, relief, [&](float a, float b, float& height, float& tone) {
+    const float across = std::abs(b) / std::max(0.25F, 1 - 0.7F * std::max(a, 0.0F));
+    const float here = middle * (0.55F + 0.45F * (1 - 0.5F * (1 - a) * (1 - a) * 0.5F)) * (1 - 0.3F * across);
+    height = across <= 1 ? here : absent;
+    tone = blade.tone + 0.12F * a - 0.08F * across - 0.42F * (1 - middle);
+  });
+}
+
+SEEDMESH_WIDE void draw_stone(const Stone& stone, float low, Relief& relief) {
+  const float rise = stone.high - low;
+  draw_patch(stone.patch, stone.high, relief, [&](float a, float b, float& height, float& tone) {
+    float up = std::sqrt(std::max(0.0F, 1 - a * a - b * b));
+    float facet = 0;
+    // Cuts only make a stone lower.
+    for (const glm::vec3& plane : stone.planes) {
+      const float bound = (plane.z * 1.25F - a * plane.x - b * plane.y) * 1.6F;
+      facet = bound < up ? plane.x : facet;
+      up = bound < up ? bound : up;
+    }
+    height = up > 0 ? low + rise * up : absent;
+    tone = stone.tone + 0.1F * facet - 0.25F * (1 - std::min(1.0F, 2 * up));
+  });
+}
+
+SEEDMESH_WIDE void draw_leaf(const Leaf& leaf, Relief& relief) {
+  constexpr float highest = 2;  // heights are at most 1
+  draw_patch(leaf.patch, highest, relief, [&](float a, float b, float& height, float& tone) {
+    // The widest part is nearer to the base than to the tip.
+    const float half_width = (1 - a * a) * (1 - 0.35F * a), off = std::abs(b);
+    const float rib = off < 0.07F ? 0.05F : 0;
+    const float here = clamp_share(leaf.high + leaf.tilt.x * a + leaf.tilt.y * b + leaf.curl * b * b - rib);
+    height = off <= half_width ? here : absent;
+    tone = leaf.tone + 0.9F * (leaf.tilt.x * a + leaf.tilt.y * b) + (rib > 0 ? 0.1F : 0) -
+           0.35F * (1 - leaf.high);
+  });
+}
+
 }  // namespace
 
 void add_blades(Relief& relief, const Pieces& pieces, const Field& clumps, Rng rng, const Job& job) {
-  const auto make = [&](Rng own) { return blade_of(pieces, clumps, own); };
-  draw_pieces(pieces.count, relief.height.size(), rng, job, make,
-              [&](const Blade& blade, int x, int y, float a, float b) {
-                const float middle = blade.high;
-                float& there = relief.height.at(x, y);
-                if (middle <= there) return;
-                const float across = std::abs(b) / std::max(0.25F, 1 - 0.7F * std::max(a, 0.0F));
-                if (across > 1) return;
-                const float height =
-                    middle * (0.55F + 0.45F * (1 - 0.5F * (1 - a) * (1 - a) * 0.5F)) * (1 - 0.3F * across);
-                if (height <= there) return;
-                there = height;
-                relief.tone.at(x, y) = blade.tone + 0.12F * a - 0.08F * across - 0.42F * (1 - middle);
-              });
+  draw_pieces(
+      pieces.count, rng, job, [&](Rng own) { return blade_of(pieces, clumps, own); },
+      [&](const Blade& blade) { draw_blade(blade, relief); });
 }
 
 void add_stones(Relief& relief, const Pieces& pieces, Rng rng, const Job& job) {
-  const auto make = [&](Rng own) { return stone_of(pieces, own); };
-  draw_pieces(pieces.count, relief.height.size(), rng, job, make,
-              [&](const Stone& stone, int x, int y, float a, float b) {
-                float& there = relief.height.at(x, y);
-                if (stone.high <= there) return;
-                const float rise = stone.high - pieces.low;
-                float up = std::sqrt(std::max(0.0F, 1 - a * a - b * b));
-                // Cuts only make a stone lower.
-                if (up <= 0 || pieces.low + rise * up <= there) return;
-                float facet = 0;
-                for (const glm::vec3& plane : stone.planes) {
-                  const float bound = (plane.z * 1.25F - a * plane.x - b * plane.y) * 1.6F;
-                  if (bound < up) {
-                    up = bound;
-                    facet = plane.x;
-                  }
-                }
-                const float height = pieces.low + rise * up;
-                if (up <= 0 || height <= there) return;
-                there = height;
-                relief.tone.at(x, y) = stone.tone + 0.1F * facet - 0.25F * (1 - std::min(1.0F, 2 * up));
-              });
+  draw_pieces(
+      pieces.count, rng, job, [&](Rng own) { return stone_of(pieces, own); },
+      [&](const Stone& stone) { draw_stone(stone, pieces.low, relief); });
 }
 
 void add_leaves(Relief& relief, const Pieces& pieces, Rng rng, const Job& job) {
-  const auto make = [&](Rng own) { return leaf_of(pieces, own); };
-  draw_pieces(pieces.count, relief.height.size(), rng, job, make,
-              [&](const Leaf& leaf, int x, int y, float a, float b) {
-                // The widest part is nearer to the base than to the tip.
-                const float half_width = (1 - a * a) * (1 - 0.35F * a), off = std::abs(b);
-                if (off > half_width) return;
-                float& there = relief.height.at(x, y);
-                const float rib = off < 0.07F ? 0.05F : 0;
-                const float height =
-                    clamp_share(leaf.high + leaf.tilt.x * a + leaf.tilt.y * b + leaf.curl * b * b - rib);
-                if (height <= there) return;
-                there = height;
-                relief.tone.at(x, y) = leaf.tone + 0.9F * (leaf.tilt.x * a + leaf.tilt.y * b) +
-                                       (rib > 0 ? 0.1F : 0) - 0.35F * (1 - leaf.high);
-              });
+  draw_pieces(
+      pieces.count, rng, job, [&](Rng own) { return leaf_of(pieces, own); },
+      [&](const Leaf& leaf) { draw_leaf(leaf, relief); });
 }
 
 }  // namespace seedmesh::texture

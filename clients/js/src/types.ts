@@ -573,8 +573,8 @@ export interface CityParametersBuildingsLandmarksItem {
   position: [number, number];
   /** Counter-clockwise from above. */
   turn?: number;
-  /** lot: the model stands on the lot at its position. block: the whole block there stays one lot. free: lots stay as they are. */
-  plot?: "lot" | "block" | "free";
+  /** lot: the model stands on the lot at its position. block: the whole block there stays one lot. square: the whole block there is a paved square. free: lots stay as they are. */
+  plot?: "lot" | "block" | "square" | "free";
   /** The distance at which trees of parks keep away. */
   radius?: number;
 }
@@ -692,6 +692,8 @@ export interface CityParametersYards {
   models?: Child[];
   /** What stands along the borders between lots, outside of the buildings. */
   border?: "none" | "hedge" | "fence" | "wall";
+  /** Whether the border also closes the front of a lot on both sides of its building, as in streets with closed fronts. */
+  front?: boolean;
   /** The height of hedges, fences and walls. */
   height?: number;
 }

@@ -162,17 +162,31 @@ CoplanarRectangles::Range CoplanarRectangles::Lines::between(std::uint32_t line,
 void CoplanarRectangles::add_plane(std::span<Rect> rects, double tolerance) {
   Plane plane;
   plane.at = rects.front().at;
+  plane.u.reserve(2 * rects.size());
+  plane.v.reserve(2 * rects.size());
   for (const Rect& rect : rects) {
     plane.u.insert(plane.u.end(), {rect.low.x, rect.high.x});
     plane.v.insert(plane.v.end(), {rect.low.y, rect.high.y});
   }
   sort_and_join(plane.u, tolerance);
   sort_and_join(plane.v, tolerance);
-  std::vector<std::uint64_t> by_u, by_v;
   for (Rect& rect : rects) {
     rect.plane = static_cast<std::uint32_t>(planes_.size());
     rect.first = {place_in(plane.u, rect.low.x), place_in(plane.v, rect.low.y)};
     rect.last = {place_in(plane.u, rect.high.x), place_in(plane.v, rect.high.y)};
+  }
+  if (rects.size() > 1) {  // else no other has corners here
+    add_lines(rects, plane);
+    for (Rect& rect : rects) find_sides(rect, plane);
+  }
+  planes_.push_back(std::move(plane));
+}
+
+void CoplanarRectangles::add_lines(std::span<const Rect> rects, Plane& plane) {
+  std::vector<std::uint64_t> by_u, by_v;
+  by_u.reserve(4 * rects.size());
+  by_v.reserve(4 * rects.size());
+  for (const Rect& rect : rects) {
     for (const std::uint32_t u : {rect.first.first, rect.last.first}) {
       for (const std::uint32_t v : {rect.first.second, rect.last.second}) {
         by_u.push_back(corner_key(u, v));
@@ -182,8 +196,6 @@ void CoplanarRectangles::add_plane(std::span<Rect> rects, double tolerance) {
   }
   plane.by_u = lines_of(by_u, plane.u.size());
   plane.by_v = lines_of(by_v, plane.v.size());
-  for (Rect& rect : rects) find_sides(rect, plane);
-  planes_.push_back(std::move(plane));
 }
 
 /// Finds the corners of others on each side of a rectangle, and counts its triangles.
@@ -266,17 +278,18 @@ bool CoplanarRectangles::fill(std::size_t i, BodySurface& surface) const {
   std::vector<Corner> corners;
   ring(rect, corners);
   const Plane& plane = planes_[rect.plane];
-  std::vector<glm::dvec2> flat;
   glm::dvec3 normal(0);
   normal[rect.axis] = 1;
   for (const Corner& corner : corners) {
     surface.position.push_back(place(rect, corner));
     surface.normal.push_back(normal);
-    flat.emplace_back(plane.u[corner.first], plane.v[corner.second]);
   }
   if (corners.size() == 4) {
     surface.index = {0, 1, 2, 0, 2, 3};
   } else {
+    std::vector<glm::dvec2> flat;
+    flat.reserve(corners.size());
+    for (const Corner& corner : corners) flat.emplace_back(plane.u[corner.first], plane.v[corner.second]);
     cut_ears(flat, surface.index);
   }
   for (int side = 0; side < 4; ++side) {

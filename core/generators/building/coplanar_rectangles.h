@@ -63,6 +63,7 @@ class CoplanarRectangles {
 
   std::uint32_t frame_of(const glm::dmat3& axes);
   void add_plane(std::span<Rect> rects, double tolerance);
+  static void add_lines(std::span<const Rect> rects, Plane& plane);
   static Lines lines_of(std::vector<std::uint64_t>& corners, std::size_t count);
   void find_sides(Rect& rect, const Plane& plane) const;
   void ring(const Rect& rect, std::vector<Corner>& corners) const;

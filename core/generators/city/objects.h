@@ -56,6 +56,10 @@ struct BorderPiece {
 /// 0.4 m of a building. Each border occurs once. Cost: n log n in the edges of lots.
 std::vector<BorderPiece> lot_borders(const CityPlan& plan, const Job& job);
 
+/// Returns what is open of the fronts of lots beside their buildings, 0.3 m behind the line of the building's front.
+/// Pieces below 0.2 m are left out. Cost: linear in the corners of lots.
+std::vector<BorderPiece> front_borders(const CityPlan& plan, const Job& job);
+
 /// Returns the distance from a position to a ring, metres.
 double distance_to_ring(const CmRing& ring, const glm::dvec2& metres);
 

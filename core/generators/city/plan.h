@@ -142,7 +142,7 @@ struct Landmark {
   glm::dvec2 position{0};  ///< metres east and north
   double turn = 0;         ///< degrees, counter-clockwise from above
   double radius = 15;      ///< metres around `position` in which no tree of a park stands
-  bool is_block_whole = false, replaces_house = true;
+  bool is_block_whole = false, is_on_square = false, replaces_house = true;
   bool is_given = false;      ///< a footprint of the request
   bool is_too_large = false;  ///< whether it is too large for its lot, which then has no building in the plan
   /// Indices of the lot and of the part below it; no_index: none.

@@ -1,4 +1,3 @@
-// Heights between given ones by McShane's extension, "Extension of range of functions", 1934.
 #include "core/generators/city/surface.h"
 
 #include <algorithm>
@@ -14,7 +13,6 @@ namespace {
 
 using glm::dvec2;
 
-constexpr double slope = 0.5;           // of embankments, rise over run
 constexpr double natural_slope = 0.45;  // of the natural ground within blocks
 constexpr double edge_spacing = 6;      // of vertices along edges, m
 constexpr double same_height = 1e-3;    // m
@@ -80,7 +78,7 @@ Surface::Surface(const CityPlan& plan, double wall_height, Job& job)
   }
   parallel_for(job, grounds_.size(), grounds_a_chunk, [&](std::size_t begin, std::size_t end, std::size_t) {
     job.check();
-    for (std::size_t i = begin; i < end; ++i) collect_border(grounds_[i]);
+    for (std::size_t i = begin; i < end; ++i) limit_border(grounds_[i]);
   });
   water_level_.assign(plan.parts.size(), 0);
   for (std::uint32_t n = 0; n < plan.parts.size(); ++n) {
@@ -206,10 +204,10 @@ std::uint32_t Surface::part_beyond(const CmPoint& a, const CmPoint& b) const {
   return part_of_edge_.value_of(b, a);
 }
 
-/// The outer edges of the streets around a ground, raised and lowered where embankments would be too steep.
-void Surface::collect_border(Ground& ground) const {
+/// The outer edges of the streets around a ground.
+std::vector<BorderPoint> Surface::border_of(const Ground& ground) const {
   std::vector<dvec2> between;
-  std::vector<BorderPoint>& border = ground.border;
+  std::vector<BorderPoint> border;
   const auto add = [&](const Part& street, const dvec2& at) {
     if (!border.empty() && border.back().at == at) return;
     border.push_back({at, street_height(street, at) + kerb_height});
@@ -228,18 +226,16 @@ void Surface::collect_border(Ground& ground) const {
       }
     }
   }
+  return border;
+}
+
+/// The border of a ground, raised and lowered where embankments would be too steep.
+void Surface::limit_border(Ground& ground) const {
+  std::vector<BorderPoint> border = border_of(ground);
+  const BorderHeights given(border);
   std::vector<double> limited;
   limited.reserve(border.size());
-  for (const BorderPoint& p : border) {
-    double low = -1e300, high = 1e300;
-    for (const BorderPoint& q : border) {
-      const double rise = slope * glm::length(q.at - p.at);
-      low = std::max(low, q.height - rise);
-      high = std::min(high, q.height + rise);
-    }
-    const double here = low == p.height && high == p.height ? p.height : (low + high) / 2;
-    limited.push_back(std::max(here, tunnels_.cover(p.at)));
-  }
+  for (const BorderPoint& p : border) limited.push_back(std::max(given.limited(p), tunnels_.cover(p.at)));
   // A wall stands on one side of an edge only.
   for (std::size_t i = 0; i + 1 < border.size(); ++i) {
     const double here = limited[i] - border[i].height, next = limited[i + 1] - border[i + 1].height;
@@ -250,32 +246,11 @@ void Surface::collect_border(Ground& ground) const {
   for (std::size_t i = 0; i < border.size(); ++i) {
     if (std::abs(limited[i] - border[i].height) > same_height) border[i].height = limited[i];
   }
+  ground.border = BorderHeights(std::move(border));
 }
 
 double Surface::ground_height(const Ground& ground, const dvec2& metres) const {
-  const double natural = natural_height(metres);
-  double low = natural, high = natural;
-  for (const BorderPoint& p : ground.border) {
-    const dvec2 off = p.at - metres;
-    const double squared = off.x * off.x + off.y * off.y, above = p.height - natural;
-    if (squared == 0) return p.height;
-    if (above * above <= slope * slope * squared) continue;  // most points; without a square root
-    const double rise = slope * std::sqrt(squared);
-    low = std::max(low, p.height - rise);
-    high = std::min(high, p.height + rise);
-  }
-  // Where the border itself is too steep, the lower points decide.
-  if (low > natural) high = std::min(low, highest_below(ground, metres));
-  return std::max(high, tunnels_.cover(metres));
-}
-
-double Surface::highest_below(const Ground& ground, const dvec2& metres) const {
-  double high = 1e300;
-  for (const BorderPoint& p : ground.border) {
-    const dvec2 off = p.at - metres;
-    high = std::min(high, p.height + slope * std::sqrt(off.x * off.x + off.y * off.y));
-  }
-  return high;
+  return std::max(ground.border.at(metres, natural_height(metres)), tunnels_.cover(metres));
 }
 
 void Surface::limit_natural_ground(const Job& job) {

@@ -6,6 +6,7 @@
 /// A wall then stands between the two.
 #include <span>
 
+#include "core/generators/city/border_heights.h"
 #include "core/generators/city/edge_table.h"
 #include "core/generators/city/markings.h"
 #include "core/generators/city/plan.h"
@@ -54,15 +55,10 @@ class Surface {
   double floor_height(const Footing& footing, double& lowest) const;
 
  private:
-  /// A point of the border of a ground, and its height.
-  struct BorderPoint {
-    glm::dvec2 at{0};
-    double height = 0;
-  };
   /// The ground of a block, or of a part without a block.
   struct Ground {
     std::vector<std::uint32_t> parts;
-    std::vector<BorderPoint> border;
+    BorderHeights border;
   };
 
   /// The further vertices of an edge of a carriageway, from the lesser of its ends to the greater.
@@ -74,9 +70,9 @@ class Surface {
   void divide_carriageways(const Job& job);
   void divide_edge(const CmPoint& from, const CmPoint& to, std::span<const glm::dvec2> points);
   double street_height(const Part& part, const glm::dvec2& metres) const;
-  void collect_border(Ground& ground) const;
+  std::vector<BorderPoint> border_of(const Ground& ground) const;
+  void limit_border(Ground& ground) const;
   double ground_height(const Ground& ground, const glm::dvec2& metres) const;
-  double highest_below(const Ground& ground, const glm::dvec2& metres) const;
   void limit_natural_ground(const Job& job);
   double natural_height(const glm::dvec2& metres) const;
   double level_of_water(const Part& part) const;

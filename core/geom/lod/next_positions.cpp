@@ -91,12 +91,15 @@ void move_sheets(Mesh& mesh, const Mesh& next, const Job& job) {
 }
 
 void move_to_surface(Mesh& mesh, const MeshField& surface, const Job& job) {
-  parallel_for(
-      job, mesh.position.size(), vertices_a_chunk, [&](std::size_t begin, std::size_t end, std::size_t) {
-        job.check();
-        for (std::size_t i = begin; i < end; ++i)
-          mesh.next_position[i] = glm::vec3(surface.nearest(glm::dvec3(mesh.position[i])).point) + 0.0F;
-      });
+  parallel_for(job, mesh.position.size(), vertices_a_chunk,
+               [&](std::size_t begin, std::size_t end, std::size_t) {
+                 job.check();
+                 MeshField::Nearest nearest;
+                 for (std::size_t i = begin; i < end; ++i) {
+                   nearest = surface.nearest(glm::dvec3(mesh.position[i]), nearest.triangle);
+                   mesh.next_position[i] = glm::vec3(nearest.point) + 0.0F;
+                 }
+               });
 }
 
 void fill(MeshGroup& group, const MeshGroup* next, const Job& job) {

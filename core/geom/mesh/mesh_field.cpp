@@ -160,9 +160,14 @@ std::uint32_t MeshField::build(std::uint32_t first, std::uint32_t count, std::ve
   return own;
 }
 
-MeshField::Nearest MeshField::nearest(const glm::dvec3& point) const {
-  glm::dvec3 best = corner(0, 0);
-  double least = glm::dot(best - point, best - point);
+MeshField::Nearest MeshField::nearest(const glm::dvec3& point, std::uint32_t guess) const {
+  // The guess only limits the search, and by a little more than its distance. So the first of several triangles at the
+  // same distance is found, whatever the guess.
+  constexpr double more = 1 + 1e-9, least_limit = 1e-300;
+  const glm::dvec3 on_guess =
+      nearest_on_triangle(point, corner(guess, 0), corner(guess, 1), corner(guess, 2));
+  double least = glm::dot(on_guess - point, on_guess - point) * more + least_limit;
+  Nearest best{on_guess, 0, guess};
   struct Waiting {
     std::uint32_t bvh_node;
     double distance;  ///< squared, to its box
@@ -185,14 +190,20 @@ MeshField::Nearest MeshField::nearest(const glm::dvec3& point) const {
       continue;
     }
     for (std::uint32_t t = bvh_node.first; t < bvh_node.first + bvh_node.count; ++t) {
-      const glm::dvec3 on = nearest_on_triangle(point, corner(t, 0), corner(t, 1), corner(t, 2));
+      const glm::vec3* corners = corner_.data() + 3 * std::size_t{t};
+      const glm::vec3 low = glm::min(glm::min(corners[0], corners[1]), corners[2]);
+      const glm::vec3 high = glm::max(glm::max(corners[0], corners[1]), corners[2]);
+      if (squared_distance(point, low, high) >= least) continue;
+      const glm::dvec3 on = nearest_on_triangle(point, corners[0], corners[1], corners[2]);
       const double distance = glm::dot(on - point, on - point);
       if (distance >= least) continue;
       least = distance;
-      best = on;
+      best.point = on;
+      best.triangle = t;
     }
   }
-  return {best, std::sqrt(least)};
+  best.distance = std::sqrt(glm::dot(best.point - point, best.point - point));
+  return best;
 }
 
 bool MeshField::holds(const glm::dvec3& point) const {

@@ -16,7 +16,8 @@ class MeshField {
  public:
   struct Nearest {
     glm::dvec3 point{0};
-    double distance = 0;  ///< not negative
+    double distance = 0;         ///< not negative
+    std::uint32_t triangle = 0;  ///< that contains the point; a guess for positions nearby
   };
 
   /// Takes all triangles of the model, with node transforms and instances applied; then scales them by
@@ -27,8 +28,9 @@ class MeshField {
   MeshField(std::span<const Mesh* const> meshes, const Job& job);
 
   std::size_t triangles() const { return corner_.size() / 3; }
-  /// Returns the nearest point of the surface. There must be at least one triangle.
-  Nearest nearest(const glm::dvec3& point) const;
+  /// Returns the nearest point of the surface. There must be at least one triangle. The search is faster where the
+  /// triangle `guess` is near; the result does not depend on it.
+  Nearest nearest(const glm::dvec3& point, std::uint32_t guess = 0) const;
   /// True where the point is inside, by the parity of the intersections of a ray. The direction of the ray depends on
   /// the extent of the mesh only and is unlikely to be parallel to an edge.
   bool holds(const glm::dvec3& point) const;

@@ -1,9 +1,8 @@
 #include "core/geom/mesh/weld.h"
 
-#include <meshoptimizer.h>
-
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstring>
 #include <span>
@@ -12,23 +11,59 @@
 namespace seedmesh {
 namespace {
 
+/// The bytes of an attribute.
+struct Stream {
+  const std::byte* data;
+  std::size_t size;  ///< of a vertex: 4, 8, 12 or 16
+  const std::byte* of(std::size_t vertex) const { return data + vertex * size; }
+};
+
 template <class T>
-void add_stream(std::vector<meshopt_Stream>& streams, Array<T>& values) {
-  if (!values.empty()) streams.push_back({values.data(), sizeof(T), sizeof(T)});
+void add_stream(std::vector<Stream>& streams, Array<T>& values) {
+  static_assert(sizeof(T) % 4 == 0 && sizeof(T) <= 16);
+  if (!values.empty()) streams.push_back({reinterpret_cast<const std::byte*>(values.data()), sizeof(T)});
+}
+
+template <class Word>
+Word load(const std::byte* at) {
+  Word word = 0;
+  std::memcpy(&word, at, sizeof(word));
+  return word;
 }
 
 /// Meshes of at most this many vertices compare all pairs, which is faster than a hash table.
 constexpr std::size_t few_vertices = 48;
 
-bool are_equal(const std::vector<meshopt_Stream>& streams, std::size_t a, std::size_t b) {
-  return std::all_of(streams.begin(), streams.end(), [a, b](const meshopt_Stream& stream) {
-    const auto* const bytes = static_cast<const std::byte*>(stream.data);
-    return std::memcmp(bytes + a * stream.stride, bytes + b * stream.stride, stream.size) == 0;
+bool are_equal(const std::vector<Stream>& streams, std::size_t a, std::size_t b) {
+  return std::all_of(streams.begin(), streams.end(), [a, b](const Stream& stream) {
+    const std::byte *const of_a = stream.of(a), *const of_b = stream.of(b);
+    if (stream.size == 4) return load<std::uint32_t>(of_a) == load<std::uint32_t>(of_b);
+    const std::size_t rest = stream.size - 8;  // the two words may overlap
+    return load<std::uint64_t>(of_a) == load<std::uint64_t>(of_b) &&
+           load<std::uint64_t>(of_a + rest) == load<std::uint64_t>(of_b + rest);
   });
 }
 
+/// Depends on the order of bytes of the processor, and therefore serves lookups only.
+std::uint64_t hash_of(const std::vector<Stream>& streams, std::size_t vertex) {
+  std::uint64_t hash = 0;
+  const auto add = [&hash](std::uint64_t word) {
+    hash = (hash ^ word) * 0x9E3779B97F4A7C15U;
+    hash ^= hash >> 32U;
+  };
+  for (const Stream& stream : streams) {
+    if (stream.size == 4) {
+      add(load<std::uint32_t>(stream.of(vertex)));
+    } else {
+      add(load<std::uint64_t>(stream.of(vertex)));
+      if (stream.size > 8) add(load<std::uint64_t>(stream.of(vertex) + stream.size - 8));
+    }
+  }
+  return hash * 0x9E3779B97F4A7C15U;
+}
+
 /// Sets the new number of each vertex. Returns how many vertices are different.
-std::size_t number_pairwise(const std::vector<meshopt_Stream>& streams, std::span<std::uint32_t> place) {
+std::size_t number_pairwise(const std::vector<Stream>& streams, std::span<std::uint32_t> place) {
   std::array<std::uint32_t, few_vertices> first{};  // of equal vertices, by new number
   std::uint32_t count = 0;
   for (std::uint32_t i = 0; i < place.size(); ++i) {
@@ -40,15 +75,29 @@ std::size_t number_pairwise(const std::vector<meshopt_Stream>& streams, std::spa
   return count;
 }
 
-std::size_t number_by_hash(const std::vector<meshopt_Stream>& streams, Array<std::uint32_t>& place,
-                           Job& job) {
-  const std::size_t vertices = place.size();
-  // All vertices in order, padded to whole triangles, which the library requires.
-  Array<std::uint32_t> order(job, (vertices + 2) / 3 * 3);
-  for (std::size_t i = 0; i < order.size(); ++i)
-    order[i] = static_cast<std::uint32_t>(std::min(i, vertices - 1));
-  return meshopt_generateVertexRemapMulti(place.data(), order.data(), order.size(), vertices, streams.data(),
-                                          streams.size());
+std::size_t number_by_hash(const std::vector<Stream>& streams, std::span<std::uint32_t> place, Job& job) {
+  struct Slot {
+    std::uint32_t number, tag;  ///< new number plus 1, or 0; bits of the hash that do not select the slot
+  };
+  const auto bits = static_cast<int>(std::bit_width(place.size() + place.size() / 3));
+  const std::size_t mask = (std::size_t{1} << bits) - 1;
+  Array<Slot> slots(job, mask + 1, Slot{0, 0});
+  Array<std::uint32_t> first(job);  // of equal vertices, by new number
+  first.reserve(place.size());
+  for (std::uint32_t i = 0; i < place.size(); ++i) {
+    const std::uint64_t hash = hash_of(streams, i);
+    const auto tag = static_cast<std::uint32_t>(hash);
+    std::size_t at = hash >> (64 - bits);
+    while (slots[at].number != 0 &&
+           (slots[at].tag != tag || !are_equal(streams, first[slots[at].number - 1], i)))
+      at = (at + 1) & mask;
+    if (slots[at].number == 0) {
+      first.push_back(i);
+      slots[at] = {static_cast<std::uint32_t>(first.size()), tag};
+    }
+    place[i] = slots[at].number - 1;
+  }
+  return first.size();
 }
 
 template <class T>
@@ -74,7 +123,7 @@ void weld(Mesh& mesh, Job& job) {
   clear_negative_zeros(mesh.position);
   clear_negative_zeros(mesh.normal);
   for (auto& uv : mesh.uv) clear_negative_zeros(uv);
-  std::vector<meshopt_Stream> streams;
+  std::vector<Stream> streams;
   add_stream(streams, mesh.position);
   add_stream(streams, mesh.normal);
   for (auto& uv : mesh.uv) add_stream(streams, uv);
@@ -83,8 +132,8 @@ void weld(Mesh& mesh, Job& job) {
   add_stream(streams, mesh.joints);
   add_stream(streams, mesh.weights);
   Array<std::uint32_t> place(job, vertices);
-  const std::size_t count =
-      vertices <= few_vertices ? number_pairwise(streams, place.span()) : number_by_hash(streams, place, job);
+  const std::size_t count = vertices <= few_vertices ? number_pairwise(streams, place.span())
+                                                     : number_by_hash(streams, place.span(), job);
   if (count == vertices) return;
   gather(mesh.position, place, count);
   gather(mesh.normal, place, count);

@@ -76,6 +76,23 @@ TEST(MeshField, AgreesWithTheBoxOfItsForm) {
   }
 }
 
+TEST(MeshField, FindsTheSamePointWithEveryGuess) {
+  Job job(1, Job::Options{});
+  const MeshField field(cube(job), {1, 1, 1}, {0, 1, 0}, job);
+  Rng rng(10);
+  for (int i = 0; i < 200; ++i) {
+    // Multiples of a half: often as near to several faces, edges and corners.
+    const glm::dvec3 p{0.5 * rng.below(9) - 2, 0.5 * rng.below(9) - 1, 0.5 * rng.below(9) - 2};
+    const MeshField::Nearest expected = field.nearest(p);
+    for (std::uint32_t guess = 0; guess < field.triangles(); ++guess) {
+      const MeshField::Nearest found = field.nearest(p, guess);
+      EXPECT_EQ(found.point, expected.point) << guess;
+      EXPECT_EQ(found.distance, expected.distance);
+      EXPECT_EQ(found.triangle, expected.triangle);
+    }
+  }
+}
+
 TEST(Solid, ReportsSidesAsTheSignOfTheDistance) {
   Job job(1, Job::Options{});
   Solid mesh = solid(SolidShape::mesh);
