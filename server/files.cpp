@@ -11,6 +11,11 @@ namespace seedmesh {
 
 std::string system_error_text() { return std::generic_category().message(errno); }
 
+int fail(const std::string& what, const std::string& why) {
+  std::fprintf(stderr, "seedmesh: %s: %s\n", what.c_str(), why.c_str());
+  return 2;
+}
+
 std::optional<std::string> read_file(const std::string& name) {
   std::FILE* file = name == "-" ? stdin : std::fopen(name.c_str(), "rb");
   if (!file) return std::nullopt;

@@ -1,5 +1,5 @@
 #pragma once
-/// Files for the commands. Every function sets `errno` on failure.
+/// Files and errors of the commands. Functions that read or write set `errno` on failure.
 #include <optional>
 #include <string>
 
@@ -9,6 +9,9 @@ namespace seedmesh {
 
 /// Returns what the present value of `errno` means. Any thread may call it, which is not true of std::strerror.
 std::string system_error_text();
+
+/// Prints an error of a command on standard error, as "seedmesh: what: why". Returns the exit status, 2.
+int fail(const std::string& what, const std::string& why);
 
 /// Returns the contents of a file; of standard input for "-". Nothing where it cannot be read.
 std::optional<std::string> read_file(const std::string& name);

@@ -24,7 +24,7 @@ class InFlight {
   explicit InFlight(std::uint64_t capacity) : capacity_(capacity) {}
 
   /// Waits until less than the limit is in use. False after the deadline. Called before a model is made, so that
-  /// a waiting request holds no memory.
+  /// a waiting request uses no memory.
   bool wait(Clock::time_point deadline);
 
   /// Returns the payload, counted with `extra` bytes until the result and its copies are gone. Null if the

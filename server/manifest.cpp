@@ -250,10 +250,6 @@ class ManifestRun {
 }  // namespace
 
 int manifest_command(const Config& config, const ManifestOptions& options) {
-  const auto fail = [](const std::string& what, const std::string& why) {
-    std::fprintf(stderr, "seedmesh: %s: %s\n", what.c_str(), why.c_str());
-    return 2;
-  };
   ManifestPart part;
   if (!options.part.empty()) {
     const auto given = read_part(options.part);

@@ -98,6 +98,9 @@ struct PresetQuery {
 /// (mcp_describe.cpp).
 Json find_presets(const Access& access, const PresetQuery& preset_query);
 
+/// Returns a value as JSON on one line. Bytes that are not valid UTF-8 are replaced.
+std::string dumped(const Json& json);
+
 /// Returns a member of an object that is text; "" where it is missing or something else.
 std::string text_in(const Json& object, std::string_view name);
 

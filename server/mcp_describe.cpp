@@ -11,8 +11,6 @@ namespace {
 constexpr std::size_t longest_answer = 8'000;
 constexpr std::size_t longest_enum = 24;
 
-std::string dumped(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
-
 std::string first_sentence(const std::string& text) {
   const auto end = text.find(". ");
   return end == std::string::npos ? text : text.substr(0, end + 1);

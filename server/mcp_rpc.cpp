@@ -100,6 +100,8 @@ bool has_handshake(std::string_view version) {
   return std::ranges::find(handshake_versions, version) != handshake_versions.end();
 }
 
+std::string dumped(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
+
 std::string text_in(const Json& object, std::string_view name) {
   if (!object.is_object()) return {};
   const auto found = object.find(std::string(name));

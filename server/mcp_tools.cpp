@@ -15,9 +15,7 @@ namespace {
 
 constexpr std::size_t longest_text = 12'000;  ///< characters of a derivation
 constexpr std::size_t most_differences = 100;
-constexpr std::uint32_t picture_size = 384;  ///< about 10 KB, which a context holds
-
-std::string dumped(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
+constexpr std::uint32_t picture_size = 384;  ///< about 10 KB, which fits into a context
 
 Json text_content(std::string text) { return {{"type", "text"}, {"text", std::move(text)}}; }
 

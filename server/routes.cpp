@@ -121,9 +121,19 @@ http::Response other_method(const Route& row, RequestContext& call) {
   return response;
 }
 
+/// The response to OPTIONS with the target "*", which asks about the server as a whole (RFC 9110 section 9.3.7).
+http::Response options_of_server() {
+  http::Response response;
+  response.status = 204;
+  response.set("Allow", "GET, HEAD, POST, OPTIONS");
+  response.route = "*";
+  return response;
+}
+
 }  // namespace
 
 http::Response route(Service& service, const http::Request& request) {
+  if (request.path == "*") return options_of_server();
   RequestContext call{service, request, {}, {}};
   call.grant.target_size = request.target.size();
   for (const Route& row : table) {

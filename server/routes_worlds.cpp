@@ -219,7 +219,7 @@ std::variant<WorldBox, http::Response> box_of(const RequestContext& call, const 
   const Overrides& given = std::get<Overrides>(query);
   std::vector<Issue> issues = keys_but(given, "box");
   if (issues.empty() && given.size() != 1) {
-    issues.emplace_back(given.empty() ? IssueKind::missing : IssueKind::conflict, "/box",
+    issues.emplace_back(given.empty() ? IssueKind::missing : conflict_with({}), "/box",
                         "expected one box=west,south,east,north in metres");
   }
   if (!issues.empty()) return refuse(call, problem_of({Code::invalid, std::move(issues)}));
@@ -319,6 +319,7 @@ http::Response get_world(RequestContext& call) {
 }
 
 http::Response post_world(RequestContext& call, const Request& request) {
+  if (const auto error = output_error_of_tiles(request)) return refuse(call, problem_of(*error));
   Result<OpenWorld> open = open_world(request, call.service.worlds.memory());
   if (!open) return refuse(call, problem_of(open.error()));
   const NamedWorld world{NamedWorld::Kind::own, request, *std::move(open), world_token(request)};

@@ -316,11 +316,6 @@ class SyncRun {
   std::condition_variable changed_;
 };
 
-int fail(const std::string& what, const std::string& why) {
-  std::fprintf(stderr, "seedmesh: %s: %s\n", what.c_str(), why.c_str());
-  return 2;
-}
-
 /// The lock file of a directory; an empty one if there is none, nothing if it cannot be read.
 std::optional<Lock> lock_of(const std::string& directory) {
   const std::string path = path_in(directory, lock_file_name);

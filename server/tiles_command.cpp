@@ -32,11 +32,6 @@ int print_refusal(const Problem& problem) {
   return 1;
 }
 
-int fail(const std::string& what, const std::string& why) {
-  std::fprintf(stderr, "seedmesh: %s: %s\n", what.c_str(), why.c_str());
-  return 2;
-}
-
 Payload payload_of(std::string bytes) {
   Payload payload;
   payload.add(std::move(bytes));
@@ -215,6 +210,7 @@ std::variant<std::shared_ptr<const NamedWorld>, Problem> read_world(const Config
   if (!text) return read_world_name(name, options, memory);
   const Result<Request> request = read_request(*text, options);
   if (!request) return problem_of(request.error());
+  if (const auto error = output_error_of_tiles(*request)) return problem_of(*error);
   Result<OpenWorld> open = open_world(*request, memory);
   if (!open) return problem_of(open.error());
   return std::make_shared<const NamedWorld>(

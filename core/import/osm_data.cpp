@@ -246,7 +246,7 @@ class Assembler {
     if (!feature.polygons.empty()) features_.push_back(std::move(feature));
   }
 
-  /// A relation `building` can hold the tags of its outline, and with `out geom` also its geometry.
+  /// A relation `building` can have the tags of its outline, and with `out geom` also its geometry.
   void add_outline(const OsmRelation& relation) {
     if (!relation.tags.has("building")) return;
     std::vector<MapRing> lines;

@@ -41,6 +41,9 @@ bool is_world(const Request& request);
 /// Opens the world of a request. Code::invalid with pointer "/generator" for a request of another generator.
 Result<OpenWorld> open_world(const Request& request, std::shared_ptr<WorldMemory> memory);
 
+/// Refuses the options of a request's output that tiles do not have. These are all but the name and the provenance.
+std::optional<Error> output_error_of_tiles(const Request& request);
+
 /// Levels of an explicit tileset and of a subtree.
 constexpr int world_tileset_levels = 4, world_subtree_levels = 5;
 

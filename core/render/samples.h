@@ -4,7 +4,7 @@
 
 namespace seedmesh::render {
 
-/// The samples of a picture, row 0 at the top. Each holds the number of the nearest triangle. Colour and normal
+/// The samples of a picture, row 0 at the top. Each has the number of the nearest triangle. Colour and normal
 /// are computed from the triangle later (fragment.h), so that hidden surfaces cost little.
 struct Samples {
   static constexpr std::uint32_t nothing = ~0U, blended = ~0U - 1;

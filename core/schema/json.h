@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "core/base/json_pointer.h"
 #include "core/base/result.h"
 
 namespace seedmesh {
@@ -37,9 +38,6 @@ std::string canonical_text(const Json& value);
 /// Applies a JSON Merge Patch (RFC 7396): objects are merged member by member, null removes a member, and any
 /// other value replaces the old one. Recurses as deep as the patch, whose depth parse_json bounds.
 void merge_patch(Json& target, const Json& patch);
-
-/// Returns one reference token of a JSON Pointer (RFC 6901), with its leading slash: "a/b" gives "/a~1b".
-std::string pointer_token(std::string_view key);
 
 /// Returns the text of ECMAScript's Number::toString (ECMA-262, 6.1.6.1.20): the fewest digits that read back as the
 /// same double. Numbers from 1e21 and below 1e-6 get an exponent; -0 gives "0". `number` has to be finite.

@@ -15,7 +15,7 @@ std::string error_of_image_uri(std::string_view text);
 
 /// Returns the bytes of the file. A PNG file is decoded (png.h), so that a damaged file or one of more than 8,192
 /// texels along a side is an error. Of a JPEG file, its end and the segments before its data are checked. The same
-/// limit holds for the size in its frame header. The text may be hostile. The Issue of an error has an empty pointer.
+/// limit applies to the size in its frame header. The text may be hostile. The Issue of an error has an empty pointer.
 Result<std::shared_ptr<const Image>> image_of_data_uri(std::string_view text, const std::string& name,
                                                        const Job& job);
 

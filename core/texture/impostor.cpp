@@ -9,6 +9,7 @@
 
 #include "core/base/math.h"
 #include "core/base/parallel.h"
+#include "core/model/empty_mesh.h"
 #include "core/model/levels.h"
 #include "core/texture/atlas.h"
 #include "core/texture/decode.h"
@@ -83,11 +84,8 @@ glm::uvec2 cell_of(std::size_t view) {
 
 Mesh quads_of(const Windows& windows, const Job& job) {
   constexpr float inset = 1.0F / edges;
-  Mesh mesh;
-  mesh.position = Array<glm::vec3>(job);
-  mesh.normal = Array<glm::vec3>(job);
+  Mesh mesh = empty_mesh(job);
   mesh.uv[0] = Array<glm::vec2>(job);
-  mesh.index.wide = Array<std::uint32_t>(job);
   for (std::size_t view = 0; view < views; ++view) {
     const ViewFrame frame = frame_of(view);
     const ViewWindow& window = windows.of[view];

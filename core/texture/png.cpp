@@ -26,7 +26,7 @@ constexpr bool little_endian = std::endian::native == std::endian::little;
 
 // Rows between two checks of the deadline.
 constexpr std::uint32_t rows_a_look = 64;
-// Deflate cannot hold more than this many bytes in one (RFC 1951: 258 bytes in a code of 2 bits, and
+// Deflate cannot store more than this number of bytes in one (RFC 1951: 258 bytes in a code of 2 bits, and
 // framing).
 constexpr std::uint64_t densest_deflate = 1032;
 // The most bytes of a chunk other than image data. Palettes have 768; profiles and texts are skipped.
@@ -153,7 +153,7 @@ void swap_bytes(std::uint8_t* values, std::size_t bytes) {
   for (std::size_t i = 0; i + 1 < bytes; i += 2) std::swap(values[i], values[i + 1]);
 }
 
-/// Rows as the file holds them: the number of the filter Up, then each byte less the one above it.
+/// Rows as in the file: the number of the filter Up, then each byte less the one above it.
 Array<std::uint8_t> filtered_up(const PictureView& picture, std::size_t row_bytes, const Job& job) {
   constexpr std::uint8_t filter_up = 2;
   Array<std::uint8_t> rows(job, (row_bytes + 1) * picture.height);

@@ -197,9 +197,9 @@ void Server::serve(int socket, const std::string& remote) {
 
 /// Serves one request. False when the connection has to end.
 bool Server::serve_one(Connection& connection, const std::string& remote) {
-  std::variant<RequestHead, Refusal> head = read_head(connection);
-  Request without_head;
-  Request& request = head.index() == 0 ? std::get<RequestHead>(head).request : without_head;
+  Request refused;
+  std::variant<RequestHead, Refusal> head = read_head(connection, refused);
+  Request& request = head.index() == 0 ? std::get<RequestHead>(head).request : refused;
   request.arrived = Clock::now();
   request.remote = remote;
   request.id = request.header("X-Request-Id");
@@ -235,7 +235,8 @@ bool Server::refuse(Connection& connection, const Request& request, const Refusa
   return false;
 }
 
-std::variant<RequestHead, Refusal> Server::read_head(Connection& connection) const {
+/// Sets `refused` to what is legible of a head that it refuses.
+std::variant<RequestHead, Refusal> Server::read_head(Connection& connection, Request& refused) const {
   const auto deadline = Clock::now() + options_.head_time;
   std::size_t searched = 0;
   bool is_first_line = true;
@@ -250,10 +251,16 @@ std::variant<RequestHead, Refusal> Server::read_head(Connection& connection) con
     const auto end = text.find("\r\n\r\n", searched);
     if (end != std::string_view::npos && end + 4 <= options_.limits.head) {
       auto head = parse_head(text.substr(0, end + 4), options_.limits);
+      if (head.index() == 1) refused = legible_part(text.substr(0, end + 4), options_.limits);
       connection.consume(end + 4);
       return head;
     }
-    if (const auto refusal = check_partial_head(text, options_.limits)) return *refusal;
+    if (const auto refusal = check_partial_head(text, options_.limits)) {
+      while (connection.buffered().size() < options_.limits.head && connection.read_more(Clock::now())) {
+      }  // the fields after a long target may have arrived
+      refused = legible_part(connection.buffered(), options_.limits);
+      return *refusal;
+    }
     searched = text.size() < 3 ? 0 : text.size() - 3;
     if (!connection.read_more(deadline)) return Refusal{0, {}};
   }
@@ -299,7 +306,7 @@ void Server::refuse_connection(int socket, std::string remote) {
   Connection connection(socket, nullptr, {.timeout = Clock::duration::zero()});
   if (options_.tls) return;
   connection.read_more(Clock::now());  // closing with unread bytes would reset the connection
-  Request request;
+  Request request = legible_part(connection.buffered(), options_.limits);
   request.id = random_id();
   request.remote = std::move(remote);
   request.arrived = Clock::now();

@@ -75,7 +75,7 @@ class Server {
   bool serve_one(Connection& connection, const std::string& remote);
   bool refuse(Connection& connection, const Request& request, const Refusal& refusal);
   void refuse_connection(int socket, std::string remote);
-  std::variant<RequestHead, Refusal> read_head(Connection& connection) const;
+  std::variant<RequestHead, Refusal> read_head(Connection& connection, Request& refused) const;
   bool read_body(Connection& connection, const RequestHead& head, std::string& body) const;
   Response answer(const Request& request) const;
   void send(Connection& connection, const Request& request, const Response& response) const;

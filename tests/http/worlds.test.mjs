@@ -36,6 +36,14 @@ test('a posted world answers its tileset and where that lies', async () => {
   assert.equal(request.engine, (await server.get('/version')).json.engine);
 });
 
+test('options of the output that tiles do not have are refused', async () => {
+  const output = { name: 'land', provenance: 'none', format: 'zip', variants: 3, max_triangles: 10, textures: 64 };
+  const answer = await server.post('/v1/generate', { ...world, output });
+  is_problem(answer, 422, 'invalid-request');
+  assert.deepEqual(answer.json.errors.map(({ pointer }) => pointer).sort(), ['format', 'max_triangles', 'textures', 'variants'].map((name) => `/output/${name}`));
+  assert.equal((await server.post('/v1/generate', { ...world, output: { name: 'land', provenance: 'none' } })).status, 200);
+});
+
 test('each link of the root leads to a tileset with the same box and error, down to the leaves', async () => {
   let url = place, json = (await server.get(url)).json, tile = json.root, level = 0, links = 0;
   for (;;) {

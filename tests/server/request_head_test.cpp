@@ -122,5 +122,14 @@ TEST(Head, LimitsLinesAndFields) {
             431);
 }
 
+TEST(Head, IsLegibleAsFarAsItsFieldsAreValid) {
+  const Request whole = legible_part("HEAD / HTTP/9\r\nno field\r\nOrigin: a\r\nB : c\r\n\r\nD: e\r\n", {});
+  EXPECT_EQ(whole.method, "HEAD");
+  EXPECT_EQ(whole.headers, (Headers{{"Origin", "a"}}));
+  const Request cut = legible_part("G(T / HTTP/1.1\nA: 1\nOrigin: https://exam", {});
+  EXPECT_EQ(cut.method, "");
+  EXPECT_EQ(cut.headers, (Headers{{"A", "1"}})) << "the last line is not complete";
+}
+
 }  // namespace
 }  // namespace seedmesh::http

@@ -339,7 +339,7 @@ export interface CityParametersStreetsClassesHighway {
   lanes?: number;
   /** The width of the sidewalk of each side. */
   sidewalk?: number;
-  /** The steepest grade of these streets, as rise over run. On a terrain the ground is cut and filled to keep it, and no street grows where the grade of the natural ground is more than 1.5 times this value. */
+  /** The steepest grade of these streets, as rise over run. On a terrain, the ground is cut and filled to keep it. No street grows where the grade of the natural ground is more than 1.5 times this value. */
   grade?: number;
   /** The distance between trees along each side of these streets. 0: no trees. Default: that of furniture.trees, if it is given. */
   trees?: number;
@@ -353,7 +353,7 @@ export interface CityParametersStreetsClassesMajor {
   lanes?: number;
   /** The width of the sidewalk of each side. */
   sidewalk?: number;
-  /** The steepest grade of these streets, as rise over run. On a terrain the ground is cut and filled to keep it, and no street grows where the grade of the natural ground is more than 1.5 times this value. */
+  /** The steepest grade of these streets, as rise over run. On a terrain, the ground is cut and filled to keep it. No street grows where the grade of the natural ground is more than 1.5 times this value. */
   grade?: number;
   /** The distance between trees along each side of these streets. 0: no trees. Default: that of furniture.trees, if it is given. */
   trees?: number;
@@ -367,7 +367,7 @@ export interface CityParametersStreetsClassesMinor {
   lanes?: number;
   /** The width of the sidewalk of each side. */
   sidewalk?: number;
-  /** The steepest grade of these streets, as rise over run. On a terrain the ground is cut and filled to keep it, and no street grows where the grade of the natural ground is more than 1.5 times this value. */
+  /** The steepest grade of these streets, as rise over run. On a terrain, the ground is cut and filled to keep it. No street grows where the grade of the natural ground is more than 1.5 times this value. */
   grade?: number;
   /** The distance between trees along each side of these streets. 0: no trees. Default: that of furniture.trees, if it is given. */
   trees?: number;
@@ -381,7 +381,7 @@ export interface CityParametersStreetsClassesLane {
   lanes?: number;
   /** The width of the sidewalk of each side. */
   sidewalk?: number;
-  /** The steepest grade of these streets, as rise over run. On a terrain the ground is cut and filled to keep it, and no street grows where the grade of the natural ground is more than 1.5 times this value. */
+  /** The steepest grade of these streets, as rise over run. On a terrain, the ground is cut and filled to keep it. No street grows where the grade of the natural ground is more than 1.5 times this value. */
   grade?: number;
   /** The distance between trees along each side of these streets. 0: no trees. Default: that of furniture.trees, if it is given. */
   trees?: number;
@@ -943,7 +943,7 @@ export interface LsystemParametersWeather {
 
 /** One organ. */
 export interface LsystemParametersSurfacesValue {
-  /** A leaf or petal of this outline, a fruit, patches, a model of its own, or a sphere or disc about the position of the turtle. A disc lies in the plane of heading and left. */
+  /** A leaf or petal of this outline, a fruit, patches, a model of its own, or a sphere or disc with its centre at the turtle. A disc lies in the plane of heading and left. */
   shape?: "simple" | "willow" | "birch" | "cordate" | "lobed" | "maple" | "ginkgo" | "compound" | "palmate" | "needles" | "palm" | "kite" | "petal" | "fruit" | "patches" | "model" | "sphere" | "disc";
   /** The geometry of a leaf: mesh is its outline. Squares with a texture of the leaf are card (one), cross (two) and curved (a bent one). Squares with a texture of a twig are twig (a bent one) and bunch (three bent ones). */
   build?: "mesh" | "card" | "cross" | "curved" | "twig" | "bunch";

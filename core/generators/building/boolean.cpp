@@ -27,7 +27,7 @@ struct Piece {
 struct Node {
   glm::dvec3 normal{0};
   double at = 0;
-  std::vector<Piece> pieces;  ///< in the plane of the node
+  std::vector<Piece> pieces;  ///< pieces in the plane of the node
   int front = -1, back = -1;
 };
 

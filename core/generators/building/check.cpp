@@ -169,7 +169,7 @@ std::pair<int, int> restrictions_of(const BuildingParams& params) {
 std::shared_ptr<const RuleSet> read(const BuildingParams& params, std::vector<Issue>& issues) {
   std::vector<lang::TextError> errors;
   if (params.rules && params.blueprint) {
-    issues.emplace_back(IssueKind::conflict, "/blueprint",
+    issues.emplace_back(conflict_with({"rules"}), "/blueprint",
                         "found rules and a blueprint, expected one of them");
   }
   const std::size_t before = issues.size();
@@ -219,7 +219,7 @@ void check_alone(const BuildingParams& params, std::vector<Issue>& issues) {
   const BuildingParams plain;
   const auto refuse = [&](bool is_given, const char* name) {
     if (is_given) {
-      issues.emplace_back(IssueKind::conflict, std::string("/") + name,
+      issues.emplace_back(conflict_with({"shape_grammar"}), std::string("/") + name,
                           "has no meaning for a shape grammar, which begins with its initial shape");
     }
   };
@@ -235,7 +235,7 @@ void check_alone(const BuildingParams& params, std::vector<Issue>& issues) {
   refuse(params.derivation.order != plain.derivation.order, "derivation/order");
   if (params.restrict == BuildingRestrict::split) {
     issues.emplace_back(
-        IssueKind::conflict, "/restrict",
+        conflict_with({"shape_grammar"}), "/restrict",
         "found split, which restricts rules; expected none, non_erasing or unimarker for a shape grammar");
   }
 }
@@ -320,7 +320,7 @@ std::vector<Issue> check_all(const BuildingParams& params, const Bounds& bounds,
     check_alone(params, issues);
     pictures = read_pictures(*params.shape_grammar, restriction_of(params.restrict), issues);
   } else if (!params.rules && !params.blueprint) {
-    issues.emplace_back(IssueKind::missing, "",
+    issues.emplace_back(missing_for({"rules", "blueprint", "shape_grammar"}), "",
                         "found none of \"rules\", \"blueprint\" and \"shape_grammar\", expected one of them");
   } else {
     if (!rules) rules = read(params, issues);
@@ -341,7 +341,7 @@ std::vector<Issue> check_all(const BuildingParams& params, const Bounds& bounds,
   }
   for (const auto& [name, asset] : params.assets) {
     if (asset.model.has_value() == asset.glb.has_value()) {
-      issues.emplace_back(IssueKind::conflict, "/assets/" + name,
+      issues.emplace_back(conflict_with({"model", "glb"}), "/assets/" + name,
                           std::string("found ") + (asset.model ? "both" : "neither") +
                               " of \"model\" and \"glb\", expected one of them");
     } else if (asset.glb && !is_glb_uri(*asset.glb)) {

@@ -4,6 +4,8 @@
 #include <numeric>
 #include <tuple>
 
+#include "core/geom/polygon/orientation.h"
+
 namespace seedmesh::building {
 namespace {
 
@@ -34,11 +36,6 @@ std::uint32_t place_in(const std::vector<double>& values, double value) {
 /// A corner as one number that sorts by its line first, which is its position in u or in v.
 std::uint64_t corner_key(std::uint32_t line, std::uint32_t at) { return std::uint64_t{line} << 32U | at; }
 
-/// Twice the area of a triangle.
-double area(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c) {
-  return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
-}
-
 double stretch(const glm::dvec2& a, const glm::dvec2& b) { return glm::dot(b - a, b - a); }
 
 /// Triangles of a convex ring with corners on straight edges. The ear nearest to an equilateral triangle is
@@ -47,7 +44,8 @@ void cut_ears(std::span<const glm::dvec2> points, std::vector<std::uint32_t>& in
   std::vector<std::uint32_t> ring(points.size());
   for (std::uint32_t i = 0; i < ring.size(); ++i) ring[i] = i;
   double left = 0;
-  for (std::size_t i = 1; i + 1 < points.size(); ++i) left += area(points[0], points[i], points[i + 1]);
+  for (std::size_t i = 1; i + 1 < points.size(); ++i)
+    left += doubled_area(points[0], points[i], points[i + 1]);
   const double least = 1e-9 * left;
   while (ring.size() > 3) {
     const std::size_t n = ring.size();
@@ -56,7 +54,7 @@ void cut_ears(std::span<const glm::dvec2> points, std::vector<std::uint32_t>& in
     for (std::size_t i = 0; i < n; ++i) {
       const glm::dvec2 &a = points[ring[(i + n - 1) % n]], &b = points[ring[i]],
                        &c = points[ring[(i + 1) % n]];
-      const double own = area(a, b, c);
+      const double own = doubled_area(a, b, c);
       if (own <= least || left - own <= least) continue;
       const double fatness = own / std::max({stretch(a, b), stretch(b, c), stretch(c, a)});
       if (fatness > most) std::tie(most, best, cut) = std::tuple(fatness, i, own);

@@ -6,6 +6,7 @@
 #include "core/base/math.h"
 #include "core/generators/building/components.h"
 #include "core/generators/building/projections.h"
+#include "core/generators/building/solid_faces.h"
 #include "core/generators/building/tags.h"
 #include "core/generators/building/value_functions.h"
 
@@ -107,13 +108,9 @@ TaggedValue is_closed(Evaluation& at, ValueArguments) {
                      std::ranges::all_of(uses, [](const auto& each) { return each.second == 2; }));
 }
 
-glm::dvec3 normal_of(const Solid& solid, const Face& face) {
-  return math::unit(area_vector(solid, face, glm::dvec3(1)), glm::dvec3(0, 1, 0));
-}
-
 bool is_flat(const Solid& solid) {
   for (const Face& face : solid.faces) {
-    const glm::dvec3 n = normal_of(solid, face);
+    const glm::dvec3 n = unit_normal(solid, face);
     const glm::dvec3 base = solid.points[solid.corners[solid.loops[face.first_loop].first]];
     double size = 0, off = 0;
     for (const Loop& loop : loops_of(solid, face)) {
@@ -133,7 +130,7 @@ TaggedValue is_concave(Evaluation& at, ValueArguments) {
   const Solid solid = geometry_of(at);
   for (const Face& face : solid.faces) {
     if (face.loop_count > 1) return truth_value(true);
-    const glm::dvec3 n = normal_of(solid, face);
+    const glm::dvec3 n = unit_normal(solid, face);
     const std::span<const std::uint32_t> points = points_of(solid, solid.loops[face.first_loop]);
     for (std::size_t i = 0; i < points.size(); ++i) {
       const glm::dvec3 a = solid.points[points[i]], b = solid.points[points[(i + 1) % points.size()]],

@@ -13,7 +13,7 @@ using lang::TokenKind;
 using Range = std::pair<std::size_t, std::size_t>;
 
 constexpr int deepest_import = 16;
-constexpr std::size_t most_instances = 200;  ///< of imported files
+constexpr std::size_t most_instances = 200;  ///< number of imported files
 
 /// The settings of an import for attributes and rules of the imported file.
 struct Overrides {

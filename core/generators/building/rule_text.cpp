@@ -146,7 +146,7 @@ RuleText rule_text(const std::map<std::string, std::string>& files, std::string_
     std::string names;
     for (const std::string_view name : mains) names.append(names.empty() ? "" : ", ").append(name);
     issues.emplace_back(
-        IssueKind::conflict, "/rules",
+        conflict_with({"start"}), "/rules",
         mains.empty() ? "found files that all import each other, expected one that no other file imports"
                       : "found several files that no other file imports (" + names +
                             "), expected one; mark its start rule with @StartRule, or name it in \"start\"");

@@ -24,7 +24,7 @@ struct RuleText {
   std::string_view text_of(const Part& part) const {
     return std::string_view(text).substr(part.first, part.count);
   }
-  /// Returns the file that holds a byte of the joined text.
+  /// Returns the file that contains a byte of the joined text.
   const Part& part_at(std::size_t offset) const;
   /// Returns the file that an import names: by its key, with or without directories and the ending ".cga". Returns
   /// null if there is none.

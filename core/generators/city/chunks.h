@@ -1,5 +1,5 @@
 #pragma once
-/// The division of a city's model into chunks, and the nodes that hold their contents.
+/// The division of a city's model into chunks, and the nodes that have their contents.
 #include <cstdint>
 #include <glm/vec2.hpp>
 #include <map>

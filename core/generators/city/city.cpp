@@ -147,7 +147,7 @@ bool has_streets(const StreetGraph& graph) {
 Error too_steep(const CityParams& params) {
   return Error{
       Code::invalid,
-      {{IssueKind::conflict, params.terrain ? "/terrain" : "/maps/height",
+      {{conflict_with({"streets"}), params.terrain ? "/terrain" : "/maps/height",
         "found no position where a street keeps its grade limit; expected less steep ground or greater "
         "limits in streets.classes"}}};
 }

@@ -70,7 +70,7 @@ Material material_of(const PartMaterial& usual, const CityParams& params) {
   return material;
 }
 
-/// The same with a texture, unless the request gives a roughness, which holds everywhere, or a colour that is brighter
+/// The same with a texture, unless the request gives a roughness, which applies everywhere, or a colour that is brighter
 /// than the texture.
 Material textured_material(const PartMaterial& usual, const CityParams& params) {
   Material material = material_of(usual, params);

@@ -45,7 +45,7 @@ struct Contents {
   const Child* request = nullptr;  ///< null: the built-in model `number` of `kind`
   std::string pointer, kind;
   std::uint32_t number = 0;
-  std::uint64_t key = 0;  ///< of a request without a seed
+  std::uint64_t key = 0;  ///< key of a request without a seed
   std::vector<Copy> copies;
 };
 

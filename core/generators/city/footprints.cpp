@@ -7,6 +7,7 @@
 
 #include "core/base/math.h"
 #include "core/generators/city/geojson.h"
+#include "core/generators/city/geometry.h"
 #include "generated/params/city.h"
 
 namespace seedmesh::city {
@@ -45,12 +46,6 @@ double distance_to(const CmRing& ring, const dvec2& cm) {
   for (std::size_t i = 0; i < ring.size(); ++i)
     least = std::min(least, distance_to_segment(cm, in_cm(ring[i]), in_cm(ring[(i + 1) % ring.size()])));
   return least;
-}
-
-bool is_in(const Rings& rings, const dvec2& cm) {
-  bool inside = false;
-  for (const CmRing& ring : rings) inside ^= is_inside(ring, cm);
-  return inside;
 }
 
 }  // namespace

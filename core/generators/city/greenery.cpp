@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "core/base/math.h"
+#include "core/generators/city/geometry.h"
 #include "core/generators/city/objects.h"
 #include "generated/params/city.h"
 
@@ -32,12 +33,6 @@ struct HouseBox {
 HouseBox box_of(const House& house) {
   const math::SinCos turn = math::sincos_degrees(house.turn);
   return {house.position, {turn.cos, turn.sin}, {-turn.sin, turn.cos}, dvec2(house.width, house.depth) / 2.0};
-}
-
-bool is_in(const std::vector<CmRing>& rings, const dvec2& metres) {
-  bool inside = false;
-  for (const CmRing& ring : rings) inside ^= is_inside(ring, metres * 100.0);
-  return inside;
 }
 
 bool is_far_from(const std::vector<CmRing>& rings, const dvec2& p, double margin) {
@@ -71,7 +66,7 @@ void plant_park(const CityPlan& plan, std::uint32_t number, double spacing, Rng 
                      .at(static_cast<std::uint64_t>(static_cast<std::uint32_t>(column)));
       const dvec2 p((column + 0.5 + draw.uniform(-jitter, jitter)) * spacing,
                     (row + 0.5 + draw.uniform(-jitter, jitter)) * spacing);
-      if (!is_in(part.rings, p) || !is_far_from(part.rings, p, park_margin)) continue;
+      if (!is_in(part.rings, p * 100.0) || !is_far_from(part.rings, p, park_margin)) continue;
       const bool is_kept =
           std::any_of(plan.landmarks.begin(), plan.landmarks.end(),
                       [&](const Landmark& each) { return glm::length(each.position - p) < each.radius; });
@@ -97,7 +92,7 @@ void plant_yard(const CityPlan& plan, const Lot& lot, double mean, Rng rng, Obje
       const dvec2 p(draw.uniform(low.x, high.x), draw.uniform(low.y, high.y));
       const bool is_near_tree = std::any_of(placed.begin(), placed.end(),
                                             [&p](const dvec2& each) { return glm::length(each - p) < 4; });
-      if (is_near_tree || house.holds(p, house_margin) || !is_in(rings, p) ||
+      if (is_near_tree || house.holds(p, house_margin) || !is_in(rings, p * 100.0) ||
           !is_far_from(rings, p, yard_margin))
         continue;
       placed.push_back(p);

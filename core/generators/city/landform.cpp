@@ -104,7 +104,7 @@ void check_landform(const CityParams& params, const Job& job, std::vector<Issue>
   if (params.maps.height) {
     FieldMap::read(*params.maps.height, "/maps/height", {-1, -1}, {1, 1}, job, issues);
     if (params.terrain) {
-      issues.emplace_back(IssueKind::conflict, "/maps/height",
+      issues.emplace_back(conflict_with({"terrain"}), "/maps/height",
                           "found both `terrain` and `height`; expected one of them");
     }
   }

@@ -5,17 +5,12 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/math.h"
+#include "core/generators/city/geometry.h"
 #include "core/schema/json.h"
 #include "generated/params/city.h"
 
 namespace seedmesh::city {
 namespace {
-
-bool is_in(const std::vector<CmRing>& rings, const glm::dvec2& metres) {
-  bool inside = false;
-  for (const CmRing& ring : rings) inside ^= is_inside(ring, metres * 100.0);
-  return inside;
-}
 
 /// The box around a ring, in centimetres.
 struct Box {
@@ -61,7 +56,7 @@ bool fits(const Landmark& landmark, const std::vector<CmRing>& lot) {
   CmRing plan;
   for (const glm::dvec2& p : plan_of_building(landmark.request)) {
     const glm::dvec2 at = placed(landmark, p);
-    if (!is_in(lot, at)) return false;
+    if (!is_in(lot, at * 100.0)) return false;
     plan.push_back(rounded_cm(at * 100.0));
   }
   for (const CmRing& ring : lot) {
@@ -107,7 +102,7 @@ void place_landmarks(CityPlan& plan) {
   for (std::uint32_t i = 0; i < plan.landmarks.size(); ++i) {
     Landmark& landmark = plan.landmarks[i];
     for (std::uint32_t n = 0; n < plan.parts.size() && landmark.part == no_index; ++n) {
-      if (boxes[n].holds(landmark.position * 100.0) && is_in(plan.parts[n].rings, landmark.position))
+      if (boxes[n].holds(landmark.position * 100.0) && is_in(plan.parts[n].rings, landmark.position * 100.0))
         landmark.part = n;
     }
     landmark.lot = landmark.part != no_index ? lot_of_part[landmark.part] : no_index;

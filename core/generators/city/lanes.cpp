@@ -41,7 +41,7 @@ class Follower {
   }
 
   const StreetGraph& graph_;
-  std::vector<std::uint8_t> is_seen_;  ///< by edge
+  std::vector<std::uint8_t> is_seen_;  ///< 1 for edges that were visited
 };
 
 }  // namespace

@@ -55,7 +55,7 @@ class Networks {
   }
 
  private:
-  std::vector<std::uint32_t> other_;  ///< by node: another one of its network
+  std::vector<std::uint32_t> other_;  ///< another node of the same network, indexed by node
 };
 
 class Links {

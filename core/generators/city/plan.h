@@ -63,7 +63,7 @@ struct StreetGraph {
   std::vector<PlanarEdge> edges;  ///< the tag is an EdgeClass, or from first_given on that of a given street
   PlanarArms arms;
   std::vector<std::uint64_t> node_key, edge_key;  ///< keys that follow from positions alone
-  std::vector<std::uint8_t> is_border;  ///< for each node, 1 on the border of the area or on a shore
+  std::vector<std::uint8_t> is_border;  ///< 1 on the border of the area or on a shore, indexed by node
   std::vector<Bridge> bridges;
   std::vector<CmPoint> ring_nodes;         ///< nodes of roundabouts, sorted
   bool has_branches = false;               ///< at least one minor street could have branches at its end

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "core/generators/city/geometry.h"
+
 namespace seedmesh::city {
 namespace {
 
@@ -12,12 +14,6 @@ using glm::dvec2;
 constexpr std::uint32_t border = 0, shore = 1;
 constexpr double least_area = 100;  // square metres
 enum class Ground : std::uint8_t { outside, land, water };
-
-bool is_in(const std::vector<CmRing>& rings, const dvec2& cm) {
-  bool inside = false;
-  for (const CmRing& ring : rings) inside ^= is_inside(ring, cm);
-  return inside;
-}
 
 /// What the face to the left of each half-edge is.
 std::vector<Ground> ground_of(const std::vector<CmPoint>& nodes, const std::vector<PlanarEdge>& edges,

@@ -221,7 +221,7 @@ dvec2 point_on(const Line& line, double at) {
 /// A street between two crossings, or from one to the end of its line.
 struct Span {
   std::vector<CmPoint> points;
-  bool has_end = false;  ///< at a crossing
+  bool has_end = false;  ///< whether it ends at a crossing
   std::uint32_t kind = major;
 };
 

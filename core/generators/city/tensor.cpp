@@ -88,7 +88,7 @@ TensorField::TensorField(const CityStreets& streets, const Region& region, const
       for (const auto& p : field.points) line.push_back(rounded_cm({p[0] * 100, p[1] * 100}));
       base.lines = {line};
       if (line.size() < 2) {
-        issues.emplace_back(IssueKind::missing, "/streets/tensor/fields/" + std::to_string(i) + "/points",
+        issues.emplace_back(missing_for({"type"}), "/streets/tensor/fields/" + std::to_string(i) + "/points",
                             "found " + std::to_string(line.size()) + " points, expected at least 2");
       }
     }

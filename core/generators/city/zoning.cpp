@@ -140,7 +140,7 @@ std::vector<CityBuildingRule> built_in_rules() {
 struct Site {
   const Lot& lot;
   const std::string& street_class;
-  double distance = 0;  ///< from the centre of the streets
+  double distance = 0;  ///< distance from the centre of the streets
 };
 
 bool applies(const CityBuildingRule& rule, const Site& site) {

@@ -354,7 +354,7 @@ class CodeReader {
   std::vector<Step>& steps_;
   std::uint32_t& slots_;
   Allowed allowed_;
-  std::vector<std::string> locals_;  ///< in the order of declaration
+  std::vector<std::string> locals_;  ///< names in the order of declaration
   /// slots by name, innermost last
   std::map<std::string, std::vector<std::uint32_t>, std::less<>> slots_of_;
   std::size_t bound_ = 0;

@@ -26,7 +26,6 @@
 #include "core/generators/lsystem/word.h"
 #include "core/generators/lsystem/word_warnings.h"
 #include "core/schema/warning_list.h"
-#include "core/texture/file_size.h"
 
 namespace seedmesh::lsystem {
 namespace {
@@ -340,10 +339,7 @@ static std::optional<Estimate> estimate_of_made(const LsystemParams& params, con
     const Result<Model> model =
         generate(params, {own, {.textures = context.demand.textures}, context.generators});
     if (!model) return;
-    const ModelCounts counts = count(*model);
-    texture::TextureSizes textures;
-    for (const Material& material : model->materials) textures.add(material);
-    estimate = {counts.triangles, counts.bytes + textures.bytes(context.demand.textures), false};
+    estimate = {count(*model).triangles, bytes_of_made(*model, context.demand), false};
   });
   return is_small ? estimate : std::nullopt;
 }

@@ -44,7 +44,7 @@ void check_materials(const LsystemParams& params, std::vector<Issue>& issues) {
   for (std::size_t i = 0; i < params.materials.size(); ++i) {
     const Given& given = params.materials[i];
     if (!given.color && !has_texture(given) && given.images.color.empty()) {
-      issues.emplace_back(IssueKind::missing, pointer_to(i),
+      issues.emplace_back(missing_for({"color", "texture", "images"}), pointer_to(i),
                           "found neither color nor texture nor images/color; a material needs one of them");
     }
     const auto check = [&](const std::string& uri, const char* member) {

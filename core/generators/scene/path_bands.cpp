@@ -11,7 +11,9 @@
 #include "core/base/math.h"
 #include "core/generators/material_members.h"
 #include "core/generators/scene/ground.h"
+#include "core/generators/terrain/smooth_step.h"
 #include "core/model/build.h"
+#include "core/model/empty_mesh.h"
 #include "core/model/levels.h"
 #include "core/schema/json.h"
 #include "core/texture/ground.h"
@@ -35,17 +37,12 @@ constexpr glm::vec3 rut_color{0.78F, 0.77F, 0.76F}, weed_color{0.5F, 0.56F, 0.4F
     middle_color{0.82F, 0.85F, 0.72F};
 constexpr const char* soil = "soil_ground";
 
-float smooth_step(float from, float to, float value) {
-  const float t = std::clamp((value - from) / (to - from), 0.0F, 1.0F);
-  return t * t * (3 - 2 * t);
-}
-
 /// The vertex colour at a distance from the middle line, as a share of half the width.
 glm::u8vec4 color_across(float share) {
   const auto mixed = [](const glm::vec3& a, const glm::vec3& b, float by) { return a + (b - a) * by; };
-  glm::vec3 color = mixed(middle_color, glm::vec3(1), smooth_step(0.05F, 0.3F, share));
-  color = mixed(color, rut_color, 1 - smooth_step(0, rut_width, std::abs(share - rut_at)));
-  color = mixed(color, weed_color, smooth_step(edge_from, 1, share)) * 255.0F + 0.5F;
+  glm::vec3 color = mixed(middle_color, glm::vec3(1), terrain::smooth_step(0.05F, 0.3F, share));
+  color = mixed(color, rut_color, 1 - terrain::smooth_step(0, rut_width, std::abs(share - rut_at)));
+  color = mixed(color, weed_color, terrain::smooth_step(edge_from, 1, share)) * 255.0F + 0.5F;
   return {static_cast<std::uint8_t>(color.x), static_cast<std::uint8_t>(color.y),
           static_cast<std::uint8_t>(color.z), 255};
 }
@@ -54,13 +51,11 @@ class Band {
  public:
   Band(const Ground& ground, double cell, PathSurface surface, Job& job)
       : ground_(ground), cell_(cell), surface_(surface), job_(job) {
+    mesh_ = empty_mesh(job);
     if (surface == PathSurface::soil) {
       mesh_.uv[0] = Array<glm::vec2>(job);
       mesh_.color = Array<glm::u8vec4>(job);
     }
-    mesh_.position = Array<glm::vec3>(job);
-    mesh_.normal = Array<glm::vec3>(job);
-    mesh_.index.wide = Array<std::uint32_t>(job);
   }
 
   void lay(const std::vector<glm::dvec2>& points, double half_width) {
@@ -178,10 +173,7 @@ std::vector<double> errors_of_levels(const Model& model) {
 }
 
 Mesh copy_of(const Mesh& mesh, double lifted, const Job& job) {
-  Mesh copy;
-  copy.position = Array<glm::vec3>(job);
-  copy.normal = Array<glm::vec3>(job);
-  copy.index.wide = Array<std::uint32_t>(job);
+  Mesh copy = empty_mesh(job);
   copy.uv[0] = Array<glm::vec2>(job);
   copy.color = Array<glm::u8vec4>(job);
   copy.uv[0].append(mesh.uv[0].span());

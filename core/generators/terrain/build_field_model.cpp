@@ -64,9 +64,7 @@ class FieldModelBuilder {
   Model build() {
     Model model;
     model.name = "terrain";
-    Node root;
-    root.name = "terrain";
-    model.nodes.push_back(std::move(root));
+    add_node(model, "terrain", -1);
     if (has_detail()) {
       sites_.emplace(sites());
       classes_.emplace(field_, window_of(params_), *sites_, ground_colors_, ground_material(params_), model);
@@ -144,7 +142,7 @@ class FieldModelBuilder {
         model.meshes[static_cast<std::size_t>(mesh)].primitives.push_back(
             {wall_mesh(made.border), earth, {}});
       }
-      show(model.nodes[0], mesh);
+      add_level(model.nodes[0], mesh);
     }
     write_levels(model);
   }
@@ -197,8 +195,8 @@ class FieldModelBuilder {
       Piece& made = pieces[i];
       const int node = add_child(model, name, -1);
       for (std::size_t k = 0; k < made.meshes.size(); ++k) {
-        show(model.nodes[static_cast<std::size_t>(node)],
-             add_ground_mesh(model, level_name(name, k), {std::move(made.meshes[k]), {}}, ground));
+        add_level(model.nodes[static_cast<std::size_t>(node)],
+                  add_ground_mesh(model, level_name(name, k), {std::move(made.meshes[k]), {}}, ground));
       }
       for (std::size_t k = 0; k < made.notes.size(); ++k) note(static_cast<int>(k), made.notes[k]);
     }
@@ -228,14 +226,6 @@ class FieldModelBuilder {
       made.meshes.push_back(reduced_mesh(field_, std::move(plan), color_of(), coarse, job_));
     }
     return made;
-  }
-
-  static void show(Node& node, int mesh) {
-    if (node.mesh < 0) {
-      node.mesh = mesh;
-    } else {
-      node.lods.push_back(mesh);
-    }
   }
 
   Note note_of(const Triangulation& plan) const {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <deque>
 #include <optional>
 
@@ -178,6 +179,28 @@ void HeightRows::run(std::span<const double* const> slots, std::size_t count, st
   std::copy_n(slots.begin(), std::min(slots.size(), std::size_t{expression_.slots_}), rows_.begin());
   for (Noise& each : calls_) fill(each, count, rngs);
   height_.run(rows_, count, rngs, out);
+}
+
+std::string error_about_name(std::string_view behind, bool is_plane) {
+  struct Row {
+    std::string_view name;
+    const char* on_plane;
+    const char* on_sphere;  ///< null: the name is known there
+  };
+  static constexpr const char *of_layers = "only the expressions of layers have it",
+                              *of_spheres = "only the shape sphere has it";
+  static constexpr Row rows[] = {{"z", "a plane has x, to the east, and y, to the north", nullptr},
+                                 {"latitude", of_spheres, nullptr},
+                                 {"longitude", of_spheres, nullptr},
+                                 {"slope", of_layers, "a sphere has no slope"},
+                                 {"height", of_layers, of_layers}};
+  for (const auto& [name, on_plane, on_sphere] : rows) {
+    const char* const reason = is_plane ? on_plane : on_sphere;
+    const auto next = static_cast<unsigned char>(behind.size() > name.size() ? behind[name.size()] : ' ');
+    const bool is_name = behind.starts_with(name) && next != '_' && next != '(' && std::isalnum(next) == 0;
+    if (is_name && reason) return "unknown name " + lang::in_quotes(name) + "; " + reason;
+  }
+  return "";
 }
 
 }  // namespace seedmesh::terrain

@@ -1,6 +1,7 @@
 #pragma once
 /// Computes heights from an expression in the request (Kogovšek 2014, sections 5.3.4 and 6). The language is that of
 /// docs/expressions.md plus noise functions of a position.
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -67,5 +68,9 @@ class HeightRows {
   std::vector<const double*> rows_;
   std::vector<double> coordinates_;
 };
+
+/// Returns the error about a name that other expressions of terrains have. `behind` begins with an unknown name; the
+/// result is empty for names that no expression has.
+std::string error_about_name(std::string_view behind, bool is_plane);
 
 }  // namespace seedmesh::terrain

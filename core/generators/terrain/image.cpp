@@ -78,7 +78,7 @@ Result<Field> of_raw(const TerrainImage& image, std::span<const std::uint8_t> by
   return field;
 }
 
-/// Whether a picture can hold heights in this way, in words where it cannot.
+/// Whether a picture can store heights in this way; the reason where it cannot.
 std::string picture_error(const texture::Picture& picture, TerrainEncoding encoding) {
   const std::string found = "found " + std::to_string(picture.channels) + " channels of " +
                             std::to_string(picture.bits) + " bits; ";

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <cctype>
 #include <cmath>
 #include <memory>
 #include <utility>
@@ -76,28 +75,15 @@ std::unique_ptr<HeightExpression> checked(const TerrainParams& params, const std
   return compiled(params, text, layers_before, is_layer, none);
 }
 
-/// Where a name exists that the expression cannot use; `behind` begins with an unknown name.
-const char* hint_of(const TerrainParams& params, std::string_view behind) {
-  const auto is_name = [&](std::string_view name) {
-    const auto next = static_cast<unsigned char>(behind.size() > name.size() ? behind[name.size()] : ' ');
-    return behind.starts_with(name) && next != '_' && next != '(' && std::isalnum(next) == 0;
-  };
-  const bool is_plane = params.shape != TerrainShape::sphere;
-  if (is_plane && is_name("z")) return "; a plane has x, to the east, and y, to the north";
-  if (is_plane && (is_name("latitude") || is_name("longitude"))) return "; only the shape sphere has it";
-  if (!is_plane && is_name("slope")) return "; a sphere has no slope";
-  if (is_name("height") || is_name("slope")) return "; only the expressions of layers have it";
-  return "";
-}
-
 void check_text(const TerrainParams& params, const std::string& text, const std::string& pointer,
                 std::size_t layer, bool is_layer, std::vector<Issue>& issues) {
   std::vector<lang::TextError> errors;
   compiled(params, text, layer, is_layer, errors);
   for (lang::TextError& error : errors) {
     if (error.kind != IssueKind::unknown_name) continue;
-    const std::string_view hint = hint_of(params, std::string_view(text).substr(error.offset));
-    if (!hint.empty()) error.message = error.message.substr(0, error.message.find("; did you")).append(hint);
+    const bool is_plane = params.shape != TerrainShape::sphere;
+    std::string own = error_about_name(std::string_view(text).substr(error.offset), is_plane);
+    if (!own.empty()) error.message = std::move(own);
   }
   lang::add_issues(pointer, text, errors, issues);
 }
@@ -334,7 +320,7 @@ void check_layer(const TerrainParams& params, std::size_t index, std::vector<Iss
   const TerrainLayer& layer = params.layers[index];
   const bool is_text = layer.layer_algorithm == Source::expression;
   if (is_text && !layer.expression) {
-    issues.emplace_back(IssueKind::missing, "/layers/" + std::to_string(index),
+    issues.emplace_back(missing_for({"expression", "algorithm"}), "/layers/" + std::to_string(index),
                         "\"expression\" is missing; the algorithm expression takes its heights from it");
   }
   check_layer_algorithm(params, index, issues);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/geom/plant/tube_formulas.h"
+
 namespace seedmesh::tree {
 namespace {
 
@@ -25,8 +27,6 @@ constexpr float seedling = 0.01F;
 // First leaves are unfolded when their stem has grown by the first share. They shrink from the second share
 // of the age of the tree to the third.
 constexpr float first_unfolded = 0.05F, first_until = 0.05F, first_gone = 0.1F;
-
-float fraction(std::uint64_t hash) { return static_cast<float>(hash >> 40U) * 0x1p-24F; }
 
 float length_of(const Limbs& limbs, std::size_t joint) {
   const glm::vec3 step = limbs.position[joint] - limbs.position[limbs.parent[joint]];
@@ -88,7 +88,7 @@ Array<float> sprouting_of(const Limbs& limbs, Job& job) {
   return births(limbs, job, [&](std::size_t i, float parent_birth, float position) {
     const float around = std::max(limbs.radius[limbs.parent[i]], limbs.base_radius[i]);
     const float thickness = around > 0 ? limbs.base_radius[i] / around : 1.0F;
-    float drawn = fraction(key_at(limbs.key[i], 0xA6E));
+    float drawn = fraction_of(key_at(limbs.key[i], 0xA6E));
     if (limbs.order[i] <= 1) drawn *= drawn;
     const float moment = by_position * position + (1 - by_position) * drawn;
     const float soon = 1 - by_thickness * thickness * thickness;
@@ -150,7 +150,7 @@ void compact(Array<T>& values, const Array<std::uint32_t>& new_index, std::size_
 
 Array<float> births_of(const Limbs& limbs, Job& job) {
   return births(limbs, job, [&](std::size_t i, float parent_birth, float position) {
-    const float difference = 2 * fraction(key_at(limbs.key[i], 0xA6E)) - 1;
+    const float difference = 2 * fraction_of(key_at(limbs.key[i], 0xA6E)) - 1;
     const float wait = first_share + (last_share - first_share) * position + spread_share * difference;
     return std::min(latest, parent_birth + (1 - parent_birth) * std::max(0.0F, wait));
   });

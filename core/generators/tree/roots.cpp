@@ -32,11 +32,11 @@ constexpr std::size_t most_stations = 64;
 /// A stretch of a root along the ground.
 struct Run {
   Rng rng{0};
-  std::uint32_t joint = Limbs::none;  ///< from which it continues
+  std::uint32_t joint = Limbs::none;  ///< joint from which it continues
   glm::dvec3 at{0};
   double heading = 0;             ///< degrees
   double radius = 0, length = 0;  ///< the radius where it begins
-  double share = 0;               ///< of the whole root that lies before it
+  double share = 0;               ///< share of the whole root that lies before it
   int pieces = pieces_out, order = 1;
   int forks = 0;  ///< the first after a piece, the second after three
   bool starts_limb = false;
@@ -71,7 +71,7 @@ class RootGrower {
   double trunk_;
   const RandomStreams& random_;
   SkeletonWriter& writer_;
-  std::vector<glm::dvec2> profile_;  ///< of the trunk: radius and height
+  std::vector<glm::dvec2> profile_;  ///< radius and height of the trunk
 };
 
 /// Height of the surface of the trunk at a distance from its axis.

@@ -14,7 +14,7 @@
 namespace seedmesh::world {
 namespace {
 
-constexpr double least_fall = 0.99;  ///< of the error of a tile by that above
+constexpr double least_fall = 0.99;  ///< greatest ratio of the error of a tile to that of its parent
 
 struct Block {
   int depth = 0;  ///< levels below the root
@@ -46,7 +46,7 @@ TileBounds in_plan(const World& world, const TileKey& key) {
   return box;
 }
 
-constexpr double plant_error = 1.0 / 192;  ///< of the side of a tile
+constexpr double plant_error = 1.0 / 192;  ///< share of the side of a tile
 
 /// What deviations are multiplied by, so that no tile of the presets has a greater one: errors_test.cpp measures them.
 double margin_of(const Roughness& rough) {

@@ -15,7 +15,7 @@ constexpr int settling_rounds = 3;
 constexpr double settling_pace = 700, most_settling = 70;  ///< metres by slope, and a round
 constexpr double bank_margin = 45;                         ///< metres from a bank where land counts
 constexpr double dry_radius = 1450;  ///< metres around dry positions, beyond the reach of valleys by a bend
-constexpr double lake_grade = 0.03;  ///< of a river before a lake
+constexpr double lake_grade = 0.03;  ///< grade of a river before a lake
 constexpr double lake_uneven = 1.2;  ///< radius of a lake by its mean at most
 constexpr int lowering_rounds = 2;   ///< the second includes rivers that the first had not lowered yet
 

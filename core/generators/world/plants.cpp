@@ -57,7 +57,7 @@ struct Field {
   std::int64_t first_x = 0, first_y = 0;
   int columns = 0, rows = 0;
   std::vector<Candidate> candidates;
-  std::vector<std::uint32_t> starts;  ///< of each cell
+  std::vector<std::uint32_t> starts;  ///< first plant of each cell
 
   template <class Visit>
   void for_near(int column, int row, const Visit& visit) {

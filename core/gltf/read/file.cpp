@@ -91,6 +91,7 @@ Array<std::byte> rebuilt(const nlohmann::json& json, std::span<const std::byte> 
   return glb;
 }
 
+// NOLINTNEXTLINE(readability-function-size): the type of the callback
 bool refuse_image(tinygltf::Image*, int, std::string*, std::string*, int, int, const unsigned char*, int,
                   void*) {
   return false;

@@ -385,6 +385,21 @@ TEST(Output, EstimatesTheBytesOfATreeBeforeItIsMade) {
   }
 }
 
+TEST(Output, EstimatesTheBytesOfPlanetsAndLeavesWithinAQuarter) {
+  for (const char* preset : {"planetoid", "small_planet", "boulder", "simple_leaf_5_6a", "simple_leaf_5_6c",
+                             "sojma_leaf", "alternate_leaf_5_12a", "leafy_birch"}) {
+    const Result<Request> request = read_request(request_of(preset, "{}"), Limits{});
+    ASSERT_TRUE(request) << preset;
+    const Result<Product> product = produce(*request, {});
+    ASSERT_TRUE(product) << preset;
+    const json estimate = json::parse(*validate(*request, {}))["estimate"];
+    const auto bytes = static_cast<double>(product->payload.size());
+    EXPECT_LT(estimate["bytes"].get<double>(), 1.25 * bytes) << preset;
+    EXPECT_GT(estimate["bytes"].get<double>(), bytes / 1.25) << preset;
+    EXPECT_EQ(estimate["triangles"], product->statistics.triangles) << preset;
+  }
+}
+
 TEST(Output, RefusesABudgetThatCannotBeHeld) {
   EXPECT_THAT(refused("menger_sponge", R"({"max_triangles":10})"), ElementsAre("/output/max_triangles"));
 }
