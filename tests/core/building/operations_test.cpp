@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include "core/generators/building/face_plans.h"
 #include "core/generators/building/inner_rectangle.h"
 #include "core/generators/building/spatial_queries.h"
 #include "tests/core/building/rules.h"
@@ -34,6 +35,19 @@ TEST(SplitArea, CutsAFaceIntoCellsOfTheirArea) {
   EXPECT_EQ(sizes(derived(with("A --> splitArea(z){ 12: B. | ~1: C. }", {6, 0, 5})), 2),
             (std::vector<double>{2, 3}));
   EXPECT_THAT(refusal(with("A --> splitArea(x){ ~1: B. }")), HasSubstr("expected a face"));
+}
+
+TEST(FacePlans, LosePointsThatCutsLeaveBesideCorners) {
+  Plan plan;
+  plan.rings = {{{0, 0}, {10, 0}, {10, 1e-7}, {10, 10}, {0, 10}, {1e-9, 1e-9}},
+                {{3, 3}, {3, 3 + 1e-8}, {4, 3}}};
+  remove_repeated_points(plan);
+  ASSERT_EQ(plan.rings.size(), 1U);  // the hole had two points left
+  EXPECT_EQ(plan.rings[0].size(), 4U);
+  EXPECT_TRUE(defects_of(plan).empty());
+  plan.rings = {{{0, 0}, {1e-300, 0}, {0, 0}}};
+  remove_repeated_points(plan);
+  EXPECT_TRUE(plan.rings.empty());
 }
 
 TEST(Resize, MakesACutSolidTheFaceThatItCovers) {
