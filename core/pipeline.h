@@ -36,7 +36,7 @@ class Request {
   std::shared_ptr<const Body> body_;
 };
 
-/// Reads a request body. Malformed JSON gives Code::malformed. Otherwise Code::invalid holds every error of
+/// Reads a request body. Malformed JSON gives Code::malformed. Otherwise Code::invalid lists every error of
 /// the schema and of the generator's own checks. The limits bound iterations and expression depth; stop and
 /// deadline end the checks too.
 Result<Request> read_request(std::string_view json, const Job::Options& options);
@@ -87,7 +87,7 @@ struct PictureOptions {
   Ground ground = Ground::auto_;  ///< auto_: a plane below plants, buildings and fractals
   std::string text() const;       ///< equal options give the same text
 };
-/// Reads `size`, `view` and `ground` of a query and removes them from it. Code::invalid holds every error, with
+/// Reads `size`, `view` and `ground` of a query and removes them from it. Code::invalid lists every error, with
 /// the pointer "/<key>".
 Result<PictureOptions> read_picture_options(Overrides& query);
 
@@ -130,7 +130,7 @@ struct ImportFormatInfo {
 };
 std::vector<ImportFormatInfo> import_format_list();
 
-/// A request as a file of another program, with warnings about what such a file cannot hold. `format`:
+/// A request as a file of another program, with warnings about what such a file cannot state. `format`:
 /// "proctree", with the names of listing 2.1 of Hutsko's thesis, or "proctree_js", with those of proctree.js.
 struct ExportedFile {
   std::string text;

@@ -20,7 +20,7 @@
 
 namespace seedmesh {
 
-/// Limits the requests of one key by a token bucket. The bucket holds the requests of one second, at least one.
+/// Limits the requests of one key by a token bucket. The bucket has tokens for the requests of one second, at least one.
 class TokenBucket {
  public:
   using Clock = std::chrono::steady_clock;

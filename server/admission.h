@@ -4,8 +4,8 @@
 /// As in imgproxy, the queue is bounded. A request that finds it full is refused at once, so that an
 /// overload does not slow down the requests that are accepted.
 ///
-/// Tiles of worlds have a class of their own. A tile is never refused, because clients do not ask again for a
-/// tile that failed. The number of waiting tiles is bounded by that of the connections. Tiles of coarser
+/// Tiles of worlds have a class of their own. A tile is never refused, because clients do not request a failed
+/// tile again. The number of waiting tiles is bounded by that of the connections. Tiles of coarser
 /// levels are served first, because clients need them first. While requests of both classes wait, free
 /// workers serve the classes alternately.
 #include <chrono>

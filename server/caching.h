@@ -6,7 +6,7 @@
 
 namespace seedmesh {
 
-/// Whether a cache may use a response without asking (`immutable`) or has to revalidate it first.
+/// Whether a cache may use a response as it is (`immutable`) or has to revalidate it first.
 enum class Caching { immutable, revalidate };
 
 /// Returns the Cache-Control field. A response to an API key is private, because caches do not check keys.

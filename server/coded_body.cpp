@@ -117,7 +117,7 @@ std::optional<CodedBody> coded_body(const RequestContext& call, const TaggedRequ
   if (stays_plain(call, *plain, best)) return plain_body(call, plain, Coding::identity);
   const std::string key = std::string(name_of(best)) + " " + wanted.request.canonical();
   Cache::Entry known = service.cache.find(key);
-  if (known && !known->payload && !takes_identity(call)) known = nullptr;  // worth it only where it must be
+  if (known && !known->payload && !takes_identity(call)) known = nullptr;  // the client refuses a plain body
   // HTTP/1.0 has no bodies of unknown length.
   if (!known && (plain->size() <= encoded_at_once || call.request.minor == 0)) {
     known = encoded(call, model, best);

@@ -18,13 +18,13 @@ class InFlight {
  public:
   using Clock = std::chrono::steady_clock;
 
-  /// Smaller payloads are not counted: the buffers of the kernel take them at once.
+  /// Smaller payloads are not counted: they fit into the buffers of the kernel.
   static constexpr std::uint64_t smallest = 16 * 1'024;
 
   explicit InFlight(std::uint64_t capacity) : capacity_(capacity) {}
 
   /// Waits until less than the limit is in use. False after the deadline. Called before a model is made, so that
-  /// a waiting request holds no memory.
+  /// a waiting request uses no memory.
   bool wait(Clock::time_point deadline);
 
   /// Returns the payload, counted with `extra` bytes until the result and its copies are gone. Null if the

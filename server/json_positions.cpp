@@ -2,6 +2,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/base/json_pointer.h"
+
 namespace seedmesh {
 
 JsonPositions::JsonPositions(std::string_view text) : text_(text) {
@@ -34,18 +36,9 @@ std::string JsonPositions::read_key(const std::string& pointer) {
   const std::size_t begin = at_;
   read_text();
   const auto key = nlohmann::json::parse(text_.substr(begin, at_ - begin)).get<std::string>();
-  std::string token = pointer + "/";
-  for (const char c : key) {
-    if (c == '~') {
-      token += "~0";
-    } else if (c == '/') {
-      token += "~1";
-    } else {
-      token += c;
-    }
-  }
-  if (contains(token) && !duplicate_) duplicate_ = Duplicate{key, text_position(text_, begin)};
-  return token;
+  std::string own = pointer + pointer_token(key);
+  if (contains(own) && !duplicate_) duplicate_ = Duplicate{key, text_position(text_, begin)};
+  return own;
 }
 
 void JsonPositions::read_value(const std::string& pointer) {

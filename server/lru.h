@@ -8,7 +8,7 @@
 namespace seedmesh {
 
 /// Values by key, bounded in bytes. The least recently used value is removed first. Not thread-safe.
-/// `Value` is a shared pointer, so that a removed value lives as long as it is in use.
+/// `Value` is a shared pointer, so that a removed value exists as long as it is in use.
 template <class Value>
 class LruMap {
  public:

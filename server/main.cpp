@@ -92,7 +92,9 @@ struct Arguments {
 
 /// Declares the arguments and settings of the command sync.
 void add_sync(CLI::App& command, SyncOptions& sync, Texts& texts) {
-  command.add_option("directory", sync.directory, "Directory with request files.")->required();
+  command
+      .add_option("directory", sync.directory, "Directory with request files, whose names end in .seedmesh.")
+      ->required();
   command.add_flag("--check", sync.check, "Write nothing; exit status 1 if a model would change.");
   command.add_flag("--list", sync.list, "Print the paths of the models and exit.");
   command.add_option("--server", sync.server, "Get models from this server; do not make them here.")

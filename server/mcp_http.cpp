@@ -29,8 +29,8 @@ bool is_loopback(const std::string& host) {
   return host == "localhost" || host == "127.0.0.1" || host == "[::1]" || host == "::1";
 }
 
-/// Pages of other origins must not use a service that only listens on this machine (DNS rebinding), and no
-/// service at all unless its settings allow their origin.
+/// Pages of other origins must not use a service unless its settings allow their origin. A service that listens only
+/// on this machine also checks the host (DNS rebinding).
 std::optional<Problem> check_origin(const RequestContext& call) {
   const Config& config = call.service.config;
   const std::string host = host_in(call.request.header("Host"));
@@ -62,7 +62,7 @@ std::string_view named_parameter(std::string_view method) {
   return method == "resources/read" ? "uri" : "";
 }
 
-/// Checks that the fields of a stateless message repeat what its body says.
+/// Checks that the fields of a stateless message agree with its body.
 std::optional<Failure> check_fields(const http::Request& request, const Json& body) {
   const auto differs = [](std::string_view field, const std::string& expected) {
     return Failure{Code::header_mismatch,

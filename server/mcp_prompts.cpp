@@ -10,7 +10,7 @@ namespace {
 struct Prompt {
   std::string_view name, title, text;
   std::string_view argument, argument_text;
-  std::string_view message;  ///< $ stands for the argument
+  std::string_view message;  ///< $ is replaced by the argument
 };
 
 constexpr Prompt prompts[] = {

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t longest_text = 12'000;  ///< characters of a derivation
 constexpr std::size_t most_differences = 100;
-constexpr std::uint32_t picture_size = 384;  ///< about 10 KB, which a context holds
+constexpr std::uint32_t picture_size = 384;  ///< about 10 KB, which fits into a context
 
 std::string dumped(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
 

@@ -20,7 +20,7 @@ inline constexpr Coding quick_codings[] = {Coding::zstd, Coding::gzip, Coding::b
 inline constexpr Coding small_codings[] = {Coding::br, Coding::zstd, Coding::gzip};
 
 /// Selects the coding of a response by Accept-Encoding (RFC 9110 section 12.5.3): the offered coding with the
-/// largest weight, the first among equals; `*` stands for gzip alone. Returns nothing where the client accepts
+/// largest weight, the first among equals; `*` means gzip alone. Returns nothing where the client accepts
 /// neither an offered coding nor identity. An absent field means identity.
 std::optional<Coding> choose_coding(std::string_view accept_encoding,
                                     std::span<const Coding> offered = quick_codings);

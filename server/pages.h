@@ -26,8 +26,7 @@ bool has_hashed_name(std::string_view path);
 class Pages {
  public:
   Pages();
-  const Asset* find(
-      std::string_view path) const;  ///< "/" stands for "/index.html"; null where there is no file
+  const Asset* find(std::string_view path) const;  ///< "/" means "/index.html"; null where there is no file
   const std::string& docs() const { return docs_; }
 
  private:

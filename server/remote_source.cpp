@@ -32,7 +32,7 @@ void pause(std::chrono::milliseconds time, const std::stop_token& stop) {
   changed.wait_for(lock, stop, time, [] { return false; });
 }
 
-/// How long to wait before the same call is worth repeating.
+/// How long to wait before the same call is repeated.
 std::optional<std::chrono::milliseconds> wait_after(const httplib::Response& response) {
   if (response.status != 429 && response.status != 503) return std::nullopt;
   const auto seconds = http::parse_number<int>(response.get_header_value("Retry-After"));

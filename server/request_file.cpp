@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "core/base/json_pointer.h"
 #include "core/pipeline.h"
 #include "server/json_positions.h"
 
@@ -14,12 +15,6 @@ using Json = nlohmann::ordered_json;
 
 constexpr int deepest = 64;  ///< as for requests
 constexpr std::string_view own_members[] = {"$schema", "name", "outputs"};
-
-std::string pointer_token(std::string_view key) {
-  std::string token;
-  for (const char c : key) token += c == '~' ? "~0" : c == '/' ? "~1" : std::string(1, c);
-  return token;
-}
 
 std::string line_of(const std::string& path, TextPosition position, std::string_view pointer,
                     std::string_view message) {
@@ -114,7 +109,7 @@ class Splitter {
 
   /// One of several outputs, which overrides members of the request's output.
   void add(const std::string& name, const Json& changes) {
-    const std::string pointer = "/outputs/" + pointer_token(name);
+    const std::string pointer = "/outputs" + pointer_token(name);
     if (!is_file_name(name) || name.ends_with(request_file_suffix))
       return refuse(pointer, "expected the name of a file, without a directory");
     if (!changes.is_object()) return refuse(pointer, "expected an object with members of output");
@@ -166,7 +161,7 @@ std::variant<RequestFile, ErrorLines> read_request_file(const std::string& path,
 
 ErrorLines error_lines(const RequestFile& file, std::string_view output, const std::vector<Issue>& issues) {
   const JsonPositions positions(file.text);
-  const std::string changed = "/outputs/" + pointer_token(output);
+  const std::string changed = "/outputs" + pointer_token(output);
   constexpr std::string_view prefix = "/output";
   ErrorLines lines;
   for (const Issue& issue : issues) {

@@ -2,6 +2,7 @@
 
 #include <string_view>
 
+#include "core/base/json_pointer.h"
 #include "server/http/text.h"
 #include "server/negotiate.h"
 
@@ -75,11 +76,8 @@ std::optional<http::Response> refuse_query(const Route& row, const RequestContex
   std::vector<Issue> issues;
   for (const auto& [key, value] : std::get<Overrides>(query)) {
     if (issues.size() == most_issues) break;
-    std::string pointer = "/";
-    for (const char c : key.substr(0, longest_key))
-      pointer += c == '~' ? "~0" : c == '/' ? "~1" : std::string(1, c);
-    issues.push_back(
-        {IssueKind::unknown_key, std::move(pointer), std::string(row.pattern) + " takes no query."});
+    issues.push_back({IssueKind::unknown_key, pointer_token(key.substr(0, longest_key)),
+                      std::string(row.pattern) + " takes no query."});
   }
   if (issues.empty()) return std::nullopt;  // `?` or `?&` alone
   return refuse(call, problem_of({Code::invalid, std::move(issues)}));
@@ -123,9 +121,19 @@ http::Response other_method(const Route& row, RequestContext& call) {
   return response;
 }
 
+/// The response to OPTIONS with the target "*", which asks about the server as a whole (RFC 9110 section 9.3.7).
+http::Response options_of_server() {
+  http::Response response;
+  response.status = 204;
+  response.set("Allow", "GET, HEAD, POST, OPTIONS");
+  response.route = "*";
+  return response;
+}
+
 }  // namespace
 
 http::Response route(Service& service, const http::Request& request) {
+  if (request.path == "*") return options_of_server();
   RequestContext call{service, request, {}, {}};
   call.grant.target_size = request.target.size();
   for (const Route& row : table) {
@@ -133,7 +141,7 @@ http::Response route(Service& service, const http::Request& request) {
     if (!name) continue;
     call.name = std::move(*name);
     http::Response response = allows(row, request.method) ? run(row, call) : other_method(row, call);
-    if (row.answer == get_world) open_to_pages(service, response);
+    if (row.answer == get_world) open_to_pages(service, request, response);
     return response;
   }
   if (service.pages.find(request.path)) {

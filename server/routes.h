@@ -12,7 +12,7 @@ http::Response route(Service& service, const http::Request& request);
 http::Response post_generate(RequestContext& call);  // routes_models.cpp
 http::Response get_model(RequestContext& call);
 http::Response get_preset(RequestContext& call);
-/// Returns the Server-Timing field of a response whose head is about to be sent. `asked` is when the model
+/// Returns the Server-Timing field of a response whose head is about to be sent. `asked` is the time when the model
 /// was requested from the caches, and `found` when it was available. The parts, whose sum is the total, are:
 /// - `parse`: from the arrival of the request to `asked`;
 /// - the parts of the generation, unless the model is from a cache;
@@ -39,8 +39,8 @@ http::Response get_world(RequestContext& call);  // routes_worlds.cpp
 http::Response post_world(RequestContext& call, const Request& request);
 /// Returns the map of a posted world inside the box that the query names; 422 for another generator.
 http::Response derive_world(RequestContext& call, const Request& request);
-/// Lets pages of all origins read a response, unless the settings name some origins.
-void open_to_pages(const Service& service, http::Response& response);
+/// Lets pages of all origins read a response, unless the settings name some origins. Answers their preflight requests.
+void open_to_pages(const Service& service, const http::Request& request, http::Response& response);
 
 http::Response post_validate(RequestContext& call);  // routes_json.cpp
 http::Response post_derive(RequestContext& call);

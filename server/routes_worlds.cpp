@@ -4,6 +4,7 @@
 #include "server/caching.h"
 #include "server/coded_body.h"
 #include "server/compress.h"
+#include "server/cors.h"
 #include "server/http/text.h"
 #include "server/routes.h"
 
@@ -218,7 +219,7 @@ std::variant<WorldBox, http::Response> box_of(const RequestContext& call, const 
   const Overrides& given = std::get<Overrides>(query);
   std::vector<Issue> issues = keys_but(given, "box");
   if (issues.empty() && given.size() != 1) {
-    issues.emplace_back(given.empty() ? IssueKind::missing : IssueKind::conflict, "/box",
+    issues.emplace_back(given.empty() ? IssueKind::missing : conflict_with({}), "/box",
                         "expected one box=west,south,east,north in metres");
   }
   if (!issues.empty()) return refuse(call, problem_of({Code::invalid, std::move(issues)}));
@@ -318,6 +319,7 @@ http::Response get_world(RequestContext& call) {
 }
 
 http::Response post_world(RequestContext& call, const Request& request) {
+  if (const auto error = output_error_of_tiles(request)) return refuse(call, problem_of(*error));
   Result<OpenWorld> open = open_world(request, call.service.worlds.memory());
   if (!open) return refuse(call, problem_of(open.error()));
   const NamedWorld world{NamedWorld::Kind::own, request, *std::move(open), world_token(request)};
@@ -344,10 +346,12 @@ http::Response derive_world(RequestContext& call, const Request& request) {
   return file_answer(call, wanted, Caching::revalidate);
 }
 
-void open_to_pages(const Service& service, http::Response& response) {
+void open_to_pages(const Service& service, const http::Request& request, http::Response& response) {
   const std::vector<std::string>& origins = service.config.cors_origins;
   const bool any = origins.empty() || std::find(origins.begin(), origins.end(), "*") != origins.end();
-  if (any) response.set("Access-Control-Allow-Origin", "*");
+  if (!any) return;
+  response.set("Access-Control-Allow-Origin", "*");
+  if (origins.empty()) allow_origin({"*"}, request, response);
 }
 
 }  // namespace seedmesh

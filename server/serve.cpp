@@ -64,12 +64,13 @@ http::Response handle(Service& service, const http::Request& request) {
   return finish(service, request, route(service, request));
 }
 
+/// The response to a request that no route sees.
 http::Response refuse_unread(Service& service, const http::Request& request, const http::Refusal& refusal) {
   if (refusal.status == 503) service.metrics.rejected(refusal.reason);
   if (refusal.status == 413) service.metrics.limited("body");
   http::Response response = to_response(problem(refusal.status, refusal.detail), request.id);
   response.route = "unread";
-  return response;
+  return finish(service, request, std::move(response));
 }
 
 http::Response fail(const Service& service, const http::Request& request, const std::string& what) {

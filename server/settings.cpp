@@ -205,7 +205,7 @@ const std::vector<Setting>& setting_rows() {
       count("max-triangles", "Triangles that one request may make.", &Limits::triangles, 1, 4'000'000'000),
       bytes("max-output", "Bytes of one response.", &Limits::output_bytes, 1'024),
       bytes("max-memory", "Bytes of memory for the work of one request.", &Limits::memory_bytes, 1U << 20U),
-      count("max-iterations", "Iterations that one request may ask for.", &Limits::iterations, 0, 1'000'000),
+      count("max-iterations", "Iterations that one request may have.", &Limits::iterations, 0, 1'000'000),
       count("max-bracket-depth", "Largest depth of brackets in a derivation.", &Limits::bracket_depth, 1,
             1'000'000),
       count("max-expression-depth", "Largest depth of an expression.", &Limits::expression_depth, 1, 1'000),

@@ -28,7 +28,7 @@ namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 using Kind = SourceResponse::Kind;
 
-constexpr std::chrono::milliseconds signal_interval{100};  ///< between two looks for SIGINT and SIGTERM
+constexpr std::chrono::milliseconds signal_interval{100};  ///< time between two checks for SIGINT and SIGTERM
 constexpr std::chrono::seconds lock_interval{1};  ///< between two writes of the lock file during a run
 constexpr int remote_jobs = 4;                    ///< requests to a server at the same time
 
@@ -113,7 +113,7 @@ class SyncRun {
     return output == entry->second.outputs.end() ? std::nullopt : std::optional(output->second);
   }
 
-  /// Finds what is not as the lock says, and two request files that make one file.
+  /// Finds what differs from the lock, and two request files that make one file.
   void list_tasks() {
     std::map<std::string, const ScannedFile*> owners;
     for (const ScannedFile& file : scan_.files) {
@@ -359,6 +359,9 @@ int sync_command(const Config& config, const SyncOptions& options) {
   }
   const Scan scan = scan_directory(options.directory, *lock, options.check, config.threads);
   if (!scan.failure.empty()) return fail(scan.failure, "cannot be read");
+  if (scan.files.empty())
+    std::fprintf(stderr, "seedmesh: %s: found no request files; their names end in .seedmesh\n",
+                 options.directory.c_str());
   if (options.list) return list(options, scan);
   const std::unique_ptr<ModelSource> source =
       options.server.empty() ? local_source(config) : remote_source(options.server, options.key);

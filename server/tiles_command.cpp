@@ -25,7 +25,7 @@ namespace fs = std::filesystem;
 
 constexpr std::uint64_t memory_bytes = std::uint64_t{256} << 20U;  ///< of regions, roads and towns
 constexpr std::chrono::seconds progress_interval{10};
-constexpr const char* identity = "seedmesh.json";  ///< says which world and engine a folder has
+constexpr const char* identity = "seedmesh.json";  ///< file with the world and engine of a folder
 
 int print_refusal(const Problem& problem) {
   std::fprintf(stderr, "%s\n", problem_json(problem, "", 2).c_str());
@@ -59,6 +59,15 @@ void collect_shared(std::string_view glb, std::set<std::string>& names) {
     if (end == std::string_view::npos) return;
     names.emplace(glb.substr(at, end - at));
   }
+}
+
+/// Whether a file is as long as it was when it was written. A machine that stops suddenly may leave an empty or a short
+/// file. A tile states its own length in bytes 8 to 11.
+bool is_whole(std::string_view bytes, bool is_tile) {
+  if (!is_tile || bytes.size() < 12) return !is_tile && !bytes.empty();
+  std::size_t length = 0;
+  for (std::size_t k = 4; k-- > 0;) length = length << 8U | static_cast<unsigned char>(bytes[8 + k]);
+  return length == bytes.size();
 }
 
 /// The threads of one run and their shared state.
@@ -127,17 +136,14 @@ class TilesRun {
     changed_.notify_all();
   }
 
-  /// Makes a file unless it is there. Tiles name the files that they share.
+  /// Makes a file unless it is there and whole. Tiles name the files that they share.
   template <class Make>
   void make(const std::string& name, const Make& make_bytes) {
     const std::string path = (fs::path(options_.folder) / name).string();
     const bool is_tile = name.ends_with(".glb");
-    std::error_code error;
-    if (fs::exists(path, error)) {
+    if (const auto known = read_file(path); known && is_whole(*known, is_tile)) {
       ++kept_;
-      if (is_tile) {
-        if (const auto bytes = read_file(path)) note_shared(*bytes);
-      }
+      if (is_tile) note_shared(*known);
       return;
     }
     Result<std::string> bytes = make_bytes();
@@ -199,16 +205,17 @@ class TilesRun {
   std::size_t ended_ = 0;
 };
 
-/// The request of a world: a file, standard input, or a preset with a seed where there is no such file.
+/// The request of a world: the text of a file or, without one, the name of a preset with a seed.
 std::variant<std::shared_ptr<const NamedWorld>, Problem> read_world(const Config& config,
+                                                                    const std::optional<std::string>& text,
                                                                     const std::string& name) {
   const auto memory = make_world_memory(memory_bytes);
   Job::Options options;
   options.limits = config.limits;
-  const auto text = read_file(name);
   if (!text) return read_world_name(name, options, memory);
   const Result<Request> request = read_request(*text, options);
   if (!request) return problem_of(request.error());
+  if (const auto error = output_error_of_tiles(*request)) return problem_of(*error);
   Result<OpenWorld> open = open_world(*request, memory);
   if (!open) return problem_of(open.error());
   return std::make_shared<const NamedWorld>(
@@ -225,33 +232,46 @@ std::optional<std::pair<int, int>> read_levels(std::string_view text, int count)
   return std::pair(*first, *last);
 }
 
-/// Whether the folder is empty or has files of this world and part; then it says so.
-bool claim(const fs::path& folder, const Request& request, const WorldPart& part) {
+/// Writes into an empty folder which world and part its files are of. Returns why the folder cannot take them, or nothing.
+std::string claim(const fs::path& folder, const Request& request, const WorldPart& part) {
   const nlohmann::ordered_json own = {
       {"engine", engine_version()},
       {"request", nlohmann::ordered_json::parse(request.canonical())},
       {"levels", {part.first, part.last}},
       {"box", {part.box.west, part.box.south, part.box.east, part.box.north}}};
   const std::string text = own.dump(2) + "\n", path = (folder / identity).string();
-  if (const auto known = read_file(path)) return *known == text;
-  return write_file_atomically(path, payload_of(text));
+  if (const auto known = read_file(path)) {
+    return *known == text
+               ? ""
+               : "has files of another world, engine, box or other levels; expected an empty folder";
+  }
+  return write_file_atomically(path, payload_of(text)) ? "" : "cannot be written: " + system_error_text();
 }
 
 }  // namespace
 
 int tiles_command(const Config& config, const TilesOptions& options) {
-  auto read = read_world(config, options.world);
+  const auto text = read_file(options.world);
+  const bool is_path = options.world.find('/') != std::string::npos || options.world.ends_with(".json");
+  if (!text && is_path) return fail(options.world, system_error_text());
+  auto read = read_world(config, text, options.world);
   if (const auto* refused = std::get_if<Problem>(&read)) return print_refusal(*refused);
   const auto world = std::get<std::shared_ptr<const NamedWorld>>(std::move(read));
   ManifestPart share;
   if (!options.part.empty()) {
     const auto given = read_part(options.part);
-    if (!given) return fail("--part", "must be index/count, with index from 0 to count - 1");
+    if (!given) {
+      return fail("--part",
+                  "found \"" + options.part + "\", expected index/count, with an index from 0 to count - 1");
+    }
     share = *given;
   }
   const int levels = world->open.levels();
   const auto wanted = read_levels(options.levels, levels);
-  if (!wanted) return fail("--levels", "must be first-last, from 0 to " + std::to_string(levels - 1));
+  if (!wanted) {
+    return fail("--levels", "found \"" + options.levels + "\", expected first-last or one level, from 0 to " +
+                                std::to_string(levels - 1));
+  }
   const double half = world->open.extent() / 2;
   WorldPart part{wanted->first, wanted->second, {-half, -half, half, half}};
   if (!options.box.empty()) {
@@ -259,8 +279,8 @@ int tiles_command(const Config& config, const TilesOptions& options) {
     if (!box) return fail("--box", box.error().issues.front().message);
     part.box = *box;
   }
-  if (!claim(options.folder, world->request, part))
-    return fail(options.folder, "has files of another world, part or engine, or cannot be written");
+  if (const std::string why = claim(options.folder, world->request, part); !why.empty())
+    return fail(options.folder, why);
   return TilesRun(config, world->open, part, options, share).run();
 }
 

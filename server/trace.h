@@ -14,7 +14,7 @@ struct Trace {
 };
 
 /// Parses a `traceparent` field and creates a span of our own. Returns nothing where the field is absent or
-/// malformed, because the standard asks to ignore such a field.
+/// malformed, because by the standard such a field is ignored.
 std::optional<Trace> read_traceparent(std::string_view field);
 
 /// Returns the field with our span. The response carries it, so that the client can refer to the span.

@@ -29,6 +29,7 @@ Named named(NamedWorld::Kind kind, const Result<Request>& request,
     return problem(404,
                    "This is a request for " + std::string(request->generator()) + ", which has no tiles.");
   }
+  if (const auto error = output_error_of_tiles(*request)) return problem_of(*error);
   Result<OpenWorld> open = open_world(*request, memory);
   if (!open) return problem_of(open.error());
   return std::make_shared<const NamedWorld>(

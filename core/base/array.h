@@ -1,8 +1,8 @@
 #pragma once
 /// Growing arrays for big models. New elements are uninitialised. Every byte of capacity is charged to the memory
 /// budget of the request before it is allocated; the unused ends of pages are counted separately
-/// (MemoryBudget::slack). Big blocks come from the kernel as huge pages, because page faults cost more than
-/// arithmetic in big models. Move-only; not safe for use from two threads at once.
+/// (MemoryBudget::slack). Large blocks come from the kernel as huge pages, because page faults cost more than
+/// arithmetic in large models. Move-only; only one thread may use it at a time.
 #include <algorithm>
 #include <cstddef>
 #include <cstring>

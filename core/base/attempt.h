@@ -1,7 +1,7 @@
 #pragma once
 /// Work that may be abandoned before its end because there is a cheaper alternative. Examples are an estimate
-/// that gets too large, and a first attempt on several threads that may exceed a limit. Abandoned work is
-/// neither an error nor a Stop; code outside attempt() does not notice it.
+/// that becomes too large, and a first attempt on several threads that may exceed a limit. Abandoned work is
+/// neither an error nor a Stop; code outside attempt() is not affected.
 namespace seedmesh {
 
 /// Thrown by abandon_attempt(), caught by attempt() alone.

@@ -131,7 +131,7 @@ void Job::refuse(Issue issue) const {
 }
 
 void Meter::refill(std::uint64_t amount) {
-  // The last units before the limit are handed out one by one, so that a limit of N lets exactly N through.
+  // The last units before the limit are reserved one by one, so that a limit of N allows exactly N.
   const std::uint64_t limit = bound_of(job_->limits(), resource_);
   const std::uint64_t spent = job_->spent(resource_);
   const std::uint64_t open = spent < limit ? limit - spent : 0;

@@ -16,7 +16,7 @@
 
 namespace seedmesh {
 
-/// The greatest amounts that one request may use: numbers of items, or bytes where the name says so. Flags
+/// The greatest amounts that one request may use: numbers of items, or bytes where the name states it. Flags
 /// and environment variables of the server change them.
 struct Limits {
   std::uint64_t modules = 64'000'000;

@@ -28,6 +28,17 @@ bool operator==(const Limit& a, const Limit& b) {
   return a.resource == b.resource && a.bound == b.bound && a.needed == b.needed;
 }
 
+IssueCause::IssueCause(IssueKind what, std::initializer_list<std::string_view> names)
+    : kind(what), members(names.begin(), names.end()) {}
+
+IssueCause conflict_with(std::initializer_list<std::string_view> members) {
+  return {IssueKind::conflict, members};
+}
+
+IssueCause missing_for(std::initializer_list<std::string_view> members) {
+  return {IssueKind::missing, members};
+}
+
 TextPosition text_position(std::string_view text, std::size_t offset) {
   TextPosition position;
   for (std::size_t i = 0; i < offset && i < text.size(); ++i) {

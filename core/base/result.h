@@ -3,6 +3,7 @@
 /// as a Result; violated preconditions are asserts; Stop, thrown by Job (job.h), ends a request early.
 #include <cassert>
 #include <cstdint>
+#include <initializer_list>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -38,7 +39,7 @@ enum class IssueKind : std::uint8_t {
   conflict,        ///< values that exclude each other, or one that needs another
   not_available,   ///< the generator, format or profile does not offer the requested feature
   evaluation,      ///< an expression or rule has no usable result: division by zero, an infinite size
-  limit,           ///< Issue::limit says which
+  limit,           ///< a limit is exceeded: Issue::limit
   truncated_list,  ///< not an error; Issue::unlisted is the number of errors beyond the list
   deadline,        ///< the time limit has passed
   cancelled,       ///< the work was cancelled
@@ -78,11 +79,34 @@ struct Limit {
 
 bool operator==(const Limit& a, const Limit& b);
 
+/// Why a value is refused: a kind, and the other members without which the value would not be an error.
+/// A name is that of a member of the object that holds the value, or of an object around it, such as "format" or
+/// "output/format".
+struct IssueCause {
+  IssueCause(IssueKind what) : kind(what) {}
+  IssueCause(IssueKind what, std::initializer_list<std::string_view> names);
+
+  IssueKind kind;
+  std::vector<std::string> members;
+};
+
+/// Returns the cause of an IssueKind::conflict with these members. The list is empty if the value is in conflict with
+/// no other member: with a value of the same list, say.
+IssueCause conflict_with(std::initializer_list<std::string_view> members);
+
+/// Returns the cause of an IssueKind::missing: these members are the reason why something is required.
+IssueCause missing_for(std::initializer_list<std::string_view> members);
+
 /// One error, tied to the value in the request that caused it.
 struct Issue {
   Issue() = default;
-  Issue(IssueKind what, std::string at, std::string sentence, int in_line = 0, int in_column = 0)
-      : kind(what), pointer(std::move(at)), message(std::move(sentence)), line(in_line), column(in_column) {}
+  Issue(IssueCause what, std::string at, std::string sentence, int in_line = 0, int in_column = 0)
+      : kind(what.kind),
+        pointer(std::move(at)),
+        message(std::move(sentence)),
+        line(in_line),
+        column(in_column),
+        members(std::move(what.members)) {}
 
   IssueKind kind = IssueKind::internal;
   std::string pointer;         ///< JSON Pointer into the request body, "" = the whole body
@@ -91,6 +115,7 @@ struct Issue {
   int column = 0;              ///< column inside that line in code points, from 1; 0 = not in a string
   std::optional<Limit> limit;  ///< for IssueKind::limit
   std::uint64_t unlisted = 0;  ///< for IssueKind::truncated_list: how many more were found
+  std::vector<std::string> members;  ///< see IssueCause
 
   friend bool operator==(const Issue&, const Issue&) = default;
 };

@@ -1,6 +1,6 @@
 #pragma once
 /// The interface of a generator, and everything that is passed to one. core/registry lists the generators;
-/// a generator itself knows only this header.
+/// a generator itself includes only this header.
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -40,7 +40,7 @@ struct OwnFormat {
   bool has_models = false;    ///< the file contains models, so output.textures and output.tangents apply
 };
 
-/// The format and profile that a request asks for.
+/// The format and profile that a request selects.
 struct WantedFormat {
   std::string_view format;
   std::string_view profile = "core";
@@ -49,13 +49,13 @@ struct WantedFormat {
 struct Generator;
 
 /// All generators, in the order of the menu. A generator needs the list for requests inside its own request
-/// (core/generators/child.h). The list lives as long as the program.
+/// (core/generators/child.h). The list exists as long as the program.
 using GeneratorList = std::span<const Generator>;
 
 struct CheckContext;
 struct GenerateContext;
 
-/// The functions of one generator. Only they know the type of its parameters.
+/// The functions of one generator. Only they depend on the type of its parameters.
 struct Generator {
   /// Parameters of the generator's own struct. Immutable; copies of a request share them.
   using Params = std::shared_ptr<const void>;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cassert>
-#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "core/model/index_width.h"
@@ -43,47 +42,39 @@ void read_child(Child& child, const std::string& pointer, const Reading& reading
   child.parameters = canonical_text(generator->write(params));
 }
 
-/// The words of a message that can be names.
-std::vector<std::string_view> names_in(std::string_view message) {
-  const auto is_part = [](char c) {
-    return c == '_' || (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
-  };
-  std::vector<std::string_view> names;
-  while (!message.empty()) {
-    const auto begin = std::ranges::find_if(message, is_part);
-    const auto end = std::find_if_not(begin, message.end(), is_part);
-    if (begin != end) names.emplace_back(&*begin, static_cast<std::size_t>(end - begin));
-    message.remove_prefix(static_cast<std::size_t>(end - message.begin()));
-  }
-  return names;
-}
-
-/// Whether an error is a conflict with the default of a member beside it: the schema has refused the value of that
-/// member, or its name is spelled wrongly. A missing member that only the default of a refused one needs counts too.
-bool is_conflict_with_default(const Issue& issue, const IssueList& errors) {
-  constexpr std::size_t shortest = 5;  // shorter names are similar to too many words
-  const bool is_missing = issue.kind == IssueKind::missing;
-  if ((issue.kind != IssueKind::conflict && !is_missing) || errors.empty()) return false;
-  const std::string object =
-      is_missing ? issue.pointer + "/" : issue.pointer.substr(0, issue.pointer.rfind('/') + 1);
-  const std::vector<std::string_view> names = names_in(issue.message);
-  std::vector<std::string_view> long_names;
-  std::ranges::copy_if(names, std::back_inserter(long_names),
-                       [](auto name) { return name.size() >= shortest; });
+/// Whether the schema has refused `member` of `object`, or what holds it, or a name that is nearly the same.
+bool is_refused(const std::string& object, const std::string& member, const IssueList& errors) {
+  const std::string pointer = object + "/" + member;
+  if (errors.covers(pointer)) return true;
+  const std::size_t start = pointer.rfind('/') + 1;
+  const std::string_view name = std::string_view(pointer).substr(start);
   return std::ranges::any_of(errors.issues(), [&](const Issue& refused) {
     const std::string_view at = refused.pointer;
-    if (!at.starts_with(object) || at.find('/', object.size()) != std::string_view::npos) return false;
-    const std::string_view member = at.substr(object.size());
-    return std::ranges::find(names, member) != names.end() ||
-           (!is_missing && member.size() >= shortest && !schema::nearest_word(member, long_names).empty());
+    return refused.kind == IssueKind::unknown_key && at.rfind('/') + 1 == start &&
+           pointer.starts_with(at.substr(0, start)) &&
+           !schema::nearest_word(at.substr(start), {&name, 1}).empty();
   });
+}
+
+/// Whether an error exists only because of the default of another member: the schema has refused the value of that
+/// member, or its name is spelled wrongly.
+bool is_about_default(const Issue& issue, const IssueList& errors) {
+  if (errors.empty() || issue.members.empty()) return false;
+  std::string object = issue.pointer;
+  while (true) {
+    const auto refused = [&](const std::string& member) { return is_refused(object, member, errors); };
+    if (std::ranges::any_of(issue.members, refused)) return true;
+    const std::size_t end = object.rfind('/');
+    if (end == std::string::npos) return false;
+    object.resize(end);
+  }
 }
 
 /// Adds the errors of check(), but not where the schema has refused a value already.
 void add_checked(std::vector<Issue> found, const std::string& pointer, IssueList& errors) {
   for (Issue& issue : found) issue.pointer.insert(0, pointer);
   std::erase_if(found, [&errors](const Issue& issue) {
-    return errors.covers(issue.pointer) || is_conflict_with_default(issue, errors);
+    return errors.covers(issue.pointer) || is_about_default(issue, errors);
   });
   for (Issue& issue : found) errors.add(std::move(issue));
 }

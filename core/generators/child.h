@@ -30,7 +30,7 @@ Result<Model> generate_child(const Child& child, const std::string& pointer, Rng
 /// children; null if there is none.
 Generator::Prepared prepare_child(const Child& child, const GenerateContext& around);
 
-/// Makes the same model as generate_child(), in less time if `prepared` was made from fitting parameters.
+/// Makes the same model as generate_child(), in less time if `prepared` belongs to its parameters.
 Result<Model> generate_prepared(const Child& child, const std::string& pointer, Rng stream,
                                 const GenerateContext& around, const Demand& demand,
                                 Generator::Prepared prepared);

@@ -15,7 +15,7 @@ class Payload {
  public:
   Payload() = default;
   void add(std::string text);  ///< owns the text
-  /// Refers to `bytes`, which `owner` owns. A null owner means that the bytes live as long as the program.
+  /// Refers to `bytes`, which `owner` owns. A null owner means that the bytes exist as long as the program.
   void add(std::shared_ptr<const void> owner, std::span<const std::byte> bytes);
   void append(Payload other);  ///< adds all pieces of `other` at the end
   std::uint64_t size() const { return size_; }

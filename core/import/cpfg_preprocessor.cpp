@@ -65,7 +65,7 @@ class Preprocessor {
 
   bool is_defined(Line name) const { return macros_.knows(text_.substr(name.from, name.to - name.from)); }
 
-  /// Whether the condition of #if holds. Unknown names are 0.
+  /// Whether the condition of #if is true. Unknown names are 0.
   bool value(Line line) {
     TracedText condition;
     for (std::size_t at = line.from; at < line.to;) {

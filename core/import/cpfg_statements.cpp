@@ -131,7 +131,7 @@ std::size_t CpfgStatements::branch(const TracedText& text, std::size_t open, std
   return at;
 }
 
-/// The statement that a condition or loop holds, and the brace behind it.
+/// The statement inside a condition or loop, and the brace behind it.
 std::size_t CpfgStatements::body(const TracedText& text, std::size_t at, std::size_t to, TracedText& out) {
   at = skip(text, at, to);
   ++depth_;

@@ -1,5 +1,5 @@
 #pragma once
-/// Statements of cpfg, which look like those of C: assignments, `if`, `while` and `for`. They become statements of
+/// Statements of cpfg, which have the syntax of C: assignments, `if`, `while` and `for`. They become statements of
 /// L-systems (core/generators/lsystem/compile_code.cpp).
 #include <set>
 #include <string>

@@ -17,7 +17,7 @@ struct DictionaryEntry {
   bool is_list = false;
 };
 
-/// Reads the first dictionary of a text, `{'shape': 7, ...}`. Texts count as the number that they hold, or as 0. Errors
+/// Reads the first dictionary of a text, `{'shape': 7, ...}`. Texts count as the number that they state, or as 0. Errors
 /// are reported at their position.
 std::vector<DictionaryEntry> read_dictionary(ForeignText& source);
 

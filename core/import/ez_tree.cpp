@@ -68,7 +68,7 @@ struct Reader {
     if (!from) return;
     for (const auto& [name, value] : from->items()) {
       if (!names.contains(name)) {
-        report(IssueKind::unknown_key, at + "/" + pointer_token(name).substr(1),
+        report(IssueKind::unknown_key, at + pointer_token(name),
                "\"" + shortened(name, 40) + "\" is not an option of ez-tree");
       }
     }

@@ -104,7 +104,7 @@ class HoudiniReader {
     return word.size() > 1 && (word == "premise" || values_.count(word) != 0);
   }
 
-  /// Whether a text looks like the label of a parameter: words that begin with a letter.
+  /// Whether a text has the form of a parameter's label: words that begin with a letter.
   bool is_label(std::size_t from, std::size_t to) const {
     if (to - from < 2 || !is_letter(text_[from])) return false;
     for (std::size_t i = from; i < to; ++i) {

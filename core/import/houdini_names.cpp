@@ -63,7 +63,7 @@ void HoudiniNames::put(double gravity, Json& parameters, ForeignText& source) co
   }
   if (const auto found = names_.find("in"); found != names_.end()) {
     source.warn(found->second,
-                "`in()` asks whether a point is in a geometry, which does not exist here; it is 0");
+                "`in()` tests whether a point is in a geometry, which does not exist here; it is 0");
     parameters["functions"] = {"in(x, y, z) = 0"};
   }
 }

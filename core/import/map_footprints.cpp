@@ -44,7 +44,7 @@ Role role_of(const MapFeature& feature, const MapData& data) {
   return Role::outline;
 }
 
-/// Whether a plan is too large for a building of which no tag says that it is one: it is a district or a country.
+/// Whether a plan is too large for a building without a tag that states it: it is a district or a country.
 bool is_district(const MapTags& tags, const Plan& plan) {
   const bool is_described = tags.has("building") || tags.has("building:part") || tags.has("height") ||
                             tags.has("building:levels") || tags.has("roof:shape");
@@ -82,7 +82,7 @@ std::vector<MapBody> bodies_of(MapConversion& map, const MapData& data, std::vec
       for (Plan& plan : sound.plans) {
         if (is_district(feature.tags, plan)) {
           map.warnings.add(
-              "a polygon of more than a square kilometre is left out, because no tag says that it is a "
+              "a polygon of more than a square kilometre is left out, because no tag states that it is a "
               "building",
               feature.position);
           continue;

@@ -142,7 +142,7 @@ const LineRule* line_rule(const MapTags& tags) {
   return nullptr;
 }
 
-/// The key that says what a feature is, for the list of those that are left out.
+/// The key that gives the kind of a feature, for the list of those that are left out.
 std::string kind_of(const MapTags& tags) {
   constexpr std::array<std::string_view, 23> keys{
       "building", "highway",          "railway",   "waterway", "natural",         "landuse",
@@ -309,7 +309,7 @@ bool has_ground_tag(const MapTags& tags) {
   constexpr std::array<std::string_view, 14> keys{
       "natural", "landuse", "leisure",      "waterway", "highway", "amenity", "boundary",
       "place",   "railway", "area:highway", "golf",     "aeroway", "barrier", "admin_level"};
-  // A building of a file of footprints may have an amenity, too; it says that it is one.
+  // A building of a file of footprints may have an amenity, too; its other tags state that it is one.
   return std::any_of(keys.begin(), keys.end(), [&](std::string_view key) { return tags.has(key); });
 }
 

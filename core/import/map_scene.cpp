@@ -18,7 +18,7 @@ constexpr double most_work = 5e8;  ///< see MapConversion::outline_work
 constexpr char ground_color[] = "#a3a08f";
 constexpr int tree_variants = 3;
 
-/// A light tree of Weber and Penn, about as high as map_tree_height says.
+/// A light tree of Weber and Penn, with a height of about map_tree_height.
 Json tree_model(bool is_needle) {
   Json leaf = {{"shape", is_needle ? "needles" : "cordate"}, {"color", is_needle ? "#2f5a3a" : "#5f8a3e"}};
   Json parameters = {{"model", "weber_penn"},

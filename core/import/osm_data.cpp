@@ -246,7 +246,7 @@ class Assembler {
     if (!feature.polygons.empty()) features_.push_back(std::move(feature));
   }
 
-  /// A relation `building` can hold the tags of its outline, and with `out geom` also its geometry.
+  /// A relation `building` can have the tags of its outline, and with `out geom` also its geometry.
   void add_outline(const OsmRelation& relation) {
     if (!relation.tags.has("building")) return;
     std::vector<MapRing> lines;
@@ -273,7 +273,7 @@ class Assembler {
     features_.push_back(std::move(feature));
   }
 
-  /// An outer way that is the same thing as its multipolygon counts once: buildings are, whatever their kinds. The only
+  /// An outer way of the same kind as its multipolygon counts once. All buildings are of the same kind. The only
   /// outer way gives the multipolygon its further tags.
   void consume(const OsmWay& way, MapTags& tags, bool is_only) {
     constexpr std::array<std::string_view, 6> keys{"building", "building:part", "natural",

@@ -60,7 +60,7 @@ struct OsmFile {
   MapWarnings warnings;
 };
 
-/// The text `remark` of Overpass at `place` says that its server stopped the query. Returns an error if `file` has no
+/// The text `remark` of Overpass at `place`: its server stopped the query. Returns an error if `file` has no
 /// elements; otherwise adds a warning, because the map is incomplete, and returns nullopt. `text`: the file; empty for
 /// JSON.
 std::optional<Error> stopped_query(OsmFile& file, std::string_view remark, const MapPosition& place,

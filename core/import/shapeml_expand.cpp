@@ -16,7 +16,7 @@ using lang::TokenKind;
 constexpr int deepest = 30;
 constexpr std::size_t most_tokens = 1'000'000, most_calls = 1'000;
 
-/// What stands for a name: the tokens between the braces, and the names of the parameters.
+/// The definition of a name: the tokens between the braces, and the names of the parameters.
 struct Operations {
   std::vector<std::string_view> parameters;
   std::vector<Token> body;

@@ -93,7 +93,7 @@ class ShapemlPattern {
     text(is_first ? "0" : "");
   }
 
-  /// The length that is divided. Parts of parts know it by an attribute.
+  /// The length that is divided. Parts of parts read it from an attribute.
   void length() { text(groups_ > 1 ? std::string(length_name) : std::string("scope.s") + axis_); }
 
   /// The number of repetitions of all brackets.

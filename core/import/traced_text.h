@@ -26,7 +26,7 @@ class TracedText {
   void copy(const TracedText& other, std::size_t from, std::size_t to);
   TracedText part(std::size_t from, std::size_t to) const;
 
-  /// Appends a `text` that stands for byte `from` of the source.
+  /// Appends a `text` that replaces byte `from` of the source.
   void write(std::string_view text, std::size_t from);
 
   /// Replaces one byte.

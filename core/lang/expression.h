@@ -13,7 +13,7 @@
 ///   primary    = number | dotted | name "(" [ expression { "," expression } ] ")" | "(" expression ")" ;
 ///   dotted     = name { "." name } | array "[" expression "]" ;   without spaces: one name, as in Scope.sx
 ///
-/// All values are doubles. A condition holds if its value is not 0; comparisons give 1 or 0. && and || give 1 or 0
+/// All values are doubles. A condition is true if its value is not 0; comparisons give 1 or 0. && and || give 1 or 0
 /// and do not evaluate the right side if the left one decides. `!` binds like a minus sign, as in C: !a < b is
 /// (!a) < b. Comparisons do not chain. The index of an array is truncated to a whole number; outside of the array the
 /// result is NaN. `%` is mod(), whose result has the sign of the divisor; it is an operator only

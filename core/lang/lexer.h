@@ -39,7 +39,7 @@ struct TextError {
 /// The most tokens of one call, which bounds the memory that a hostile text can take.
 constexpr std::size_t max_tokens = 1'000'000;
 
-/// The most errors that one call adds. The last of them says that the rest of the text was not read.
+/// The most errors that one call adds. The last of them states that the rest of the text was not read.
 constexpr std::size_t max_errors = 100;
 
 /// The tokens of text[from, to), followed by one TokenKind::end at offset `to`. Requires from <= to <= text.size().

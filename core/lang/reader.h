@@ -29,7 +29,7 @@ class Reader {
   bool is_here(std::string_view symbol) const { return is_symbol(token(), symbol); }
   void advance(std::size_t count = 1) { at_ += count; }
 
-  /// Reports an error and goes on. Of several errors in a row at one offset only the first is kept, since the others
+  /// Reports an error and continues. Of several errors in a row at one offset only the first is kept, since the others
   /// follow from it.
   void report(const Token& where, std::string message, IssueKind kind = IssueKind::syntax);
   /// Reports that something else was expected at this token, and enters Panic::bracket.

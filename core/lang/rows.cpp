@@ -11,8 +11,8 @@
 namespace seedmesh::lang {
 namespace {
 
-/// Cells that one step of a loop reads before it writes any, so that the result may overwrite an operand, and compilers
-/// use vector instructions nevertheless.
+/// Cells that one step of a loop reads before it writes any. The result may therefore overwrite an operand, and
+/// compilers still use vector instructions.
 constexpr std::size_t lane = 8;
 static_assert(RowEvaluator::width % lane == 0);
 
@@ -69,7 +69,7 @@ void combine(Operation operation, std::size_t count, const double* left, const d
   }
 }
 
-/// Runs a function that is worth a loop of its own, with the same results as its row of functions(). False: it has none.
+/// Runs a function that has a loop of its own, with the same results as its row of functions(). False: it has none.
 bool run_simple(std::string_view name, std::size_t count, const double* first, double* out) {
   const auto argument = [first](std::size_t index) { return first + index * RowEvaluator::width; };
   const auto least = [](double a, double b) { return b < a ? b : a; };

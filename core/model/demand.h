@@ -10,7 +10,7 @@ enum class CollisionNames { none, plain, unreal, godot };
 /// How repeated parts are written; any: the output profile decides.
 enum class CopyForm { any, nodes, gpu, merge };
 
-/// A generator is only asked for what its row in the registry offers: the pipeline refuses other requests.
+/// A demand contains only what the row of the generator in the registry offers: the pipeline refuses other requests.
 struct Demand {
   int lods = 1;                   ///< levels of detail, 1 to 5
   bool two_sided_leaves = false;  ///< the engine of the profile flips the normals of back faces itself
@@ -19,7 +19,7 @@ struct Demand {
   bool wind = false;          ///< wind weights in TEXCOORD_2 and TEXCOORD_3
   CollisionNames collision = CollisionNames::none;
   int textures = 512;                ///< width and height in texels; 0: no textures
-  bool tangents = true;              ///< tangents are wanted; a generator may write them where that is cheap
+  bool tangents = true;              ///< of the output; a generator may write them where that is cheap
   bool impostor = false;             ///< an impostor is the coarsest level of each plant of a scene
   CopyForm copies = CopyForm::any;   ///< form of repeated parts of a scene or a building
   std::uint64_t most_triangles = 0;  ///< the budget; 0: none

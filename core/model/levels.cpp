@@ -39,4 +39,17 @@ std::uint64_t triangles_of(const MeshGroup& group) {
   return triangles;
 }
 
+void empty_hidden_meshes(Model& model) {
+  std::vector<bool> shown(model.meshes.size(), false);
+  for (const Node& node : model.nodes) {
+    if (node.mesh >= 0) shown[static_cast<std::size_t>(node.mesh)] = true;
+    for (const int lod : node.lods) {
+      if (lod >= 0) shown[static_cast<std::size_t>(lod)] = true;
+    }
+  }
+  for (std::size_t i = 0; i < shown.size(); ++i) {
+    if (!shown[i]) model.meshes[i].primitives.clear();
+  }
+}
+
 }  // namespace seedmesh

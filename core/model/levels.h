@@ -1,5 +1,5 @@
 #pragma once
-/// Queries on the levels of detail of a model.
+/// The levels of detail of a model.
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -30,5 +30,8 @@ std::string level_name(const std::string& name, Integer level) {
 
 /// Triangles of all primitives of `group`.
 std::uint64_t triangles_of(const MeshGroup& group);
+
+/// Removes the primitives of meshes that no node shows at any level. Indices of meshes stay valid.
+void empty_hidden_meshes(Model& model);
 
 }  // namespace seedmesh

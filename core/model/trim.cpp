@@ -8,7 +8,7 @@ namespace {
 /// The keys that remain of one list of times: the last one at or before the cut, and all after it.
 struct Cut {
   std::size_t first = 0;  ///< key that becomes the one at time 0, or that stays the first
-  float share = 0;        ///< of the way from `first` to the next key at the cut
+  float share = 0;        ///< share of the way from `first` to the next key at the cut
 };
 
 Cut cut_of(const std::vector<float>& times, float seconds) {

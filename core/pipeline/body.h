@@ -20,7 +20,7 @@ struct Request::Body {
 /// Canonical JSON of generator, parameters, seed and output.
 std::string canonical_request(const Request::Body& body);
 
-/// Reads a request without its canonical text and name. Code::invalid holds all errors. Throws Stop.
+/// Reads a request without its canonical text and name. Code::invalid lists all errors. Throws Stop.
 Result<Request::Body> read_parts(const Json& json, const Job& job);
 
 inline WantedFormat wanted_format(const OutputParams& output) {
@@ -31,7 +31,7 @@ inline WantedFormat wanted_format(const OutputParams& output) {
 /// none.
 std::string_view part_with(std::string_view member, std::string_view generator);
 
-/// Reads a request from parsed JSON within the limits, stop and deadline of `options`. Code::invalid holds all errors.
+/// Reads a request from parsed JSON within the limits, stop and deadline of `options`. Code::invalid lists all errors.
 Result<Request> read_request_body(const Json& json, const Job::Options& options);
 
 }  // namespace seedmesh

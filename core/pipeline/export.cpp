@@ -1,4 +1,4 @@
-/// Writes requests as files of other programs. What such a file cannot hold is found by reading it again.
+/// Writes requests as files of other programs. What such a file cannot state is found by reading it again.
 #include <nlohmann/json.hpp>
 
 #include "core/import/proctree_file.h"

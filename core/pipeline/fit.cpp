@@ -16,7 +16,7 @@ constexpr const char* pointer = "/output/max_triangles";
 constexpr std::uint64_t least_simplified = 64;
 constexpr double most_of_level = 0.9;  ///< a level may have this share of the triangles of the one before
 
-/// Makes `level` the finest, with at most `lods` - 1 coarser ones, and empties meshes that no node shows.
+/// Makes `level` the finest, with at most `lods` - 1 coarser ones, and empties meshes that no node and no impostor shows.
 void promote(Model& model, std::size_t level, std::size_t lods) {
   std::vector<bool> shown(model.meshes.size(), false);
   for (Node& node : model.nodes) {
@@ -27,6 +27,11 @@ void promote(Model& model, std::size_t level, std::size_t lods) {
     if (node.lods.size() > lods - 1) node.lods.resize(lods - 1);
     shown[static_cast<std::size_t>(node.mesh)] = true;
     for (const int lod : node.lods) shown[static_cast<std::size_t>(lod)] = true;
+  }
+  // draw_impostors() empties these.
+  for (const Material& material : model.materials) {
+    for (const ImpostorRecipe::Part& part : material.impostor.parts)
+      shown[static_cast<std::size_t>(part.mesh)] = true;
   }
   for (std::size_t i = 0; i < shown.size(); ++i) {
     if (!shown[i]) model.meshes[i].primitives.clear();

@@ -5,13 +5,14 @@
 
 #include "core/model/build.h"
 #include "core/model/index_width.h"
+#include "core/model/levels.h"
 #include "core/pipeline/fit.h"
 
 namespace seedmesh {
 namespace {
 
-constexpr double near_enough = 0.9;    ///< of the wanted triangles: a level of the model is used as it is
-constexpr double too_many = 1.02;      ///< times the wanted triangles: worth a warning
+constexpr double near_enough = 0.9;    ///< of the requested triangles: a level of the model is used as it is
+constexpr double too_many = 1.02;      ///< times the requested triangles, above which there is a warning
 constexpr double most_of_level = 0.9;  ///< a level may have this share of the triangles of the one before
 /// Smaller meshes keep their triangles as long as others suffice: simplification would collapse a box.
 constexpr std::uint64_t least_simplified = 64;
@@ -122,20 +123,6 @@ void drop_level(Model& model, std::size_t level) {
   }
 }
 
-/// Empties the meshes that no node shows.
-void empty_hidden(Model& model) {
-  std::vector<bool> shown(model.meshes.size(), false);
-  for (const Node& node : model.nodes) {
-    if (node.mesh >= 0) shown[static_cast<std::size_t>(node.mesh)] = true;
-    for (const int lod : node.lods) {
-      if (lod >= 0) shown[static_cast<std::size_t>(lod)] = true;
-    }
-  }
-  for (std::size_t i = 0; i < shown.size(); ++i) {
-    if (!shown[i]) model.meshes[i].primitives.clear();
-  }
-}
-
 /// A level is shown where the triangles on a piece of the screen are as many as those of the finest level that fills
 /// it: the size falls with the root of the triangles.
 void set_screen(Model& model, const std::vector<std::uint64_t>& drawn) {
@@ -192,7 +179,7 @@ std::optional<Issue> fit_levels(Model& model, const std::vector<std::uint64_t>& 
                  "found " + std::to_string(triangles.size()) +
                      " levels of detail; this model has one and cannot be simplified"};
   }
-  empty_hidden(model);
+  empty_hidden_meshes(model);
   set_screen(model, drawn);
   return std::nullopt;
 }

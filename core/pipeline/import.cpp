@@ -113,7 +113,7 @@ std::optional<Error> append_appraisal(const Request& request, Imported& imported
   return std::nullopt;
 }
 
-/// A body `{"files": {name: text, ...}}` holds several files. The one that looks most like a format is the text, the
+/// A body `{"files": {name: text, ...}}` contains several files. The one that matches a format best is the text, the
 /// others are beside it. `main` owns its text.
 void unpack(ImportInput& question, std::string& main, const Job& job) {
   const std::size_t first = question.text.find_first_not_of(" \t\r\n");

@@ -1,5 +1,5 @@
 #pragma once
-/// The levels of detail that output.lods asks for: a number, or a list of triangles.
+/// The levels of detail of output.lods: a number, or a list of triangles.
 #include <cstdint>
 #include <vector>
 

@@ -73,7 +73,7 @@ Result<Model> generate_all(const Request& request, Job& job) {
   return row_of(std::move(models));
 }
 
-/// Merges copies into meshes where the output asks for it, or where there are too many parts.
+/// Merges copies into meshes where the output requires it, or where there are too many parts.
 void merge_where_wanted(Model& model, const Request& request, Job& job) {
   const OutputInstancing instancing = request.body().output.instancing;
   const bool has_too_many = instancing == OutputInstancing::auto_ &&
@@ -88,7 +88,7 @@ bool is_empty(const Model& model) {
   });
 }
 
-/// Adds impostors as the coarsest level where the output asks for them, and draws those of a scene.
+/// Adds impostors as the coarsest level where the output has them, and draws those of a scene.
 std::optional<Issue> add_impostors(Model& model, const Request& request, Job& job) {
   const OutputParams& output = request.body().output;
   const int size = texture_size(output);
@@ -132,7 +132,7 @@ std::optional<Error> make_listed_levels(Model& model, const Request& request, co
   return Error{code, {*std::move(issue)}};
 }
 
-/// Gives the model the wanted levels of detail within the budget; an error where that is impossible.
+/// Gives the model the requested levels of detail within the budget; an error where that is impossible.
 std::optional<Error> make_levels(Model& model, const Request& request, Job& job) {
   const OutputParams& output = request.body().output;
   const Generator& generator = *request.body().generator;

@@ -18,7 +18,7 @@ std::string model_name(const Request::Body& body);
 /// The first part of the names of meshes, materials and images: the same for all seeds.
 std::string name_stem(const Request::Body& body);
 
-/// Longer canonical requests are not written into models: they may hold whole images as data URIs.
+/// Longer canonical requests are not written into models: they may contain whole images as data URIs.
 constexpr std::size_t longest_written_request = 16'384;
 
 /// Returns the origin of the model: engine, generator, seed as text, preset where `output.name` names it, request

@@ -31,7 +31,7 @@ void set_format(Product& product, std::string_view name) {
   product.extension = format.extension;
 }
 
-/// The generator's own format that the request asks for; null where it asks for a model.
+/// The generator's own format that the request selects; null where it selects a model.
 const OwnFormat* own_format_of(const Request& request) {
   for (const OwnFormat& form : request.body().generator->formats) {
     if (form.format == request.format()) return &form;
@@ -118,6 +118,25 @@ bool is_merged_as_a_row(const Appraisal& appraisal, const OutputParams& output) 
   return appraisal.estimate->bytes / bytes_of_copy * static_cast<std::uint64_t>(output.variants) > most_parts;
 }
 
+/// Warns of options about generated images and copies where the model has none.
+void warn_of_unused(Model& model, const OutputParams& output) {
+  const auto warn = [&model](const char* pointer, const char* reason) {
+    model.warnings.push_back({pointer, std::string("has no effect: ") + reason, 0, 0});
+  };
+  const bool has_images =
+      std::ranges::any_of(model.textures, [](const auto& image) { return !image->is_given; });
+  const int size = texture_size(output);
+  if (!has_images && size > 0 && output.textures != OutputParams{}.textures)
+    warn("/output/textures", "the model has no generated textures");
+  const bool is_webp =
+      output.image_format == OutputImageFormat::webp || output.image_format == OutputImageFormat::both;
+  if (!has_images && is_webp) warn("/output/image_format", "the file has no generated images");
+  const bool has_arrays = std::ranges::any_of(
+      model.nodes, [](const Node& node) { return !node.instances.transforms.empty() && node.skin < 0; });
+  if (output.instancing == OutputInstancing::gpu && !has_arrays)
+    warn("/output/instancing", "the model has no copies that arrays could hold");
+}
+
 WriteOptions write_options(const Request& request) {
   const OutputParams& output = request.body().output;
   const Profile& profile = profile_of(output.profile);
@@ -144,6 +163,7 @@ Result<Product> produce(const Request& request, const Job::Options& options, Tex
     const OutputParams& output = request.body().output;
     Result<Model> model = make_model(request, texture_store, job);
     if (!model) return std::move(model).error();
+    warn_of_unused(*model, output);
     if (output.tangents == OutputTangents::auto_) add_tangents(*model, job);
     finish(*model, job);
     if (profile_of(output.profile).morphs) add_next_positions(*model, job);
@@ -180,14 +200,14 @@ Result<std::string> derive(const Request& request, const Job::Options& options) 
   });
 }
 
-/// Does the output hold exactly the triangles of the generator?
+/// Whether the output has exactly the triangles of the generator.
 static bool leaves_meshes(const OutputParams& output) {
   return !profile_of(output.profile).quantized && level_count(output) == 1 && !has_listed_levels(output) &&
          !output.impostor;
 }
 
-/// A warning where the model may not fit the budget of the finest level, which is known only when it is made, or where
-/// simplification takes seconds.
+/// Warns where the model may not fit the budget of the finest level, whose triangles are known only when it is made.
+/// Also warns where simplification takes seconds.
 static void warn_of_budget(Appraisal& appraisal, const OutputParams& output) {
   constexpr double seconds_a_triangle = 2e-6, long_time = 1;
   const bool is_listed = !output.max_triangles && has_listed_levels(output) && appraisal.estimate;
@@ -209,6 +229,15 @@ static void warn_of_budget(Appraisal& appraisal, const OutputParams& output) {
   message += "; generation refuses the request if the coarsest level has more";
   const char* const pointer = is_listed ? "/output/lods/0" : "/output/max_triangles";
   appraisal.warnings.push_back({pointer, std::move(message), 0, 0});
+}
+
+/// The bytes of what the document of a model states about its origin: in the asset, the scene and the root node.
+static std::uint64_t bytes_of_origin(const Request& request) {
+  constexpr std::uint64_t copies = 3, punctuation = 4;
+  if (request.body().output.provenance != OutputProvenance::full) return 0;
+  std::uint64_t bytes = 0;
+  for (const Extra& extra : provenance(request)) bytes += extra.name.size() + extra.json.size() + punctuation;
+  return copies * bytes;
 }
 
 Result<std::string> validate(const Request& request, const Job::Options& options) {
@@ -236,6 +265,7 @@ Result<std::string> validate(const Request& request, const Job::Options& options
       if (most > 0 && estimate->triangles > most) {
         *estimate = {most, estimate->bytes / estimate->triangles * most, false};
       }
+      estimate->bytes += bytes_of_origin(request);
       answer["estimate"] = {
           {"triangles", estimate->triangles}, {"bytes", estimate->bytes}, {"exact", estimate->exact}};
     }

@@ -103,16 +103,16 @@ std::string collision_name(const std::string& mesh, CollisionShape shape, std::s
   return mesh + "_collision" + numbered(number) + "-convcolonly";
 }
 
-/// The convention that `output.collision` asked for, read from the name that the generator chose.
+/// The convention that `output.collision` selects, read from the name that the generator chose.
 CollisionNames convention_of(std::string_view name) {
   if (name.starts_with("UCX_")) return CollisionNames::unreal;
   if (name.ends_with("-convcolonly")) return CollisionNames::godot;
   return CollisionNames::plain;
 }
 
-/// Generators number the shapes of one model from 1. In a file of several models, a suffix that makes a name
-/// unique would hide the suffix that Godot reads, and Unreal would search for a mesh of that name. So the
-/// numbers count through the file, and Unreal's names contain the mesh's name in this file.
+/// Generators number the shapes of one model from 1. In a file of several models, a further suffix would make names
+/// unique. It would hide the suffix that Godot reads, however, and Unreal would search for a mesh of that name. So
+/// the numbers count through the file, and Unreal's names contain the mesh's name in this file.
 void name_collisions(Model& model, OutputProfile profile) {
   const bool is_engine = profile == OutputProfile::unreal || profile == OutputProfile::godot;
   std::map<std::string, std::size_t> shapes;  // of each visible mesh

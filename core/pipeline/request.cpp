@@ -69,7 +69,7 @@ Generator::Params mixed_parameters(const Json& merged, const std::string& other,
   Generator::Params params = parameters_of(merged, generator, job, foreign);
   if (!foreign.empty()) {
     const std::string name(generator.name);
-    errors.add({IssueKind::conflict, "/generator",
+    errors.add({conflict_with({"preset"}), "/generator",
                 "found \"" + name + "\", but the preset is a request for " + other +
                     ", which has other parameters than " + name});
   }
@@ -129,23 +129,26 @@ void check_profile(const OutputParams& output, IssueList& errors) {
 /// An impostor needs texels, and a model that does not move.
 void check_impostor(const Generator& generator, const OutputParams& output, IssueList& errors) {
   if (!output.impostor) return;
-  const auto refuse = [&errors](std::string message, IssueKind kind = IssueKind::conflict) {
-    errors.add({kind, "/output/impostor", std::move(message)});
+  const auto refuse = [&errors](IssueCause cause, std::string message) {
+    errors.add({std::move(cause), "/output/impostor", std::move(message)});
   };
   const auto* size = std::get_if<std::int32_t>(&output.textures);
   const auto* choice = std::get_if<OutputTextures>(&output.textures);
   if (!generator.has_impostor)
-    refuse("the generator " + std::string(generator.name) + " makes no impostors", IssueKind::not_available);
+    refuse(IssueKind::not_available, "the generator " + std::string(generator.name) + " makes no impostors");
   if (choice && *choice == OutputTextures::none) {
-    refuse("an impostor is a texture, and `textures` is none; expected textures of at least " +
-           std::to_string(least_impostor) + " texels");
+    refuse(conflict_with({"textures"}),
+           "an impostor is a texture, and `textures` is none; expected textures of at least " +
+               std::to_string(least_impostor) + " texels");
   }
   if (size && *size < least_impostor) {
-    refuse("found textures of " + std::to_string(*size) + " texels for an impostor; expected at least " +
-           std::to_string(least_impostor));
+    refuse(conflict_with({"textures"}), "found textures of " + std::to_string(*size) +
+                                            " texels for an impostor; expected at least " +
+                                            std::to_string(least_impostor));
   }
   if (output.animation == OutputParams::Animation::growth)
-    refuse("found an impostor and the growth animation; an impostor cannot grow");
+    refuse(conflict_with({"animation"}),
+           "found an impostor and the growth animation; an impostor cannot grow");
 }
 
 /// Linked textures are beside the model, where a file on a disk finds none, and impostors are drawn of their texels.
@@ -153,18 +156,18 @@ void check_links(const OutputParams& output, IssueList& errors) {
   const auto* choice = std::get_if<OutputTextures>(&output.textures);
   if (!choice || *choice != OutputTextures::links) return;
   if (output.format != OutputFormat::glb && output.format != OutputFormat::gltf) {
-    errors.add({IssueKind::conflict, "/output/textures",
+    errors.add({conflict_with({"format"}), "/output/textures",
                 "found links in the format " + std::string(text_of(output.format)) +
                     "; expected the format glb or gltf, or textures inside the file"});
   }
   if (output.image_format == OutputImageFormat::webp || output.image_format == OutputImageFormat::both) {
     errors.add(
-        {IssueKind::conflict, "/output/image_format",
+        {conflict_with({"textures"}), "/output/image_format",
          "found " + std::string(text_of(output.image_format)) + "; linked textures are PNG, expected png"});
   }
   if (output.impostor) {
     errors.add(
-        {IssueKind::conflict, "/output/textures",
+        {conflict_with({"impostor"}), "/output/textures",
          "found links and an impostor, whose texture shows the other textures; expected a size such as 512"});
   }
 }
@@ -223,7 +226,7 @@ void check_own_format(const OwnFormat& own, const Generator& generator, const Ge
     options.erase("tangents");
   }
   for (const auto& [name, value] : options.items()) {
-    errors.add({IssueKind::conflict, "/output/" + name,
+    errors.add({conflict_with({"format"}), "/output/" + name,
                 "found " + value.dump() + " with the format " + std::string(own.format) +
                     ", which is not a model and does not have this option"});
   }

@@ -181,13 +181,12 @@ struct Values {
   std::uint32_t count = 0;
 };
 
-std::string written(const Address& root, int levels, const Values* values) {
+std::string written(const Address& root, int levels, const Values& values) {
   const int own = std::min(levels_a_subtree, levels - root.level);
   const bool is_full = own == levels_a_subtree;
   Chunk chunk;
   const int bits = is_full ? -1 : chunk.add(bits_of(tiles_of(own), tiles_of(levels_a_subtree)));
-  const int boxes = values ? chunk.add(values->boxes) : -1;
-  const int errors = values ? chunk.add(values->errors) : -1;
+  const int boxes = chunk.add(values.boxes), errors = chunk.add(values.errors);
   const auto tiles = [&](JsonWriter& json) {
     if (is_full) return json.member("constant", 1);
     json.member("availableCount", tiles_of(own));
@@ -196,19 +195,16 @@ std::string written(const Address& root, int levels, const Values* values) {
   std::string text;
   JsonWriter json(text);
   json.object([&] {
-    if (!chunk.bytes().empty()) {
-      json.array("buffers", [&] { json.object([&] { json.member("byteLength", chunk.bytes().size()); }); });
-      json.list("bufferViews", chunk.views());
-    }
+    json.array("buffers", [&] { json.object([&] { json.member("byteLength", chunk.bytes().size()); }); });
+    json.list("bufferViews", chunk.views());
     json.object("tileAvailability", [&] { tiles(json); });
     json.array("contentAvailability", [&] { json.object([&] { tiles(json); }); });
     json.object("childSubtreeAvailability",
                 [&] { json.member("constant", root.level + levels_a_subtree < levels ? 1 : 0); });
-    if (!values) return;
     json.array("propertyTables", [&] {
       json.object([&] {
         json.member("class", "tile");
-        json.member("count", values->count);
+        json.member("count", values.count);
         json.object("properties", [&] {
           json.object("box", [&] { json.member("values", boxes); });
           json.object("error", [&] { json.member("values", errors); });
@@ -271,15 +267,7 @@ std::string implicit_tileset(double extent, double error, const Naming& naming, 
   return out;
 }
 
-std::uint32_t morton(std::uint32_t x, std::uint32_t y) {
-  std::uint32_t bits = 0;
-  for (std::uint32_t k = 0; k < 16; ++k) bits |= (x >> k & 1U) << (2 * k) | (y >> k & 1U) << (2 * k + 1);
-  return bits;
-}
-
 std::uint32_t tiles_of(int levels) { return ((1U << (2 * levels)) - 1) / 3; }
-
-std::string bare_subtree(const Address& root, int levels) { return written(root, levels, nullptr); }
 
 std::string subtree(const Address& root, int levels, const BoundsOf& bounds_of) {
   Values values;
@@ -289,7 +277,7 @@ std::string subtree(const Address& root, int levels, const BoundsOf& bounds_of) 
     append_double(values.errors, bounds.geometric_error);
     ++values.count;
   });
-  return written(root, levels, &values);
+  return written(root, levels, values);
 }
 
 }  // namespace seedmesh::tiles

@@ -16,7 +16,7 @@ struct Address {
 
 bool operator==(const Address& a, const Address& b);
 
-/// The box of a tile with all that it holds, and its geometric error, in metres.
+/// The box of a tile with all of its contents, and its geometric error, in metres.
 struct Bounds {
   double west = 0, south = 0, low = 0, east = 0, north = 0, high = 0, geometric_error = 0;
 };
@@ -24,7 +24,7 @@ struct Bounds {
 /// Returns the bounds of a tile. A box lies inside that of its parent, and its error is smaller.
 using BoundsOf = std::function<Bounds(const Address&)>;
 
-/// Levels of an explicit tileset and of a subtree. Clients make all tiles of a file at once, in one frame.
+/// Levels of an explicit tileset and of a subtree. Clients create all tiles of a file in one frame.
 constexpr int levels_a_tileset = 4;
 constexpr int levels_a_subtree = 5;
 
@@ -45,19 +45,11 @@ std::string explicit_tileset(const Address& root, const Naming& naming, const Bo
 /// is never below the error of a tile.
 std::string implicit_tileset(double extent, double error, const Naming& naming, const BoundsOf& bounds_of);
 
-/// Returns the Morton index of a tile within its level of a subtree: bits of x at even positions, bits of y at
-/// odd ones.
-std::uint32_t morton(std::uint32_t x, std::uint32_t y);
-
 /// Returns the number of tiles of the first `levels` levels of a subtree: (4^levels - 1) / 3.
 std::uint32_t tiles_of(int levels);
 
-/// Returns a binary subtree of five levels without metadata, whose tiles are those of a tree of `levels` levels
-/// without holes.
-std::string bare_subtree(const Address& root, int levels);
-
-/// Returns such a subtree with the box and the error of each tile as metadata (TILE_BOUNDING_BOX,
-/// TILE_GEOMETRIC_ERROR).
+/// Returns a binary subtree of five levels, whose tiles are those of a tree of `levels` levels without holes. Metadata
+/// are the box and the error of each tile (TILE_BOUNDING_BOX, TILE_GEOMETRIC_ERROR), by rising Morton index.
 std::string subtree(const Address& root, int levels, const BoundsOf& bounds_of);
 
 }  // namespace seedmesh::tiles

@@ -92,7 +92,7 @@ bool is_world(const Request& request) { return request.generator() == "world"; }
 Result<OpenWorld> open_world(const Request& request, std::shared_ptr<WorldMemory> memory) {
   if (!is_world(request)) {
     return Error{Code::invalid,
-                 {{IssueKind::conflict, "/generator",
+                 {{conflict_with({}), "/generator",
                    "found \"" + std::string(request.generator()) + "\"; only a world has tiles"}}};
   }
   return guarded<OpenWorld>([&]() -> Result<OpenWorld> {
@@ -101,6 +101,20 @@ Result<OpenWorld> open_world(const Request& request, std::shared_ptr<WorldMemory
     if (!read) return in_request(std::move(read).error());
     return OpenWorld(std::make_shared<const OpenWorld::Body>(OpenWorld::Body{*std::move(read)}));
   });
+}
+
+std::optional<Error> output_error_of_tiles(const Request& request) {
+  Json options = write_output(request.body().output);
+  for (const char* name : {"name", "provenance"}) options.erase(name);
+  Error error{Code::invalid, {}};
+  for (const auto& [name, value] : options.items()) {
+    error.issues.emplace_back(IssueKind::not_available, "/output/" + name,
+                              "found " + value.dump() +
+                                  "; the tiles of a world have a form of their own and no such option; "
+                                  "`seedmesh generate` makes a model of the root tile, which has it");
+  }
+  if (error.issues.empty()) return std::nullopt;
+  return error;
 }
 
 Result<std::string> world_tileset(const OpenWorld& world, const TileAddress& root, std::string_view prefix,

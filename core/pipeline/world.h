@@ -1,6 +1,6 @@
 #pragma once
 /// The files of a streamed world: a request of the generator "world" in, OGC 3D Tiles 1.1 out. Each file is a function
-/// of the request and its own address. All functions may run on any number of threads at once.
+/// of the request and its own address. All functions may run on any number of threads at the same time.
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -40,6 +40,9 @@ bool is_world(const Request& request);
 
 /// Opens the world of a request. Code::invalid with pointer "/generator" for a request of another generator.
 Result<OpenWorld> open_world(const Request& request, std::shared_ptr<WorldMemory> memory);
+
+/// Refuses the options of a request's output that tiles do not have. These are all but the name and the provenance.
+std::optional<Error> output_error_of_tiles(const Request& request);
 
 /// Levels of an explicit tileset and of a subtree.
 constexpr int world_tileset_levels = 4, world_subtree_levels = 5;

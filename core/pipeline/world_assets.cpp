@@ -89,7 +89,7 @@ class Extract {
     return numbers_[{list, number}] = static_cast<int>(all.size()) - 1;
   }
 
-  /// The accessor with a view of its own: views of a file may hold much more than one mesh needs.
+  /// The accessor with a view of its own: views of a file may contain much more than one mesh needs.
   Json with_slice(Json accessor) {
     static const std::map<std::string, std::size_t> widths = {
         {"SCALAR", 1}, {"VEC2", 2}, {"VEC3", 3}, {"VEC4", 4}};

@@ -10,7 +10,7 @@ namespace seedmesh::render {
 namespace {
 
 constexpr std::size_t check_every = 8'192;         ///< triangles
-constexpr std::size_t triangles_of_list = 32'768;  ///< at least, so that lists are worth a chunk of work
+constexpr std::size_t triangles_of_list = 32'768;  ///< at least, so that a list is enough work for one chunk
 
 /// A run of triangles.
 struct Run {

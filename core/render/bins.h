@@ -60,7 +60,7 @@ class Bins {
 
   std::size_t bands() const { return bands_; }
   Rows rows(std::size_t band) const;
-  /// Returns the number of lists. Their triangles in a band, list after list, are those to draw there.
+  /// Returns the number of lists. The triangles of a band are those of list(0, band), list(1, band) and so on.
   std::size_t lists() const { return lists_.size(); }
   std::span<const Binned> list(std::size_t number, std::size_t band) const {
     return lists_[number][band].span();

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double half_width = 0.21;  ///< at distance 1: an angle of 24 degrees
 constexpr double margin = 1.06;
-constexpr std::size_t most_vertices = 2'000'000;  ///< beyond, boxes stand for their meshes
+constexpr std::size_t most_vertices = 2'000'000;  ///< beyond, boxes replace their meshes
 
 /// How far the positions of all items reach along directions in space: the greatest dot products.
 template <std::size_t n>

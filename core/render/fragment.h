@@ -8,10 +8,11 @@
 namespace seedmesh::render {
 
 struct Fragment {
-  float near = 0;       ///< 1 / distance along the axis of the camera
-  glm::vec3 color{0};   ///< linear
-  float alpha = 1;      ///< 0: a hole of a cut-out texture
-  glm::vec3 normal{0};  ///< of the visible side, in the frame of the model, unit; 0 for lines and points
+  float near = 0;      ///< 1 / distance along the axis of the camera
+  glm::vec3 color{0};  ///< linear RGB
+  float alpha = 1;     ///< 0: a hole of a cut-out texture
+  glm::vec3 normal{
+      0};  ///< unit normal of the visible side, in the frame of the model; 0 for lines and points
   std::uint32_t surface = 0;  ///< index into Surfaces
 };
 
@@ -21,8 +22,8 @@ class FragmentReader {
   explicit FragmentReader(const ProjectedScene& shown) : shown_(shown) {}
 
   /// `number` is that of the triangle in its drawing, or of the vertex where lines or points are drawn. The
-  /// position is in fixed-point numbers and inside of the triangle. Textures are
-  /// averaged over `samples` samples. Cost: about 40 ns.
+  /// position is in fixed-point numbers and inside the triangle. Textures are averaged over `samples`
+  /// samples. Cost: about 40 ns.
   Fragment at(std::uint32_t drawing, std::uint32_t number, float x, float y, float samples = 1);
 
  private:
@@ -38,7 +39,7 @@ class FragmentReader {
   Lens lens_;
   glm::mat3 turn_{1};
   bool mirrored_ = false;
-  // Of the triangle:
+  // Values of the current triangle:
   std::array<Projected, 3> corner_;
   std::array<glm::vec3, 3> normal_;
   std::array<glm::vec3, 3> color_;

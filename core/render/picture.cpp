@@ -1,5 +1,5 @@
 /// Deferred shading: the nearest surfaces are found first (samples.h). Then each triangle that a pixel shows is lit once,
-/// at the middle of its samples. The four samples of a pixel look up different texels of one disc of the shadow map, so
+/// at the middle of its samples. The four samples of a pixel read different texels of one disc of the shadow map, so
 /// that their mean is soft.
 #include "core/render/picture.h"
 
@@ -235,7 +235,7 @@ class Painter {
 
 /// Plants and buildings stand at height 0, with roots and foundations below; other models on their lowest point.
 float ground_of(const Box& box) {
-  constexpr float deepest = 0.25F;  // share of the height that may be below
+  constexpr float deepest = 0.125F;  // share of the height that may be below
   return box.min.y < 0 && -box.min.y < deepest * (box.max.y - box.min.y) ? 0 : box.min.y;
 }
 

@@ -118,7 +118,7 @@ class Band {
     }
   }
 
-  /// Calls visit(index of the first, passed, depth) for each eight samples where the triangle is nearer than what is held.
+  /// Calls visit(index of the first, passed, depth) for each eight samples where the triangle is nearer than the stored ones.
   template <class Visit>
   void each_nearer(const Triangle& t, const float* held, const Visit& visit) const {
     const std::uint32_t size = shown_.eye.size();

@@ -26,7 +26,7 @@ struct Scene {
 
 Scene scene_of(const Model& model, const Items& items, const Surfaces& surfaces, const Job& job);
 
-/// A scene as an eye sees it. Vertices are projected once, unless there are too many.
+/// A scene as seen from an eye. Vertices are projected once, unless there are too many.
 struct ProjectedScene {
   const Scene& scene;
   Eye eye;

@@ -4,7 +4,7 @@
 
 namespace seedmesh::render {
 
-/// Distances from the sun, as a square map that holds the whole model.
+/// Distances from the sun, as a square map that covers the whole model.
 struct ShadowMap {
   Frame frame;  ///< towards the sun
   glm::dvec2 low{0};

@@ -24,6 +24,28 @@ struct TooLarge {
   std::string written;
 };
 
+/// The digits of a whole number in any form of JSON: 15e2 is 1500. Empty if it is a fraction or has more than 40 digits.
+std::string digits_of(std::string_view written) {
+  constexpr int most_digits = 40;
+  const std::size_t mark = std::min(written.find_first_of("eE"), written.size());
+  const std::string_view mantissa = written.substr(0, mark);
+  std::string_view power = written.substr(std::min(mark + 1, written.size()));
+  if (power.starts_with('+')) power.remove_prefix(1);
+  int zeros = 0;
+  if (!power.empty() && std::from_chars(power.data(), power.data() + power.size(), zeros).ec != std::errc{})
+    return "";
+  const std::size_t point = std::min(mantissa.find('.'), mantissa.size());
+  std::string digits(mantissa.substr(0, point));
+  const std::string_view decimals = mantissa.substr(std::min(point + 1, mantissa.size()));
+  zeros = std::clamp(zeros, -most_digits, most_digits) - static_cast<int>(decimals.size());
+  digits += decimals;
+  if (zeros > 0) digits.append(static_cast<std::size_t>(zeros), '0');
+  for (; zeros < 0 && digits.ends_with('0'); ++zeros) digits.pop_back();
+  const std::size_t first = digits.find_first_not_of("-0");
+  if (zeros < 0 || first == std::string::npos || digits.size() - first > most_digits) return "";
+  return (digits.starts_with('-') ? "-" : "") + digits.substr(first);
+}
+
 std::string too_large_text(std::string_view number) {
   return "found " + shortened(number, 40) + ", which is too large for a number";
 }
@@ -56,8 +78,10 @@ class Builder {
   bool number_integer(std::int64_t value) { return add(value); }
   bool number_unsigned(std::uint64_t value) { return add(value); }
   bool number_float(double value, const std::string& written) {
-    // A seed beyond 64 bits stays a text, so that its error repeats all digits.
-    if (key_ == "seed" && written.find_first_not_of("-0123456789") == std::string::npos) return add(written);
+    // A whole seed that a double would round becomes a text of all its digits.
+    if (key_ == "seed" && std::abs(value) >= 0x1p53) {
+      if (std::string digits = digits_of(written); !digits.empty()) return add(std::move(digits));
+    }
     return add(value == 0 ? 0.0 : value);
   }
   bool string(std::string& value) { return add(std::move(value)); }
@@ -85,7 +109,7 @@ class Builder {
     }
     // `position` counts the characters read, the offending one included.
     const std::size_t offset = std::min(position == 0 ? 0 : position - 1, text_.size());
-    if (const std::optional<std::size_t> half = lone_surrogate(offset, failure)) {
+    if (const std::optional<std::size_t> half = lone_surrogate(offset)) {
       return refuse(Code::malformed,
                     issue_at(IssueKind::syntax, "", text_, *half,
                              "this is not JSON: found \"" + std::string(text_.substr(*half, escape_size)) +
@@ -155,22 +179,32 @@ class Builder {
     return false;
   }
 
-  /// The position of the escape that a failure about surrogates means: that of the last first half before `offset`, or
-  /// the last escape where there is no such half directly before it.
-  std::optional<std::size_t> lone_surrogate(std::size_t offset, const Json::exception& failure) const {
-    if (std::string_view(failure.what()).find("surrogate") == std::string_view::npos) return std::nullopt;
-    const std::size_t last = text_.rfind("\\u", offset);
-    if (last == std::string_view::npos) return std::nullopt;
-    // After a first half, the library also reads the escape that should have been the second half.
-    const bool is_after_half =
-        last >= escape_size && is_first_half(text_.substr(last - escape_size, escape_size));
-    return is_after_half ? last - escape_size : last;
+  /// The first half of a surrogate pair without its other half, if it begins at `end` or before. Where there is one, the
+  /// library has stopped because of it.
+  std::optional<std::size_t> lone_surrogate(std::size_t end) const {
+    bool is_inside = false;  // a string
+    for (std::size_t i = 0; i <= end && i < text_.size(); ++i) {
+      if (text_[i] == '"') is_inside = !is_inside;
+      if (text_[i] != '\\' || !is_inside) continue;
+      if (is_half(i, second_halves)) return i;
+      if (is_half(i, first_halves)) {
+        if (!is_half(i + escape_size, second_halves)) return i;
+        i += escape_size;
+      }
+      ++i;  // the character after the backslash
+    }
+    return std::nullopt;
   }
 
-  static bool is_first_half(std::string_view escape) {
-    constexpr std::string_view second_digits = "89abAB";
+  static constexpr std::string_view first_halves = "89abAB", second_halves = "cdefCDEF";
+
+  /// Whether an escape from \ud800 to \udfff begins at `at`, whose second digit is one of these.
+  bool is_half(std::size_t at, std::string_view second_digits) const {
+    if (at + escape_size > text_.size()) return false;
+    const std::string_view escape = text_.substr(at, escape_size);
     return escape[0] == '\\' && escape[1] == 'u' && (escape[2] == 'd' || escape[2] == 'D') &&
-           second_digits.find(escape[3]) != std::string_view::npos;
+           second_digits.find(escape[3]) != std::string_view::npos &&
+           escape.find_first_not_of("0123456789abcdefABCDEF", 4) == std::string_view::npos;
   }
 
   std::string unexpected(std::size_t offset) const {
@@ -184,7 +218,7 @@ class Builder {
   JsonLimits limits_;
   std::vector<Json*> open_;        ///< the open lists and objects, outermost first
   std::vector<std::string> keys_;  ///< for each open container its key in its parent, if that is an object
-  std::string key_;                ///< of the value that comes next
+  std::string key_;                ///< key of the value that comes next
   std::size_t values_ = 0;
   std::size_t nulls_ = 0;
   std::span<const TooLarge> numbers_;

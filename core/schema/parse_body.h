@@ -1,5 +1,5 @@
 #pragma once
-/// The parser for request bodies. It goes on after a number that is too large for a double, so that all errors of
+/// The parser for request bodies. It continues after a number that is too large for a double, so that all errors of
 /// the body are reported together.
 #include <nlohmann/json_fwd.hpp>
 #include <string_view>

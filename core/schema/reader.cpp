@@ -242,6 +242,12 @@ void read_color(const Location& location, Color& out) {
   }
 }
 
+/// Whether a text is a whole number. The parser makes such texts of numbers that a double would round.
+static bool is_whole(std::string_view text) {
+  if (text.starts_with('-')) text.remove_prefix(1);
+  return !text.empty() && text.find_first_not_of("0123456789") == std::string_view::npos;
+}
+
 void read_seed(const Location& location, std::uint64_t& out) {
   constexpr std::string_view what =
       "an integer from 0 to 18446744073709551615, or its decimal digits as a text";
@@ -250,7 +256,6 @@ void read_seed(const Location& location, std::uint64_t& out) {
     out = value.get<std::uint64_t>();
   } else if (value.is_number_float()) {
     const double number = value.get<double>();
-    // The parser turns integers of 2^64 and more into doubles.
     if (std::floor(number) != number || number < 0 || number >= 0x1p64)
       return location.expected(what, IssueKind::out_of_range);
     out = static_cast<std::uint64_t>(number);
@@ -259,8 +264,9 @@ void read_seed(const Location& location, std::uint64_t& out) {
     std::uint64_t number = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
     if (!forms::digits.accepts(text) || error != std::errc{} || end != text.data() + text.size()) {
-      const bool is_large = error == std::errc::result_out_of_range;
-      return location.expected(what, is_large ? IssueKind::out_of_range : IssueKind::invalid_value);
+      if (!is_whole(text)) return location.expected(what, IssueKind::invalid_value);
+      return location.report(IssueKind::out_of_range,
+                             "found " + shortened(text, 40) + ", expected " + std::string(what));
     }
     out = number;
   } else if (value.is_number_integer() && value.get<std::int64_t>() >= 0) {

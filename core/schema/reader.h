@@ -1,7 +1,7 @@
 #pragma once
 /// The functions that the generated readers of api_schema call. Each one checks a JSON value against a rule of
-/// its schema. It stores the value in a member, or adds an error that says what was found and what was expected.
-/// After an error the member keeps its default and reading goes on, so that all errors are found at once.
+/// its schema. It stores the value in a member, or adds an error that states what was found and what was expected.
+/// After an error the member keeps its default and reading continues, so that all errors are found at once.
 ///
 /// Includes the whole of nlohmann/json: for .cpp files only.
 #include <array>

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/base/math.h"
-#include "core/texture/png.h"
+#include "core/texture/png_image.h"
 #include "core/texture/srgb.h"
 
 namespace seedmesh::texture {
@@ -150,12 +150,7 @@ void Atlas::spread(const glm::uvec2& corner, std::uint32_t side) {
 }
 
 std::shared_ptr<const Image> Atlas::image(const std::string& name, const Job& job) const {
-  const Array<std::uint8_t> file =
-      encode_png({size_, size_, 4, 8, std::as_bytes(texels_.span())}, PngEffort::small, job);
-  auto image = std::make_shared<Image>();
-  image->name = name;
-  image->bytes.assign(file.begin(), file.end());
-  return image;
+  return png_image(name, {size_, size_, 4, 8, std::as_bytes(texels_.span())}, PngEffort::small, job);
 }
 
 std::shared_ptr<const Image> Atlas::normal_image(const std::string& name, const Job& job) const {
@@ -167,12 +162,7 @@ std::shared_ptr<const Image> Atlas::normal_image(const std::string& name, const 
     for (int c = 0; c < 3; ++c)
       channels.push_back(is_level ? (c == 2 ? std::uint8_t{255} : middle) : texel[c]);
   }
-  const Array<std::uint8_t> file =
-      encode_png({size_, size_, 3, 8, std::as_bytes(channels.span())}, PngEffort::small, job);
-  auto image = std::make_shared<Image>();
-  image->name = name;
-  image->bytes.assign(file.begin(), file.end());
-  return image;
+  return png_image(name, {size_, size_, 3, 8, std::as_bytes(channels.span())}, PngEffort::small, job);
 }
 
 }  // namespace seedmesh::texture

@@ -4,6 +4,7 @@
 #include <array>
 #include <optional>
 
+#include "core/base/base64.h"
 #include "core/texture/png.h"
 
 namespace seedmesh::texture {
@@ -12,35 +13,13 @@ namespace {
 constexpr std::string_view png_head = "data:image/png;base64,", jpeg_head = "data:image/jpeg;base64,";
 constexpr std::uint32_t longest_side = 8'192;
 
-constexpr std::uint8_t no_digit = 64;
-
-constexpr auto values = [] {
-  constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::array<std::uint8_t, 256> table{};
-  table.fill(no_digit);
-  for (std::size_t i = 0; i < digits.size(); ++i)
-    table[static_cast<unsigned char>(digits[i])] = static_cast<std::uint8_t>(i);
-  return table;
-}();
-
 /// None if the text is not base64. Padding is optional; unused bits must be 0.
 std::optional<std::vector<std::uint8_t>> decoded(std::string_view text) {
   while (!text.empty() && text.back() == '=' && text.size() % 4 != 1) text.remove_suffix(1);
   if (text.size() % 4 == 1) return std::nullopt;
-  std::vector<std::uint8_t> bytes;
-  bytes.reserve(text.size() / 4 * 3 + 3);
-  std::uint32_t bits = 0;
-  int count = 0;
-  for (const char c : text) {
-    const std::uint8_t value = values[static_cast<unsigned char>(c)];
-    if (value == no_digit) return std::nullopt;
-    bits = (bits << 6U | value) & 0xFFFFU;
-    count += 6;
-    if (count < 8) continue;
-    count -= 8;
-    bytes.push_back(static_cast<std::uint8_t>(bits >> count & 0xFFU));
-  }
-  if ((bits & ((1U << count) - 1)) != 0) return std::nullopt;
+  std::vector<std::uint8_t> bytes(base64_bytes(text.size()));
+  const Base64End end = read_base64(text, bytes.data());
+  if (end.bad != std::string_view::npos || end.unused != 0) return std::nullopt;
   return bytes;
 }
 
@@ -148,6 +127,51 @@ Result<std::shared_ptr<const Image>> image_of_data_uri(std::string_view text, co
   image->is_given = true;
   image->bytes = std::move(*bytes);
   return std::shared_ptr<const Image>(std::move(image));
+}
+
+int add_image_of_uri(Model& model, const std::string& uri, const std::string& name,
+                     const std::string& pointer, const Job& job) {
+  Result<std::shared_ptr<const Image>> image = image_of_data_uri(uri, name, job);
+  if (!image) job.refuse({IssueKind::invalid_value, pointer, image.error().issues.front().message});
+  model.textures.push_back(*std::move(image));
+  return static_cast<int>(model.textures.size()) - 1;
+}
+
+Result<Array<std::uint8_t>> bytes_of_base64(std::string_view text, const Job& job) {
+  std::size_t start = 0;
+  if (text.starts_with("data:")) {
+    const std::size_t comma = text.find(',');
+    if (comma == std::string_view::npos || !text.substr(0, comma).ends_with(";base64"))
+      return invalid_input("found a data: URL without base64; expected data:image/png;base64,…");
+    start = comma + 1;
+  }
+  const std::string_view digits = without_padding(text.substr(start));
+  Array<std::uint8_t> bytes(job, base64_bytes(digits.size()));
+  if (const Base64End end = read_base64(digits, bytes.data()); end.bad != std::string_view::npos)
+    return invalid_input("character " + std::to_string(start + end.bad + 1) + " is not base64");
+  if (digits.size() % 4 == 1)
+    return invalid_input("found base64 whose last group has one character of four; expected two or more");
+  return bytes;
+}
+
+Result<Brightness> brightness_of_png(std::string_view text, const Job& job) {
+  const Result<Array<std::uint8_t>> bytes = bytes_of_base64(text, job);
+  if (!bytes) return bytes.error();
+  const Result<Picture> picture = decode_png(std::as_bytes(bytes->span()), {}, job);
+  if (!picture) return picture.error();
+  Brightness made{picture->width, picture->height, Array<float>(job)};
+  const std::size_t count = std::size_t{made.width} * made.height;
+  const auto channels = static_cast<std::size_t>(picture->channels);
+  const std::size_t colors = channels < 3 ? 1 : 3;
+  const double greatest = picture->bits == 8 ? 255.0 : 65535.0;
+  made.values.reserve(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    if (i % 4096 == 0) job.check();
+    double sum = 0;
+    for (std::size_t k = 0; k < colors; ++k) sum += picture->channel(i * channels + k);
+    made.values.push_back(static_cast<float>(sum / static_cast<double>(colors) / greatest));
+  }
+  return made;
 }
 
 bool has_alpha(const Image& image) {

@@ -21,7 +21,7 @@ struct Decoded {
   std::optional<Picture> picture;
   std::optional<Samples> samples;
   bool is_lossy = false;          ///< whether the format changes values (JPEG, most WebP)
-  std::optional<double> no_data;  ///< the value that stands for a missing one (GDAL_NODATA of a TIFF)
+  std::optional<double> no_data;  ///< the value that marks a missing one (GDAL_NODATA of a TIFF)
 };
 
 /// Reads a file of any of the formats. A file that is truncated, damaged, too large or of another format is an Issue

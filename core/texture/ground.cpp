@@ -46,7 +46,7 @@ Relief grained(int size, Lattice coarse, float height, float tone, Rng rng, cons
   });
 }
 
-/// What a texel sees of one size of the facets of rock.
+/// The facet at a texel, of one size of the facets of rock.
 struct Facet {
   float border;  ///< distance to the border, in cells
   float shade;   ///< random number of the facet

@@ -10,7 +10,7 @@ namespace seedmesh::texture {
 
 /// Returns the length of each symbol's code, at most `most` bits, and 0 for symbols that do not occur. At least two
 /// symbols get a code, because a tree needs two leaves. Equal counts give equal lengths. Kraft's sum is exactly 1, as
-/// decoders demand.
+/// decoders require.
 std::vector<std::uint8_t> code_lengths(std::span<const std::uint32_t> counts, int most);
 
 struct Code {

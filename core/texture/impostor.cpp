@@ -9,6 +9,8 @@
 
 #include "core/base/math.h"
 #include "core/base/parallel.h"
+#include "core/model/empty_mesh.h"
+#include "core/model/levels.h"
 #include "core/texture/atlas.h"
 #include "core/texture/decode.h"
 #include "core/texture/raster.h"
@@ -82,11 +84,8 @@ glm::uvec2 cell_of(std::size_t view) {
 
 Mesh quads_of(const Windows& windows, const Job& job) {
   constexpr float inset = 1.0F / edges;
-  Mesh mesh;
-  mesh.position = Array<glm::vec3>(job);
-  mesh.normal = Array<glm::vec3>(job);
+  Mesh mesh = empty_mesh(job);
   mesh.uv[0] = Array<glm::vec2>(job);
-  mesh.index.wide = Array<std::uint32_t>(job);
   for (std::size_t view = 0; view < views; ++view) {
     const ViewFrame frame = frame_of(view);
     const ViewWindow& window = windows.of[view];
@@ -244,19 +243,6 @@ void draw_view(const Scenery& scenery, const std::vector<ImpostorRecipe::Part>& 
                             {cell / times, edge / times, samples * times});
 }
 
-void drop_hidden(Model& model) {
-  std::vector<bool> shown(model.meshes.size(), false);
-  for (const Node& node : model.nodes) {
-    if (node.mesh >= 0) shown[static_cast<std::size_t>(node.mesh)] = true;
-    for (const int lod : node.lods) {
-      if (lod >= 0) shown[static_cast<std::size_t>(lod)] = true;
-    }
-  }
-  for (std::size_t i = 0; i < shown.size(); ++i) {
-    if (!shown[i]) model.meshes[i].primitives.clear();
-  }
-}
-
 }  // namespace
 
 int add_impostor(Model& model, std::vector<ImpostorRecipe::Part> parts, const std::string& name, Job& job) {
@@ -323,7 +309,7 @@ void draw_impostors(Model& model, int size, Job& job) {
     for (auto& image : images[i]) model.textures.push_back(std::move(image));
     material.impostor.parts.clear();
   }
-  drop_hidden(model);
+  empty_hidden_meshes(model);
 }
 
 }  // namespace seedmesh::texture

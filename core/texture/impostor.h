@@ -1,7 +1,7 @@
 #pragma once
 /// Impostors: images that replace a distant plant. Three vertical quads cross in its axis. Each quad shows
 /// the plant from one side, and a second quad behind it shows the mirrored image to the other side. One atlas
-/// holds the three images, cut out by alpha. A second atlas holds their normals, so that lighting matches the
+/// contains the three images, cut out by alpha. A second atlas contains their normals, so that lighting matches the
 /// plant.
 ///
 /// After Maciel and Shirley, "Visual navigation of large environments using textured clusters", 1995, in a

@@ -1,7 +1,7 @@
 #pragma once
-/// Names of generated textures, so that a model can refer to them by URL instead of holding their bytes.
+/// Names of generated textures, so that a model can refer to them by URL instead of containing their bytes.
 ///
-/// A name holds all that the bytes depend on, except the engine: kind, seed, size, colour and channel, as in
+/// A name contains all that the bytes depend on, except the engine: kind, seed, size, colour and channel, as in
 /// `oak_bark.17.512.color` or `brick.3.512.a0b1c2.normal`. Every service with the same engine makes the same
 /// bytes from a name, so no service has to store it.
 #include <memory>

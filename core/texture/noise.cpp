@@ -20,6 +20,7 @@ constexpr int lanes = 8;
 float fade(float t) { return t * t * t * (t * (t * 6 - 15) + 10); }
 
 /// The noise along a row of texels as slope * (distance to the right) + offset at each corner.
+// NOLINTNEXTLINE(readability-function-size): with separate pointers, compilers use vector instructions
 SEEDMESH_WIDE void blend_corners(const float* __restrict upper_x, const float* __restrict upper_y,
                                  const float* __restrict lower_x, const float* __restrict lower_y,
                                  float below, float weight, int count, float* __restrict slope,

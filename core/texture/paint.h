@@ -34,7 +34,7 @@ std::shared_ptr<const Maps> maps_of(const TextureRecipe& recipe, int size, MapPa
 /// How generated images are written: as PNG, as WebP, or as both, where the WebP is Image::webp.
 enum class ImageForm { png, webp, both };
 
-/// How a model contains its generated textures. Either it holds their bytes in one of the forms, or it links them
+/// How a model contains its generated textures. Either it contains their bytes in one of the forms, or it links them
 /// by the address `prefix`, name (core/texture/link.h) and ".png".
 struct ImageStyle {
   ImageForm form = ImageForm::png;

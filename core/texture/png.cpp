@@ -26,7 +26,7 @@ constexpr bool little_endian = std::endian::native == std::endian::little;
 
 // Rows between two checks of the deadline.
 constexpr std::uint32_t rows_a_look = 64;
-// Deflate cannot hold more than this many bytes in one (RFC 1951: 258 bytes in a code of 2 bits, and
+// Deflate cannot store more than this number of bytes in one (RFC 1951: 258 bytes in a code of 2 bits, and
 // framing).
 constexpr std::uint64_t densest_deflate = 1032;
 // The most bytes of a chunk other than image data. Palettes have 768; profiles and texts are skipped.
@@ -115,7 +115,7 @@ bool write_end(Writer& writer) {
   return true;
 }
 
-// --- Writing at once
+// --- Writing without a stream
 
 constexpr std::array<std::uint8_t, 8> signature = {137, 'P', 'N', 'G', '\r', '\n', 26, '\n'};
 constexpr std::size_t chunk_head = 8, chunk_foot = 4;  // length and type; checksum
@@ -153,7 +153,7 @@ void swap_bytes(std::uint8_t* values, std::size_t bytes) {
   for (std::size_t i = 0; i + 1 < bytes; i += 2) std::swap(values[i], values[i + 1]);
 }
 
-/// Rows as the file holds them: the number of the filter Up, then each byte less the one above it.
+/// Rows as in the file: the number of the filter Up, then each byte less the one above it.
 Array<std::uint8_t> filtered_up(const PictureView& picture, std::size_t row_bytes, const Job& job) {
   constexpr std::uint8_t filter_up = 2;
   Array<std::uint8_t> rows(job, (row_bytes + 1) * picture.height);
@@ -205,7 +205,7 @@ void append_quick(Array<std::uint8_t>& out, const Array<std::uint8_t>& rows, std
   out.resize(start + chunk_head + length + chunk_foot);
 }
 
-/// The whole file in memory at once.
+/// The whole file in memory.
 Array<std::uint8_t> encode_at_once(const PictureView& picture, PngEffort effort, const Job& job) {
   const Array<std::uint8_t> rows = filtered_up(picture, row_size(picture), job);
   Array<std::uint8_t> out(job);
@@ -254,7 +254,7 @@ struct Reader {
   png_infop info = nullptr;
   LibraryMessage library_message;
   std::span<const std::byte> rest;
-  bool ended = false;  ///< libpng wanted more than there is
+  bool ended = false;  ///< libpng tried to read beyond the end
 
   explicit Reader(std::span<const std::byte> file) : rest(file) {}
   Reader(const Reader&) = delete;

@@ -28,7 +28,7 @@ struct Surface {
   bool repeat = true;
 };
 
-/// An image of samples. Each holds the nearest surface at its centre.
+/// An image of samples. Each has the nearest surface at its centre.
 class Canvas {
  public:
   Canvas(const ViewFrame& frame, const ViewWindow& window, std::uint32_t width, std::uint32_t height,

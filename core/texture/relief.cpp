@@ -7,7 +7,7 @@
 
 #include "core/base/parallel.h"
 #include "core/base/wide.h"
-#include "core/texture/png.h"
+#include "core/texture/png_image.h"
 
 namespace seedmesh::texture {
 namespace {
@@ -163,13 +163,10 @@ std::shared_ptr<const Image> picture(const Format& format, std::string name, con
     write_channels(row, pixel, pixels.data() + static_cast<std::size_t>(y) * side * pixel);
   }
   const auto extent = static_cast<std::uint32_t>(format.size);
-  const Array<std::uint8_t> file = encode_png(
+  return png_image(
+      std::move(name),
       {extent, extent, format.channels, 8, std::as_bytes(std::as_const(pixels).span()), format.palette},
       PngEffort::quick, job);
-  auto image = std::make_shared<Image>();
-  image->name = std::move(name);
-  image->bytes.assign(file.begin(), file.end());
-  return image;
 }
 
 std::vector<glm::u8vec3> colors_of(const Palette& palette, const Ramp& ramp) {

@@ -18,7 +18,7 @@ constexpr int longest_code = 14;
 constexpr int longest_length_code = 7;  ///< of the codes of code lengths (RFC 1951, 3.2.7)
 constexpr std::size_t symbols = 286, end_of_block = 256, first_length = 257;
 constexpr std::size_t longest_run = 258, least_run = 3;
-constexpr std::size_t word = 8;  ///< bytes that are handled at once
+constexpr std::size_t word = 8;  ///< bytes that are processed together
 constexpr std::ptrdiff_t bytes_a_look = 1 << 20;
 // Symbols are counted in the first part of each stretch of large data: counts of a quarter give nearly the same codes.
 // The length is prime, so that the parts lie at all columns of an image.

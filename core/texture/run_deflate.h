@@ -1,6 +1,6 @@
 #pragma once
 /// zlib streams (RFC 1950, RFC 1951) of filtered pixels: Huffman codes of single bytes, and of runs of equal pixels.
-/// Other matches are not looked for: residuals of noise hold few, and looking for them takes most of the time.
+/// Other matches are not searched: residuals of noise have few, and the search takes most of the time.
 #include <cstdint>
 #include <span>
 

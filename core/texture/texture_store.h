@@ -1,6 +1,6 @@
 #pragma once
 /// A cache of generated textures between requests. The caller of the pipeline owns it and decides what it keeps;
-/// core knows only this interface. Any number of threads may use it at once.
+/// core depends only on this interface. Any number of threads may use it at the same time.
 #include <cstdint>
 #include <memory>
 #include <string>

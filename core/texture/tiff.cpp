@@ -127,7 +127,7 @@ std::string obstacle(const Layout& layout, std::size_t file_bytes) {
   return "";
 }
 
-/// The numbers of a tag that libtiff does not know; null if it is missing or no list of at least `least` doubles.
+/// The numbers of a tag that libtiff does not define; null if it is missing or no list of at least `least` doubles.
 const double* doubles_of(TIFF* tiff, std::uint32_t tag, std::uint32_t least) {
   const TIFFField* field = TIFFFindField(tiff, tag, TIFF_ANY);
   if (!field || TIFFFieldDataType(field) != TIFF_DOUBLE || TIFFFieldReadCount(field) != TIFF_VARIABLE2)

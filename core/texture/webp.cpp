@@ -29,7 +29,7 @@ Result<Decoded> decode_webp(std::span<const std::byte> file, const PngLimits& li
   picture.height = height;
   picture.channels = features.has_alpha != 0 ? 4 : 3;
   const std::size_t row_bytes = std::size_t{width} * static_cast<std::size_t>(picture.channels);
-  // libwebp holds all pixels of a lossless file as well, four bytes each.
+  // libwebp keeps all pixels of a lossless file as well, four bytes each.
   const Array<std::uint8_t> own(job, std::size_t{4} * width * height);
   picture.bytes = Array<std::uint8_t>(job, row_bytes * height);
   job.check();

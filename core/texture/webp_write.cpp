@@ -144,7 +144,7 @@ int webp_encoder_version() { return WebPGetEncoderVersion(); }
 Array<std::uint8_t> encode_webp(const PictureView& picture, WebpQuality quality, const Job& job) {
   assert(picture.bits == 8 && picture.width >= 1 && picture.width <= longest_webp_side);
   assert(picture.height >= 1 && picture.height <= longest_webp_side && picture.palette.empty());
-  // libwebp holds about as much as the planes and the file.
+  // libwebp uses about as much as the planes and the file.
   const Array<std::uint8_t> own(job, std::size_t{4} * picture.width * picture.height);
   Planes planes = planes_of(picture, job);
   const std::vector<std::uint8_t> colors = encode_colors(planes, quality, job);

@@ -63,11 +63,11 @@ bool Connection::handshake(Clock::time_point deadline) {
 
 bool Connection::wait_for_request(Clock::time_point deadline, const std::atomic<bool>& draining) {
   if (!buffered().empty()) return true;
-  idle_ = true;  // before `draining` is read: drain() sets that first and then looks for idle connections
+  idle_ = true;  // before `draining` is read: drain() sets that first and then searches idle connections
   bool arrived = false;
   if (!draining && tls_) {
     arrived = wait(POLLIN, deadline) && read_more(deadline);
-  } else if (!draining) {  // one blocking call: most requests arrive while nothing else happens
+  } else if (!draining) {  // one blocking call: most requests arrive while the connection is idle
     char bytes[read_size];
     ssize_t size = 0;
     do size = ::recv(socket_, bytes, sizeof(bytes), 0);

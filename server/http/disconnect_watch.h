@@ -1,5 +1,5 @@
 #pragma once
-/// Reports clients that close their side while their request is being worked on. One thread looks at all
+/// Reports clients that close their side while their request is in work. One thread watches all
 /// watched sockets every 50 milliseconds, and sleeps while there are none.
 #include <condition_variable>
 #include <map>

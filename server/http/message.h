@@ -37,7 +37,7 @@ struct Request {
   Clock::time_point arrived{};
 
   /// Returns a token that is set when the client closes its side of the connection. The first call starts
-  /// the watch and costs a system call, so only long work asks for it.
+  /// the watch and costs a system call, so only long work uses it.
   std::function<std::stop_token()> disconnect_token;
 
   std::string header(std::string_view name) const { return field_value(headers, name); }

@@ -169,6 +169,25 @@ std::optional<Refusal> check_partial_head(std::string_view text, const HeadLimit
   return {};
 }
 
+Request legible_part(std::string_view text, const HeadLimits& limits) {
+  Request request;
+  const auto next_line = [&text] {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    std::string_view line = text.substr(0, end);
+    text.remove_prefix(std::min(end + 1, text.size()));
+    if (line.ends_with('\r')) line.remove_suffix(1);
+    return line;
+  };
+  const std::string_view first = next_line(), method = first.substr(0, first.find(' '));
+  if (is_token(method) && method.size() <= longest_method) request.method = method;
+  while (text.find('\n') != std::string_view::npos && request.headers.size() < limits.fields) {
+    const std::string_view line = next_line();
+    if (line.empty()) break;
+    parse_field(line, request);
+  }
+  return request;
+}
+
 std::variant<RequestHead, Refusal> parse_head(std::string_view text, const HeadLimits& limits) {
   RequestHead head;
   Request& request = head.request;

@@ -22,7 +22,7 @@ using Clock = Connection::Clock;
 constexpr int accept_queue = 1'024;
 /// Threads beyond this number end when they have nothing to do.
 constexpr std::size_t most_accepting = 32;
-/// Bytes that are read after a refusal, so that the client sees why: a body is worth reading to its end, a
+/// Bytes that are read after a refusal, so that the client receives the reason: a body is read to its end, a
 /// head without end is not.
 constexpr std::size_t most_body_discarded = 24U << 20U, most_head_discarded = 1U << 20U;
 
@@ -34,7 +34,7 @@ bool is_valid_id(std::string_view id) {
   return !id.empty() && id.size() <= 128 && std::all_of(id.begin(), id.end(), valid);
 }
 
-/// Host or port of an address as text; NI_NUMERICHOST or NI_NUMERICSERV says which.
+/// Host (NI_NUMERICHOST) or port (NI_NUMERICSERV) of an address as text.
 std::string text_of(const sockaddr_storage& address, socklen_t size, int which) {
   char text[NI_MAXHOST] = {};
   const bool host = which == NI_NUMERICHOST;
@@ -136,7 +136,7 @@ bool Server::add_thread() {
 }
 
 /// The body of every thread: accepts connections and serves them. At least one thread waits for a connection at
-/// any time, so a further one is answered 503 at once.
+/// any time, so a further one gets 503 without a delay.
 void Server::work() {
   std::unique_lock lock(mutex_);
   while (!draining_ && accepting_ <= most_accepting) {
@@ -197,9 +197,9 @@ void Server::serve(int socket, const std::string& remote) {
 
 /// Serves one request. False when the connection has to end.
 bool Server::serve_one(Connection& connection, const std::string& remote) {
-  std::variant<RequestHead, Refusal> head = read_head(connection);
-  Request without_head;
-  Request& request = head.index() == 0 ? std::get<RequestHead>(head).request : without_head;
+  Request refused;
+  std::variant<RequestHead, Refusal> head = read_head(connection, refused);
+  Request& request = head.index() == 0 ? std::get<RequestHead>(head).request : refused;
   request.arrived = Clock::now();
   request.remote = remote;
   request.id = request.header("X-Request-Id");
@@ -235,7 +235,8 @@ bool Server::refuse(Connection& connection, const Request& request, const Refusa
   return false;
 }
 
-std::variant<RequestHead, Refusal> Server::read_head(Connection& connection) const {
+/// Sets `refused` to what is legible of a head that it refuses.
+std::variant<RequestHead, Refusal> Server::read_head(Connection& connection, Request& refused) const {
   const auto deadline = Clock::now() + options_.head_time;
   std::size_t searched = 0;
   bool is_first_line = true;
@@ -250,10 +251,16 @@ std::variant<RequestHead, Refusal> Server::read_head(Connection& connection) con
     const auto end = text.find("\r\n\r\n", searched);
     if (end != std::string_view::npos && end + 4 <= options_.limits.head) {
       auto head = parse_head(text.substr(0, end + 4), options_.limits);
+      if (head.index() == 1) refused = legible_part(text.substr(0, end + 4), options_.limits);
       connection.consume(end + 4);
       return head;
     }
-    if (const auto refusal = check_partial_head(text, options_.limits)) return *refusal;
+    if (const auto refusal = check_partial_head(text, options_.limits)) {
+      while (connection.buffered().size() < options_.limits.head && connection.read_more(Clock::now())) {
+      }  // the fields after a long target may have arrived
+      refused = legible_part(connection.buffered(), options_.limits);
+      return *refusal;
+    }
     searched = text.size() < 3 ? 0 : text.size() - 3;
     if (!connection.read_more(deadline)) return Refusal{0, {}};
   }
@@ -299,7 +306,7 @@ void Server::refuse_connection(int socket, std::string remote) {
   Connection connection(socket, nullptr, {.timeout = Clock::duration::zero()});
   if (options_.tls) return;
   connection.read_more(Clock::now());  // closing with unread bytes would reset the connection
-  Request request;
+  Request request = legible_part(connection.buffered(), options_.limits);
   request.id = random_id();
   request.remote = std::move(remote);
   request.arrived = Clock::now();

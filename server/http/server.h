@@ -1,7 +1,7 @@
 #pragma once
 /// An HTTP/1.1 server with one thread for each connection: accepts connections, parses requests, passes them
 /// to one handler and writes the responses. A thread that has served a connection accepts the next one, so a
-/// new connection costs no new thread and no exchange between threads. Decision 5 says why no library does this.
+/// new connection costs no new thread and no exchange between threads. Decision 5 explains why no library does this.
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
@@ -75,7 +75,7 @@ class Server {
   bool serve_one(Connection& connection, const std::string& remote);
   bool refuse(Connection& connection, const Request& request, const Refusal& refusal);
   void refuse_connection(int socket, std::string remote);
-  std::variant<RequestHead, Refusal> read_head(Connection& connection) const;
+  std::variant<RequestHead, Refusal> read_head(Connection& connection, Request& refused) const;
   bool read_body(Connection& connection, const RequestHead& head, std::string& body) const;
   Response answer(const Request& request) const;
   void send(Connection& connection, const Request& request, const Response& response) const;

@@ -187,7 +187,7 @@ TEST(CorpusChances, GiveEachSuccessorItsShareOverManySeeds) {
   }
 }
 
-TEST(CorpusChances, GrowAsFastAsTheirMeanSays) {
+TEST(CorpusChances, GrowAsFastAsTheirMean) {
   constexpr int seeds = 200;
   for (const Json& entry : corpus().at("growth")) {
     double sum = 0;

@@ -119,7 +119,20 @@ bool complain(const Row& row, const Error& error) {
   return false;
 }
 
-/// False, after a line on stderr, when the request is refused.
+/// False, after a line on stderr, where a warning is about something that the request does not contain.
+bool points_into(const Request& request, const Row& row, const std::vector<Warning>& warnings) {
+  const Json canonical = Json::parse(request.canonical());
+  bool is_good = true;
+  for (const Warning& warning : warnings) {
+    if (canonical.contains(Json::json_pointer(warning.pointer))) continue;
+    std::fprintf(stderr, "%s: the request has no %s: %s\n", row.name.c_str(), warning.pointer.c_str(),
+                 warning.message.c_str());
+    is_good = false;
+  }
+  return is_good;
+}
+
+/// False, after a line on stderr, when the request is refused or a warning points nowhere.
 bool print(const Row& row, const Options& options, std::ofstream& summaries) {
   const Result<Request> request = row.read();
   if (!request) return complain(row, request.error());
@@ -133,6 +146,7 @@ bool print(const Row& row, const Options& options, std::ofstream& summaries) {
     for (const Warning& warning : product->warnings)
       summaries << "  warning " << warning.pointer << ": " << warning.message << "\n";
   }
+  if (!points_into(*request, row, product->warnings)) return false;
   rename_engine(bytes, options.engine);
   std::printf("%s %s %zu\n", row.name.c_str(), hash_of(bytes).c_str(), bytes.size());
   return true;

@@ -5,7 +5,7 @@ import fs from 'node:fs';
 import os from 'node:os';
 import path from 'node:path';
 import { test } from 'node:test';
-import { ask, events_of, rehearsal, run, serve, until } from './support.mjs';
+import { ask, events_of, raw, rehearsal, run, serve, status_of, until } from './support.mjs';
 
 const request = (parameters = {}, seed = 0) => ({ generator: 'rehearsal', seed, parameters });
 const digest = (key) => crypto.createHash('sha256').update(key).digest('hex');
@@ -185,6 +185,33 @@ test('pages of allowed origins can read responses and send the fields that they 
     assert.equal(preflight.status, 204);
     assert.equal(preflight.headers['access-control-allow-methods'], 'POST, OPTIONS');
     assert.match(preflight.headers['access-control-allow-headers'], /Content-Type/);
+  }));
+
+test('pages of allowed origins can read why a request was refused before it was routed', () =>
+  with_server(['--cors-origins', 'https://a.example', '--body-limit', '100KiB'], async (server) => {
+    const fields = (origin) => `Origin: ${origin}\r\nX-Request-Id: mine\r\n`;
+    const refused = (origin) => ({
+      400: `GET / HTTP/1.1\r\nHost: a b\r\n${fields(origin)}\r\n`,
+      411: `POST /v1/generate HTTP/1.1\r\nHost: here\r\n${fields(origin)}\r\n`,
+      413: `POST /v1/generate HTTP/1.1\r\nHost: here\r\nContent-Length: 200000\r\n${fields(origin)}\r\n`,
+      414: `GET /${'a'.repeat(20000)} HTTP/1.1\r\nHost: here\r\n${fields(origin)}\r\n`,
+      431: `GET / HTTP/1.1\r\nHost: here\r\n${fields(origin)}a: ${'b'.repeat(40000)}\r\n\r\n`,
+      505: `GET / HTTP/3.0\r\nHost: here\r\n${fields(origin)}\r\n`,
+    });
+    for (const [status, bytes] of Object.entries(refused('https://a.example'))) {
+      const { text } = await raw(server, bytes);
+      assert.equal(status_of(text), Number(status));
+      assert.match(text, /\r\nAccess-Control-Allow-Origin: https:\/\/a\.example\r\n/, status);
+      assert.match(text, /\r\nVary: [^\r]*Origin\r\n/, status);
+      assert.match(text, /\r\nX-Request-Id: mine\r\n/, status);
+    }
+    for (const [status, bytes] of Object.entries(refused('https://b.example'))) {
+      const { text } = await raw(server, bytes);
+      assert.equal(status_of(text), Number(status));
+      assert.doesNotMatch(text, /Access-Control-Allow-Origin/, status);
+    }
+    const { text } = await raw(server, 'HEAD / HTTP/1.1\r\nHost: a b\r\n\r\n');
+    assert.match(text, /\r\n\r\n$/, 'a response to HEAD has no body');
   }));
 
 test('without origins, responses have no CORS fields', () =>

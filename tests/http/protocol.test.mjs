@@ -169,6 +169,13 @@ test('OPTIONS lists the allowed methods', async () => {
   assert.equal(answer.headers.allow, 'POST, OPTIONS');
 });
 
+test('OPTIONS * asks about the server as a whole', async () => {
+  const answer = await raw(server, `OPTIONS * HTTP/1.1\r\n${host}Connection: close\r\n\r\n`);
+  assert.equal(status_of(answer.text), 204);
+  assert.match(answer.text, /\r\nAllow: GET, HEAD, POST, OPTIONS\r\n/);
+  await refused(`GET * HTTP/1.1\r\n${host}\r\n`, 400);
+});
+
 test('a connection beyond the limit receives 503 at once', async () => {
   const held = [];
   for (let i = 0; i < 40; ++i) {

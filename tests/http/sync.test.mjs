@@ -54,6 +54,13 @@ test('models are made once, with the bytes of the server', async () => {
   assert.equal((await sync(each, '--list')).out, `${each.file('a.glb')}\n${each.file('deep/snow.gltf')}\n`);
 });
 
+test('a directory without request files is reported', async () => {
+  const each = directory('none', { 'a.json': koch });
+  const { status, out, err } = await sync(each);
+  assert.deepEqual([status, out], [0, '0 made, 0 same, 0 refused\n']);
+  assert.match(err, /none: found no request files; their names end in \.seedmesh/);
+});
+
 test('the program and the Python client write the same lock file and accept that of the other', async () => {
   const files = { 'ä b.seedmesh': koch, 'c.seedmesh': { ...koch, outputs: { 'c.glb': {}, 'c.zip': { format: 'zip' } } } };
   const here = directory('lock_here', files), there = directory('lock_there', files), asked = directory('lock_asked', files);

@@ -36,6 +36,14 @@ test('a posted world answers its tileset and where that lies', async () => {
   assert.equal(request.engine, (await server.get('/version')).json.engine);
 });
 
+test('options of the output that tiles do not have are refused', async () => {
+  const output = { name: 'land', provenance: 'none', format: 'zip', variants: 3, max_triangles: 10, textures: 64 };
+  const answer = await server.post('/v1/generate', { ...world, output });
+  is_problem(answer, 422, 'invalid-request');
+  assert.deepEqual(answer.json.errors.map(({ pointer }) => pointer).sort(), ['format', 'max_triangles', 'textures', 'variants'].map((name) => `/output/${name}`));
+  assert.equal((await server.post('/v1/generate', { ...world, output: { name: 'land', provenance: 'none' } })).status, 200);
+});
+
 test('each link of the root leads to a tileset with the same box and error, down to the leaves', async () => {
   let url = place, json = (await server.get(url)).json, tile = json.root, level = 0, links = 0;
   for (;;) {
@@ -145,6 +153,19 @@ test('the name of a preset without a seed is explained', async () => {
   }
 });
 
+test('pages of all origins may ask with a key or a condition, and read the validators', async () => {
+  const headers = { origin: 'https://a.example', 'access-control-request-method': 'GET', 'access-control-request-headers': 'x-api-key, if-none-match' };
+  for (const name of ['tileset.json', 'c/2/1/3.glb', 'nothing']) {
+    const preflight = await ask(server, 'OPTIONS', home + name, { headers });
+    assert.deepEqual([preflight.status, preflight.headers['access-control-allow-origin']], [204, '*'], name);
+    assert.equal(preflight.headers['access-control-allow-methods'], 'GET, HEAD, OPTIONS', name);
+    assert.match(preflight.headers['access-control-allow-headers'], /If-None-Match.*X-Api-Key/, name);
+    const answer = await server.get(home + name, { origin: 'https://a.example' });
+    assert.equal(answer.headers['access-control-allow-origin'], '*', name); // once
+    assert.match(answer.headers['access-control-expose-headers'], /ETag/, name);
+  }
+});
+
 test('addresses outside the tree are 404, open to pages and not stored', async () => {
   for (const name of ['c/10/0/0.glb', 'c/3/8/0.glb', 'c/3/0/8.glb', 'c/-1/0/0.glb', 'c/01/0/0.glb', 'c/1/+1/0.glb', 'c/1.5/0/0.glb', 'c/3/4294967296/0.glb', 'c/18446744073709551616/0/0.glb', 'c/0/0/0', 'c/0/0/0/0.glb',
     'e/0/0/0.json', 'e/3/0/0.json', 'e/4/16/0.json', 's/4/0/0.subtree', 's/10/0/0.subtree', 's/0/0/0.json', 'a/0.bin', 'a/', 'q/0/0/0.glb', '', 'tileset']) {
@@ -239,7 +260,25 @@ test('the program writes a part of a world as files, and a second run makes none
     for (const name of found) assert.deepEqual(fs.readFileSync(path.join(out, name)), (await server.get(home + name)).bytes, name);
     const second = await run(program, args);
     assert.match(second.err, /^0 made, /m);
-    assert.equal((await run(program, ['tiles', file, '--levels', '0-3', '-o', out])).status, 2);
-    assert.equal((await run(program, ['tiles', file, '--levels', '3-99', '-o', `${out}2`])).status, 2);
+    // what a sudden stop of the machine leaves behind
+    const [short, empty] = [path.join(out, found[0]), path.join(out, 'tileset.json')];
+    const whole = [short, empty].map((name) => fs.readFileSync(name));
+    fs.truncateSync(short, 100);
+    fs.truncateSync(empty, 0);
+    const third = await run(program, args);
+    assert.match(third.err, /^2 made, /m);
+    assert.deepEqual([short, empty].map((name) => fs.readFileSync(name)), whole);
+    const refused = async (text, ...args) => {
+      const { status, err } = await run(program, ['tiles', ...args]);
+      assert.equal(status, 2);
+      assert.match(err, text);
+    };
+    await refused(/other levels; expected an empty folder/, file, '--levels', '0-3', '-o', out);
+    await refused(/--levels: found "3-99", expected .*from 0 to 9/, file, '--levels', '3-99', '-o', `${out}2`);
+    await refused(/--levels: found "2-1"/, file, '--levels', '2-1', '-o', `${out}2`);
+    await refused(/--part: found "8\/8", expected/, file, '--part', '8/8', '-o', `${out}2`);
+    await refused(/cannot be written: Not a directory/, file, '--levels', '0-1', '-o', path.join(file, 'below'));
+    await refused(/absent\.json: No such file/, path.join(folder, 'absent.json'), '-o', `${out}2`);
+    assert.equal(fs.existsSync(`${out}2`), false);
   } finally { fs.rmSync(folder, { recursive: true }); }
 });

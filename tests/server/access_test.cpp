@@ -41,7 +41,7 @@ TEST(Access, IsOpenWithoutKeys) {
   EXPECT_EQ(status_of(access.admit(asking("POST", "/v1/generate"))), 200);
 }
 
-TEST(Access, AsksForAKey) {
+TEST(Access, RequiresAKey) {
   Access access(with({{"api-keys", alice()}}));
   EXPECT_TRUE(access.closed());
   const auto request = [](http::Headers headers) {

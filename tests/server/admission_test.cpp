@@ -60,7 +60,7 @@ TEST(Admission, ServesTheQueueInOrder) {
   EXPECT_EQ(admission.busy(), 0);
 }
 
-TEST(Admission, GivesUpAtTheDeadline) {
+TEST(Admission, StopsWaitingAtTheDeadline) {
   Admission admission(1, 8);
   const auto held = admission.enter(in(1s), {});
   EXPECT_EQ(refusal(admission.enter(in(20ms), {})), Refused::deadline_passed);

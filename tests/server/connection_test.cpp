@@ -76,7 +76,7 @@ TEST(Connection, DoesNotExtendADeadlineForSingleBytes) {
   client.join();
 }
 
-TEST(Connection, GivesUpAClientThatReadsNothing) {
+TEST(Connection, DisconnectsAClientThatReadsNothing) {
   Pair pair;
   const auto begun = Clock::now();
   EXPECT_FALSE(pair.connection->write(std::string(64U << 20U, 'x')));

@@ -28,7 +28,7 @@ TEST(InFlight, CountsAPayloadOnceHoweverManyClientsReadIt) {
   EXPECT_EQ(memory.bytes(), 400'000U);
 }
 
-TEST(InFlight, HoldsNothingBeyondItsLimit) {
+TEST(InFlight, KeepsNothingBeyondItsLimit) {
   InFlight memory(1'000'000);
   auto first = memory.hold(payload_of(700'000));
   EXPECT_EQ(memory.hold(payload_of(300'001)), nullptr);

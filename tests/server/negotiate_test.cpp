@@ -38,7 +38,7 @@ TEST(AcceptEncoding, FindsNothingWhereAllAreForbidden) {
   EXPECT_EQ(choose_coding("identity;q=0, gzip;q=0.1"), Coding::gzip);
 }
 
-TEST(Accept, WantsEventsOnlyByName) {
+TEST(Accept, AcceptsEventsOnlyByName) {
   EXPECT_TRUE(wants_events("text/event-stream"));
   EXPECT_TRUE(wants_events("model/gltf-binary, Text/Event-Stream; q=0.3"));
   EXPECT_FALSE(wants_events("*/*"));

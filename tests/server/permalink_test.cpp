@@ -37,7 +37,7 @@ TEST(Token, FitsIntoAUrlWithoutEscapes) {
   EXPECT_THAT(write_token(plant, "1"), testing::MatchesRegex("[A-Za-z0-9_-]+"));
 }
 
-TEST(Token, HoldsAnEmptyRequest) {
+TEST(Token, ContainsAnEmptyRequest) {
   const auto token = read_token(write_token("{}", "1"), 100);
   ASSERT_TRUE(token);
   EXPECT_EQ(token->request, "{}");

@@ -58,7 +58,7 @@ TEST(Problem, SurvivesBytesThatAreNoText) {
   EXPECT_EQ(json["status"], 400);
 }
 
-TEST(Problem, SaysWhenToComeBack) {
+TEST(Problem, StatesWhenToTryAgain) {
   const http::Response response = to_response(problem(429, "Full."), "r1");
   EXPECT_EQ(http::field_value(response.headers, "retry-after"), "1");
   EXPECT_EQ(response.type, "application/problem+json");

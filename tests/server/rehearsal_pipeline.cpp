@@ -199,6 +199,7 @@ bool is_world(const Request&) { return false; }
 // The pipeline keeps the memory.
 // NOLINTNEXTLINE(performance-unnecessary-value-param)
 Result<OpenWorld> open_world(const Request&, std::shared_ptr<WorldMemory>) { return no_world(); }
+std::optional<Error> output_error_of_tiles(const Request&) { return std::nullopt; }
 TileRange tiles_in(const OpenWorld&, int, const WorldBox&) { return {}; }
 Result<std::string> world_tileset(const OpenWorld&, const TileAddress&, std::string_view, const Job::Options&,
                                   const WorldPart*) {

@@ -34,7 +34,7 @@ TEST(Head, TakesARequestApart) {
   EXPECT_TRUE(head.keep_alive);
 }
 
-TEST(Head, KnowsWhenTheConnectionEnds) {
+TEST(Head, DeterminesWhenTheConnectionEnds) {
   EXPECT_FALSE(std::get<RequestHead>(read(get("/", "Connection: x, Close\r\n"))).keep_alive);
   EXPECT_FALSE(std::get<RequestHead>(read("GET / HTTP/1.0\r\n\r\n")).keep_alive);
   EXPECT_TRUE(std::get<RequestHead>(read("GET / HTTP/1.0\r\nConnection: keep-alive\r\n\r\n")).keep_alive);
@@ -94,7 +94,7 @@ TEST(Head, RefusesRequestLinesThatAreNone) {
   EXPECT_EQ(status_of("GET / HTTP/2.0\r\nHost: here\r\n\r\n"), 505);
 }
 
-TEST(Head, HoldsBodiesToLengthAndLimit) {
+TEST(Head, LimitsBodiesToTheirLengthAndTheLimit) {
   HeadLimits limits;
   limits.body = 10;
   EXPECT_EQ(status_of(post("Content-Length: 10\r\n"), limits), 0);
@@ -107,7 +107,7 @@ TEST(Head, HoldsBodiesToLengthAndLimit) {
   EXPECT_EQ(status_of(post("Content-Length: 5\r\nExpect: a-miracle\r\n")), 417);
 }
 
-TEST(Head, HoldsLinesAndFieldsToTheirLimits) {
+TEST(Head, LimitsLinesAndFields) {
   HeadLimits limits;
   limits.target = 100;
   limits.fields = 5;
@@ -120,6 +120,15 @@ TEST(Head, HoldsLinesAndFieldsToTheirLimits) {
   EXPECT_EQ(check_partial_head("GET /" + std::string(500, 'a'), limits).value().status, 414);
   EXPECT_EQ(check_partial_head("GET / HTTP/1.1\r\nA: " + std::string(1'000, 'a'), limits).value().status,
             431);
+}
+
+TEST(Head, IsLegibleAsFarAsItsFieldsAreValid) {
+  const Request whole = legible_part("HEAD / HTTP/9\r\nno field\r\nOrigin: a\r\nB : c\r\n\r\nD: e\r\n", {});
+  EXPECT_EQ(whole.method, "HEAD");
+  EXPECT_EQ(whole.headers, (Headers{{"Origin", "a"}}));
+  const Request cut = legible_part("G(T / HTTP/1.1\nA: 1\nOrigin: https://exam", {});
+  EXPECT_EQ(cut.method, "");
+  EXPECT_EQ(cut.headers, (Headers{{"A", "1"}})) << "the last line is not complete";
 }
 
 }  // namespace

@@ -117,7 +117,7 @@ TEST(ResponseWriter, LeavesOutAFieldThatWouldSplitTheResponse) {
   EXPECT_FALSE(contains(text, "Set-Cookie") || contains(text, "A\nB"));
 }
 
-TEST(ResponseWriter, SaysWhenTheConnectionCloses) {
+TEST(ResponseWriter, AnnouncesThatTheConnectionCloses) {
   Response response;
   response.close = true;
   EXPECT_TRUE(contains(response_head(get(), response), "\r\nConnection: close\r\n"));

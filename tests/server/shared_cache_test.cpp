@@ -54,7 +54,7 @@ TEST(PackedModel, IsNotWhatSomebodyElsePutThere) {
   }
 }
 
-TEST(SharedCache, WithoutAnAddressKnowsAndKeepsNothing) {
+TEST(SharedCache, WithoutAnAddressIsEmpty) {
   const Log log("off");
   SharedCache cache(Config{}, log);
   EXPECT_FALSE(cache.get("{}", ""));

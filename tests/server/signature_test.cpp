@@ -22,7 +22,7 @@ TEST(Hmac, IsThatOfRfc4231) {
   EXPECT_EQ(http::hex(sha256("abc")), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
 }
 
-TEST(Signature, HoldsForWhatWasSigned) {
+TEST(Signature, IsValidForTheSignedTarget) {
   for (const SigningKey& key : keys) {
     for (const std::string& text : {target, std::string("/v1/presets/a.glb?seed=3")}) {
       const std::string link = sign_target(text, key, now + 60);

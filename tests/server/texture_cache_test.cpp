@@ -23,7 +23,7 @@ TEST(TextureCache, GivesBackWhatItKeeps) {
   EXPECT_EQ(cache.bytes(), 40U);
 }
 
-TEST(TextureCache, ForgetsWhatWasNotUsedForLongest) {
+TEST(TextureCache, RemovesTheLeastRecentlyUsed) {
   TextureCache cache(100);
   cache.keep("oak", number(1), 40);
   cache.keep("pine", number(2), 40);

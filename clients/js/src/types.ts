@@ -339,7 +339,7 @@ export interface CityParametersStreetsClassesHighway {
   lanes?: number;
   /** The width of the sidewalk of each side. */
   sidewalk?: number;
-  /** The steepest grade of these streets, as rise over run. On a terrain the ground is cut and filled to keep it, and no street grows where the grade of the natural ground is more than 1.5 times this value. */
+  /** The steepest grade of these streets, as rise over run. On a terrain, the ground is cut and filled to keep it. No street grows where the grade of the natural ground is more than 1.5 times this value. */
   grade?: number;
   /** The distance between trees along each side of these streets. 0: no trees. Default: that of furniture.trees, if it is given. */
   trees?: number;
@@ -353,7 +353,7 @@ export interface CityParametersStreetsClassesMajor {
   lanes?: number;
   /** The width of the sidewalk of each side. */
   sidewalk?: number;
-  /** The steepest grade of these streets, as rise over run. On a terrain the ground is cut and filled to keep it, and no street grows where the grade of the natural ground is more than 1.5 times this value. */
+  /** The steepest grade of these streets, as rise over run. On a terrain, the ground is cut and filled to keep it. No street grows where the grade of the natural ground is more than 1.5 times this value. */
   grade?: number;
   /** The distance between trees along each side of these streets. 0: no trees. Default: that of furniture.trees, if it is given. */
   trees?: number;
@@ -367,7 +367,7 @@ export interface CityParametersStreetsClassesMinor {
   lanes?: number;
   /** The width of the sidewalk of each side. */
   sidewalk?: number;
-  /** The steepest grade of these streets, as rise over run. On a terrain the ground is cut and filled to keep it, and no street grows where the grade of the natural ground is more than 1.5 times this value. */
+  /** The steepest grade of these streets, as rise over run. On a terrain, the ground is cut and filled to keep it. No street grows where the grade of the natural ground is more than 1.5 times this value. */
   grade?: number;
   /** The distance between trees along each side of these streets. 0: no trees. Default: that of furniture.trees, if it is given. */
   trees?: number;
@@ -381,7 +381,7 @@ export interface CityParametersStreetsClassesLane {
   lanes?: number;
   /** The width of the sidewalk of each side. */
   sidewalk?: number;
-  /** The steepest grade of these streets, as rise over run. On a terrain the ground is cut and filled to keep it, and no street grows where the grade of the natural ground is more than 1.5 times this value. */
+  /** The steepest grade of these streets, as rise over run. On a terrain, the ground is cut and filled to keep it. No street grows where the grade of the natural ground is more than 1.5 times this value. */
   grade?: number;
   /** The distance between trees along each side of these streets. 0: no trees. Default: that of furniture.trees, if it is given. */
   trees?: number;
@@ -443,7 +443,7 @@ export interface CityParametersStreets {
   method?: "growth" | "tensor" | "wards" | "given";
   /** The productions of the street L-system, in the notation of the generator lsystem. The modules are R(delay, rule), the tip of a road; B(delay, rule, road), a delayed branch; and I(road, state), the query that checks a proposed road. States are UNASSIGNED, SUCCEED and FAILED. { globalGoals(rule, road) } sets pDel0 to pDel2, pRule0 to pRule2 and pRoad0 to pRoad2: straight on, to the left, to the right. { localConstraints(road) } sets state. Default: those of Parish and Müller. */
   productions?: string[];
-  /** The pattern of the major streets. organic: an irregular net. raster: right angles, also for minor streets unless minor_pattern says otherwise. radial: rings and rays about the centre. slope: along the contours of the ground and straight up its slope; a raster on level ground. */
+  /** The pattern of the major streets. organic: an irregular net. raster: right angles, also for minor streets unless minor_pattern selects another pattern. radial: rings and rays about the centre. slope: along the contours of the ground and straight up its slope; a raster on level ground. */
   pattern?: "organic" | "raster" | "radial" | "slope";
   /** The pattern where maps.pattern is 1. Default: raster, or organic if the pattern is raster. */
   second_pattern?: "organic" | "raster" | "radial" | "slope";
@@ -573,8 +573,8 @@ export interface CityParametersBuildingsLandmarksItem {
   position: [number, number];
   /** Counter-clockwise from above. */
   turn?: number;
-  /** lot: the model stands on the lot at its position. block: the whole block there stays one lot. free: lots stay as they are. */
-  plot?: "lot" | "block" | "free";
+  /** lot: the model stands on the lot at its position. block: the whole block there stays one lot. square: the whole block there is a paved square. free: lots stay as they are. */
+  plot?: "lot" | "block" | "square" | "free";
   /** The distance at which trees of parks keep away. */
   radius?: number;
 }
@@ -692,6 +692,8 @@ export interface CityParametersYards {
   models?: Child[];
   /** What stands along the borders between lots, outside of the buildings. */
   border?: "none" | "hedge" | "fence" | "wall";
+  /** Whether the border also closes the front of a lot on both sides of its building, as in streets with closed fronts. */
+  front?: boolean;
   /** The height of hedges, fences and walls. */
   height?: number;
 }
@@ -941,7 +943,7 @@ export interface LsystemParametersWeather {
 
 /** One organ. */
 export interface LsystemParametersSurfacesValue {
-  /** A leaf or petal of this outline, a fruit, patches, a model of its own, or a sphere or disc about the position of the turtle. A disc lies in the plane of heading and left. */
+  /** A leaf or petal of this outline, a fruit, patches, a model of its own, or a sphere or disc with its centre at the turtle. A disc lies in the plane of heading and left. */
   shape?: "simple" | "willow" | "birch" | "cordate" | "lobed" | "maple" | "ginkgo" | "compound" | "palmate" | "needles" | "palm" | "kite" | "petal" | "fruit" | "patches" | "model" | "sphere" | "disc";
   /** The geometry of a leaf: mesh is its outline. Squares with a texture of the leaf are card (one), cross (two) and curved (a bent one). Squares with a texture of a twig are twig (a bent one) and bunch (three bent ones). */
   build?: "mesh" | "card" | "cross" | "curved" | "twig" | "bunch";
@@ -955,7 +957,7 @@ export interface LsystemParametersSurfacesValue {
   droop?: number;
   /** How far the end of a fruit is elongated. */
   pointed?: number;
-  /** The colour index in materials; -1 uses the turtle's. */
+  /** The colour index in materials; -1 uses the turtle's. Without `materials`, a leaf, petal or fruit in the turtle's first colour has the colour of its kind instead of that of bark. */
   color?: number;
   /** Whether a leaf gets the texture of its own shape if its material has none: auto: only if the leaf is made of squares. */
   picture?: "auto" | "own" | "none";
@@ -1185,9 +1187,9 @@ export interface SceneParametersLayersItemVaryItem {
 export interface SceneParametersLayersItemPlacePositionsItem {
   /** East and south of the middle. */
   at: [number, number];
-  /** About the vertical axis, counter-clockwise seen from above. Default: as the layer says. */
+  /** About the vertical axis, counter-clockwise seen from above. Default: the value of the layer. */
   turn?: number;
-  /** Default: as the layer says. */
+  /** Default: the value of the layer. */
   scale?: number;
   /** The age of this plant, for its parameter `age`. */
   age?: number;
@@ -1465,7 +1467,7 @@ export interface TerrainParametersTile {
 
 /** Stretches the heights to a range. */
 export interface TerrainParametersNormalise {
-  /** The two heights that become low and high; heights outside them continue the same line. Default: the lowest and the highest of the field. Tiles require it, since a tile does not know the heights of other tiles. */
+  /** The two heights that become low and high; heights outside them continue the same line. Default: the lowest and the highest of the field. Tiles require it, since a tile is computed without the heights of other tiles. */
   from?: [number, number];
   /** The lowest height. */
   low?: number;
@@ -1537,7 +1539,7 @@ export interface TerrainParametersHydraulic {
 export interface TerrainParametersRefine {
   /** The point, in metres to the east and south of the middle of the field or tile. */
   center?: [number, number];
-  /** The distance from the point within which the step holds. */
+  /** The distance from the point within which squares have this step. */
   radius?: number;
   /** The greatest side of the squares within the radius. It is less than the side of the squares of the grid. */
   step?: number;
@@ -1790,7 +1792,7 @@ export interface TreeParametersEzTree {
   evergreen?: boolean;
   /** Number of levels of branching beyond the trunk. */
   levels?: number;
-  /** The trunk and the levels after it. The last entry applies to all further levels. An empty list stands for the values of a new tree of ez-tree. */
+  /** The trunk and the levels after it. The last entry applies to all further levels. An empty list means the values of a new tree of ez-tree. */
   level?: TreeParametersEzTreeLevelItem[];
   /** Component of the direction toward which limbs bend. */
   force_x?: number;
@@ -2016,7 +2018,7 @@ export interface TreeParameters {
   twig_radius?: number;
   /** The distance from which the tree is seen. A distant tree has fewer corners, limbs and leaves, by the formulas of section 4.9 of Weber and Penn. The image is 1,000 pixels high and has a field of view of 60 degrees. The remaining leaves are larger, so that the crown stays dense. 0 keeps everything. */
   range?: number;
-  /** How much wider the trunk is at the ground than the model says, as a share of its radius. The flare ends at an eighth of the height. */
+  /** How much the trunk widens at the ground, as a share of the radius that the model gives it. The flare ends at an eighth of the height. */
   trunk_flare?: number;
   /** Roots that leave the foot of the trunk and run into the ground. They do not change the rest of the tree. */
   roots?: TreeParametersRoots;

@@ -33,7 +33,7 @@ struct BodyCost {
 };
 
 enum class Sharing {
-  paying,  ///< equal bodies share a mesh if BodyCost::pays() holds; others are merged
+  paying,  ///< equal bodies share a mesh if BodyCost::pays() is true; others are merged
   nodes,   ///< equal bodies share a mesh, and each has a node
   merged,  ///< one mesh for each layer, with one primitive for each material
 };

@@ -27,11 +27,11 @@ struct Piece {
 struct Node {
   glm::dvec3 normal{0};
   double at = 0;
-  std::vector<Piece> pieces;  ///< in the plane of the node
+  std::vector<Piece> pieces;  ///< pieces in the plane of the node
   int front = -1, back = -1;
 };
 
-/// The four ways in which a polygon lies to a plane.
+/// The four positions of a polygon relative to a plane.
 struct Sides {
   std::vector<Piece> same, opposite, front, back;
 };

@@ -239,7 +239,7 @@ void add_levels(Model& model, Work& work, const BuildingParams& params, const Sh
 /// The bytes of textures made by seed, and of texture coordinates and tangents of their faces.
 std::uint64_t texture_bytes(const BuildingParams& params, const Grammar& grammar, const Shapes& shapes,
                             const GenerateContext& context) {
-  constexpr std::uint64_t vertex_bytes = 24;
+  constexpr std::uint64_t vertex_bytes = 16;  // of a tangent
   Model model;
   MaterialTable materials(model, params, shapes, context);
   materials.set_symbols(grammar.symbols);

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "core/base/json_pointer.h"
 #include "core/generators/building/blueprints/blueprints.h"
 #include "core/generators/building/check_grammar.h"
 #include "core/generators/building/edits.h"
@@ -18,21 +19,6 @@
 
 namespace seedmesh::building {
 namespace {
-
-/// A text as a JSON Pointer token.
-std::string escaped(const std::string& name) {
-  std::string out;
-  for (const char c : name) {
-    if (c == '~') {
-      out += "~0";
-    } else if (c == '/') {
-      out += "~1";
-    } else {
-      out += c;
-    }
-  }
-  return out;
-}
 
 constexpr std::size_t most_named = 20;
 
@@ -183,7 +169,7 @@ std::pair<int, int> restrictions_of(const BuildingParams& params) {
 std::shared_ptr<const RuleSet> read(const BuildingParams& params, std::vector<Issue>& issues) {
   std::vector<lang::TextError> errors;
   if (params.rules && params.blueprint) {
-    issues.emplace_back(IssueKind::conflict, "/blueprint",
+    issues.emplace_back(conflict_with({"rules"}), "/blueprint",
                         "found rules and a blueprint, expected one of them");
   }
   const std::size_t before = issues.size();
@@ -224,7 +210,7 @@ std::shared_ptr<const RuleSet> read(const BuildingParams& params, std::vector<Is
 void check_values(const BuildingParams& params, const Grammar& grammar, std::vector<Issue>& issues) {
   Texts texts = grammar.texts;
   for (const auto& given : params.attributes)
-    check_attribute_value(grammar, texts, given, "/attributes/", issues);
+    check_attribute_value(grammar, texts, given, "/attributes", issues);
   if (grammar.start != none) check_edits(params, grammar, issues);
 }
 
@@ -233,7 +219,7 @@ void check_alone(const BuildingParams& params, std::vector<Issue>& issues) {
   const BuildingParams plain;
   const auto refuse = [&](bool is_given, const char* name) {
     if (is_given) {
-      issues.emplace_back(IssueKind::conflict, std::string("/") + name,
+      issues.emplace_back(conflict_with({"shape_grammar"}), std::string("/") + name,
                           "has no meaning for a shape grammar, which begins with its initial shape");
     }
   };
@@ -249,7 +235,7 @@ void check_alone(const BuildingParams& params, std::vector<Issue>& issues) {
   refuse(params.derivation.order != plain.derivation.order, "derivation/order");
   if (params.restrict == BuildingRestrict::split) {
     issues.emplace_back(
-        IssueKind::conflict, "/restrict",
+        conflict_with({"shape_grammar"}), "/restrict",
         "found split, which restricts rules; expected none, non_erasing or unimarker for a shape grammar");
   }
 }
@@ -304,11 +290,11 @@ void check_attribute_value(const Grammar& grammar, Texts& texts,
   const std::string& name = given.first;
   const auto found = std::ranges::find(grammar.attributes, name, &Attribute::name);
   if (found == grammar.attributes.end()) {
-    issues.emplace_back(IssueKind::unknown_name, base + escaped(name),
+    issues.emplace_back(IssueKind::unknown_name, base + pointer_token(name),
                         "the rules declare no attribute of this name" + help_with(name, grammar));
     return;
   }
-  check_attribute(*found, base + escaped(name), value_of(texts, given.second), texts, issues);
+  check_attribute(*found, base + pointer_token(name), value_of(texts, given.second), texts, issues);
 }
 
 std::optional<Warning> nothing_drawn(const Shapes& shapes) {
@@ -334,7 +320,7 @@ std::vector<Issue> check_all(const BuildingParams& params, const Bounds& bounds,
     check_alone(params, issues);
     pictures = read_pictures(*params.shape_grammar, restriction_of(params.restrict), issues);
   } else if (!params.rules && !params.blueprint) {
-    issues.emplace_back(IssueKind::missing, "",
+    issues.emplace_back(missing_for({"rules", "blueprint", "shape_grammar"}), "",
                         "found none of \"rules\", \"blueprint\" and \"shape_grammar\", expected one of them");
   } else {
     if (!rules) rules = read(params, issues);
@@ -355,7 +341,7 @@ std::vector<Issue> check_all(const BuildingParams& params, const Bounds& bounds,
   }
   for (const auto& [name, asset] : params.assets) {
     if (asset.model.has_value() == asset.glb.has_value()) {
-      issues.emplace_back(IssueKind::conflict, "/assets/" + name,
+      issues.emplace_back(conflict_with({"model", "glb"}), "/assets/" + name,
                           std::string("found ") + (asset.model ? "both" : "neither") +
                               " of \"model\" and \"glb\", expected one of them");
     } else if (asset.glb && !is_glb_uri(*asset.glb)) {

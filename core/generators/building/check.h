@@ -47,11 +47,11 @@ RuleText rule_text_of(const BuildingParams& params, std::vector<Issue>& issues);
 /// Returns the names of the files that fileSearch and fileRandom find.
 std::vector<std::string> file_names(const BuildingParams& params);
 
-/// Returns the value of an attribute as expressions see it; true is 1, false is 0.
+/// Returns the value of an attribute as in expressions; true is 1, false is 0.
 lang::TaggedValue value_of(Texts& texts, const AttributeValue& given);
 
-/// Checks a value for an attribute of the rules. `base` is the pointer of the object of values, with a slash at
-/// its end. Texts of values are added to `texts`, which begin with those of the grammar.
+/// Checks a value for an attribute of the rules. `base` is the pointer of the object of values. Texts of
+/// values are added to `texts`, which begin with those of the grammar.
 void check_attribute_value(const Grammar& grammar, Texts& texts,
                            const std::pair<const std::string, AttributeValue>& given, const std::string& base,
                            std::vector<Issue>& issues);

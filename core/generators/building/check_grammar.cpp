@@ -28,7 +28,7 @@ bool always_holds(const Grammar& grammar, const Rule& rule) {
   return false;
 }
 
-/// Warns of rules behind one that always holds.
+/// Warns of rules behind one that always applies.
 void warn_of_unreachable(Parser& p, const Symbol& symbol) {
   std::map<std::uint32_t, std::uint32_t> first_sure;  // by number of parameters: a rule
   for (const std::uint32_t index : symbol.rules) {

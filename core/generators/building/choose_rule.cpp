@@ -32,8 +32,8 @@ void find_locals(Derivation& d, const Rule& rule) {
   }
 }
 
-/// The first branch whose condition holds. If the weights of its choices sum to less than 1, the choices of
-/// later rules that hold take part as well. Null: no rule holds.
+/// The first branch whose condition is true. If the weights of its choices sum to less than 1, the choices of
+/// later rules that apply take part as well. Null: no rule applies.
 const Choice* choose_in(Derivation& d, std::span<const std::uint32_t> rules, std::uint32_t parameters,
                         std::uint64_t key) {
   d.random = Rng(key_at(key, step_of_conditions));

@@ -13,7 +13,7 @@ constexpr std::uint64_t step_of_conditions = 0xFFFF'FFFF'0001U, step_of_choice =
 double weight_of(Derivation& d, const Choice& choice, double before);
 
 /// Returns the choice that replaces shape `index`. The random number follows from the key of the shape.
-/// Returns null if the condition of no rule holds.
+/// Returns null if no rule has a true condition.
 const Choice* choose(Derivation& d, std::uint32_t index);
 
 }  // namespace seedmesh::building

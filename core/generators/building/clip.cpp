@@ -1,6 +1,6 @@
 /// Cuts a solid by a plane across an axis. Each loop leaves chains of corners on the kept side. Along the
-/// line where the plane meets a face, chains leave and enter alternately, so that sorting their ends joins
-/// each end with the next start (the rule of Weiler and Atherton for a straight clip edge).
+/// line where the plane meets a face, chains leave and enter alternately. Sorted along this line, each end is
+/// joined with the next start (the rule of Weiler and Atherton for a straight clip edge).
 #include <algorithm>
 #include <cmath>
 #include <map>

@@ -7,6 +7,7 @@
 #include "core/generators/building/body_surface.h"
 #include "core/generators/building/hull.h"
 #include "core/model/build.h"
+#include "core/model/empty_mesh.h"
 
 namespace seedmesh::building {
 namespace {
@@ -104,10 +105,7 @@ bool cut_in_two(Mass& mass, Mass& other, Job& job) {
 }
 
 Mesh mesh_of(const Solid& hull, Job& job) {
-  Mesh mesh;
-  mesh.position = Array<glm::vec3>(job);
-  mesh.normal = Array<glm::vec3>(job);
-  mesh.index.wide = Array<std::uint32_t>(job);
+  Mesh mesh = empty_mesh(job);
   BodySurface surface;
   SurfaceBuilder().solid(hull, glm::dvec3(1), surface);
   job.spend(Resource::triangles, surface.index.size() / 3);

@@ -7,8 +7,8 @@
 namespace seedmesh::building {
 
 /// Adds nodes with convex meshes below the root if context.demand.collision requests them. A mass is a closed
-/// body that the rules split into faces or draw as a whole. A body that stands on a face of another, such as a
-/// window or a roof, is a mass only if its box has at least a twentieth of the volume of the largest mass.
+/// body that the rules split into faces or draw as a whole. Windows and roofs, for example, are bodies on a face of
+/// another body. They are masses only if their box has at least a twentieth of the volume of the largest mass.
 ///
 /// A mass inside the hull of another is left out. A mass that fills less than 92 % of its hull is cut in two across
 /// an axis. This is done only if it reduces the volume of the hulls by at least 4 %. There are at most 32 bodies, the

@@ -1,6 +1,6 @@
 #pragma once
 /// Expressions of rules, compiled for core/lang. Texts become ids in Grammar::texts, and queries about
-/// other shapes become slots. If lang::Program can hold the value, functions of the rules are expanded where they
+/// other shapes become slots. If lang::Program can represent the value, functions of the rules are expanded where they
 /// are called, and `case` and percentages become select(). Otherwise a tree of ValueNode is made.
 #include "core/generators/building/parser.h"
 

@@ -40,7 +40,7 @@ glm::dmat3 frame_of(const glm::dvec3& normal, const glm::dvec3& first_edge) {
   return {x, glm::cross(normal, x), normal};
 }
 
-/// A direction in the scope that is taken apart. Faces of a roof are seen by the vertical of the world, whichever axis
+/// A direction in the scope that is taken apart. Faces of a roof follow the vertical of the world, whichever axis
 /// of the scope that is.
 glm::dvec3 normal_in_scope(const Derivation& d, const ShapeState& whole, const glm::dvec3& normal) {
   const glm::dvec3 n = glm::transpose(d.out.axes[whole.axes]) * normal;

@@ -8,7 +8,7 @@
 namespace seedmesh::building {
 namespace {
 
-constexpr double near_share = 1e-7;  ///< of the largest size
+constexpr double near_share = 1e-7;  ///< share of the largest size
 
 using Triangle = std::array<glm::dvec3, 3>;
 

@@ -6,7 +6,7 @@
 namespace seedmesh::building {
 namespace {
 
-constexpr std::uint64_t most_corners = 20'000'000;  ///< of all solids of a request
+constexpr std::uint64_t most_corners = 20'000'000;  ///< corners of all solids of a request
 constexpr double flat_share = 1e-9;                 ///< a smaller share of the largest size is rounding
 
 }  // namespace

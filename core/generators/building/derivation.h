@@ -51,7 +51,7 @@ struct Derivation {
   std::vector<lang::TaggedValue> slots;
   const ShapeState* seen = nullptr;  ///< state of the shape for which expressions are evaluated
   std::uint32_t seen_shape = none, filled_attributes = none;
-  bool is_filled = false;  ///< the slots hold the values of `seen`
+  bool is_filled = false;  ///< the slots have the values of `seen`
   Rng random{0};
   const Component* component = nullptr;                            ///< the component that selectors classify
   std::map<std::uint32_t, std::vector<lang::TaggedValue>> locals;  ///< values of with(...), by shape

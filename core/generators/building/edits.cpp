@@ -103,15 +103,15 @@ void check_edits(const BuildingParams& params, const Grammar& grammar, std::vect
     const auto [before, is_new] = known.emplace(std::move(key), i);
     if (!is_new && !steps.empty()) {
       issues.emplace_back(
-          IssueKind::conflict, pointer + "/shape",
+          conflict_with({}), pointer + "/shape",
           "edit " + std::to_string(before->second) + " changes the same shape, expected one edit for each");
     }
     if (edit.remove && (edit.rule || !edit.attributes.empty())) {
-      issues.emplace_back(IssueKind::conflict, pointer + "/remove",
+      issues.emplace_back(conflict_with({"rule", "attributes"}), pointer + "/remove",
                           "a removed shape has neither a rule nor attributes, expected one of them");
     }
     if (!edit.remove && !edit.rule && edit.attributes.empty()) {
-      issues.emplace_back(IssueKind::missing, pointer,
+      issues.emplace_back(missing_for({"attributes", "rule", "remove"}), pointer,
                           "found no change, expected \"attributes\", \"rule\" or \"remove\"");
     }
     if (edit.rule && grammar.symbol_named(*edit.rule) == none) {
@@ -120,7 +120,7 @@ void check_edits(const BuildingParams& params, const Grammar& grammar, std::vect
           "the rules have no symbol \"" + *edit.rule + "\"" + suggestion(*edit.rule, grammar));
     }
     for (const auto& given : edit.attributes)
-      check_attribute_value(grammar, texts, given, pointer + "/attributes/", issues);
+      check_attribute_value(grammar, texts, given, pointer + "/attributes", issues);
   }
 }
 

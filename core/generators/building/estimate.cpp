@@ -39,6 +39,9 @@ std::uint64_t more_by_neighbours(const Shapes& shapes, Job& job) {
   return sum;
 }
 
+/// The bytes of a body in a file, where every mesh has texture coordinates.
+std::uint64_t bytes_of(const BodyCost& cost) { return cost.bytes() + 8 * cost.vertices; }
+
 }  // namespace
 
 std::optional<Estimate> estimate_of(const Shapes& shapes, CopyForm copies, bool shares_all, Job& job) {
@@ -88,14 +91,14 @@ std::optional<Estimate> estimate_of(const Shapes& shapes, CopyForm copies, bool 
   if (!shares_all) {
     const BodyCost more{more_by_neighbours(shapes, job), 0};
     estimate.triangles = more.triangles;
-    estimate.bytes += more.bytes();
+    estimate.bytes += bytes_of(more);
   }
   for (const auto& each : bodies) {
     const auto& [cost, count, is_own_part] = each.second;
     estimate.triangles += cost.triangles * count;
     const bool is_shared = shares_all || (copies != CopyForm::merge && is_own_part && cost.pays(count));
-    estimate.bytes +=
-        is_shared ? cost.bytes() + mesh_bytes * cost.primitives + node_bytes * count : cost.bytes() * count;
+    estimate.bytes += is_shared ? bytes_of(cost) + mesh_bytes * cost.primitives + node_bytes * count
+                                : bytes_of(cost) * count;
   }
   return estimate;
 }

@@ -65,7 +65,7 @@ void look_at(Derivation& d, const ShapeState& state, std::uint32_t shape) {
 }
 
 lang::TaggedValue answer_of(Derivation& d, const Query& query) {
-  double answer = query.kind == Query::Kind::visible ? 1 : 0;  // in the first pass nothing is in the way
+  double answer = query.kind == Query::Kind::visible ? 1 : 0;  // in the first pass no shape covers another
   if (d.first_pass != nullptr) {
     std::vector<std::uint64_t> lineage;
     for (std::uint32_t s = d.seen_shape; s != none; s = d.out.shapes[s].parent)

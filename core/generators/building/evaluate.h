@@ -19,7 +19,7 @@ lang::TaggedValue evaluate(Derivation& d, const Value& value);
 lang::TaggedValue evaluate_tree(Derivation& d, std::uint32_t node);
 /// Returns the result of a query about other shapes, for the shape that look_at() selected.
 lang::TaggedValue answer_of(Derivation& d, const Query& query);
-/// Whether a condition holds: its value is a text, or a number other than 0.
+/// Whether a condition is true: its value is a text, or a number other than 0.
 bool holds(Derivation& d, const Value& condition);
 /// Returns a finite number of at most 10,000 km; everything else is rejected at the expression. If a text is
 /// the value of an attribute of the request, the error points to that attribute.

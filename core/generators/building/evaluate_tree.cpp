@@ -161,7 +161,7 @@ class TreeRunner {
     return lang::apply(operation, left, right);
   }
 
-  /// The rows or columns that an index names: a list of numbers, or those where a comparison holds.
+  /// The rows or columns that an index names: a list of numbers, or those where a comparison is true.
   std::vector<double> places(Evaluation& here, const ValueNode& node, std::uint32_t which,
                              const TaggedValue& given) {
     const bool is_mask =

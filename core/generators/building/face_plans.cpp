@@ -1,5 +1,7 @@
 #include "core/generators/building/face_plans.h"
 
+#include <algorithm>
+
 namespace seedmesh::building {
 
 std::vector<Plan> plans_of(const Solid& solid, const glm::dvec3& size, const FacePlane& plane) {
@@ -15,6 +17,26 @@ std::vector<Plan> plans_of(const Solid& solid, const glm::dvec3& size, const Fac
     plans.push_back(read_plan(std::move(rings)));
   }
   return plans;
+}
+
+void remove_repeated_points(Plan& plan) {
+  constexpr double same_point = 2e-6;  // share of the diagonal
+  if (plan.rings.empty() || plan.rings[0].empty()) return;
+  glm::dvec2 low = plan.rings[0][0], high = low;
+  for (const glm::dvec2& p : plan.rings[0]) {
+    low = glm::min(low, p);
+    high = glm::max(high, p);
+  }
+  const double reach = same_point * glm::length(high - low);
+  const auto is_near = [reach](const glm::dvec2& a, const glm::dvec2& b) {
+    return glm::length(a - b) <= reach;
+  };
+  for (PlanRing& ring : plan.rings) {
+    ring.erase(std::unique(ring.begin(), ring.end(), is_near), ring.end());
+    while (ring.size() > 1 && is_near(ring.back(), ring.front())) ring.pop_back();
+  }
+  if (plan.rings[0].size() < 3) plan.rings.clear();
+  std::erase_if(plan.rings, [](const PlanRing& ring) { return ring.size() < 3; });
 }
 
 void add_plan(Solid& solid, const Plan& plan, const FacePlane& plane, std::uint8_t tag) {

@@ -26,6 +26,10 @@ struct FacePlane {
 /// Returns a plan for each face of a flat solid, in metres. `size` is the size of the scope.
 std::vector<Plan> plans_of(const Solid& solid, const glm::dvec3& size, const FacePlane& plane);
 
+/// Removes points next to another one, which cuts through a corner leave, and rings that then have fewer than three. The
+/// limit is twice that of defects_of(). Without an outer ring, the plan has no rings.
+void remove_repeated_points(Plan& plan);
+
 /// Adds a plan as a face. Its points are in metres. Later, fit() (solid.h) converts them to fractions of the scope.
 void add_plan(Solid& solid, const Plan& plan, const FacePlane& plane, std::uint8_t tag);
 

@@ -96,7 +96,7 @@ bool is_division(Op op) {
   return std::ranges::find(divisions, op) != std::end(divisions);
 }
 
-/// Whether a body, or a rule that it calls, can divide the shape. `seen` are symbols that were looked at.
+/// Whether a body, or a rule that it calls, can divide the shape. `seen` are symbols that were checked before.
 bool divides(const Grammar& grammar, std::uint32_t body, std::set<std::uint32_t>& seen) {
   if (body == none) return false;
   const Body& own = grammar.bodies[body];

@@ -201,10 +201,17 @@ bool needs_face(const OperatorRow& row) {
   return row.rest != Rest::same && std::ranges::find(filling, row.op) == std::end(filling);
 }
 
-/// Runs one step. In a rule file of CityEngine a step that cannot be done is left out with a warning, as there.
+/// Runs one step. In a rule file of CityEngine a step that cannot be done is left out with a warning, as there. In other
+/// rules, solids and roofs over a level face, such as a terrace, stand up as those over a lot do.
 void run_step(Derivation& d, const OperatorRow& row, const Step& step, ShapeState& state,
               const StepContext& site) {
-  if (!d.grammar.is_cityengine) return row.run(d, step, state, site);
+  if (!d.grammar.is_cityengine) {
+    if (d.grammar.keeps_scopes || !raises_faces(step.op)) return row.run(d, step, state, site);
+    const ShapeState face = state;
+    row.run(d, step, state, site);
+    if (is_level_face(d, face)) stand_up(d, step, face, state);
+    return;
+  }
   const ShapeState before = state;
   const int depth = d.depth_of_inline;
   const Component* const component = d.component;

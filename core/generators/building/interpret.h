@@ -7,7 +7,7 @@ namespace seedmesh::building {
 /// Whether the shape can be replaced: it is part of the result, and its symbol has rules.
 bool has_rule(const Derivation& d, const Shape& shape);
 
-/// Replaces a shape by the successor of its rule. Returns false if the condition of no rule holds. The shape then
+/// Replaces a shape by the successor of its rule. Returns false if no rule has a true condition. The shape then
 /// becomes a leaf.
 bool expand(Derivation& d, std::uint32_t shape);
 
@@ -16,7 +16,7 @@ bool expand(Derivation& d, std::uint32_t shape);
 void finish_from(Derivation& d, std::uint32_t first);
 
 /// Runs a body that is nested in a successor, for a shape that an operation made. The first branch whose
-/// condition holds is used, and one of its choices is selected by weight.
+/// condition is true is used, and one of its choices is selected by weight.
 void run_body(Derivation& d, std::uint32_t body, const ShapeState& state, const Frame& frame);
 
 /// Adds a shape that no rule replaces. Spends Resource::shapes.

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::uint64_t place_of_joint =
     0xFFFF'FFFF'0003U;                ///< of random numbers: a step that no successor has
-constexpr double same_border = 1e-9;  ///< as a share of the sizes
+constexpr double same_border = 1e-9;  ///< distance as a share of the sizes
 
 /// Whether `a` comes before `b` in the tree of shapes. Neither is made of the other.
 bool is_before(const Shapes& shapes, std::uint32_t a, std::uint32_t b) {
@@ -187,7 +187,7 @@ class Join {
     return false;
   }
 
-  /// Adds the joined shape, unless no rule holds for it.
+  /// Adds the joined shape, unless no rule applies to it.
   bool add(const Joint& joint) {
     std::vector<Shape> replaced;
     for (std::size_t left = 0; left < chosen_.size(); ++left) {
@@ -235,7 +235,7 @@ class Join {
   }
 
   Derivation& d_;
-  std::vector<std::uint32_t> waiting_;  ///< in the order of the tree
+  std::vector<std::uint32_t> waiting_;  ///< shapes in the order of the tree
   std::vector<Outline> outlines_;       ///< of these
   std::optional<BoxTree> tree_;         ///< of these
   std::vector<std::uint32_t> chosen_;   ///< for the parts of the left side that is searched: into waiting_

@@ -16,7 +16,7 @@ bool waits(const Derivation& d, const Shape& shape);
 /// else the waiting shapes that have a rule of their own, in the order of the tree.
 ///
 /// Shapes match where their symbols and numbers of parameters agree, each is a neighbour of another one
-/// (contact.h), and a rule for them holds. Those that the rule does not keep become inactive. The joined
+/// (contact.h), and a rule for them applies. Those that the rule does not keep become inactive. The joined
 /// shape is a child of the first of them. Its geometry is their union, and it has the parameters of all. If
 /// they fill a box in the axes of the first, it is that box. Spends Resource::shapes. Cost of a search for
 /// left sides of two shapes: n log² n for n waiting shapes and their neighbours.

@@ -13,9 +13,9 @@ using lang::TokenKind;
 using Range = std::pair<std::size_t, std::size_t>;
 
 constexpr int deepest_import = 16;
-constexpr std::size_t most_instances = 200;  ///< of imported files
+constexpr std::size_t most_instances = 200;  ///< number of imported files
 
-/// What an import says about attributes and rules of the imported file.
+/// The settings of an import for attributes and rules of the imported file.
 struct Overrides {
   std::map<std::string, std::vector<Token>, std::less<>>
       values;                                ///< of attributes, as the importing file reads them

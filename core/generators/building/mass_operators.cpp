@@ -133,7 +133,27 @@ void extrude_in(Derivation& d, const Step& step, ShapeState& state, const std::s
   take_solid(d, state, std::move(made));
 }
 
-namespace {
+Solid outline_along(const Solid& solid, int axis, double side) {
+  Solid out;
+  for (const Face& face : solid.faces) {
+    if (!(unit_normal(solid, face)[axis] * side > 1e-6)) continue;
+    Face copy = face;
+    copy.first_loop = static_cast<std::uint32_t>(out.loops.size());
+    for (const Loop& loop : loops_of(solid, face)) {
+      const auto first = static_cast<std::uint32_t>(out.corners.size());
+      for (std::uint32_t i = 0; i < loop.count; ++i) {
+        const std::uint32_t corner = side < 0 ? loop.count - 1 - i : i;
+        glm::dvec3 p = solid.points[solid.corners[loop.first + corner]];
+        p[axis] = 0;
+        out.corners.push_back(static_cast<std::uint32_t>(out.points.size()));
+        out.points.push_back(p);
+      }
+      out.loops.push_back({first, loop.count});
+    }
+    out.faces.push_back(copy);
+  }
+  return out.faces.empty() ? out : without_straight_corners(with_joined_faces(welded(out, 0), 0), 0);
+}
 
 bool raises_faces(Op op) {
   constexpr Op raising[] = {Op::extrude,      Op::taper,       Op::envelope,     Op::roof_ridge,
@@ -142,7 +162,9 @@ bool raises_faces(Op op) {
   return std::ranges::find(raising, op) != std::end(raising);
 }
 
-}  // namespace
+bool is_level_face(const Derivation& d, const ShapeState& state) {
+  return dimension(state.size) == 2 && d.out.axes[state.axes][flat_axis(state.size)].y > 1 - 1e-9;
+}
 
 void face_forward(Derivation& d, const Step& step, ShapeState& state) {
   if (!raises_faces(step.op) || dimension(state.size) != 2 || !state.has_solid()) return;
@@ -288,7 +310,7 @@ void roof_ridge(Derivation& d, const Step& step, ShapeState& state, const StepCo
 }
 
 /// footprint(): the faces that look down, moved to the lowest level and turned over. Flat shapes, and those that are open
-/// below, use the faces that look up.
+/// below, use the faces that face up.
 void footprint(Derivation& d, const Step& step, ShapeState& state, const StepContext&) {
   if (state.has_asset() || dimension(state.size) < 2) {
     if (state.has_asset() && dimension(state.size) == 3) {
@@ -303,29 +325,11 @@ void footprint(Derivation& d, const Step& step, ShapeState& state, const StepCon
     return;
   }
   const Solid solid = solid_in_metres(d, state);
-  Solid out;
-  for (const double side : {-1.0, 1.0}) {
-    for (const Face& face : solid.faces) {
-      if (!(unit_normal(solid, face).y * side > 1e-6)) continue;
-      Face copy = face;
-      copy.first_loop = static_cast<std::uint32_t>(out.loops.size());
-      for (const Loop& loop : loops_of(solid, face)) {
-        const auto first = static_cast<std::uint32_t>(out.corners.size());
-        for (std::uint32_t i = 0; i < loop.count; ++i) {
-          const std::uint32_t corner = side < 0 ? loop.count - 1 - i : i;
-          const glm::dvec3& p = solid.points[solid.corners[loop.first + corner]];
-          out.corners.push_back(static_cast<std::uint32_t>(out.points.size()));
-          out.points.emplace_back(p.x, 0, p.z);
-        }
-        out.loops.push_back({first, loop.count});
-      }
-      out.faces.push_back(copy);
-    }
-    if (!out.faces.empty()) break;
-  }
+  Solid out = outline_along(solid, 1, -1);
+  if (out.faces.empty()) out = outline_along(solid, 1, 1);
   if (out.faces.empty()) return;
   state.roof_up = no_roof;
-  take_solid(d, state, without_straight_corners(with_joined_faces(welded(out, 0), 0), 0));
+  take_solid(d, state, std::move(out));
 }
 
 }  // namespace operators

@@ -163,11 +163,7 @@ MaterialTable::MaterialTable(Model& model, const BuildingParams& params, const S
 
 int MaterialTable::load(const std::string& uri, const std::string& name, const std::string& pointer,
                         const Job& job) {
-  if (uri.empty()) return -1;
-  Result<std::shared_ptr<const Image>> image = texture::image_of_data_uri(uri, name, job);
-  if (!image) job.refuse({IssueKind::invalid_value, pointer, image.error().issues.front().message});
-  model_.textures.push_back(*std::move(image));
-  return static_cast<int>(model_.textures.size()) - 1;
+  return uri.empty() ? -1 : texture::add_image_of_uri(model_, uri, name, pointer, job);
 }
 
 int MaterialTable::material_of(const Shape& shape) {

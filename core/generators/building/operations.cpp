@@ -119,7 +119,8 @@ constexpr OperationRow rows[] = {
     {"i", Op::insert, "t|xxxx", Braces::absent, "name, count or up axis, frame or mode, angle, room",
      "Replaces the geometry of the shape by a solid, a part or an asset that fills the scope. Sizes of 0 "
      "follow from the others. For parts: the number of panes, steps, sides or teeth, the width of the frame, "
-     "and the angle of the roof; 0 means by size. The last number says what is behind a window: 0 darkness, "
+     "and the angle of the roof; 0 means by size. The last number selects what is behind a window: 0 "
+     "darkness, "
      "1 "
      "curtains, 2 a blind, 3 a short curtain.",
      "A --> i(\"cylinder\")"},

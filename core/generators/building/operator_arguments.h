@@ -27,7 +27,7 @@ void use_image(Derivation& d, const Step& step, ShapeState& state, const std::st
 /// Gives the shape a part, an asset or a solid by name, as i() does.
 void insert_named_geometry(Derivation& d, const Step& step, ShapeState& state, const std::string& name);
 
-/// Replaces an inserted part or asset by its box, with a warning: rules do not know its faces.
+/// Replaces an inserted part or asset by its box, with a warning: rules have no access to its faces.
 void take_box_of_asset(Derivation& d, const Step& step, ShapeState& state);
 
 /// Returns the geometry of a state in metres of its scope, as take_solid() reads it.

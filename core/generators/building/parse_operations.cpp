@@ -155,11 +155,11 @@ void parse_arguments(Parser& p, const OperationRow& row, std::vector<Argument>& 
       parse_cells(p, cells, false);
       break;
     }
-    if (out.size() < kinds.size()) {
-      out.push_back(parse_argument(p, kinds[out.size()]));
-    } else {
-      ++p.at;
+    if (out.size() == kinds.size()) {
+      report_surplus(p, row, close);
+      return;
     }
+    out.push_back(parse_argument(p, kinds[out.size()]));
     if (p.at == before) break;
     if (!take(p, ",")) break;
     if (p.at >= close && has_sizes) break;

@@ -220,4 +220,14 @@ void parse_selectors_2006(Parser& p, Step& step, const std::vector<Argument>& li
   out.push_back(part);
 }
 
+void report_surplus(Parser& p, const OperationRow& row, std::size_t close) {
+  const std::string message =
+      lang::in_quotes(row.name) + " takes (" + std::string(row.parameters) + "), found ";
+  if (row.status == Status::done && p.grammar.is_cityengine)
+    add_warning(p, offset_here(p), message + "more, which has no effect");
+  if (row.status == Status::done && !p.grammar.is_cityengine)
+    add_error(p, here(p), message + "another argument");
+  p.at = std::min(close + 1, p.tokens.end());
+}
+
 }  // namespace seedmesh::building

@@ -1,5 +1,6 @@
 #pragma once
-/// Readers for the braces of an operation (cells of a split, selectors of a component split) and for its axis.
+/// Readers for the braces of an operation (cells of a split, selectors of a component split), for its axis and for surplus
+/// arguments.
 #include "core/generators/building/operations.h"
 #include "core/generators/building/parser.h"
 
@@ -26,5 +27,9 @@ void parse_selectors_2006(Parser& p, Step& step, const std::vector<Argument>& li
 /// Reads the leading words of an operation: an axis of a split (x, "X", "YS" with snap lines, u, v), axes of
 /// center (xz), a kind of component (f), adjust or noAdjust.
 void read_axis(Parser& p, const OperationRow& row, Step& step, const std::vector<Argument>& list);
+
+/// Skips arguments that an operation does not have, up to the bracket `close`. They are an error, and a warning in
+/// a rule file of CityEngine. For an operation that is not supported, its own message says enough.
+void report_surplus(Parser& p, const OperationRow& row, std::size_t close);
 
 }  // namespace seedmesh::building

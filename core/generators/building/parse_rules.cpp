@@ -161,18 +161,24 @@ void parse_rule(Parser& p, std::int32_t priority) {
   }
 }
 
+/// Whether @StartRule is anywhere in the text, which makes it a rule file of CityEngine from its first line on.
+bool has_start_rule(const Parser& p) {
+  for (std::size_t i = 0; !p.tokens.is_end(i); ++i) {
+    if (p.tokens.is(i, "@") && p.tokens.at(i + 1).text == "StartRule") return true;
+  }
+  return false;
+}
+
 void parse_all(Parser& p, std::string_view start) {
   collect_declarations(p);
   compile_attributes(p);
-  p.grammar.is_cityengine = p.tokens.has_imports();
-  bool keeps_scopes = false;
+  p.grammar.is_cityengine = p.tokens.has_imports() || has_start_rule(p);
   std::int32_t priority = 0;
   while (!p.tokens.is_end(p.at)) {
     const std::size_t before = p.at;
     const Token& token = here(p);
     if (take(p, "@")) {
-      p.grammar.is_cityengine |= here(p).text == "StartRule";
-      keeps_scopes |= here(p).text == "KeepScopes";
+      p.grammar.keeps_scopes |= here(p).text == "KeepScopes";
       ++p.at;
       if (is_here(p, "(")) p.at = p.tokens.partner(p.at) + 1;
     } else if (token.kind == TokenKind::name && token.text == "version") {
@@ -196,7 +202,7 @@ void parse_all(Parser& p, std::string_view start) {
     }
     if (p.at == before) ++p.at;
   }
-  p.grammar.turns_scopes = p.grammar.is_cityengine && !keeps_scopes;
+  p.grammar.turns_scopes = p.grammar.is_cityengine && !p.grammar.keeps_scopes;
   check_grammar(p, start);
 }
 

@@ -75,7 +75,7 @@ inline std::uint32_t offset_here(const Parser& p) { return static_cast<std::uint
 
 /// Skips the next token if it is this symbol, and returns whether it is.
 bool take(Parser& p, std::string_view symbol);
-/// Skips the next token if it is this symbol. Otherwise adds an error that says after what the symbol was
+/// Skips the next token if it is this symbol. Otherwise adds an error that states after what the symbol was
 /// expected.
 void expect(Parser& p, std::string_view symbol, std::string_view after);
 

@@ -173,13 +173,16 @@ void roof(Derivation& d, const Step& step, ShapeState& state, const StepContext&
   const FacePlane plane(state.size);
   Solid solid;
   solid.is_closed = true;
-  for (const Plan& plan : plans_of(flat_solid(d, state), state.size, plane)) {
+  for (Plan& plan : plans_of(flat_solid(d, state), state.size, plane)) {
+    remove_repeated_points(plan);
+    if (plan.rings.empty()) continue;
     RoofOptions own = options;
     if (own.low_edge >= edge_count(plan)) own.low_edge = 0;
     const std::shared_ptr<const Roof> made = d.task.roofs->roof(plan, own, d.job);
     for (const std::string& warning : made->warnings) warn(d, step.offset, warning);
     add_roof(solid, *made, plane);
   }
+  if (solid.faces.empty()) return warn(d, step.offset, "the face is too narrow for a roof and stays flat");
   take_solid(d, state, std::move(solid));
   state.roof_up = static_cast<std::uint8_t>(plane.w);
 }

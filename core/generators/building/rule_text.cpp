@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <set>
 
+#include "core/base/json_pointer.h"
 #include "core/lang/lexer.h"
 
 namespace seedmesh::building {
@@ -22,7 +23,7 @@ std::string_view stem_of(std::string_view path) {
   return path;
 }
 
-/// What a file says about its place among the others.
+/// The declarations by which a file refers to the others.
 struct FileNotes {
   std::vector<std::string> imports;  ///< paths
   std::set<std::string, std::less<>> rules;
@@ -92,13 +93,6 @@ std::string without_comments(std::string_view text, std::optional<std::size_t>* 
   return out;
 }
 
-std::string pointer_token(std::string_view name) {
-  std::string out;
-  for (const char c : name)
-    out += c == '~' ? std::string("~0") : c == '/' ? std::string("~1") : std::string(1, c);
-  return out;
-}
-
 const RuleText::Part& RuleText::part_at(std::size_t offset) const {
   const Part* found = &parts.front();
   for (const Part& part : parts) {
@@ -152,7 +146,7 @@ RuleText rule_text(const std::map<std::string, std::string>& files, std::string_
     std::string names;
     for (const std::string_view name : mains) names.append(names.empty() ? "" : ", ").append(name);
     issues.emplace_back(
-        IssueKind::conflict, "/rules",
+        conflict_with({"start"}), "/rules",
         mains.empty() ? "found files that all import each other, expected one that no other file imports"
                       : "found several files that no other file imports (" + names +
                             "), expected one; mark its start rule with @StartRule, or name it in \"start\"");
@@ -173,7 +167,7 @@ RuleText rule_text(const std::map<std::string, std::string>& files, std::string_
 
 Issue issue_at(IssueKind kind, const RuleText& text, std::size_t offset, std::string message) {
   const RuleText::Part& part = text.part_at(offset);
-  return seedmesh::issue_at(kind, part.name.empty() ? "/rules" : "/rules/" + pointer_token(part.name),
+  return seedmesh::issue_at(kind, part.name.empty() ? "/rules" : "/rules" + pointer_token(part.name),
                             text.text_of(part), std::min(offset - part.first, part.count),
                             std::move(message));
 }

@@ -24,7 +24,7 @@ struct RuleText {
   std::string_view text_of(const Part& part) const {
     return std::string_view(text).substr(part.first, part.count);
   }
-  /// Returns the file that holds a byte of the joined text.
+  /// Returns the file that contains a byte of the joined text.
   const Part& part_at(std::size_t offset) const;
   /// Returns the file that an import names: by its key, with or without directories and the ending ".cga". Returns
   /// null if there is none.
@@ -47,8 +47,5 @@ Issue issue_at(IssueKind kind, const RuleText& text, std::size_t offset, std::st
 /// language. All other bytes keep their positions. `unclosed` receives the position of a /* without its */, which
 /// hides the rest of the text.
 std::string without_comments(std::string_view text, std::optional<std::size_t>* unclosed = nullptr);
-
-/// Returns a name as a token of a JSON Pointer.
-std::string pointer_token(std::string_view name);
 
 }  // namespace seedmesh::building

@@ -12,7 +12,7 @@ namespace seedmesh::building::operators {
 namespace {
 
 constexpr double most_points = 1'000'000;
-constexpr int most_tries = 1'000;  ///< to find a point inside
+constexpr int most_tries = 1'000;  ///< attempts to find a point inside
 
 enum class Domain : std::uint8_t { surface, volume, scope };
 

@@ -90,6 +90,14 @@ double height_of(const Solid& solid, const Face& face, const glm::dmat3& axes, c
   return sum / std::max(count, 1.0);
 }
 
+/// Makes a solid the face that it covers, seen along an axis: a solid that is squeezed would have faces without area.
+void flatten(Derivation& d, ShapeState& state, int axis) {
+  Solid outline = outline_along(d.out.solid_of(state.geometry), axis, 1);
+  if (outline.faces.empty()) return;
+  state.geometry = add_solid(d, std::move(outline));
+  state.roof_up = no_roof;
+}
+
 }  // namespace
 
 void translate(Derivation& d, const Step& step, ShapeState& state, const StepContext&) {
@@ -119,6 +127,8 @@ void resize(Derivation& d, const Step& step, ShapeState& state, const StepContex
       make_prism_of(d, state, flat);
     }
   }
+  if (dimension(state.size) == 3 && dimension(size) == 2 && state.has_solid())
+    flatten(d, state, flat_axis(size));
   if (mirror != 0 && state.has_solid())
     state.geometry = add_solid(d, mirrored(d.out.solid_of(state.geometry), mirror));
   state.size = size;

@@ -21,7 +21,7 @@ class ShapeMeter {
 
  private:
   void refill(std::uint64_t wanted) {
-    // The last units before the limit are handed out one by one, so that a limit of N lets exactly N through.
+    // The last units before the limit are reserved one by one, so that a limit of N allows exactly N.
     const std::uint64_t limit = job_->limits().shapes, spent = job_->spent(Resource::shapes);
     const std::uint64_t open = spent < limit ? limit - spent : 0;
     const std::uint64_t taken = std::max(wanted, std::min(portion_, open));

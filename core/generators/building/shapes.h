@@ -119,7 +119,7 @@ struct Shapes {
   Texts texts;
   std::vector<Warning> warnings;
   bool has_removed_shape = false;  ///< a rule or an edit has removed a shape (NIL)
-  std::vector<bool> found_edits;   ///< for each edit of Task::edits, whether its shape was made
+  std::vector<bool> found_edits;   ///< whether the shape of each edit of Task::edits was made
   /// Symbols of shapes whose rule an edit has changed.
   std::map<std::uint32_t, std::uint32_t> symbols_before_edits;
   /// For each shape the choice of Grammar::choices that replaced it, or `none`. It may have fewer rows than

@@ -13,8 +13,8 @@ std::optional<ShapeState> slab_of(Derivation& d, const ShapeState& state, int ax
                                   bool keeps_slab);
 
 /// In the notation of 2006, symbols side by side can be a stack, as in `facade(h) ~> floor(h/3) floor(h/3)
-/// floor(h/3)`. They form a stack if the parameter of the predecessor is the height of its scope, and the
-/// parameters of the successors add up to this height. Returns the cuts of the stack along y, from the ground up; an
+/// floor(h/3)`. They form a stack if the parameter of the predecessor is the height of its scope, which the
+/// parameters of the successors add up to. Returns the cuts of the stack along y, from the ground up; an
 /// empty list if there is no stack.
 std::vector<Cut> stack_of(Derivation& d, const Choice& choice, const ShapeState& state, const Frame& frame);
 

@@ -28,7 +28,7 @@ void make_pyramid_of(Derivation& d, ShapeState& state, int axis) {
 
 namespace {
 
-/// Every name that i() knows, for a message.
+/// Every name that i() accepts, for a message.
 std::string part_names() {
   std::string names = "cube, cylinder, cone, sphere, pyramid, prism, triangular_prism";
   for (const PartRow& row : part_rows()) {
@@ -93,7 +93,7 @@ Insert insert_named(Derivation& d, const Step& step, const std::string& given) {
     if (asset.name == name) return {asset_bit | static_cast<std::uint32_t>(i), asset.low, asset.size};
   }
   if (is_path(given) || given.empty()) {
-    // As CityEngine does, a plain body stands for an asset that is not there.
+    // As in CityEngine, a plain body replaces an asset that is missing.
     warn(d, step.offset,
          "the request has no asset " + lang::in_quotes(name) + " for " + lang::in_quotes(given) +
              "; a box stands for it: give the model in \"assets\"");

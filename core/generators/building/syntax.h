@@ -50,7 +50,7 @@ struct Query {
   std::uint32_t slot = 0;
 };
 
-/// A node of an expression that lang::Program cannot hold: joined texts, arrays, recursion, geometry. Its
+/// A node of an expression that lang::Program cannot represent: joined texts, arrays, recursion, geometry. Its
 /// operands are in Grammar::value_operands.
 struct ValueNode {
   enum class Kind : std::uint8_t {
@@ -61,7 +61,7 @@ struct ValueNode {
     invert,
     binary,      ///< `operation`
     mask,        ///< the same for each value of an array
-    both,        ///< logical and (&&), which stops at the first that does not hold
+    both,        ///< logical and (&&), which stops at the first that is false
     either,      ///< logical or (||)
     choose,      ///< choice by conditions: condition, value, condition, value, ..., value otherwise
     weigh,       ///< at random: percentage, value, percentage, value, ..., value otherwise
@@ -77,7 +77,7 @@ struct ValueNode {
   };
   Kind kind = Kind::constant;
   lang::Operation operation = lang::Operation::add;
-  std::uint8_t frame = 0;  ///< of a selector: a SelectorFrame
+  std::uint8_t frame = 0;  ///< SelectorFrame of a selector
   std::uint32_t first = 0, count = 0, id = 0, offset = 0;
   lang::TaggedValue constant;
 };
@@ -89,7 +89,7 @@ struct FunctionTree {
 
 struct Value {
   lang::Expression expression;
-  std::uint32_t tree = none;  ///< a ValueNode; none: `expression` holds it
+  std::uint32_t tree = none;  ///< a ValueNode; none: it is in `expression`
   /// True: `expression` is tried first; the tree is used only if a parameter is a text or an array at run
   /// time.
   bool is_fallback = false;
@@ -211,7 +211,7 @@ struct Step {
   bool is_leaf = false;         ///< of a symbol: written as `Name.`, which makes a leaf
   bool stays_whole = false;     ///< of a symbol: its rule always splits it off again, so it becomes a leaf
   bool keeps_slab = false;      ///< of a split: noAdjust, cells do not get a scope fitted to their geometry
-  bool keeps_to_snaps = false;  ///< of a split: its borders keep to snap lines
+  bool keeps_to_snaps = false;  ///< of a split: its borders move to snap lines
   bool is_2006 = false;         ///< of a repeat: written as Repeat(...), in the notation of 2006
   bool is_repeated = false;     ///< of a split of the perimeter: { ... }*
   bool in_metres = false;       ///< of a split along u or v: unitSpace
@@ -263,10 +263,10 @@ enum FaceClass : std::uint32_t {
 struct Part {
   Argument size;
   std::uint32_t body = none;
-  std::uint32_t first_part = 0, part_count = 0;  ///< of a group that is repeated
+  std::uint32_t first_part = 0, part_count = 0;  ///< parts of a group that is repeated
   bool is_group = false;
   std::uint32_t classes = 0;         ///< of a selector
-  std::int32_t index = -1;           ///< of a selector: the number of its only component, or -1
+  std::int32_t index = -1;           ///< number of the only component of a selector, or -1
   bool is_merged = false;            ///< of a selector: `=` makes one shape of all faces
   bool is_by_set = false;            ///< of a selector: `=:` makes one shape of faces that touch
   std::uint8_t frame = frame_scope;  ///< of a selector
@@ -339,7 +339,7 @@ struct Attribute {
 /// A component split inside an expression: comp(fe){ front = 3 | all : 1 }, an array.
 struct ComponentValue {
   std::uint8_t kind = 0;
-  std::vector<Part> parts;  ///< `size` holds the value
+  std::vector<Part> parts;  ///< the value is in `size`
 };
 
 struct Grammar {
@@ -370,6 +370,7 @@ struct Grammar {
   bool uses_tags = false;       ///< tags are read somewhere, so that operations tag what they make
   /// Whether scopes behave as in CityEngine (see stand_up and lift_face); false after @KeepScopes.
   bool turns_scopes = false;
+  bool keeps_scopes = false;   ///< has @KeepScopes: not even the scopes of level faces turn (see stand_up)
   bool is_cityengine = false;  ///< has `version`, `import`, `@StartRule`: errors of steps are warnings
   std::vector<Warning> warnings;
 

@@ -12,7 +12,7 @@ namespace {
 
 using lang::TaggedValue;
 
-constexpr std::size_t most_items = 10'000;  ///< of a list
+constexpr std::size_t most_items = 10'000;  ///< items of a list
 
 /// A place in a text as an argument gives it, cut to the text.
 std::size_t place_in(const Evaluation& at, const TaggedValue& value, std::size_t size) {

@@ -54,7 +54,7 @@ ValueArray array_in(const Evaluation& at, const lang::TaggedValue& value);
 /// Stores an array of at most 100,000 values.
 lang::TaggedValue array_value(Evaluation& at, ValueArray array);
 
-/// Whether a text has the form of a pattern, in which * stands for any text.
+/// Whether a text has the form of a pattern, in which * matches any text.
 bool fits(std::string_view text, std::string_view pattern);
 /// Returns the names of assets, materials and tables of the request that fit a pattern, sorted.
 std::vector<std::string> files_that_fit(const Evaluation& at, std::string_view pattern);

@@ -1,13 +1,13 @@
 #pragma once
-/// Expressions that lang::Program cannot hold, as trees of ValueNode: texts that are joined, arrays, functions
+/// Expressions that lang::Program cannot represent, as trees of ValueNode: texts that are joined, arrays, functions
 /// that call themselves, and functions of the CGA reference on texts, arrays and geometry (value_functions.h).
 #include "core/generators/building/parser.h"
 
 namespace seedmesh::building {
 
 enum class TreeNeed : std::uint8_t {
-  unneeded,  ///< lang::Program holds the expression
-  fallback,  ///< lang::Program holds it if all parameters are numbers
+  unneeded,  ///< lang::Program can represent the expression
+  fallback,  ///< lang::Program can represent it if all parameters are numbers
   always
 };
 

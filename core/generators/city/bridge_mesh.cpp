@@ -8,6 +8,7 @@
 #include <string>
 
 #include "core/base/math.h"
+#include "core/model/empty_mesh.h"
 
 namespace seedmesh::city {
 namespace {
@@ -26,10 +27,8 @@ struct Station {
 class BridgeBuilder {
  public:
   BridgeBuilder(const CityPlan& plan, const Job& job) : plan_(plan) {
-    mesh_.position = Array<glm::vec3>(job);
-    mesh_.normal = Array<glm::vec3>(job);
+    mesh_ = empty_mesh(job);
     mesh_.uv[0] = Array<glm::vec2>(job);
-    mesh_.index.wide = Array<std::uint32_t>(job);
   }
 
   void add(const Bridge& bridge) {

@@ -23,7 +23,7 @@ constexpr std::size_t most_points = 5000;
 void check_range(const std::array<double, 2>& range, const std::string& pointer, std::vector<Issue>& issues) {
   if (range[0] <= range[1]) return;
   issues.emplace_back(
-      IssueKind::conflict, pointer,
+      conflict_with({}), pointer,
       "found " + number_text(range[0]) + " to " + number_text(range[1]) + ", expected the least value first");
 }
 
@@ -54,7 +54,7 @@ void check_lots(const CityLots& lots, std::vector<Issue>& issues) {
   check_range(lots.area, "/lots/area", issues);
   // A lot is at most six times as long as it is wide, so that it has at least this area.
   if (lots.width * lots.width > lots.area[1]) {
-    issues.emplace_back(IssueKind::conflict, "/lots/width",
+    issues.emplace_back(conflict_with({"area"}), "/lots/width",
                         "found a least width of " + number_text(lots.width) +
                             " m; a square of this width has more than the greatest area of " +
                             number_text(lots.area[1]) + " m²");
@@ -89,7 +89,7 @@ void check_rules(const CityParams& params, std::vector<Issue>& issues) {
     const std::array<int, 2> taken = floors_of(text_of(rule.blueprint));
     if (rule.building) continue;
     if (taken[1] > 0 && (floors[0] < taken[0] || floors[1] > taken[1])) {
-      issues.emplace_back(IssueKind::conflict, pointer + "/floors",
+      issues.emplace_back(conflict_with({"blueprint"}), pointer + "/floors",
                           "found " + std::to_string(floors[0]) + " to " + std::to_string(floors[1]) +
                               " floors; the blueprint " + std::string(text_of(rule.blueprint)) + " has " +
                               std::to_string(taken[0]) + " to " + std::to_string(taken[1]));
@@ -102,13 +102,13 @@ void check_patterns(const CityParams& params, const Job& job, std::vector<Issue>
   FieldMap::read(*params.maps.pattern, "/maps/pattern", {-1, -1}, {1, 1}, job, issues);
   const CityStreets& streets = params.streets;
   if (streets.method != CityMethod::growth) {
-    issues.emplace_back(IssueKind::conflict, "/maps/pattern",
+    issues.emplace_back(conflict_with({"streets/method"}), "/maps/pattern",
                         "found the method " + std::string(text_of(streets.method)) +
                             ", which has no patterns; expected the method growth");
   }
   if (second_pattern_of(streets) == streets.pattern) {
     issues.emplace_back(
-        IssueKind::conflict, "/streets/second_pattern",
+        conflict_with({"pattern"}), "/streets/second_pattern",
         "found " + std::string(text_of(streets.pattern)) + ", which is the pattern; expected another one");
   }
 }
@@ -140,9 +140,9 @@ std::vector<Issue> check(const CityParams& params, const CheckContext& context) 
   given_lines(params, sections, of_streets);
   issues.insert(issues.end(), of_streets.begin(), of_streets.end());
   if (params.streets.method == CityMethod::given && !params.given.given_streets)
-    issues.emplace_back(IssueKind::missing, "/given/streets", "the method given needs streets");
+    issues.emplace_back(missing_for({"streets/method"}), "/given/streets", "the method given needs streets");
   if (params.streets.method == CityMethod::wards && params.given.given_streets) {
-    issues.emplace_back(IssueKind::conflict, "/given/streets",
+    issues.emplace_back(conflict_with({"streets/method"}), "/given/streets",
                         "found given streets; the method wards lays out all streets");
   }
   return issues;

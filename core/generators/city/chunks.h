@@ -1,5 +1,5 @@
 #pragma once
-/// The division of a city's model into chunks, and the nodes that hold their contents.
+/// The division of a city's model into chunks, and the nodes that have their contents.
 #include <cstdint>
 #include <glm/vec2.hpp>
 #include <map>
@@ -40,7 +40,7 @@ class Chunks {
   std::uint32_t columns_ = 1, rows_ = 1;
 };
 
-/// The nodes of chunks and of groups inside them, made when they are first asked for.
+/// The nodes of chunks and of groups inside them, made at their first use.
 class ChunkNodes {
  public:
   ChunkNodes(Model& model, const Chunks& chunks) : model_(model), chunks_(chunks) {}

@@ -147,7 +147,7 @@ bool has_streets(const StreetGraph& graph) {
 Error too_steep(const CityParams& params) {
   return Error{
       Code::invalid,
-      {{IssueKind::conflict, params.terrain ? "/terrain" : "/maps/height",
+      {{conflict_with({"streets"}), params.terrain ? "/terrain" : "/maps/height",
         "found no position where a street keeps its grade limit; expected less steep ground or greater "
         "limits in streets.classes"}}};
 }
@@ -265,7 +265,7 @@ Result<CityPlan> plan_on(const CityParams& params, std::shared_ptr<const Landfor
 
 namespace {
 
-/// Plans of this many parts leave enough unused memory that it is worth the time to return it.
+/// Plans of this many parts leave so much unused memory that returning it justifies the time.
 constexpr std::size_t parts_of_large_plans = 20'000;
 
 /// The model of a request, and the number of parts of its plan, which is freed.

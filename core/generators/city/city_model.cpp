@@ -17,7 +17,7 @@
 #include "core/generators/city/surface.h"
 #include "core/generators/material_members.h"
 #include "core/texture/file_size.h"
-#include "core/texture/png.h"
+#include "core/texture/png_image.h"
 #include "core/texture/wall.h"
 #include "generated/params/city.h"
 
@@ -70,7 +70,7 @@ Material material_of(const PartMaterial& usual, const CityParams& params) {
   return material;
 }
 
-/// The same with a texture, unless the request gives a roughness, which holds everywhere, or a colour that is brighter
+/// The same with a texture, unless the request gives a roughness, which applies everywhere, or a colour that is brighter
 /// than the texture.
 Material textured_material(const PartMaterial& usual, const CityParams& params) {
   Material material = material_of(usual, params);
@@ -109,16 +109,12 @@ Material striped_material(const char* name, const std::array<int, 3>& stripes, c
     }
   }
   const auto width = static_cast<std::uint32_t>(stripes[0] + stripes[1] + stripes[2]);
-  const Array<std::uint8_t> file =
-      texture::encode_png({width, height, 3, 8, pixels}, texture::PngEffort::small, job);
-  auto image = std::make_shared<Image>();
-  image->name = name;
-  image->bytes.assign(file.span().begin(), file.span().end());
   Material material = material_of(street, params);
   material.name = name;
   material.base_color = glm::vec4(1);
   material.base_color_texture = {static_cast<int>(model.textures.size()), 0, true};
-  model.textures.push_back(std::move(image));
+  model.textures.push_back(
+      texture::png_image(name, {width, height, 3, 8, pixels}, texture::PngEffort::small, job));
   return material;
 }
 

@@ -45,7 +45,7 @@ struct Contents {
   const Child* request = nullptr;  ///< null: the built-in model `number` of `kind`
   std::string pointer, kind;
   std::uint32_t number = 0;
-  std::uint64_t key = 0;  ///< of a request without a seed
+  std::uint64_t key = 0;  ///< key of a request without a seed
   std::vector<Copy> copies;
 };
 
@@ -202,6 +202,10 @@ std::vector<BorderPiece> borders_of(const Surface& surface, const CityParams& pa
   constexpr double longest = 6, gap = 0.02;
   if (!params.yards || params.yards->border == CityBorder::none) return {};
   std::vector<BorderPiece> whole = lot_borders(surface.plan(), job);
+  if (params.yards->front) {
+    const std::vector<BorderPiece> fronts = front_borders(surface.plan(), job);
+    whole.insert(whole.end(), fronts.begin(), fronts.end());
+  }
   if (surface.is_level()) return whole;
   std::vector<BorderPiece> pieces;
   for (const BorderPiece& each : whole) {

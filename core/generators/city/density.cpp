@@ -5,40 +5,11 @@
 #include <cmath>
 
 #include "core/generators/city/geojson.h"
-#include "core/generators/terrain/image.h"
 #include "core/lang/text_positions.h"
-#include "core/texture/png.h"
+#include "core/texture/data_uri.h"
 #include "generated/params/city.h"
 
 namespace seedmesh::city {
-namespace {
-
-bool read_pixels(const std::string& text, const Job& job, std::string& error, texture::Picture& picture) {
-  Result<Array<std::uint8_t>> bytes = terrain::bytes_of_base64(text, job);
-  if (!bytes) {
-    error = bytes.error().issues.front().message;
-    return false;
-  }
-  Result<texture::Picture> read = texture::decode_png(std::as_bytes(bytes->span()), {}, job);
-  if (!read) {
-    error = read.error().issues.front().message;
-    return false;
-  }
-  picture = *std::move(read);
-  return true;
-}
-
-/// The mean of the colour channels, from 0 to 1.
-float brightness(const texture::Picture& picture, std::size_t pixel) {
-  const auto channels = static_cast<std::size_t>(picture.channels);
-  const std::size_t colors = channels < 3 ? 1 : 3;
-  double sum = 0;
-  for (std::size_t k = 0; k < colors; ++k) sum += picture.channel(pixel * channels + k);
-  return static_cast<float>(sum / static_cast<double>(colors) / (picture.bits == 8 ? 255.0 : 65535.0));
-}
-
-}  // namespace
-
 std::optional<FieldMap> FieldMap::read(const MapValue& value, const std::string& pointer,
                                        const glm::dvec2& low, const glm::dvec2& high, const Job& job,
                                        std::vector<Issue>& issues) {
@@ -50,20 +21,16 @@ std::optional<FieldMap> FieldMap::read(const MapValue& value, const std::string&
   }
   const std::string& text = std::get<std::string>(value);
   if (text.starts_with("data:")) {
-    std::string error;
-    texture::Picture picture;
-    if (!read_pixels(text, job, error, picture)) {
-      issues.emplace_back(IssueKind::invalid_value, pointer, error);
+    Result<texture::Brightness> image = texture::brightness_of_png(text, job);
+    if (!image) {
+      issues.emplace_back(IssueKind::invalid_value, pointer, image.error().issues.front().message);
       return std::nullopt;
     }
     map.low_ = low;
     map.size_ = high - low;
-    map.width_ = picture.width;
-    map.height_ = picture.height;
-    const std::size_t count = std::size_t{picture.width} * picture.height;
-    map.pixels_ = Array<float>(job);
-    map.pixels_.reserve(count);
-    for (std::size_t i = 0; i < count; ++i) map.pixels_.push_back(brightness(picture, i));
+    map.width_ = image->width;
+    map.height_ = image->height;
+    map.pixels_ = std::move(image->values);
     return map;
   }
   return read_text(text, pointer, issues);

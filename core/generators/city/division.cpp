@@ -164,7 +164,7 @@ bool Division::is_fit(const Piece& piece, double angle, double aspect) const {
 /// Whether a piece has its least side, no sharper corner than this cosine, and at most this aspect. Sets its box if
 /// its corners are wide enough.
 bool Division::has_shape(const Piece& piece, double most_cosine, double aspect, LeastBox& box) const {
-  if (sharpest_cosine(piece.ring) > most_cosine) return false;
+  if (!is_blunt(piece.ring, most_cosine)) return false;
   box = least_box(piece.ring);
   return box.narrowest >= least_width() && box.long_side <= aspect * box.short_side;
 }

@@ -38,7 +38,7 @@ class Division {
  public:
   Division(const BlockOutline& outline, const CityLots& lots, std::uint64_t key, Rng rng);
 
-  /// Whether the block can hold lots at all.
+  /// Whether the block has space for lots.
   bool holds_lots() const;
 
   /// Cuts the block by the method of the request.
@@ -113,7 +113,7 @@ class Division {
 };
 
 /// Returns the pieces along the streets of a block by its straight skeleton (Vanegas et al. 2012). If `depth` (cm) is
-/// finite, also returns the courts that are farther than `depth` from all streets. Pieces that hold no lot are joined
+/// finite, also returns the courts that are farther than `depth` from all streets. Pieces without space for a lot are joined
 /// with a neighbour. Adds the edges between pieces to the division. Returns an empty list if the skeleton does not
 /// give valid pieces.
 std::vector<Piece> strips_of(Division& division, double depth, const Job& job);

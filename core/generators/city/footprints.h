@@ -1,5 +1,5 @@
 #pragma once
-/// Buildings that the request gives by their footprints. Streets and houses keep clear of them.
+/// Buildings that the request gives by their footprints. Streets and houses do not overlap them.
 #include <array>
 #include <cstdint>
 #include <map>

@@ -22,9 +22,9 @@ constexpr double least_tree_spacing = 2;  // m
 struct Side {
   dvec2 start{0}, along{1, 0}, inward{0, 1};  ///< inward: from the street to the lots
   double length = 0, sidewalk = 0, carriageway = 0;
-  std::optional<double> tree_spacing = {};           ///< of its class
-  std::array<bool, 2> at_junction = {false, false};  ///< at the start, at the end
-  bool is_right = false;                             ///< of the direction `along`
+  std::optional<double> tree_spacing = {};           ///< spacing of the class of the street
+  std::array<bool, 2> at_junction = {false, false};  ///< whether the start and the end are at a junction
+  bool is_right = false;                             ///< whether the side is to the right of `along`
   std::uint64_t key = 0;
   std::uint32_t part = 0;  ///< the carriageway
 };
@@ -86,12 +86,12 @@ class SideFiller {
   struct Rule {
     std::uint64_t name = 0;
     double spacing = 10, share = 1;
-    double margin = 1;    ///< from the ends
-    double junction = 1;  ///< from junctions instead
+    double margin = 1;    ///< metres from the ends
+    double junction = 1;  ///< metres from ends at a junction
     double radius = 0.4;  ///< space along the street on either side
-    double offset = 0.5;  ///< from the kerb; negative on the carriageway
+    double offset = 0.5;  ///< metres from the kerb; negative on the carriageway
     int parity = -1;      ///< 0, 1: every second position; -1: all
-    double turn = 0;      ///< from facing the street, degrees
+    double turn = 0;      ///< degrees from facing the street
   };
 
   /// Adds objects at the positions of a rule.

@@ -51,12 +51,6 @@ class Parts {
     return model;
   }
 
-  std::uint64_t triangles() const {
-    std::uint64_t sum = 0;
-    for (const Part& part : parts_) sum += part.mesh.elements();
-    return sum;
-  }
-
  private:
   Job& job_;
   std::vector<Part> parts_;
@@ -184,13 +178,6 @@ Model built_in_model(std::string_view kind, std::uint32_t number, Job& job) {
   Parts parts(job);
   build(parts, kind, number);
   return parts.model(kind);
-}
-
-std::uint64_t built_in_triangles(std::string_view kind, std::uint32_t number) {
-  Job job(0, Job::Options{});
-  Parts parts(job);
-  build(parts, kind, number);
-  return parts.triangles();
 }
 
 }  // namespace seedmesh::city

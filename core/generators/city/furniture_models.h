@@ -16,7 +16,4 @@ std::uint32_t built_in_count(std::string_view kind);
 /// Resource::triangles.
 Model built_in_model(std::string_view kind, std::uint32_t number, Job& job);
 
-/// Returns the number of triangles of built_in_model().
-std::uint64_t built_in_triangles(std::string_view kind, std::uint32_t number);
-
 }  // namespace seedmesh::city

@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t most_features = 20'000, most_positions = 500'000, most_issues = 50;
 constexpr int deepest = 8;               // of geometry collections
 constexpr double most_metres = 1e6;      // of a coordinate
-constexpr double extent_of_degrees = 1;  // a map with a smaller extent looks like one in degrees
+constexpr double extent_of_degrees = 1;  // a map with a smaller extent is taken for one in degrees
 
 constexpr std::array<std::string_view, 7> geometry_types{
     "Point", "MultiPoint", "LineString", "MultiLineString", "Polygon", "MultiPolygon", "GeometryCollection"};

@@ -33,8 +33,8 @@ struct GeoReport {
 /// Returns the features with lines or with polygons. RFC 7946 allows features without a geometry and geometries
 /// without coordinates; both are left out. Consecutive corners of a line differ, and rings do not repeat their first
 /// point. Issues: what RFC 7946 forbids; coordinates beyond 1,000 km; lines with fewer than two different corners;
-/// rings with fewer than three; positions that look like degrees; a value whose geometries are all of other kinds.
-/// Warnings: geometries of another kind beside those of the wanted kind.
+/// rings with fewer than three; positions that are probably degrees; a value whose geometries are all of other kinds.
+/// Warnings: geometries of another kind beside those of the expected kind.
 std::vector<GeoFeature> features_of(const GeoJson& value, GeoKind kind, const std::string& pointer,
                                     const GeoReport& report);
 

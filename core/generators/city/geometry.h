@@ -6,7 +6,7 @@
 
 namespace seedmesh::city {
 
-/// The rings of one polygon; the even-odd rule says what is inside. Rings do not repeat their first point.
+/// The rings of one polygon; the even-odd rule defines what is inside. Rings do not repeat their first point.
 using Rings = std::vector<CmRing>;
 
 /// Whether a position in centimetres is inside one of the polygons.

@@ -83,7 +83,7 @@ class Properties {
       return {in_range("sidewalk", (*value)[0].get<double>(), 0.5, 20),
               in_range("sidewalk", (*value)[1].get<double>(), 0.5, 20)};
     }
-    // OpenStreetMap says on which sides they are: "both", "left", "no". Every street here has both.
+    // In OpenStreetMap the value is the side: "both", "left", "no". Every street here has both.
     if (value->is_string()) return otherwise;
     issues_.emplace_back(IssueKind::wrong_type, pointer_ + "sidewalk",
                          "expected a number, or a list of two numbers");
@@ -229,9 +229,9 @@ void check_crossings(const std::vector<GivenLine>& lines, std::vector<Issue>& is
     const dvec2 from = in_cm(a), along = in_cm(b) - from, across = in_cm(d) - in_cm(c), off = in_cm(c) - from;
     const double share = (off.x * across.y - off.y * across.x) / (along.x * across.y - along.y * across.x);
     const CmPoint at = rounded_cm(from + along * share);
-    issues.emplace_back(IssueKind::conflict, lines[m].geometry,
-                        "crosses the street at " + lines[n].pointer + " at " + number_text(at.x / 100.0) +
-                            ", " + number_text(at.y / 100.0) +
+    issues.emplace_back(conflict_with({}), lines[m].geometry,
+                        "crosses the street `" + lines[n].pointer.substr(1) + "` at " +
+                            number_text(at.x / 100.0) + ", " + number_text(at.y / 100.0) +
                             "; expected an end or corner of one of them within 3 m, or another level");
     return issues.size() < most_issues;
   });

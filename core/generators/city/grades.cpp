@@ -218,16 +218,6 @@ double height_on_street(const StreetHeights& heights, std::uint32_t edge, double
   return a.height + (b.height - a.height) * ((station - a.station) / (b.station - a.station));
 }
 
-double steepest_grade(const StreetHeights& heights, std::uint32_t edge) {
-  double steepest = 0;
-  for (std::uint32_t k = heights.first[edge] + 1; k < heights.first[edge + 1]; ++k) {
-    const ProfilePoint &a = heights.points[k - 1], &b = heights.points[k];
-    const double run = distance(a.at, b.at) / 100;
-    if (run > 0) steepest = std::max(steepest, std::abs(b.height - a.height) / run);
-  }
-  return steepest;
-}
-
 std::vector<ProfilePoint> shown_profile(const CityPlan& plan, std::uint32_t edge) {
   constexpr double least = 0.5;  // of a level part at a node, m
   const StreetHeights& heights = plan.heights;

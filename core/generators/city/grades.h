@@ -39,9 +39,6 @@ StreetHeights street_heights(const CityPlan& plan, const Landform& landform, dou
 /// Returns the height of an edge at a station, both in metres. Beyond an end, the height is that of the end.
 double height_on_street(const StreetHeights& heights, std::uint32_t edge, double station);
 
-/// Returns the steepest grade of a street, as rise over run.
-double steepest_grade(const StreetHeights& heights, std::uint32_t edge);
-
 /// Returns the points of a street of level 0 that a plan shows: its ends, and on a terrain also the points where its
 /// grade changes. Their positions are whole centimetres.
 std::vector<ProfilePoint> shown_profile(const CityPlan& plan, std::uint32_t edge);

@@ -203,6 +203,37 @@ void add_pieces(const CityPlan& plan, const LotBorder& border, std::vector<Borde
   }
 }
 
+/// Adds what is open of the front of a lot on both sides of its house.
+void add_front(const CityPlan& plan, const Lot& lot, std::vector<BorderPiece>& pieces) {
+  constexpr double behind = 0.3, gap = 0.02, least = 0.2;  // m
+  const dvec2 start = in_metres(lot.front_start), run = in_metres(lot.front_end) - start;
+  const dvec2 along = run / glm::length(run), inward(-along.y, along.x);
+  const House& house = *lot.house;
+  const double front = glm::dot(house.position - start, inward) - house.depth / 2 + behind;
+  const double middle = glm::dot(house.position - start, along), half = house.width / 2 + gap;
+  double low = -1e9, high = 1e9;  // of the lot along the line
+  for (const CmRing& ring : plan.parts[lot.part].rings) {
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      const dvec2 a = in_metres(ring[i]) - start, b = in_metres(ring[(i + 1) % ring.size()]) - start;
+      const double from = glm::dot(a, inward) - front, to = glm::dot(b, inward) - front;
+      if ((from > 0) == (to > 0)) continue;
+      const double at = glm::dot(a + (b - a) * (from / (from - to)), along);
+      if (at < middle) {
+        low = std::max(low, at);
+      } else {
+        high = std::min(high, at);
+      }
+    }
+  }
+  if (low < -1e8 || high > 1e8) return;
+  const dvec2 origin = start + inward * front;
+  const auto add = [&](double from, double to) {
+    if (to - from >= least) pieces.push_back({origin + along * from, origin + along * to, lot.part});
+  };
+  add(low + gap, middle - half);
+  add(middle + half, high - gap);
+}
+
 }  // namespace
 
 double distance_to_ring(const CmRing& ring, const glm::dvec2& metres) {
@@ -248,6 +279,15 @@ std::vector<BorderPiece> lot_borders(const CityPlan& plan, const Job& job) {
     if (i % 1024 == 0) job.check();
     if (plan.lots[borders[i].lots[0]].house || plan.lots[borders[i].lots[1]].house)
       add_pieces(plan, borders[i], pieces);
+  }
+  return pieces;
+}
+
+std::vector<BorderPiece> front_borders(const CityPlan& plan, const Job& job) {
+  std::vector<BorderPiece> pieces;
+  for (std::size_t i = 0; i < plan.lots.size(); ++i) {
+    if (i % 1024 == 0) job.check();
+    if (plan.lots[i].house) add_front(plan, plan.lots[i], pieces);
   }
   return pieces;
 }

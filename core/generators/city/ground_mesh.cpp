@@ -10,6 +10,7 @@
 #include "core/geom/mesh/finish.h"
 #include "core/geom/mesh/weld.h"
 #include "core/geom/polygon/delaunay.h"
+#include "core/model/empty_mesh.h"
 
 namespace seedmesh::city {
 namespace {
@@ -67,10 +68,8 @@ bool is_near_border(const Part& part, const dvec2& metres, double distance) {
 GroundMesh::GroundMesh(const CityPlan& plan, const Surface& surface, bool has_textures, const Job& job)
     : plan_(plan), surface_(surface), has_textures_(has_textures), job_(job), triangulator_(&job) {
   for (Mesh* mesh : {&welded_, &mesh_}) {
-    mesh->position = Array<glm::vec3>(job);
-    mesh->normal = Array<glm::vec3>(job);
+    *mesh = empty_mesh(job);
     mesh->uv[0] = Array<glm::vec2>(job);
-    mesh->index.wide = Array<std::uint32_t>(job);
   }
   dvec2 low = in_metres(plan.area[0][0]), high = low;
   for (const CmPoint& p : plan.area[0]) {

@@ -1,6 +1,7 @@
 #include "core/generators/city/landform.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -14,8 +15,7 @@ namespace seedmesh::city {
 namespace {
 
 constexpr char terrain_pointer[] = "/terrain/parameters";
-constexpr double most = 10'000;          // of a height, m
-constexpr double gradient_reach = 10.0;  // m
+constexpr double most = 10'000;  // of a height, m
 
 }  // namespace
 
@@ -65,10 +65,18 @@ double Landform::at(const glm::dvec2& metres) const {
          (height(0, 1) * (1 - u) + height(1, 1) * u) * v;
 }
 
-glm::dvec2 Landform::gradient(const glm::dvec2& metres) const {
-  const glm::dvec2 east(gradient_reach, 0), north(0, gradient_reach);
-  return glm::dvec2(at(metres + east) - at(metres - east), at(metres + north) - at(metres - north)) /
-         (2 * gradient_reach);
+glm::dvec2 Landform::gradient(const glm::dvec2& metres, double reach) const {
+  // Least squares of a plane through points on two circles.
+  constexpr double half = 0.70710678118654752;
+  constexpr std::array<std::array<double, 2>, 4> sides = {{{1, 0}, {half, half}, {0, 1}, {0 - half, half}}};
+  glm::dvec2 sum(0);
+  for (const double radius : {reach / 2, reach}) {
+    for (const auto& side : sides) {
+      const glm::dvec2 off = glm::dvec2(side[0], side[1]) * radius;
+      sum += off * (at(metres + off) - at(metres - off));
+    }
+  }
+  return sum / (4 * (reach * reach * 1.25));
 }
 
 bool Landform::covers(const glm::dvec2& low, const glm::dvec2& high) const {
@@ -96,7 +104,7 @@ void check_landform(const CityParams& params, const Job& job, std::vector<Issue>
   if (params.maps.height) {
     FieldMap::read(*params.maps.height, "/maps/height", {-1, -1}, {1, 1}, job, issues);
     if (params.terrain) {
-      issues.emplace_back(IssueKind::conflict, "/maps/height",
+      issues.emplace_back(conflict_with({"terrain"}), "/maps/height",
                           "found both `terrain` and `height`; expected one of them");
     }
   }

@@ -35,8 +35,8 @@ class Landform {
   /// Returns the height of the natural ground; beyond the border of a terrain, that of its border.
   double at(const glm::dvec2& metres) const;
 
-  /// Returns the rise per metre to the east and to the north, as the mean over 20 metres.
-  glm::dvec2 gradient(const glm::dvec2& metres) const;
+  /// Returns the rise per metre to the east and to the north of a plane through the ground within a reach (m).
+  glm::dvec2 gradient(const glm::dvec2& metres, double reach) const;
 
   /// Returns the height of the water of a terrain that is partly below it.
   const std::optional<double>& water_level() const { return water_level_; }

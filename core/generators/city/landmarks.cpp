@@ -91,6 +91,7 @@ std::vector<Landmark> landmarks_of(const CityParams& params, const Job& job) {
     each.turn = given.turn;
     each.radius = given.radius;
     each.is_block_whole = given.plot == CityPlot::block;
+    each.is_on_square = given.plot == CityPlot::square;
     each.replaces_house = given.plot != CityPlot::free;
     landmarks.push_back(std::move(each));
   }
@@ -110,6 +111,8 @@ void place_landmarks(CityPlan& plan) {
         landmark.part = n;
     }
     landmark.lot = landmark.part != no_index ? lot_of_part[landmark.part] : no_index;
+    if (landmark.is_on_square && landmark.part != no_index && landmark.lot == no_index)
+      landmark.is_too_large = !fits(landmark, plan.parts[landmark.part].rings);
     if (landmark.lot == no_index || !landmark.replaces_house) continue;
     Lot* lot = &plan.lots[landmark.lot];
     lot->house.reset();
@@ -135,8 +138,11 @@ std::vector<Warning> landmark_warnings(const CityPlan& plan) {
   for (const Landmark& landmark : plan.landmarks) {
     if (landmark.is_given) continue;  // they stay as they are
     if (landmark.is_too_large) {
-      warnings.push_back(
-          {landmark.pointer + "/model", "the building is larger than the lot on which it stands", 0, 0});
+      warnings.push_back({landmark.pointer + "/model",
+                          std::string("the building is larger than the ") +
+                              (landmark.lot != no_index ? "lot" : name_of(plan.parts[landmark.part].kind)) +
+                              " on which it stands",
+                          0, 0});
     }
     if (landmark.lot != no_index) continue;
     std::string place = "outside of the area";

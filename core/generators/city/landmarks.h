@@ -25,7 +25,7 @@ void place_landmarks(CityPlan& plan);
 /// for other models.
 std::optional<Footing> footing_of(const Landmark& landmark);
 
-/// Returns warnings about landmarks outside the area, on streets, on water, or larger than their lot.
+/// Returns warnings about landmarks outside the area, on streets, on water, or larger than their lot or square.
 std::vector<Warning> landmark_warnings(const CityPlan& plan);
 
 }  // namespace seedmesh::city

@@ -31,7 +31,7 @@ class Follower {
   void see(std::uint32_t edge) { is_seen_[edge] = 1; }
 
  private:
-  /// The half-edge on which a street goes on beyond a node; none at its end.
+  /// The half-edge on which a street continues beyond a node; none at its end.
   std::uint32_t next_of(std::uint32_t node, std::uint32_t half) const {
     if (graph_.is_border[node] != 0 || graph_.street_ends(node) != 2) return no_index;
     for (const std::uint32_t other : graph_.arms.of(node)) {
@@ -41,7 +41,7 @@ class Follower {
   }
 
   const StreetGraph& graph_;
-  std::vector<std::uint8_t> is_seen_;  ///< by edge
+  std::vector<std::uint8_t> is_seen_;  ///< 1 for edges that were visited
 };
 
 }  // namespace

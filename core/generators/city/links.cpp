@@ -25,7 +25,7 @@ constexpr std::uint32_t minor_tag = static_cast<std::uint32_t>(EdgeClass::minor)
 struct Candidate {
   double length = 0;
   std::uint32_t from = 0, edge = 0;
-  std::uint32_t node = no_index;  ///< of the point; none within the edge
+  std::uint32_t node = no_index;  ///< node of the point; none within the edge
   CmPoint to{};
   bool operator<(const Candidate& other) const {
     if (length != other.length) return length < other.length;
@@ -44,7 +44,7 @@ class Networks {
     for (const Bridge& bridge : graph.bridges) join(bridge.from, bridge.to);
   }
 
-  /// Returns the node that stands for the network of a node.
+  /// Returns the node that represents the network of a node.
   std::uint32_t find(std::uint32_t node) {
     while (other_[node] != node) node = other_[node] = other_[other_[node]];
     return node;
@@ -55,7 +55,7 @@ class Networks {
   }
 
  private:
-  std::vector<std::uint32_t> other_;  ///< by node: another one of its network
+  std::vector<std::uint32_t> other_;  ///< another node of the same network, indexed by node
 };
 
 class Links {

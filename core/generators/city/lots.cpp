@@ -83,7 +83,7 @@ glm::dvec2 position_in(const CmRing& ring) {
   return a + along / 2.0 + dvec2(-along.y, along.x) * (2 / length(longest));
 }
 
-/// Fills in what a lot is, from its piece, but its corners.
+/// Returns the lot of a piece, without its corners.
 Lot lot_of(const CityPlan& plan, const Division& division, const Piece& piece) {
   Lot lot;
   lot.key = piece.key;
@@ -124,10 +124,10 @@ std::string zone_at(const std::vector<NamedZone>& zones, const glm::dvec2& metre
   return {};
 }
 
-/// Whether a landmark keeps a block whole.
-bool keeps_whole(const std::vector<Landmark>& landmarks, const BlockOutline& outline) {
+/// Whether a landmark keeps a block whole, or makes it a square.
+bool has_landmark(const std::vector<Landmark>& landmarks, bool Landmark::*plot, const BlockOutline& outline) {
   return std::any_of(landmarks.begin(), landmarks.end(), [&](const Landmark& each) {
-    return each.is_block_whole && is_inside(outline.ring, each.position * 100.0);
+    return each.*plot && is_inside(outline.ring, each.position * 100.0);
   });
 }
 
@@ -242,9 +242,10 @@ void divide_blocks(CityPlan& plan, std::vector<BlockOutline> outlines, const Cit
     Divided each;
     const Ward* ward = ward_at(plan.wards, position_in(outline.ring));
     if (ward) each.zone = ward->zone;
-    const bool is_whole = keeps_whole(plan.landmarks, outline);
+    const bool is_whole = has_landmark(plan.landmarks, &Landmark::is_block_whole, outline);
     each.division.emplace(outline, is_whole || each.zone == zone_citadel ? whole : lots, key, rng);
-    each.is_square = each.zone == zone_square;
+    each.is_square =
+        each.zone == zone_square || has_landmark(plan.landmarks, &Landmark::is_on_square, outline);
     const bool is_outside = !plan.wards.empty() && !ward;
     const bool is_empty = density.at(middle_of(outline.ring)) < 0.1;
     const bool is_drawn = !is_whole && rng.at("park").at(key).unit() < lots.park_share;

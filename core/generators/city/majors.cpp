@@ -1,5 +1,5 @@
-// Major streets on a net whose crossings and links are drawn by position, so that each link is built or not
-// whatever the order in which growth reaches it.
+// Major streets on a net. The random choices of crossings and links depend on their position, so the order of growth
+// has no effect on them.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -293,7 +293,7 @@ class NetRules final : public RoadRules {
     return next;
   }
 
-  /// Whether no other bridge or tunnel is in the way, and the ends of the bridges are far enough from each other for
+  /// Whether no other bridge or tunnel crosses it, and the ends of the bridges are far enough from each other for
   /// streets between them.
   bool is_clear_of_bridges(const Route& built) const {
     constexpr double apart = 4000;  // cm
@@ -337,7 +337,7 @@ class NetRules final : public RoadRules {
   std::vector<Road> roads_;
   std::set<std::pair<Site, Site>> tried_;
   std::set<Site> reached_;
-  std::set<std::size_t> parts_;  ///< of the land, with streets
+  std::set<std::size_t> parts_;  ///< parts of the land with streets
 };
 
 }  // namespace

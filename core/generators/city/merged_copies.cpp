@@ -6,17 +6,15 @@
 
 #include "core/base/math.h"
 #include "core/model/build.h"
+#include "core/model/empty_mesh.h"
 
 namespace seedmesh::city {
 namespace {
 
 constexpr std::size_t most_vertices = 65'535;
 
-Mesh empty_mesh(bool has_uv, bool has_color, const Job& job) {
-  Mesh mesh;
-  mesh.position = Array<glm::vec3>(job);
-  mesh.normal = Array<glm::vec3>(job);
-  mesh.index.wide = Array<std::uint32_t>(job);
+Mesh mesh_with(bool has_uv, bool has_color, const Job& job) {
+  Mesh mesh = empty_mesh(job);
   if (has_uv) mesh.uv[0] = Array<glm::vec2>(job);
   if (has_color) mesh.color = Array<glm::u8vec4>(job);
   return mesh;
@@ -89,7 +87,7 @@ Mesh& MergedCopies::mesh_for(const Mesh& from, std::size_t vertices, int materia
   std::vector<Mesh>& meshes = meshes_[{chunk, material, has_uv, has_color}];
   if (meshes.empty() || meshes.back().position.size() + vertices > most_vertices) {
     if (!meshes.empty()) trim(meshes.back());
-    meshes.push_back(empty_mesh(has_uv, has_color, job_));
+    meshes.push_back(mesh_with(has_uv, has_color, job_));
   }
   return meshes.back();
 }

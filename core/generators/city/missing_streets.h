@@ -7,9 +7,9 @@
 
 namespace seedmesh::city {
 
-/// Returns a warning for each of the first 20 features of which a piece on land, or a bridge or tunnel with both ends
-/// on land, is in no street of the plan. Pieces below 1 m are not counted, nor those below 3.1 m beside a piece that
-/// was built.
+/// Returns a warning for each of the first 20 features of which a piece is missing in the plan. Pieces are parts on
+/// land, and bridges and tunnels with both ends on land. Pieces below 1 m do not count, nor those below 3.1 m beside
+/// a piece that was built.
 std::vector<Warning> missing_streets(const std::vector<GivenLine>& lines, const CityPlan& plan);
 
 }  // namespace seedmesh::city

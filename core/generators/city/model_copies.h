@@ -56,7 +56,7 @@ class CopyWriter {
   void write_merged(const char* group, const char* name);
 
   /// Adds a model below the group of each chunk. Spends the triangles of all copies except one. With Bodies::boxes, each
-  /// copy gets a collision box if the output wants collision bodies.
+  /// copy gets a collision box if the output has collision bodies.
   void add(Model made, const std::string& name, const char* group, const std::vector<Copy>& copies,
            Bodies bodies);
 

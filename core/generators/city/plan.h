@@ -1,6 +1,6 @@
 #pragma once
 /// The plan of a city: the street graph and the partition of the area that is cut along it. Points are whole
-/// centimetres, x east and y north; lengths are metres and areas square metres, unless a name says otherwise.
+/// centimetres, x east and y north; lengths are metres and areas square metres, unless a name states another unit.
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -63,7 +63,7 @@ struct StreetGraph {
   std::vector<PlanarEdge> edges;  ///< the tag is an EdgeClass, or from first_given on that of a given street
   PlanarArms arms;
   std::vector<std::uint64_t> node_key, edge_key;  ///< keys that follow from positions alone
-  std::vector<std::uint8_t> is_border;  ///< for each node, 1 on the border of the area or on a shore
+  std::vector<std::uint8_t> is_border;  ///< 1 on the border of the area or on a shore, indexed by node
   std::vector<Bridge> bridges;
   std::vector<CmPoint> ring_nodes;         ///< nodes of roundabouts, sorted
   bool has_branches = false;               ///< at least one minor street could have branches at its end
@@ -142,7 +142,7 @@ struct Landmark {
   glm::dvec2 position{0};  ///< metres east and north
   double turn = 0;         ///< degrees, counter-clockwise from above
   double radius = 15;      ///< metres around `position` in which no tree of a park stands
-  bool is_block_whole = false, replaces_house = true;
+  bool is_block_whole = false, is_on_square = false, replaces_house = true;
   bool is_given = false;      ///< a footprint of the request
   bool is_too_large = false;  ///< whether it is too large for its lot, which then has no building in the plan
   /// Indices of the lot and of the part below it; no_index: none.

@@ -1,6 +1,6 @@
 #pragma once
 /// The plan as GeoJSON in local metres: [east, north], and on a terrain the height as a third number. Rings are closed
-/// and wound as RFC 7946 says.
+/// and have the winding order of RFC 7946.
 #include "core/generators/city/plan.h"
 #include "core/schema/json.h"
 

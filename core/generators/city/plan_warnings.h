@@ -12,8 +12,8 @@ struct CityParams;
 
 namespace seedmesh::city {
 
-/// Returns warnings about parameters without an effect, given streets that were left out, a terrain that is smaller than
-/// the area, landmarks that do not fit, and tunnels below level ground.
+/// Returns warnings: parameters without an effect; given streets that were left out; a terrain that is smaller than
+/// the area; landmarks that do not fit; tunnels below level ground.
 std::vector<Warning> plan_warnings(const CityParams& params, const CityPlan& plan);
 
 /// Adds warnings about surfaces that the model does not have. Call it before materials get unique names.

@@ -288,7 +288,7 @@ void StreetGrammar::rewrite(const Site& site, RoadRules& rules, Sites& sites) co
       made.push_back(site.word[at]);
     }
   }
-  // Branches and the rest of the word go on by themselves. Their keys are made of their positions in the word.
+  // Branches and the rest of the word are continued separately. Their keys are made of their positions in the word.
   Site rest{site.step + 1, site.key, {}};
   for (std::size_t at = 0; at < made.size(); ++at) {
     const char symbol = made[at].symbol;

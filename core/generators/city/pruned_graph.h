@@ -72,11 +72,14 @@ class PrunedGraph {
     compact();
   }
 
-  /// Removes streets shorter than the least length (cm), which rounding and clipping can leave.
+  /// Removes streets shorter than the least length (cm), which rounding and clipping can leave. Of given streets, removes
+  /// only loose ends at the border.
   void drop_short(double least) {
     for (PlanarEdge& edge : edges_) {
-      if (is_street(edge) && !is_given(edge) && distance(nodes_[edge.from], nodes_[edge.to]) < least)
-        remove(edge);
+      if (!is_street(edge) || distance(nodes_[edge.from], nodes_[edge.to]) >= least) continue;
+      const bool is_loose_end = degree_[edge.from] == 1 || degree_[edge.to] == 1;
+      const bool is_at_border = is_border_[edge.from] != 0 || is_border_[edge.to] != 0;
+      if (!is_given(edge) || (is_loose_end && is_at_border)) remove(edge);
     }
     compact();
   }

@@ -352,7 +352,7 @@ class StreetSpace {
   Job& job_;
   double cut_width_, cos_least_turn_;
   std::vector<Widths> attempts_;
-  std::vector<std::uint8_t> is_stepped_;  ///< by node; empty where no junction has a step
+  std::vector<std::uint8_t> is_stepped_;  ///< 1 at a step, indexed by node; empty where no junction has one
   std::vector<KerbSide> sides_;
   std::vector<std::uint32_t> carriageways_;  ///< parts, by edge
 };

@@ -194,8 +194,8 @@ class Follower {
   const Region& region_;
   std::uint32_t kind_;
   double most_;
-  std::vector<CmPoint> kept_;   ///< since the last bridge
-  std::vector<CmPoint> ahead_;  ///< of the line, the next point last
+  std::vector<CmPoint> kept_;   ///< points since the last bridge
+  std::vector<CmPoint> ahead_;  ///< points of the line, the next one last
   Route route_;
 };
 

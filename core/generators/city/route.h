@@ -26,7 +26,7 @@ struct Route {
 };
 
 /// Follows a line from its start, which is on land. It ends at the border of the area, and crosses water on bridges
-/// of at most `bridge_length` centimetres. Returns an empty route if the line would end at a shore. The same holds
+/// of at most `bridge_length` centimetres. Returns an empty route if the line would end at a shore. This is also so
 /// for a line that would meet the border or a shore at an acute angle, or with a piece below 15 m.
 Route route_of(const Region& region, const std::vector<CmPoint>& line, std::uint32_t kind,
                double bridge_length);

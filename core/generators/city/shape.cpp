@@ -106,6 +106,18 @@ double sharpest_cosine(std::span<const CmPoint> ring) {
   return sharpest;
 }
 
+bool is_blunt(std::span<const CmPoint> ring, double most_cosine) {
+  constexpr double least_bend = 2;
+  if (sharpest_cosine(ring) > most_cosine) return false;
+  const std::size_t count = ring.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    const CmPoint &a = ring[i > 0 ? i - 1 : count - 1], &b = ring[i + 1 < count ? i + 1 : 0];
+    if (distance_to_segment(in_cm(ring[i]), in_cm(a), in_cm(b)) < least_bend)
+      return sharpest_cosine(without_bends(ring, least_bend)) <= most_cosine;
+  }
+  return true;
+}
+
 CmRing without_bends(std::span<const CmPoint> ring, double least) {
   CmRing kept(ring.begin(), ring.end());
   for (std::size_t i = 0; i < kept.size() && kept.size() > 3;) {

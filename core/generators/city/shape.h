@@ -21,6 +21,10 @@ CmRing hull_of(std::span<const CmPoint> ring);
 /// Returns the cosine of the sharpest inner corner of a counter-clockwise ring; -1 if there is none.
 double sharpest_cosine(std::span<const CmPoint> ring);
 
+/// Whether a ring has no corner sharper than this cosine, both with and without its corners that are less than 2 cm from
+/// the line between their neighbours. Cost: linear, where it has no such corners.
+bool is_blunt(std::span<const CmPoint> ring, double most_cosine);
+
 /// Returns a ring without the corners that are less than `least`, in centimetres, from the line between their
 /// neighbours. At least three corners stay.
 CmRing without_bends(std::span<const CmPoint> ring, double least);

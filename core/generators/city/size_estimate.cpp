@@ -1,4 +1,4 @@
-// An estimate before growth, so that requests far beyond the limits are refused at once.
+// An estimate before growth, so that requests far beyond the limits are refused early.
 #include <algorithm>
 
 #include "core/generators/city/growth.h"

@@ -59,7 +59,7 @@ struct StreetNetwork {
     bool is_inner;
   };
   std::vector<Street> streets;
-  std::vector<std::vector<std::uint32_t>> ends;  ///< by node: streets, loops twice
+  std::vector<std::vector<std::uint32_t>> ends;  ///< streets, indexed by node; loops twice
 
   StreetNetwork(const CityPlan& plan, const Distances& distances) : ends(plan.graph.nodes.size()) {
     const StreetGraph& graph = plan.graph;

@@ -26,6 +26,7 @@ constexpr double seed_distance = 0.95, end_distance = 0.62;  // of the spacing
 constexpr double shortest = 2000;                            // between two crossings of a street, cm
 constexpr double least_density = 0.1;
 constexpr std::uint32_t major = static_cast<std::uint32_t>(EdgeClass::major),
+                        minor = static_cast<std::uint32_t>(EdgeClass::minor),
                         highway = static_cast<std::uint32_t>(EdgeClass::highway);
 
 std::uint64_t point_key(const CmPoint& p) {
@@ -220,7 +221,7 @@ dvec2 point_on(const Line& line, double at) {
 /// A street between two crossings, or from one to the end of its line.
 struct Span {
   std::vector<CmPoint> points;
-  bool has_end = false;  ///< at a crossing
+  bool has_end = false;  ///< whether it ends at a crossing
   std::uint32_t kind = major;
 };
 
@@ -312,6 +313,20 @@ Streamlines streamlines_of(const GrowthInput& input, const TensorField& field, c
   return all;
 }
 
+/// The street of a span, with tunnels where it needs them. On ground that is too steep for its class, those pieces that
+/// can be minor streets.
+std::optional<Route> free_route(const GrowthInput& input, const Span& span) {
+  const double bridge_length = input.streets.bridge_length * 100;
+  Route built = route_of(input.region, span.points, span.kind, bridge_length);
+  if (input.is_free(built)) return built;
+  if (std::optional<Route> tunnelled = input.tunnelled(built)) return tunnelled;
+  if (!input.landform) return std::nullopt;
+  built = route_of(input.region, span.points, minor, bridge_length);
+  if (!built.bridges.empty()) return input.is_free(built) ? std::optional(built) : std::nullopt;
+  std::erase_if(built.pieces, [&](const StreetPiece& piece) { return !input.is_free({{piece}, {}, true}); });
+  return built;
+}
+
 }  // namespace
 
 Route trace_majors(const GrowthInput& input, const TensorField& field, Job& job) {
@@ -334,12 +349,9 @@ Route trace_majors(const GrowthInput& input, const TensorField& field, Job& job)
     if (input.density.at(in_metres(span.points.front())) < least_density ||
         input.density.at(in_metres(middle)) < least_density)
       continue;
-    Route built = route_of(input.region, span.points, span.kind, input.streets.bridge_length * 100);
-    if (!input.is_free(built)) {
-      std::optional<Route> tunnelled = input.tunnelled(built);
-      if (!tunnelled) continue;
-      built = *std::move(tunnelled);
-    }
+    std::optional<Route> free = free_route(input, span);
+    if (!free) continue;
+    Route built = *std::move(free);
     if (meets_bridges(built, route.bridges) || (input.given && meets_bridges(built, input.given->bridges)))
       continue;
     route.pieces.insert(route.pieces.end(), built.pieces.begin(), built.pieces.end());

@@ -159,6 +159,7 @@ StreetGraph grow_all(const GrowthInput& input, std::vector<CmPoint>& ring_nodes,
   if (streets.method == CityMethod::given) {
     PrunedGraph pruned(graph_of(input.region, route, job), route.bridges);
     pruned.drop_outside(input.region);
+    pruned.drop_short(least_street);
     pruned.keep_largest();
     return pruned.finished();
   }

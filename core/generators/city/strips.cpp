@@ -52,7 +52,7 @@ class Strips {
   };
   struct Cell {
     std::vector<CellEdge> edges;
-    std::uint64_t number = 0;  ///< of its street along the outline
+    std::uint64_t number = 0;  ///< number of its street along the outline
     bool is_inner = false;
   };
 

@@ -25,6 +25,10 @@ dvec2 doubled(const dvec2& d) {
   return {(d.x * d.x - d.y * d.y) / squared, 2 * d.x * d.y / squared};
 }
 
+/// The reach within which the ground decides a slope, m: a field that is smooth over distances of major streets has
+/// streamlines that keep their spacing.
+double slope_reach(const CityStreets& streets) { return std::max(10.0, streets.major_spacing / 4); }
+
 dvec2 grid_of(double degrees) {
   const math::SinCos turn = math::sincos_degrees(2 * degrees);
   return {turn.cos, turn.sin};
@@ -51,7 +55,7 @@ TensorField::Base TensorField::base_of(CityPattern pattern, const CityStreets& s
 }
 
 TensorField::TensorField(const CityStreets& streets, const FieldMap& blend, const Landform* landform, Rng rng)
-    : landform_(landform), blend_(&blend), rng_(rng) {
+    : landform_(landform), blend_(&blend), slope_reach_(slope_reach(streets)), rng_(rng) {
   bases_.push_back({Shape::grid, {0, 0}, grid_of(streets.angle), weak, 0, {}});
   bases_.push_back(base_of(streets.pattern, streets));
   bases_.push_back(base_of(second_pattern_of(streets), streets));
@@ -59,14 +63,15 @@ TensorField::TensorField(const CityStreets& streets, const FieldMap& blend, cons
   noise_size_ = streets.major_spacing * noise_spacings * 100;
 }
 
-TensorField::TensorField(const CityStreets& streets, const Landform* landform) : landform_(landform) {
+TensorField::TensorField(const CityStreets& streets, const Landform* landform)
+    : landform_(landform), slope_reach_(slope_reach(streets)) {
   bases_.push_back({Shape::grid, {0, 0}, grid_of(streets.angle), weak, 0, {}});
   bases_.push_back({Shape::height, {0, 0}, {1, 0}, 1, 0, {}});
 }
 
 TensorField::TensorField(const CityStreets& streets, const Region& region, const Landform* landform,
                          std::vector<Issue>& issues)
-    : landform_(landform) {
+    : landform_(landform), slope_reach_(slope_reach(streets)) {
   bases_.push_back({Shape::grid, {0, 0}, grid_of(streets.angle), weak, 0, {}});
   for (std::size_t i = 0; i < streets.tensor.fields.size(); ++i) {
     const CityTensorField& field = streets.tensor.fields[i];
@@ -83,7 +88,7 @@ TensorField::TensorField(const CityStreets& streets, const Region& region, const
       for (const auto& p : field.points) line.push_back(rounded_cm({p[0] * 100, p[1] * 100}));
       base.lines = {line};
       if (line.size() < 2) {
-        issues.emplace_back(IssueKind::missing, "/streets/tensor/fields/" + std::to_string(i) + "/points",
+        issues.emplace_back(missing_for({"type"}), "/streets/tensor/fields/" + std::to_string(i) + "/points",
                             "found " + std::to_string(line.size()) + " points, expected at least 2");
       }
     }
@@ -133,7 +138,7 @@ dvec2 TensorField::tensor_of(const Base& base, const dvec2& cm, double& squared_
   if (base.shape == Shape::height) {
     if (!landform_) return {0, 0};
     // Along the contour; full weight from a slope of 1:10.
-    const dvec2 rise = landform_->gradient(cm / 100.0);
+    const dvec2 rise = landform_->gradient(cm / 100.0, slope_reach_);
     return doubled({0 - rise.y, rise.x}) * std::min(1.0, std::sqrt(glm::dot(rise, rise)) * 10);
   }
   squared_distance = 1e300;

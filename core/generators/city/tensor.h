@@ -68,7 +68,8 @@ class TensorField {
   std::vector<Base> bases_;
   const Landform* landform_;
   const FieldMap* blend_ = nullptr;
-  double noise_size_ = 1;  ///< size of a cell of the noise, centimetres
+  double noise_size_ = 1;    ///< size of a cell of the noise, centimetres
+  double slope_reach_ = 10;  ///< within which the ground decides a slope, m
   Rng rng_{0};
 };
 
@@ -95,7 +96,8 @@ CityPattern second_pattern_of(const CityStreets& streets);
 /// Returns the highways and the major streets, divided where they cross. They are streamlines of both
 /// directions, about `highway_spacing` and `major_spacing` apart (Jobard and Lefer, "Creating evenly spaced
 /// streamlines of arbitrary density", 1997). At about the share `t_junctions` of the crossings one arm is
-/// removed. Random choices depend on positions only.
+/// removed. On ground that is too steep for major streets, pieces are minor streets or left out. Random choices depend
+/// on positions only.
 Route trace_majors(const GrowthInput& input, const TensorField& field, Job& job);
 
 }  // namespace seedmesh::city

@@ -197,7 +197,7 @@ WardPlan lay_out_wards(const CityParams& params, const WardGround& ground,
   WardCells cells = cells_of(params.streets, rng.at("points"), job);
   const std::vector<std::uint32_t> chosen = chosen_cells(cells, params, ground, job);
   if (chosen.size() < least_wards) {
-    issues.emplace_back(IssueKind::conflict, "/streets/wards",
+    issues.emplace_back(conflict_with({"area"}), "/streets/wards",
                         "found space for " + std::to_string(chosen.size()) + " wards, expected at least " +
                             std::to_string(least_wards) + ": a larger area or a smaller wards.size");
     return {};

@@ -28,7 +28,7 @@ struct FrontFrame {
   std::vector<dvec2> corners;
 };
 
-/// Makes `frame`, whose memory is kept from one lot to the next, that of a lot.
+/// Sets `frame` to that of a lot. Its memory is reused from one lot to the next.
 void set_frame(const Lot& lot, FrontFrame& frame) {
   frame.corners.clear();
   frame.origin = in_metres(lot.front_start);
@@ -140,7 +140,7 @@ std::vector<CityBuildingRule> built_in_rules() {
 struct Site {
   const Lot& lot;
   const std::string& street_class;
-  double distance = 0;  ///< from the centre of the streets
+  double distance = 0;  ///< distance from the centre of the streets
 };
 
 bool applies(const CityBuildingRule& rule, const Site& site) {

@@ -37,8 +37,8 @@ class Wheel {
     fill(instructions.weights);
   }
 
-  /// Chooses a map by 32 random bits. The upper half of their product with the number of maps is the column
-  /// of the alias table, and the lower half decides between its two maps.
+  /// Chooses a map by 32 random bits, which are multiplied by the number of maps. The upper half of the product is
+  /// the column of the alias table, and the lower half selects one of the two maps of this column.
   std::uint32_t spin(std::uint32_t bits) const {
     const std::uint64_t product = std::uint64_t{bits} * columns_.size();
     const auto column = static_cast<std::uint32_t>(product >> 32U);

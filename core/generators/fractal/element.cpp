@@ -10,6 +10,7 @@
 #include "core/generators/material_members.h"
 #include "core/geom/mesh/flatten.h"
 #include "core/gltf/read/read.h"
+#include "core/model/empty_mesh.h"
 #include "generated/params/fractal.h"
 
 namespace seedmesh::fractal {
@@ -17,12 +18,9 @@ namespace {
 
 using Name = FractalElement;
 
-Mesh empty_mesh(const Job& job) {
-  Mesh mesh;
-  mesh.position = Array<glm::vec3>(job);
-  mesh.normal = Array<glm::vec3>(job);
+Mesh colored_mesh(const Job& job) {
+  Mesh mesh = empty_mesh(job);
   mesh.color = Array<glm::u8vec4>(job);
-  mesh.index.wide = Array<std::uint32_t>(job);
   return mesh;
 }
 
@@ -42,7 +40,7 @@ void add_face(Mesh& mesh, std::initializer_list<glm::dvec3> corners) {
 
 /// The six sides in the order -X, +X, -Y, +Y, -Z, +Z.
 Mesh cube(const Job& job) {
-  Mesh mesh = empty_mesh(job);
+  Mesh mesh = colored_mesh(job);
   for (int axis = 0; axis < 3; ++axis) {
     for (const double side : {-0.5, 0.5}) {
       const int u = (axis + 1) % 3, v = (axis + 2) % 3;
@@ -71,7 +69,7 @@ Mesh rainbow_cube(const Job& job) {
 }
 
 Mesh pyramid(const Job& job) {
-  Mesh mesh = empty_mesh(job);
+  Mesh mesh = colored_mesh(job);
   const glm::dvec3 top{0, 0.5, 0}, a{-0.5, -0.5, 0.5}, b{0.5, -0.5, 0.5}, c{0.5, -0.5, -0.5},
       d{-0.5, -0.5, -0.5};
   add_face(mesh, {a, b, top});
@@ -84,7 +82,7 @@ Mesh pyramid(const Job& job) {
 
 /// Has every second corner of the unit cube.
 Mesh tetrahedron(const Job& job) {
-  Mesh mesh = empty_mesh(job);
+  Mesh mesh = colored_mesh(job);
   const glm::dvec3 a{0.5, 0.5, 0.5}, b{0.5, -0.5, -0.5}, c{-0.5, 0.5, -0.5}, d{-0.5, -0.5, 0.5};
   add_face(mesh, {a, b, c});
   add_face(mesh, {a, c, d});
@@ -96,7 +94,7 @@ Mesh tetrahedron(const Job& job) {
 /// A sphere of diameter 1. Each side of an octahedron is divided into 16 triangles.
 Mesh sphere(const Job& job) {
   constexpr int steps = 4;
-  Mesh mesh = empty_mesh(job);
+  Mesh mesh = colored_mesh(job);
   std::vector<glm::ivec3> keys;
   const auto corner = [&](const glm::ivec3& key) {
     const auto found = std::find(keys.begin(), keys.end(), key);
@@ -147,7 +145,7 @@ Mesh letter_plate(Job& job) {
 }
 
 Mesh segment(const Job& job) {
-  Mesh mesh = empty_mesh(job);
+  Mesh mesh = colored_mesh(job);
   mesh.topology = Topology::lines;
   mesh.position.push_back({-0.5F, 0, 0});
   mesh.position.push_back({0.5F, 0, 0});

@@ -84,15 +84,16 @@ std::vector<Issue> check_format(const FractalParams& params, const WantedFormat&
   std::vector<Issue> issues;
   if (form.format != "ply") {
     if (params.method != FractalMethod::escape)
-      issues.emplace_back(IssueKind::conflict, "/method", found + ", but an image is made of \"escape\"");
+      issues.emplace_back(conflict_with({"output/format"}), "/method",
+                          found + ", but an image is made of \"escape\"");
     return issues;
   }
   if (params.method != FractalMethod::frcm) {
-    issues.emplace_back(IssueKind::conflict, "/method",
+    issues.emplace_back(conflict_with({"output/format"}), "/method",
                         found + ", but a PLY file contains the points of \"frcm\"");
   }
   if (!params.stages.empty()) {
-    issues.emplace_back(IssueKind::conflict, "/stages",
+    issues.emplace_back(conflict_with({"output/format"}), "/stages",
                         "found stages in the format ply, which has one point cloud; expected none");
   }
   return issues;

@@ -7,6 +7,7 @@
 #include "core/base/parallel.h"
 #include "core/base/wide.h"
 #include "core/generators/fractal/element.h"
+#include "core/model/empty_mesh.h"
 #include "generated/params/fractal.h"
 
 namespace seedmesh::fractal {
@@ -70,10 +71,8 @@ class Plate {
     const std::size_t n = n_, rim = 4 * (n - 1);
     job.spend(Resource::triangles, 2 * (n - 1) * (n - 1) + 3 * rim);
     const std::size_t vertices = n * n + 8 * n + rim + 1;
-    mesh_.position = Array<glm::vec3>(job);
-    mesh_.normal = Array<glm::vec3>(job);
+    mesh_ = empty_mesh(job);
     mesh_.color = Array<glm::u8vec4>(job);
-    mesh_.index.wide = Array<std::uint32_t>(job);
     mesh_.position.reserve(vertices);
     mesh_.normal.reserve(vertices);
     mesh_.color.reserve(vertices);

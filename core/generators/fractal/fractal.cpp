@@ -81,7 +81,7 @@ std::uint64_t add_stage(Model& model, int parent, const CopyMachine& machine, in
   }
   const std::optional<Lattice> lattice = visible_lattice(params, instructions);
   if (!lattice) {
-    add_pieces(model, parent, instructions, element, rounds, params.size, job);
+    add_pieces(model, parent, instructions, element, {rounds, params.size}, job);
     return 0;
   }
   const bool merges = params.surface == FractalSurface::merged;
@@ -246,13 +246,17 @@ Estimate estimate_stage(const FractalParams& params, const Instructions& instruc
     const std::optional<double> squares = exposed_quads(*lattice, rounds);
     const std::uint64_t count =
         squares ? static_cast<std::uint64_t>(*squares) : count_exposed(solid_of(*lattice, rounds, job), job);
-    return {2 * count, 62 * count + 1000, true};
+    // Vertices at edges are doubled for their texture coordinates; measured on the presets.
+    constexpr std::uint64_t bytes_a_square = 100;
+    return {2 * count, bytes_a_square * count + 1000, true};
   }
   const Plan plan = plan_of(instructions, element, rounds, job);
   const bool has_triangles = std::ranges::all_of(
       element.primitives, [](const Primitive& p) { return p.mesh.topology == Topology::triangles; });
   const std::uint64_t elements = static_cast<std::uint64_t>(plan.pieces) * element.elements;
-  return {has_triangles ? elements : 0, plan.bytes + 1000, presses_nothing_flat(instructions)};
+  // The pipeline adds texture coordinates to elements without: 8 bytes to 24 of a vertex and those of its indices.
+  const std::uint64_t bytes = has_triangles ? plan.bytes * 5 / 4 : plan.bytes;
+  return {has_triangles ? elements : 0, bytes + 1000, presses_nothing_flat(instructions)};
 }
 
 Result<Appraisal> appraise_copies(const FractalParams& params, const GenerateContext& context) {
@@ -279,7 +283,9 @@ Appraisal appraise_others(const FractalParams& params, const Job& job) {
   Appraisal appraisal;
   if (params.method == FractalMethod::escape) {
     const auto n = static_cast<std::uint64_t>(params.escape.resolution);
-    appraisal.estimate = Estimate{2 * (n - 1) * (n - 1) + 12 * (n - 1), 52 * n * n, true};
+    constexpr std::uint64_t bytes_a_sample =
+        78;  // with the walls and the vertices doubled for texture coordinates
+    appraisal.estimate = Estimate{2 * (n - 1) * (n - 1) + 12 * (n - 1), bytes_a_sample * n * n, true};
   } else if (params.cloud == FractalCloud::points) {
     std::uint64_t points = 0;
     for (const std::int64_t count : stages_of(params, params.points))

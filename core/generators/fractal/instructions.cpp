@@ -291,7 +291,7 @@ void check_map(const FractalMap& given, const std::string& pointer, bool by_chan
   static const FractalMap plain;
   if (given.matrix &&
       !(given.scale == plain.scale && given.rotate == plain.rotate && given.translate == plain.translate)) {
-    issues.emplace_back(IssueKind::conflict, pointer,
+    issues.emplace_back(conflict_with({"matrix", "scale", "rotate", "translate"}), pointer,
                         "found \"matrix\" beside scale, rotate or translate, expected one of the two forms");
     return;
   }

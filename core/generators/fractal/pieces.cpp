@@ -6,6 +6,7 @@
 #include "core/base/math.h"
 #include "core/geom/mesh/weld.h"
 #include "core/model/build.h"
+#include "core/model/empty_mesh.h"
 
 namespace seedmesh::fractal {
 namespace {
@@ -14,7 +15,7 @@ constexpr std::uint64_t most_nodes = 400;
 constexpr std::uint64_t node_bytes = 150;  ///< of JSON
 constexpr double largest_count = 0x1p62;
 
-/// Calls visit(map) for all copies after `rounds`, but point(map) for those for which is_small(map) holds, which
+/// Calls visit(map) for all copies after `rounds`, but point(map) for those for which is_small(map) is true, which
 /// are not divided. Needs only a stack with one map for each round.
 template <class IsSmall, class Visit, class Point>
 void each_division(const Affine& outer, const Instructions& instructions, int rounds, const IsSmall& is_small,
@@ -68,12 +69,10 @@ class CopyJoiner {
   CopyJoiner(const Mesh& element, std::uint64_t copies, double size, Job& job)
       : element_(element), size_(size), job_(job) {
     const std::size_t count = static_cast<std::size_t>(copies);
+    mesh_ = empty_mesh(job);
     mesh_.topology = element.topology;
-    mesh_.position = Array<glm::vec3>(job);
-    mesh_.normal = Array<glm::vec3>(job);
     mesh_.uv[0] = Array<glm::vec2>(job);
     mesh_.color = Array<glm::u8vec4>(job);
-    mesh_.index.wide = Array<std::uint32_t>(job);
     mesh_.position.reserve(count * element.position.size());
     mesh_.normal.reserve(count * element.normal.size());
     mesh_.uv[0].reserve(count * element.uv[0].size());
@@ -171,7 +170,9 @@ Plan plan_of(const Instructions& instructions, const Element& element, int round
 }
 
 void add_pieces(Model& model, int parent, const Instructions& instructions, const Element& element,
-                int rounds, double size, Job& job) {
+                const Copies& given, Job& job) {
+  const int rounds = given.rounds;
+  const double size = given.size;
   const Plan plan = plan_of(instructions, element, rounds, job);
   job.spend(Resource::triangles, whole(plan.pieces) * element.elements);
   MeshGroup group;

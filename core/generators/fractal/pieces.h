@@ -24,10 +24,15 @@ double pieces_after(const Instructions& instructions, int rounds);
 /// limit.
 Plan plan_of(const Instructions& instructions, const Element& element, int rounds, const Job& job);
 
-/// Adds the meshes and nodes of the fractal below node `parent`, scaled by `size`. The first materials of the
-/// model must be those of the element. Spends Resource::triangles.
+struct Copies {
+  int rounds = 0;
+  double size = 1;  ///< metres of the unit of the element
+};
+
+/// Adds the meshes and nodes of the fractal below node `parent`. The first materials of the model must be those of the
+/// element. Spends Resource::triangles.
 void add_pieces(Model& model, int parent, const Instructions& instructions, const Element& element,
-                int rounds, double size, Job& job);
+                const Copies& copies, Job& job);
 
 /// Copies are divided while the largest stretch of their map times `size` is at least `smallest`. Smaller copies become
 /// points.

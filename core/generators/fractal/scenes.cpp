@@ -8,6 +8,7 @@
 #include "core/generators/fractal/measure.h"
 #include "core/geom/polygon/triangulate.h"
 #include "core/model/build.h"
+#include "core/model/empty_mesh.h"
 #include "generated/params/fractal.h"
 
 namespace seedmesh::fractal {
@@ -156,10 +157,7 @@ Mesh koch_plate(int rounds, double size, Job& job) {
   // Many corners are collinear. Triangles far smaller than the smallest bump of the curve are left out.
   const double least_area = 0.05 / static_cast<double>(corners) / static_cast<double>(corners);
   const std::span<const std::uint32_t> inside = triangulator.run(outline, least_area);
-  Mesh mesh;
-  mesh.position = Array<glm::vec3>(job);
-  mesh.normal = Array<glm::vec3>(job);
-  mesh.index.wide = Array<std::uint32_t>(job);
+  Mesh mesh = empty_mesh(job);
   for (const double z : {half, -half}) {
     const auto first = static_cast<std::uint32_t>(mesh.position.size());
     for (const glm::dvec2& p : outline) {

@@ -7,6 +7,7 @@
 #include "core/base/quick_math.h"
 #include "core/geom/plant/graft/limb_axis.h"
 #include "core/model/build.h"
+#include "core/model/empty_mesh.h"
 
 namespace seedmesh {
 namespace {
@@ -44,10 +45,7 @@ void cut(const Limbs& limbs, const Chains& chains, std::uint32_t head, float thi
 }
 
 Mesh prism(const LimbBody& body, const Job& job) {
-  Mesh mesh;
-  mesh.position = Array<glm::vec3>(job);
-  mesh.normal = Array<glm::vec3>(job);
-  mesh.index.wide = Array<std::uint32_t>(job);
+  Mesh mesh = empty_mesh(job);
   const glm::vec3 along = math::unit(body.to - body.from, glm::vec3{0, 1, 0});
   const glm::vec3 u = any_aside(along), v = glm::cross(along, u);
   const float length = std::sqrt(glm::dot(body.to - body.from, body.to - body.from));

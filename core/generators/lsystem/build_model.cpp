@@ -27,7 +27,7 @@ constexpr std::uint64_t bytes_a_triangle = 12;
 constexpr std::uint64_t document = 1500;    // the JSON part of a small model
 constexpr double welded_vertices = 0.71;    // vertices for each triangle, measured
 constexpr std::uint64_t worth_a_word = 10;  // warn where at least one of 10 internodes is missing
-constexpr int attempts = 6;                 ///< to find a level with its number of triangles
+constexpr int attempts = 6;                 ///< attempts to find a level with its number of triangles
 
 /// Replaces colours by material indices, so that equal materials become one primitive.
 void choose_materials(Skeleton& skeleton, const MaterialSet& material_set) {
@@ -68,11 +68,11 @@ std::optional<GrowthPlan> growth_of(const Skeleton& skeleton, const LsystemParam
   Job& job = context.job;
   if (!context.demand.growth) return std::nullopt;
   if (params.style == LsystemParams::Style::lines) {
-    job.refuse({IssueKind::conflict, "/style",
+    job.refuse({conflict_with({"animation"}), "/style",
                 "found lines, which bones cannot move; the growth animation needs tubes"});
   }
   if (!skeleton.organs.organ.empty() && context.demand.share_organs) {
-    job.refuse({IssueKind::conflict, "/output/instancing",
+    job.refuse({conflict_with({"animation"}), "/output/instancing",
                 "found organs that share a mesh, which bones cannot move; the growth animation needs auto or "
                 "merge"});
   }
@@ -315,7 +315,7 @@ void warn_of_thin(Model& model, const Limbs& limbs, const LsystemParams& params)
                             0, 0});
 }
 
-/// Adds convex bodies, if the output asks for them.
+/// Adds convex bodies, if the output has collision bodies.
 void add_collision(Model& model, const std::vector<LimbBody>& bodies, const GenerateContext& context) {
   if (context.demand.collision == CollisionNames::none) return;
   if (!bodies.empty()) return add_limb_bodies(model, bodies, context);
@@ -329,9 +329,7 @@ Model build_model(Skeleton skeleton, const LsystemParams& params, const Generate
   Job& job = context.job;
   Model model;
   model.name = "lsystem";
-  Node root;
-  root.name = "lsystem";
-  model.nodes.push_back(std::move(root));
+  add_node(model, "lsystem", -1);
   MaterialSet material_set(model, params, job);
   choose_materials(skeleton, material_set);
   const bool tubes = params.style == LsystemParams::Style::tubes;

@@ -79,7 +79,7 @@ void warn_of_weights(Compilation& c, const Rules& rules) {
   }
 }
 
-/// A production after one that always applies is never used. The same holds for a production without
+/// A production after one that always applies is never used. The same is true of a production without
 /// probability after one with a probability. Tables can hide productions that apply in every step.
 void warn_of_dead(Compilation& c, const Rules& rules) {
   for (const Range& range : rules.of_kind) {
@@ -91,9 +91,9 @@ void warn_of_dead(Compilation& c, const Rules& rules) {
       if (before && folder_of(*before) == folder_of(each) && c.warned.insert(each.pointer).second) {
         const std::string& symbol = c.grammar.kinds[each.predecessor].symbol;
         warn(c, {each.pointer,
-                 "this production of `" + symbol + "` is never used: the production at " + before->pointer +
-                     (plain ? " before it always applies"
-                            : " before it has a probability and this one has none; add one, as in `: 0.5`"),
+                 "this production of `" + symbol + "` is never used: `" + before->pointer.substr(1) +
+                     (plain ? "` before it always applies"
+                            : "` before it has a probability and this one has none; add one, as in `: 0.5`"),
                  0, 0});
       }
       if (plain || !is_sure(each)) continue;

@@ -80,7 +80,7 @@ void fill_framed_arguments(const Grammar& grammar, const Template& made, const d
 
 namespace {
 
-/// Returns the text for whose templates `holds` is true.
+/// Returns the text for whose templates `holds` returns true.
 template <class Holds>
 std::string text_with(const Grammar& grammar, Holds&& holds) {
   if (holds(grammar.axiom)) return "/axiom";

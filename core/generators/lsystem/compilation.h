@@ -59,9 +59,9 @@ struct Compilation {
   std::set<std::string, std::less<>> ignored, considered, variables, alphabet_constants;
   Symbols symbols;
   std::map<std::pair<std::string, std::uint32_t>, KindId> ids;
-  std::map<std::string, std::uint64_t, std::less<>> occurrences;  ///< of each symbol in the current successor
+  std::map<std::string, std::uint64_t, std::less<>> occurrences;  ///< in the current successor, by symbol
   std::vector<PossibleError> possible_errors;
-  std::vector<std::uint8_t> is_checked;  ///< by kind: 1 where it has been checked
+  std::vector<std::uint8_t> is_checked;  ///< 1 for kinds that have been checked
   std::set<std::string> warned;          ///< pointers of productions that have a warning
   std::size_t unreported = 0;            ///< number of warnings beyond the limit
   Grammar grammar;

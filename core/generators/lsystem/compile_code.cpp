@@ -354,7 +354,7 @@ class CodeReader {
   std::vector<Step>& steps_;
   std::uint32_t& slots_;
   Allowed allowed_;
-  std::vector<std::string> locals_;  ///< in the order of declaration
+  std::vector<std::string> locals_;  ///< names in the order of declaration
   /// slots by name, innermost last
   std::map<std::string, std::vector<std::uint32_t>, std::less<>> slots_of_;
   std::size_t bound_ = 0;
@@ -370,7 +370,7 @@ Range compile_code(Compilation& c, Source& source, Slice slice, std::uint32_t& s
   return {first, static_cast<std::uint32_t>(c.grammar.steps.size()) - first};
 }
 
-/// The locals stay visible in the rest of the production.
+/// The locals stay valid in the rest of the production.
 Range compile_assignments(Compilation& c, Source& source, Slice slice, std::uint32_t& slots) {
   const auto first = static_cast<std::uint32_t>(c.grammar.steps.size());
   if (slice.empty()) return {first, 0};

@@ -109,7 +109,7 @@ void mark_ignored(Compilation& c) {
   c.ignored = symbols_of(c, c.params.ignore, "/ignore");
   c.considered = symbols_of(c, c.params.consider, "/consider");
   if (!c.ignored.empty() && !c.considered.empty()) {
-    c.issues.emplace_back(IssueKind::conflict, "/consider",
+    c.issues.emplace_back(conflict_with({"ignore"}), "/consider",
                           "found both `consider` and `ignore`; expected one of them");
   }
 }

@@ -26,7 +26,7 @@ std::vector<WrittenConstant> written_constants(const LsystemParams& params) {
 
 void check_age(const LsystemParams& params, std::vector<Issue>& issues) {
   if (params.timed && params.constants.contains("age")) {
-    issues.emplace_back(IssueKind::conflict, "/constants/age",
+    issues.emplace_back(conflict_with({"timed"}), "/constants/age",
                         "with `timed`, the name `age` is reserved for the age of the plant");
   }
   if (!params.age || params.timed || *params.age <= static_cast<double>(params.iterations)) return;
@@ -49,7 +49,7 @@ void check_between_steps(const LsystemParams& params, const Grammar& grammar, st
                       : std::any_of(rules.begin(), rules.end(), has_new_context) ? "contexts of the new word"
                                                                                  : nullptr;
   if (!found) return;
-  issues.emplace_back(IssueKind::conflict, "/age",
+  issues.emplace_back(conflict_with({"timed"}), "/age",
                       "found a fractional age and a grammar with " + std::string(found) +
                           "; such a grammar needs a whole number of iterations or `timed`");
 }
@@ -81,7 +81,7 @@ void bind_variables(Compilation& c, const lang::Names& values) {
       return;
     }
     if (c.params.constants.contains(name))
-      c.issues.emplace_back(IssueKind::conflict, "/arrays/" + name, "found a constant of this name");
+      c.issues.emplace_back(conflict_with({"constants"}), "/arrays/" + name, "found a constant of this name");
     c.names.bind_array(name, static_cast<std::uint32_t>(c.grammar.variables.size()),
                        static_cast<std::uint32_t>(list.size()));
     c.grammar.variables.insert(c.grammar.variables.end(), list.begin(), list.end());
@@ -97,7 +97,7 @@ void bind_values(Compilation& c, std::uint64_t seed) {
   for (const auto& [name, value] : c.params.variables) {
     written.push_back({name, value});
     if (c.params.constants.contains(name) || c.params.arrays.contains(name)) {
-      c.issues.emplace_back(IssueKind::conflict, "/variables/" + name,
+      c.issues.emplace_back(conflict_with({"constants", "arrays"}), "/variables/" + name,
                             "found a constant or an array of this name");
     }
   }
@@ -206,14 +206,14 @@ void check_directions(Compilation& c) {
   });
   c.grammar.backward = right != nullptr;
   if (right && c.grammar.strict) {
-    c.issues.emplace_back(IssueKind::conflict, right->pointer,
+    c.issues.emplace_back(conflict_with({}), right->pointer,
                           "found a new right context and strict predecessors of several modules; a word is "
                           "written in one direction");
   }
   if (left && right) {
-    c.issues.emplace_back(IssueKind::conflict, right->pointer,
-                          "found a new right context, but " + left->pointer +
-                              " has a new left one; a word is written in one direction");
+    c.issues.emplace_back(conflict_with({}), right->pointer,
+                          "found a new right context, but `" + left->pointer.substr(1) +
+                              "` has a new left one; a word is written in one direction");
   }
 }
 

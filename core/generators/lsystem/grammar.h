@@ -29,7 +29,7 @@ struct Kind {
   std::uint32_t arity = 0;           ///< number of values; a frame has twelve
   Command command = Command::none;   ///< command that the turtle executes
   bool ignored = false;              ///< skipped when contexts are matched
-  std::vector<std::uint8_t> frames;  ///< by written parameter: 1 for a frame, else 0; empty: no frames
+  std::vector<std::uint8_t> frames;  ///< 1 for written parameters that are frames, else 0; empty: no frames
   std::uint32_t written() const {    ///< number of parameters in the text
     return frames.empty() ? arity : static_cast<std::uint32_t>(frames.size());
   }

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/generators/lsystem/draw.h"
+#include "core/generators/lsystem/materials.h"
 #include "core/schema/json.h"
 
 namespace seedmesh::lsystem {
@@ -152,7 +153,10 @@ void Drawing::place_organ(const Kind& kind, const double* parameters, std::uint3
   if (!(std::max({scale.x, scale.y, scale.z}) < largest)) {
     refuse(kind, parameters, "the organ is larger than 1e9 metres");
   }
-  if (scale.x > 0 && scale.y > 0 && scale.z > 0) turtle_.place_organ(number, scale, surface.color, key);
+  // In the first colour of the palette, that of bark, leaves would be brown.
+  const bool is_bark = surface.color < 0 && params_.materials.empty() && turtle_.color() == 0;
+  const std::int32_t color = is_bark ? palette_color_of(surface.shape) : surface.color;
+  if (scale.x > 0 && scale.y > 0 && scale.z > 0) turtle_.place_organ(number, scale, color, key);
 }
 
 void Drawing::close_polygon(std::uint64_t key) {
@@ -327,7 +331,7 @@ void Drawing::execute_state(const Kind& kind, const double* parameters, std::uin
       place_object(kind, parameters, parameters[12],
                    {length_of(parameters), length_of(parameters + 3), length_of(parameters + 6)}, key);
       return turtle_.pop();
-    default:  // nothing to draw: queries, cuts and symbols that the turtle does not know
+    default:  // nothing to draw: queries, cuts and symbols that the turtle does not interpret
       return;
   }
 }

@@ -26,7 +26,6 @@
 #include "core/generators/lsystem/word.h"
 #include "core/generators/lsystem/word_warnings.h"
 #include "core/schema/warning_list.h"
-#include "core/texture/file_size.h"
 
 namespace seedmesh::lsystem {
 namespace {
@@ -50,7 +49,7 @@ std::uint32_t steps_of(const LsystemParams& params) {
   return math::to_uint32(std::ceil(*params.age));
 }
 
-/// Returns the share of the last step that has happened.
+/// Returns the share of the last step that has passed.
 double share_of(const LsystemParams& params) {
   if (!params.age || params.timed) return 1;
   return 1 - (std::ceil(*params.age) - *params.age);
@@ -250,6 +249,7 @@ Result<Model> generate(const LsystemParams& params, const GenerateContext& conte
     warn_of_braces(drawing, grammar->warnings);
   }
   shape(skeleton, params, job);
+  if (params.style == LsystemParams::Style::tubes) warn_of_thick(skeleton.limbs, grammar->warnings);
   job.progress("mesh", 0);
   Model model = build_model(std::move(skeleton), params, context);
   if (systems) systems->add_others(model);
@@ -339,10 +339,7 @@ static std::optional<Estimate> estimate_of_made(const LsystemParams& params, con
     const Result<Model> model =
         generate(params, {own, {.textures = context.demand.textures}, context.generators});
     if (!model) return;
-    const ModelCounts counts = count(*model);
-    texture::TextureSizes textures;
-    for (const Material& material : model->materials) textures.add(material);
-    estimate = {counts.triangles, counts.bytes + textures.bytes(context.demand.textures), false};
+    estimate = {count(*model).triangles, bytes_of_made(*model, context.demand), false};
   });
   return is_small ? estimate : std::nullopt;
 }

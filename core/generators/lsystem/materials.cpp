@@ -44,7 +44,7 @@ void check_materials(const LsystemParams& params, std::vector<Issue>& issues) {
   for (std::size_t i = 0; i < params.materials.size(); ++i) {
     const Given& given = params.materials[i];
     if (!given.color && !has_texture(given) && given.images.color.empty()) {
-      issues.emplace_back(IssueKind::missing, pointer_to(i),
+      issues.emplace_back(missing_for({"color", "texture", "images"}), pointer_to(i),
                           "found neither color nor texture nor images/color; a material needs one of them");
     }
     const auto check = [&](const std::string& uri, const char* member) {
@@ -65,6 +65,15 @@ bool wraps_images(const LsystemParams& params) {
   });
 }
 
+std::int16_t palette_color_of(LsystemShape shape) {
+  using Shape = LsystemShape;
+  constexpr std::int16_t leaf = 1, petal = 4, berry = 6;
+  if (shape == Shape::petal) return petal;
+  if (shape == Shape::fruit) return berry;
+  constexpr Shape others[] = {Shape::patches, Shape::model, Shape::sphere, Shape::disc};
+  return std::ranges::find(others, shape) == std::end(others) ? leaf : -1;
+}
+
 MaterialSet::MaterialSet(Model& model, const LsystemParams& params, const Job& job)
     : model_(model),
       params_(params),
@@ -81,11 +90,7 @@ MaterialSet::MaterialSet(Model& model, const LsystemParams& params, const Job& j
 
 int MaterialSet::load(const std::string& uri, const std::string& name, const std::string& pointer,
                       const Job& job) {
-  if (uri.empty()) return -1;
-  Result<std::shared_ptr<const Image>> image = texture::image_of_data_uri(uri, name, job);
-  if (!image) job.refuse({IssueKind::invalid_value, pointer, image.error().issues.front().message});
-  model_.textures.push_back(*std::move(image));
-  return static_cast<int>(model_.textures.size()) - 1;
+  return uri.empty() ? -1 : texture::add_image_of_uri(model_, uri, name, pointer, job);
 }
 
 int MaterialSet::material(std::int16_t color, Sides sides, const TextureRecipe& recipe) {

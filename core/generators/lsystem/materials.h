@@ -18,6 +18,10 @@ void check_materials(const LsystemParams& params, std::vector<Issue>& issues);
 /// repeat a whole number of times around a limb.
 bool wraps_images(const LsystemParams& params);
 
+/// Returns the colour index in the built-in palette of an organ of this shape that has no colour of its own: that of leaves,
+/// petals or berries, or -1, the turtle's.
+std::int16_t palette_color_of(LsystemShape shape);
+
 /// Creates materials on first use: one for each colour index, number of visible sides and kind of texture.
 class MaterialSet {
  public:

@@ -103,16 +103,18 @@ void check_environment(const LsystemParams& params, std::vector<Issue>& issues) 
     const std::string pointer = "/environment/solids/" + std::to_string(i);
     const bool is_mesh = solid.solid_shape == LsystemParams::SolidShape::mesh;
     if (is_mesh && solid.model.has_value() == solid.glb.has_value()) {
-      issues.emplace_back(IssueKind::conflict, pointer, "a mesh has either `model` or `glb`");
+      issues.emplace_back(conflict_with({"model", "glb", "shape"}), pointer,
+                          "a mesh has either `model` or `glb`");
     } else if (!is_mesh && (solid.model || solid.glb)) {
-      issues.emplace_back(IssueKind::conflict, pointer, "found a model; only the shape mesh has one");
+      issues.emplace_back(conflict_with({"model", "glb", "shape"}), pointer,
+                          "found a model; only the shape mesh has one");
     }
     if (solid.glb && !is_glb_uri(*solid.glb)) {
       issues.emplace_back(IssueKind::invalid_value, pointer + "/glb",
                           "found no data URI of a GLB; expected data:model/gltf-binary;base64,...");
     }
     if (solid.role == LsystemParams::Role::host && !is_mesh) {
-      issues.emplace_back(IssueKind::conflict, pointer + "/shape",
+      issues.emplace_back(conflict_with({"role"}), pointer + "/shape",
                           "a host is part of the model and must be a mesh");
     }
   }
@@ -132,7 +134,7 @@ void check_environment(const LsystemParams& params, std::vector<Issue>& issues) 
                           "the age of a companion must be a whole number of iterations");
     }
     if (errors.empty() && system.environment) {
-      issues.emplace_back(IssueKind::conflict, pointer + "/parameters/environment",
+      issues.emplace_back(conflict_with({"system"}), pointer + "/parameters/environment",
                           "a companion uses this environment and cannot have its own");
     }
   }

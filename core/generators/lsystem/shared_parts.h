@@ -10,7 +10,7 @@
 
 namespace seedmesh::lsystem {
 
-/// Returns true where the request wants shared parts and its system allows them: a plain system
+/// Returns true where the request selects shared parts and its system allows them: a plain system
 /// (DrawingCache::fits) whose widths follow from symbols or steps, and an output for which no step processes
 /// the plant as a whole.
 bool has_shared_parts(const Grammar& grammar, const LsystemParams& params, std::uint32_t steps,

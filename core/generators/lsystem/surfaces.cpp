@@ -263,7 +263,7 @@ std::uint64_t shown_at(const Model& model, int level) {
   return triangles;
 }
 
-/// Returns the share of organs that a level keeps: enough to hold the outline, within the `left` triangles of
+/// Returns the share of organs that a level keeps: enough to keep the outline, within the `left` triangles of
 /// the budget. `whole` is the number for all organs.
 double organs_at(const Detail& detail, const FoliageLevels& levels, std::uint64_t whole, std::uint64_t left) {
   const double share = static_cast<double>(left) / static_cast<double>(std::max<std::uint64_t>(whole, 1));
@@ -338,17 +338,17 @@ void check_surfaces(const LsystemParams& params, std::vector<Issue>& issues) {
     const std::string at = "/surfaces/" + name + "/patches";
     if (surface.shape == Shape::patches && surface.patches.empty()) {
       issues.push_back(
-          {IssueKind::missing, at, "found no patches; the shape \"patches\" needs at least one"});
+          {missing_for({"shape"}), at, "found no patches; the shape \"patches\" needs at least one"});
     }
     if (surface.shape != Shape::patches && !surface.patches.empty()) {
-      issues.push_back({IssueKind::conflict, at,
+      issues.push_back({conflict_with({"shape"}), at,
                         "found patches with the shape \"" + std::string(text_of(surface.shape)) +
                             "\"; expected the shape \"patches\""});
     }
     const int models = (surface.model ? 1 : 0) + (surface.glb ? 1 : 0);
     const bool is_model = surface.shape == Shape::model;
     if (models != (is_model ? 1 : 0)) {
-      issues.push_back({IssueKind::conflict, "/surfaces/" + name,
+      issues.push_back({conflict_with({"shape", "model", "glb"}), "/surfaces/" + name,
                         is_model ? "found " + std::to_string(models) +
                                        " models; the shape \"model\" needs either model or glb"
                                  : "found a model with the shape \"" + std::string(text_of(surface.shape)) +

@@ -83,7 +83,7 @@ class Writer {
     KindId kind = 0;
     std::uint32_t depth = 0;
     std::uint64_t key = 0;
-    std::size_t first = 0;  ///< of its parameters in `values_`
+    std::size_t first = 0;  ///< index of its first parameter in `values_`
   };
 
   void push(const Template& each, const double* slots, std::uint64_t key, std::uint32_t depth,

@@ -1,8 +1,10 @@
 #include "core/generators/lsystem/word_warnings.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/generators/lsystem/growth.h"
+#include "core/schema/json.h"
 
 namespace seedmesh::lsystem {
 namespace {
@@ -49,6 +51,30 @@ void warn_of_word(const Grammar& grammar, const std::vector<std::uint64_t>& coun
     return;
   warnings.push_back(
       {"/axiom", "nothing will be drawn: the last word has no F or G, no polygon and no organ", 0, 0});
+}
+
+void warn_of_thick(const Limbs& limbs, std::vector<Warning>& warnings) {
+  constexpr std::size_t fewest = 16;  // fewer internodes are a post, a disc or a similar part
+  constexpr float most = 0.75F;       // width, as a share of the largest extent
+  if (limbs.size() < fewest) return;
+  glm::vec3 low = limbs.position[0], high = low;
+  float widest = 0;
+  for (std::size_t i = 0; i < limbs.size(); ++i) {
+    low = glm::min(low, limbs.position[i]);
+    high = glm::max(high, limbs.position[i]);
+    if (limbs.parent[i] != Limbs::none)
+      widest = std::max(widest, 2 * std::max(limbs.radius[i], limbs.base_radius[i]));
+  }
+  const float extent = std::max({high.x - low.x, high.y - low.y, high.z - low.z});
+  if (!(widest > most * extent)) return;
+  const auto metres = [](float value) {
+    return number_text(std::round(100.0 * static_cast<double>(value)) / 100) + " m";
+  };
+  warnings.push_back({"/width",
+                      "the widest internode has a diameter of " + metres(widest) +
+                          ", and the axes of all limbs extend over " + metres(extent) +
+                          "; widths are in metres, while those of figures are often in pixels",
+                      0, 0});
 }
 
 }  // namespace seedmesh::lsystem

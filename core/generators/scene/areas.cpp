@@ -11,6 +11,7 @@
 #include "core/generators/scene/buildings.h"
 #include "core/geom/polygon/plan.h"
 #include "core/model/build.h"
+#include "core/model/empty_mesh.h"
 #include "generated/params/scene.h"
 
 namespace seedmesh::scene {
@@ -26,14 +27,6 @@ Key key_of(const SceneArea& area) {
   const Color& color = area.color;
   return {area.name, static_cast<std::uint32_t>(color.red << 16U | color.green << 8U | color.blue),
           area.roughness, light_key(area)};
-}
-
-Mesh empty_mesh(const Job& job) {
-  Mesh mesh;
-  mesh.position = Array<glm::vec3>(job);
-  mesh.normal = Array<glm::vec3>(job);
-  mesh.index.wide = Array<std::uint32_t>(job);
-  return mesh;
 }
 
 void append(Mesh& mesh, const SceneArea& area, double height, Job& job) {

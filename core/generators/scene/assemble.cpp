@@ -56,9 +56,7 @@ class Assembly {
         context_(context),
         job_(context.job) {
     model_.name = "scene";
-    Node root;
-    root.name = "scene";
-    model_.nodes.push_back(std::move(root));
+    add_node(model_, "scene", -1);
   }
 
   Model assemble(Pieces pieces) {

@@ -12,6 +12,7 @@
 #include "core/generators/scene/ground.h"
 #include "core/geom/mesh/weld.h"
 #include "core/model/build.h"
+#include "core/model/empty_mesh.h"
 #include "generated/params/scene.h"
 
 namespace seedmesh::scene {
@@ -89,11 +90,8 @@ glm::u8vec4 color_of(const Color& color) {
 
 /// The triangles of a mass, with vertices for each of its faces.
 Mesh mesh_of(const Mass& mass, const SceneBuilding& building, const Job& job) {
-  Mesh mesh;
-  mesh.position = Array<glm::vec3>(job);
-  mesh.normal = Array<glm::vec3>(job);
+  Mesh mesh = empty_mesh(job);
   mesh.color = Array<glm::u8vec4>(job);
-  mesh.index.wide = Array<std::uint32_t>(job);
   mesh.index.wide.reserve(3 * mass.triangles.size());
   const glm::u8vec4 wall = color_of(building.color), roof = color_of(building.roof.color);
   std::vector<std::uint32_t> vertex(mass.point.size()), seen(mass.point.size(), 0);
@@ -196,10 +194,8 @@ void add_nodes(Model& model, const SceneParams& params, std::vector<Body> bodies
 
 void append(Mesh& mesh, const Body& body, const Job& job) {
   if (mesh.position.empty()) {
-    mesh.position = Array<glm::vec3>(job);
-    mesh.normal = Array<glm::vec3>(job);
+    mesh = empty_mesh(job);
     mesh.color = Array<glm::u8vec4>(job);
-    mesh.index.wide = Array<std::uint32_t>(job);
   }
   const auto shift = static_cast<std::uint32_t>(mesh.position.size());
   const glm::vec3 at = glm::vec3(raised(body.middle, body.ground)) + 0.0F;

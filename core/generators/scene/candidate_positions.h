@@ -37,7 +37,7 @@ struct Placement {
 Issue shapes_issue(const std::string& what, double needed, const Job& job);
 
 /// Returns positions in `part` of `whole` with a minimum distance of `distance`. The pattern is nearly
-/// saturated: about 0.67 positions in a square of side `distance`. The distance also holds after rounding of
+/// saturated: about 0.67 positions in a square of side `distance`. The distance is also kept after rounding of
 /// coordinates to 32 bits.
 ///
 /// The method is dart throwing: random candidates are tried in the cells of a grid, in three rounds. The

@@ -39,14 +39,14 @@ class Checker {
   }
 
  private:
-  void add(IssueKind kind, std::string pointer, std::string message) {
-    issues_.emplace_back(kind, std::move(pointer), std::move(message));
+  void add(IssueCause cause, std::string pointer, std::string message) {
+    issues_.emplace_back(std::move(cause), std::move(pointer), std::move(message));
   }
 
   void check_ground() {
     if (!params_.terrain) return;
     if (params_.ground)
-      add(IssueKind::conflict, "/ground", "found both `terrain` and `ground`; expected one of them");
+      add(conflict_with({"terrain"}), "/ground", "found both `terrain` and `ground`; expected one of them");
     const Child& terrain = *params_.terrain;
     if (terrain.generator.empty()) return;
     if (terrain.generator != ground_name) {
@@ -67,7 +67,7 @@ class Checker {
         params_.layers, [](const SceneLayer& layer) { return layer.foundation.has_value(); });
     if (parameters.contains("refine") &&
         (has_foundations || !params_.paths.empty() || !params_.buildings.empty())) {
-      add(IssueKind::conflict, "/terrain/parameters/refine",
+      add(conflict_with({"layers", "paths", "buildings"}), "/terrain/parameters/refine",
           "paths, buildings and foundations lie on the squares of the grid; expected a scene without them");
     }
   }
@@ -117,7 +117,7 @@ class Checker {
     if (layer.start && generator && !generator->grows)
       add(IssueKind::not_available, pointer + "/start", layer.model.generator + " does not grow");
     if (layer.foundation && !layer.footprint) {
-      add(IssueKind::conflict, pointer + "/foundation",
+      add(conflict_with({"footprint"}), pointer + "/foundation",
           "a foundation needs a footprint, and the layer has none");
     }
     for (std::size_t i = 0; i < layer.vary.size(); ++i)
@@ -136,7 +136,7 @@ class Checker {
     const bool has_range = variation.from.has_value() || variation.to.has_value();
     if (has_range == variation.among.has_value() ||
         (has_range && !(variation.from.has_value() && variation.to.has_value()))) {
-      add(IssueKind::conflict, pointer, "expected either `from` and `to`, or `among`");
+      add(conflict_with({"from", "to", "among"}), pointer, "expected either `from` and `to`, or `among`");
       return;
     }
     if (has_range && *variation.from > *variation.to) {
@@ -180,9 +180,9 @@ class Checker {
                             std::initializer_list<Method> of) {
       const bool belongs = std::find(of.begin(), of.end(), place.method) != of.end();
       if (is_given && !belongs)
-        add(IssueKind::conflict, pointer + "/" + name, "has no effect with the method " + method);
+        add(conflict_with({"method"}), pointer + "/" + name, "has no effect with the method " + method);
       if (!is_given && is_needed && belongs)
-        add(IssueKind::missing, pointer, "the method " + method + " needs `" + name + "`");
+        add(missing_for({name, "method"}), pointer, "the method " + method + " needs `" + name + "`");
     };
     member("positions", !place.positions.empty(), true, {Method::positions});
     member("distance", place.distance.has_value(), true, {Method::poisson, Method::path});
@@ -198,7 +198,7 @@ class Checker {
            {Method::poisson, Method::scatter, Method::clusters, Method::rows, Method::path});
     const bool needs_count = place.method == Method::scatter || place.method == Method::clusters;
     if (needs_count && !place.count)
-      add(IssueKind::missing, pointer, "the method " + method + " needs `count`");
+      add(missing_for({"count", "method"}), pointer, "the method " + method + " needs `count`");
     const std::uint64_t most = context_.job.limits().shapes;
     if (needs_count && place.count && static_cast<std::uint64_t>(*place.count) > most) {
       issues_.push_back(limit_issue(
@@ -228,9 +228,10 @@ class Checker {
     for (std::size_t i = 0; i < place.near.size(); ++i)
       check_near(place.near[i], number, pointer + "/near/" + std::to_string(i));
     if (place.above_water && !params_.terrain)
-      add(IssueKind::conflict, pointer + "/above_water", "there is no water; only a terrain has water");
+      add(conflict_with({"terrain"}), pointer + "/above_water",
+          "there is no water; only a terrain has water");
     if (place.ground && !params_.terrain) {
-      add(IssueKind::conflict, pointer + "/ground",
+      add(conflict_with({"terrain"}), pointer + "/ground",
           "there are no classes of ground; only a terrain has them");
     }
   }
@@ -249,7 +250,8 @@ class Checker {
   /// Explicit positions ignore all rules.
   void refuse_rules(const ScenePlace& place, const std::string& pointer) {
     const auto refuse = [&](bool is_given, const char* name) {
-      if (is_given) add(IssueKind::conflict, pointer + "/" + name, "has no effect with the method positions");
+      if (is_given)
+        add(conflict_with({"method"}), pointer + "/" + name, "has no effect with the method positions");
     };
     refuse(place.area.has_value(), "area");
     refuse(place.edge != 0, "edge");
@@ -280,7 +282,7 @@ class Checker {
       add(IssueKind::unknown_name, pointer + "/layer",
           schema::unknown_word("layer before this one called", near.layer, names));
     }
-    if (!near.from && !near.to) add(IssueKind::missing, pointer, "expected `from`, `to` or both");
+    if (!near.from && !near.to) add(missing_for({"from", "to"}), pointer, "expected `from`, `to` or both");
     if (near.from && near.to && *near.from > *near.to)
       add(IssueKind::out_of_range, pointer + "/from", "`from` is greater than `to`");
   }

@@ -46,18 +46,19 @@ void check_building(const SceneBuilding& building, const std::string& pointer, c
     return;
   }
   const SceneRoof& roof = building.roof;
-  const auto conflict = [&](bool is_given, const char* name, const char* message) {
-    if (is_given) issues.emplace_back(IssueKind::conflict, pointer + "/roof/" + name, message);
+  const auto conflict = [&](bool is_given, const char* name, const char* other, const char* message) {
+    if (is_given) issues.emplace_back(conflict_with({other}), pointer + "/roof/" + name, message);
   };
   if (roof.shape == SceneShape::flat) {
     const char* message = "has no effect on a flat roof";
-    conflict(roof.height.has_value(), "height", message);
-    conflict(roof.angle.has_value(), "angle", message);
-    conflict(roof.direction.has_value(), "direction", message);
+    conflict(roof.height.has_value(), "height", "shape", message);
+    conflict(roof.angle.has_value(), "angle", "shape", message);
+    conflict(roof.direction.has_value(), "direction", "shape", message);
     return;
   }
-  conflict(roof.height && roof.angle, "angle", "found both `height` and `angle`; expected one of them");
-  conflict(roof.direction && roof.orientation == SceneOrientation::across, "orientation",
+  conflict(roof.height && roof.angle, "angle", "height",
+           "found both `height` and `angle`; expected one of them");
+  conflict(roof.direction && roof.orientation == SceneOrientation::across, "orientation", "direction",
            "found both `direction` and `orientation`; expected one of them");
   if (roof.height && *roof.height > building.height - building.base + 1e-6) {
     issues.emplace_back(IssueKind::out_of_range, pointer + "/roof/height",
@@ -90,7 +91,7 @@ void check_outlines(const SceneParams& params, const Job& job, std::vector<Issue
     check_rings(params.areas[i].outline, pointer, job, issues);
   }
   if (!params.areas.empty() && params.terrain)
-    issues.emplace_back(IssueKind::conflict, "/areas", "found a terrain; areas lie on level ground");
+    issues.emplace_back(conflict_with({"terrain"}), "/areas", "found a terrain; areas lie on level ground");
 }
 
 }  // namespace seedmesh::scene

@@ -22,7 +22,7 @@ constexpr double poisson_density = 0.67;        ///< positions in a square with 
 constexpr std::uint64_t bytes_a_node = 230;     ///< size of a copy in core glTF: one line of JSON
 constexpr std::uint64_t grid_to_reduced = 8;    ///< approximate triangles of a grid for one of a reduced mesh
 constexpr std::uint64_t bytes_a_triangle = 24;  ///< size of a triangle of a reduced mesh
-constexpr std::uint64_t bytes_an_outline_triangle = 66;  ///< of a building with a node of its own
+constexpr std::uint64_t bytes_an_outline_triangle = 66;  ///< bytes of a building with a node of its own
 constexpr Estimate square{2, 800, true}, disc{94, 3200, true}, none{0, 100, true};
 
 double area_of(const ScenePlace& place, const Extent& extent) {

@@ -16,7 +16,7 @@ std::optional<Extent> known_extent(const SceneParams& params);
 double expected_placements(const SceneLayer& layer, const Extent& extent);
 
 /// Estimates the ground and all placements. Rules that depend on the ground are sampled (sampled_share.h), which
-/// computes the heights of a terrain of up to 2049 x 2049 samples. `estimates` holds one entry for each of
+/// computes the heights of a terrain of up to 2049 x 2049 samples. `estimates` has one entry for each of
 /// VariantTable::variants. Returns nullopt where no variant of a layer has an estimate. A variant without
 /// estimate counts as the mean of its layer; a reduced ground counts as an eighth of its grid. The result is
 /// exact where all positions are given and all estimates are exact. Bytes count each variant once and one node

@@ -13,7 +13,7 @@ namespace {
 // An inexact value counts with this part only, so that no scene is refused that would fit: an estimate before
 // work, or a sibling of a model that differs only in its seed.
 constexpr std::uint64_t part = 2;
-// With at least this number of models it pays to generate a sample first.
+// With at least this number of models, a sample is generated first.
 constexpr std::size_t many = 12;
 
 constexpr std::array<Resource, 3> resources = {Resource::modules, Resource::shapes, Resource::triangles};

@@ -16,6 +16,7 @@
 #include "core/generators/terrain/terrain.h"
 #include "core/model/append.h"
 #include "core/model/build.h"
+#include "core/model/empty_mesh.h"
 #include "generated/params/scene.h"
 #include "generated/params/terrain.h"
 
@@ -38,11 +39,8 @@ Extent around_middle(const glm::dvec2& size) { return {-size / 2.0, size / 2.0};
 
 /// Returns level ground: two triangles, or a disc.
 Mesh flat_mesh(const Extent& extent, bool round, const Job& job) {
-  Mesh mesh;
-  mesh.position = Array<glm::vec3>(job);
-  mesh.normal = Array<glm::vec3>(job);
+  Mesh mesh = empty_mesh(job);
   mesh.uv[0] = Array<glm::vec2>(job);
-  mesh.index.wide = Array<std::uint32_t>(job);
   const auto add = [&](const glm::dvec2& p) {
     const glm::dvec2 share = (p - extent.min) / extent.size();
     mesh.position.push_back({static_cast<float>(p.x), 0, static_cast<float>(p.y)});

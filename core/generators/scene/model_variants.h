@@ -23,7 +23,7 @@ namespace seedmesh::scene {
 struct ModelVariant {
   std::string name;     ///< name of the layer and a number, unique
   std::string pointer;  ///< pointer to its request in the parameters
-  Child request;        ///< with its seed, and the values of `vary`, `age` and `season`
+  Child request;        ///< request with its seed, and the values of `vary`, `age` and `season`
 };
 
 struct VariantTable {
@@ -31,7 +31,7 @@ struct VariantTable {
   /// By layer: index of its first variant, and their number.
   struct Layer {
     std::uint32_t first = 0, count = 0;
-    /// by explicit position: its variant; none: a variant of the layer
+    /// Variant of each explicit position; none: a variant of the layer
     std::vector<std::uint32_t> by_position;
   };
   std::vector<Layer> layers;

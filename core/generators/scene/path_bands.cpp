@@ -12,6 +12,7 @@
 #include "core/generators/material_members.h"
 #include "core/generators/scene/ground.h"
 #include "core/model/build.h"
+#include "core/model/empty_mesh.h"
 #include "core/model/levels.h"
 #include "core/schema/json.h"
 #include "core/texture/ground.h"
@@ -54,13 +55,11 @@ class Band {
  public:
   Band(const Ground& ground, double cell, PathSurface surface, Job& job)
       : ground_(ground), cell_(cell), surface_(surface), job_(job) {
+    mesh_ = empty_mesh(job);
     if (surface == PathSurface::soil) {
       mesh_.uv[0] = Array<glm::vec2>(job);
       mesh_.color = Array<glm::u8vec4>(job);
     }
-    mesh_.position = Array<glm::vec3>(job);
-    mesh_.normal = Array<glm::vec3>(job);
-    mesh_.index.wide = Array<std::uint32_t>(job);
   }
 
   void lay(const std::vector<glm::dvec2>& points, double half_width) {
@@ -178,10 +177,7 @@ std::vector<double> errors_of_levels(const Model& model) {
 }
 
 Mesh copy_of(const Mesh& mesh, double lifted, const Job& job) {
-  Mesh copy;
-  copy.position = Array<glm::vec3>(job);
-  copy.normal = Array<glm::vec3>(job);
-  copy.index.wide = Array<std::uint32_t>(job);
+  Mesh copy = empty_mesh(job);
   copy.uv[0] = Array<glm::vec2>(job);
   copy.color = Array<glm::u8vec4>(job);
   copy.uv[0].append(mesh.uv[0].span());

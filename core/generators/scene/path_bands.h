@@ -13,7 +13,7 @@ namespace seedmesh::scene {
 
 class Ground;
 
-/// What paths look like: one colour, or the texture of soil with ruts and darker edges.
+/// The appearance of paths: one colour, or the texture of soil with ruts and darker edges.
 enum class PathSurface { plain, soil };
 
 /// Adds a mesh for each visible path, slightly above the ground. Its node is a child of the first node. If there are more

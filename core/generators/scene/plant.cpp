@@ -20,7 +20,7 @@ namespace {
 constexpr std::size_t placements_a_chunk = 4096;
 // Number of placements between two checks of the deadline; a placement can have many neighbours.
 constexpr std::size_t placements_a_look = 64;
-// Attempts for each requested placement before a layer gives up.
+// Attempts for each requested placement before a layer stops.
 constexpr std::size_t most_tries = 64;
 constexpr std::size_t least_batch = 1024;
 
@@ -53,7 +53,7 @@ Base base_of(const SceneLayer& layer) {
   return {glm::dvec2(size[0], size[1]) / 2.0, false};
 }
 
-/// Processes the layers in order; each layer sees the earlier ones.
+/// Processes the layers in order; rules of a layer can use the earlier ones.
 class Planter {
  public:
   Planter(const SceneParams& params, Ground& ground, Job& job)

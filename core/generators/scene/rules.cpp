@@ -4,8 +4,7 @@
 #include <cmath>
 
 #include "core/base/math.h"
-#include "core/generators/terrain/image.h"
-#include "core/texture/png.h"
+#include "core/texture/data_uri.h"
 #include "generated/params/scene.h"
 
 namespace seedmesh::scene {
@@ -75,25 +74,9 @@ double share_of_noise(const SceneNoise& noise, const glm::dvec2& p, std::uint64_
 }
 
 DensityImage read_image(const std::string& text, const std::string& pointer, const Job& job) {
-  const auto refuse = [&](const Error& error) {
-    job.refuse({IssueKind::invalid_value, pointer, error.issues.front().message});
-  };
-  const Result<Array<std::uint8_t>> bytes = terrain::bytes_of_base64(text, job);
-  if (!bytes) refuse(bytes.error());
-  const Result<texture::Picture> decoded = texture::decode_png(std::as_bytes(bytes->span()), {}, job);
-  if (!decoded) refuse(decoded.error());
-  DensityImage image{decoded->width, decoded->height, {}};
-  const double greatest = decoded->bits == 8 ? 255.0 : 65535.0;
-  const auto channels = static_cast<std::size_t>(decoded->channels);
-  const std::size_t colors = channels >= 3 ? 3 : 1;
-  image.share.resize(std::size_t{decoded->width} * decoded->height);
-  for (std::size_t i = 0; i < image.share.size(); ++i) {
-    if (i % 4096 == 0) job.check();
-    double sum = 0;
-    for (std::size_t k = 0; k < colors; ++k) sum += decoded->channel(i * channels + k);
-    image.share[i] = static_cast<float>(sum / (greatest * static_cast<double>(colors)));
-  }
-  return image;
+  Result<texture::Brightness> image = texture::brightness_of_png(text, job);
+  if (!image) job.refuse({IssueKind::invalid_value, pointer, image.error().issues.front().message});
+  return {image->width, image->height, std::move(image->values)};
 }
 
 }  // namespace

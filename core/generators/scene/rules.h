@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/base/array.h"
 #include "core/generators/scene/ground.h"
 #include "core/generators/scene/shapes.h"
 
@@ -47,7 +48,7 @@ class Obstacles {
 /// A greyscale image stretched over the ground.
 struct DensityImage {
   std::uint32_t width = 0, depth = 0;
-  std::vector<float> share;  ///< row by row, from the north
+  Array<float> share;  ///< row by row, from the north
   /// Returns the bilinear interpolation between pixel centres, clamped at the border.
   double at(const glm::dvec2& position) const;  ///< 0..1 from the north-west corner
 };

@@ -67,25 +67,29 @@ std::vector<Warning> without_effect(const SceneParams& params) {
 std::vector<Issue> conflicts(const SceneParams& params, const GenerateContext& context) {
   const Demand& demand = context.demand;
   std::vector<Issue> issues;
-  const auto add = [&issues](const char* pointer, std::string message) {
-    issues.push_back({IssueKind::conflict, pointer, std::move(message)});
+  const auto add = [&issues](const char* pointer, const char* other, std::string message) {
+    issues.emplace_back(conflict_with({other}), pointer, std::move(message));
   };
   const std::string levels = "found " + std::to_string(demand.lods) + " levels of detail";
   if (params.camera && demand.lods > 1)
-    add("/output/lods", levels + " and a camera, which chooses one for each placement");
+    add("/output/lods", "parameters/camera", levels + " and a camera, which chooses one for each placement");
   if (params.camera && demand.impostor)
-    add("/output/impostor", "found a level of detail and a camera, which chooses one for each placement");
+    add("/output/impostor", "parameters/camera",
+        "found a level of detail and a camera, which chooses one for each placement");
   if (demand.copies == CopyForm::merge && wants_impostors(params, demand))
-    add("/output/instancing", "found merge; a merged mesh cannot use impostors");
+    add("/output/instancing", "output/impostor", "found merge; a merged mesh cannot use impostors");
   if (demand.impostor && !any_model(params, HasTrait{context.generators, &Generator::has_impostor}))
-    add("/output/impostor", "found an impostor; no model supports impostors");
+    add("/output/impostor", "parameters/layers", "found an impostor; no model supports impostors");
   if (!demand.growth) return issues;
   if (!any_model(params, HasTrait{context.generators, &Generator::grows}))
-    add("/output/animation", "found growth, but no model grows");
-  if (demand.lods > 1) add("/output/lods", levels + "; growing plants of a scene have one level");
-  if (params.camera) add("/camera", "a camera chooses levels of detail; growing plants have one level");
+    add("/output/animation", "parameters/layers", "found growth, but no model grows");
+  if (demand.lods > 1)
+    add("/output/lods", "output/animation", levels + "; growing plants of a scene have one level");
+  if (params.camera)
+    add("/camera", "output/animation", "a camera chooses levels of detail; growing plants have one level");
   if (demand.copies == CopyForm::gpu)
-    add("/output/instancing", "found gpu; instanced copies have no bones and cannot grow");
+    add("/output/instancing", "output/animation",
+        "found gpu; instanced copies have no bones and cannot grow");
   return issues;
 }
 
@@ -222,7 +226,8 @@ Result<Payload> encode(const SceneParams& params, const WantedFormat&, const Gen
   Job& job = context.job;
   if (auto refused = refusal(params, context)) return std::move(*refused);
   if (params.camera)
-    return Error{Code::invalid, {{IssueKind::conflict, "/camera", "has no effect on a list of placements"}}};
+    return Error{Code::invalid,
+                 {{conflict_with({"output/format"}), "/camera", "has no effect on a list of placements"}}};
   refuse_patterns(params, job);
   job.progress("derive", 0);
   const VariantTable variant_table = variant_table_of(params, job);

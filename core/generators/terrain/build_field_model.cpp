@@ -16,6 +16,7 @@
 #include "core/generators/terrain/refined_mesh.h"
 #include "core/generators/terrain/scan.h"
 #include "core/generators/terrain/surface.h"
+#include "core/texture/png_image.h"
 #include "generated/params/terrain.h"
 
 namespace seedmesh::terrain {
@@ -42,11 +43,8 @@ Material wall_material() {
 }
 
 int add_texture(Model& model, std::string name, const texture::Picture& picture, Job& job) {
-  const Array<std::uint8_t> file = texture::encode_png(picture.view(), texture::PngEffort::small, job);
-  auto image = std::make_shared<Image>();
-  image->name = std::move(name);
-  image->bytes.assign(file.begin(), file.end());
-  model.textures.push_back(std::move(image));
+  model.textures.push_back(
+      texture::png_image(std::move(name), picture.view(), texture::PngEffort::small, job));
   return static_cast<int>(model.textures.size()) - 1;
 }
 
@@ -66,9 +64,7 @@ class FieldModelBuilder {
   Model build() {
     Model model;
     model.name = "terrain";
-    Node root;
-    root.name = "terrain";
-    model.nodes.push_back(std::move(root));
+    add_node(model, "terrain", -1);
     if (has_detail()) {
       sites_.emplace(sites());
       classes_.emplace(field_, window_of(params_), *sites_, ground_colors_, ground_material(params_), model);

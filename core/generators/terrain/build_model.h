@@ -27,4 +27,7 @@ constexpr const char* rock_kind = "rock_ground";
 /// Returns the model of a planetoid. Level k has 2^k times fewer points along an edge of its cube.
 Model build_planet_model(const TerrainParams& params, const GenerateContext& context);
 
+/// Returns the number of points along an edge of the cube of a planetoid's sea at a level.
+std::int32_t sea_side(const TerrainParams& params, int level);
+
 }  // namespace seedmesh::terrain

@@ -25,9 +25,7 @@ class PlanetModelBuilder {
     const GroundColors ground_colors(palette_of(params_), range, level);
     Model model;
     model.name = "terrain";
-    Node root;
-    root.name = "terrain";
-    model.nodes.push_back(std::move(root));
+    add_node(model, "terrain", -1);
     add_ground(model, std::move(planet), ground_colors);
     if (params_.water_level && level > range.low) {
       add_sea(model, level);
@@ -89,12 +87,11 @@ class PlanetModelBuilder {
   }
 
   void add_sea(Model& model, float level_of_water) {
-    constexpr std::int32_t most = 65;
     const int water = add_material(model, water_material());
     std::int32_t before = 0;
     int node = -1;
     for (int level = 0; level < demand_.lods; ++level) {
-      const std::int32_t own = std::min(planet_side(params_, level), ((most - 1) >> level) + 1);
+      const std::int32_t own = sea_side(params_, level);
       if (own == before) break;
       before = own;
       Planet sea = sphere_of(own, params_.size / 2, job_);
@@ -116,6 +113,11 @@ class PlanetModelBuilder {
 };
 
 }  // namespace
+
+std::int32_t sea_side(const TerrainParams& params, int level) {
+  constexpr std::int32_t most = 65;
+  return std::min(planet_side(params, level), ((most - 1) >> level) + 1);
+}
 
 Model build_planet_model(const TerrainParams& params, const GenerateContext& context) {
   return PlanetModelBuilder(params, context).build();

@@ -41,11 +41,11 @@ class Check {
   }
 
  private:
-  void error_if(bool is_error, IssueKind kind, std::string pointer, std::string message) {
-    if (is_error) error(kind, std::move(pointer), std::move(message));
+  void error_if(bool is_error, IssueCause cause, std::string pointer, std::string message) {
+    if (is_error) error(std::move(cause), std::move(pointer), std::move(message));
   }
-  void error(IssueKind kind, std::string pointer, std::string message) {
-    issues_.emplace_back(kind, std::move(pointer), std::move(message));
+  void error(IssueCause cause, std::string pointer, std::string message) {
+    issues_.emplace_back(std::move(cause), std::move(pointer), std::move(message));
   }
 
   bool is(std::initializer_list<Algorithm> algorithms) const {
@@ -61,7 +61,7 @@ class Check {
     if (!value || is(to)) return;
     std::string owners;
     for (const Algorithm each : to) owners += (owners.empty() ? "" : ", ") + std::string(text_of(each));
-    error(IssueKind::conflict, std::string("/") + name,
+    error(conflict_with({"algorithm"}), std::string("/") + name,
           std::string(text_of(params_.algorithm)) + " has no " + name +
               "; only these algorithms have it: " + owners);
   }
@@ -71,10 +71,9 @@ class Check {
     belongs("resolution", params_.resolution,
             {fault_formation, poisson_faulting, fbm, brownian, expression, fracture});
     belongs("expression", params_.expression, {expression});
-    if (is({expression}) && !params_.expression) {
-      error(IssueKind::missing, "",
+    if (is({expression}) && !params_.expression)
+      error(missing_for({"expression", "algorithm"}), "",
             "\"expression\" is missing; the algorithm expression takes its heights from it");
-    }
     belongs("amplitude", params_.amplitude,
             {triangular_edge, diamond_square, square_square, fbm, brownian, fracture});
     belongs("hurst", params_.hurst, {triangular_edge, diamond_square, square_square, fbm, brownian});
@@ -93,16 +92,17 @@ class Check {
     belongs("fracture", params_.fracture, {fracture});
     belongs("image", params_.image, {image});
     if (is({image}) && !params_.image)
-      error(IssueKind::missing, "", "\"image\" is missing; the algorithm image reads its heights from it");
+      error(missing_for({"image", "algorithm"}), "",
+            "\"image\" is missing; the algorithm image reads its heights from it");
     if (is({triangular_edge}) && params_.hurst &&
         params_.mode.value_or(TerrainMode::random) == TerrainMode::random)
-      error(IssueKind::conflict, "/hurst", "the mode random does not use hurst; only the mode midpoint does");
+      error(conflict_with({"mode"}), "/hurst",
+            "the mode random does not use hurst; only the mode midpoint does");
     if (params_.fault_width &&
         params_.fault_step.value_or(TerrainFaultStep::hard) == TerrainFaultStep::hard &&
-        is({fault_formation, poisson_faulting})) {
-      error(IssueKind::conflict, "/fault_width",
+        is({fault_formation, poisson_faulting}))
+      error(conflict_with({"fault_step"}), "/fault_width",
             "a hard step has no width; expected fault_step line or cosine");
-    }
   }
 
   void iterations() {
@@ -114,8 +114,8 @@ class Check {
     if (is({image, expression, brownian})) {
       const std::string reason =
           std::string("the algorithm ") + std::string(text_of(params_.algorithm)) + " has no iterations";
-      if (params_.iterations) error(IssueKind::conflict, "/iterations", reason);
-      if (params_.extra_iterations > 0) error(IssueKind::conflict, "/extra_iterations", reason);
+      if (params_.iterations) error(conflict_with({"algorithm"}), "/iterations", reason);
+      if (params_.extra_iterations > 0) error(conflict_with({"algorithm"}), "/extra_iterations", reason);
     } else if (is({triangular_edge, diamond_square, square_square}) && all > most_rounds) {
       error(IssueKind::out_of_range, "/iterations",
             found + "; expected at most " + std::to_string(most_rounds) +
@@ -135,15 +135,15 @@ class Check {
     const TerrainEncoding encoding = image.encoding;
     const bool is_raw = encoding == TerrainEncoding::r16 || encoding == TerrainEncoding::r16_big ||
                         encoding == TerrainEncoding::s16 || encoding == TerrainEncoding::s16_big;
-    error_if(image.width && !is_raw, IssueKind::conflict, "/image/width",
+    error_if(image.width && !is_raw, conflict_with({"encoding"}), "/image/width",
              "the file states its own width; this belongs to raw data (r16, r16_big, s16, s16_big)");
     const bool has_range = encoding == TerrainEncoding::grey || encoding == TerrainEncoding::rgb24 ||
                            encoding == TerrainEncoding::rgba32 || encoding == TerrainEncoding::r16 ||
                            encoding == TerrainEncoding::r16_big;
     const TerrainImage usual;
-    error_if(!has_range && image.low != usual.low, IssueKind::conflict, "/image/low",
+    error_if(!has_range && image.low != usual.low, conflict_with({"encoding"}), "/image/low",
              "has no effect, because the values of this encoding are metres");
-    error_if(!has_range && image.high != usual.high, IssueKind::conflict, "/image/high",
+    error_if(!has_range && image.high != usual.high, conflict_with({"encoding"}), "/image/high",
              "has no effect, because the values of this encoding are metres");
     error_if(has_range && image.low == image.high, IssueKind::invalid_value, "/image/high",
              "low and high are the same height");
@@ -161,7 +161,7 @@ class Check {
              "/normalise/low", "the lowest height is above the highest");
     if (params_.normalise) rising("/normalise/from", params_.normalise->from);
     if (params_.terraces) rising("/terraces/from", params_.terraces->from);
-    error_if(params_.island && params_.island->floor && params_.island->depth, IssueKind::conflict,
+    error_if(params_.island && params_.island->floor && params_.island->depth, conflict_with({"floor"}),
              "/island/depth",
              "found both floor and depth; expected one of them, because each sets the height of the rim");
     if (params_.image) check_image(*params_.image);
@@ -194,7 +194,7 @@ class Check {
   }
 
   void rock() {
-    error_if(params_.shape != TerrainShape::sphere, IssueKind::conflict, "/shape",
+    error_if(params_.shape != TerrainShape::sphere, conflict_with({"algorithm"}), "/shape",
              "found \"" + std::string(text_of(params_.shape)) +
                  "\"; fracture breaks a solid, expected \"sphere\"");
     error_if(params_.fracture && params_.fracture->depth[0] > params_.fracture->depth[1],
@@ -235,7 +235,7 @@ class Check {
     const bool is_profile = params_.shape == TerrainShape::profile;
     if (is({brownian})) {
       if (!is_profile) {
-        error(IssueKind::conflict, "/shape",
+        error(conflict_with({"algorithm"}), "/shape",
               "found \"" + std::string(text_of(params_.shape)) +
                   "\"; brownian is a motion along a line, expected \"profile\"");
       }
@@ -262,8 +262,8 @@ class Check {
     if (is({image})) return error(IssueKind::not_available, "/tile", "an image cannot be divided into tiles");
     const bool faults = is({fault_formation, poisson_faulting});
     error_if(
-        !faults && params_.tile->across && !params_.island && !params_.hydraulic, IssueKind::conflict,
-        "/tile/across",
+        !faults && params_.tile->across && !params_.island && !params_.hydraulic,
+        conflict_with({"algorithm", "island", "hydraulic"}), "/tile/across",
         "this world is infinite; across needs fault_formation, poisson_faulting, an island or hydraulic");
     const int across = params_.tile->across.value_or(1);
     const bool finite = faults || params_.hydraulic;
@@ -275,19 +275,18 @@ class Check {
       error(IssueKind::out_of_range, "/tile/z",
             "found " + std::to_string(params_.tile->z) + "; expected 0 to " + std::to_string(across - 1));
     }
-    if (params_.edge.value_or(TerrainEdge::two_neighbours) != TerrainEdge::two_neighbours) {
-      error(IssueKind::conflict, "/edge",
+    if (params_.edge.value_or(TerrainEdge::two_neighbours) != TerrainEdge::two_neighbours)
+      error(conflict_with({"tile"}), "/edge",
             "tiles only fit together under the rule two_neighbours; with others, the border depends on the "
             "inside");
-    }
-    error_if(params_.corners.has_value(), IssueKind::conflict, "/corners",
+    error_if(params_.corners.has_value(), conflict_with({"tile"}), "/corners",
              "tiles share their corners with their neighbours, so the seed determines them");
-    error_if(params_.grid.has_value(), IssueKind::conflict, "/grid",
+    error_if(params_.grid.has_value(), conflict_with({"tile"}), "/grid",
              "tiles share their start heights with their neighbours, so the seed determines them");
     tile_filters(faults);
   }
 
-  /// A filter of a tile must not read samples beyond the margin, unless it knows the values of the whole world.
+  /// A filter of a tile must not read samples beyond the margin, unless it has the values of the whole world.
   void tile_filters(bool faults) {
     constexpr int farthest_smooth = 256;
     if (smooth_reach(params_.smooth) > farthest_smooth) {
@@ -295,16 +294,17 @@ class Check {
             "found " + Json(params_.smooth).dump() + " %, which reads samples farther than " +
                 std::to_string(farthest_smooth) + " samples away; expected at most 93.7 % for a tile");
     }
-    error_if(params_.normalise && !params_.normalise->from, IssueKind::missing, "/normalise",
-             "\"from\" is missing; a tile needs it, because it does not know the heights of its neighbours");
-    error_if(params_.terraces && !params_.terraces->from, IssueKind::missing, "/terraces",
-             "\"from\" is missing; a tile needs it, because it does not know the heights of its neighbours");
-    error_if(params_.island && !params_.island->floor, IssueKind::missing, "/island",
-             "\"floor\" is missing; a tile needs it, because it does not know the heights of its neighbours");
-    error_if(params_.island && !faults && !params_.tile->across, IssueKind::missing, "/tile",
+    error_if(params_.normalise && !params_.normalise->from, missing_for({"from", "tile"}), "/normalise",
+             "\"from\" is missing; a tile needs it, as it does not depend on other tiles");
+    error_if(params_.terraces && !params_.terraces->from, missing_for({"from", "tile"}), "/terraces",
+             "\"from\" is missing; a tile needs it, as it does not depend on other tiles");
+    error_if(params_.island && !params_.island->floor, missing_for({"floor", "tile"}), "/island",
+             "\"floor\" is missing; a tile needs it, as it does not depend on other tiles");
+    error_if(params_.island && !faults && !params_.tile->across,
+             missing_for({"across", "algorithm", "island"}), "/tile",
              "\"across\" is missing; an island needs the number of its tiles along a side");
     if (params_.hydraulic) hydraulic_tile();
-    error_if(params_.resample.has_value(), IssueKind::conflict, "/resample",
+    error_if(params_.resample.has_value(), conflict_with({"tile"}), "/resample",
              "the samples of a tile are those of the world; expected resolution or iterations instead");
   }
 
@@ -312,7 +312,7 @@ class Check {
   void hydraulic_tile() {
     constexpr std::int64_t longest_side = 4'097;
     if (!params_.tile->across) {
-      return error(IssueKind::missing, "/tile",
+      return error(missing_for({"across", "hydraulic"}), "/tile",
                    "\"across\" is missing; water needs the number of tiles of its world along a side");
     }
     if (const std::int64_t side = samples_across(params_); side > longest_side) {
@@ -327,7 +327,7 @@ class Check {
     const bool drops = given.method == TerrainMethod::droplets;
     const auto belongs_to = [&](bool has, bool to_drops, const char* name) {
       if (has && drops != to_drops) {
-        error(IssueKind::conflict, std::string("/hydraulic/") + name,
+        error(conflict_with({"method"}), std::string("/hydraulic/") + name,
               std::string(text_of(given.method)) + " does not have this parameter; expected the method " +
                   (to_drops ? "droplets" : "stream_power"));
       }
@@ -347,7 +347,7 @@ class Check {
 
   void onto() {
     const auto refuse = [&](bool given, const char* pointer) {
-      error_if(given, IssueKind::conflict, pointer,
+      error_if(given, conflict_with({"onto"}), pointer,
                "heights on a model do not have this parameter; expected a request without onto");
     };
     refuse(params_.shape == TerrainShape::sphere, "/shape");
@@ -359,20 +359,21 @@ class Check {
     refuse(params_.detail, "/detail");
     refuse(params_.refine.has_value(), "/refine");
     const bool moves = params_.onto->mapping == TerrainMapping::displacement;
-    error_if(moves && params_.texture > 0, IssueKind::conflict, "/texture",
+    error_if(moves && params_.texture > 0, conflict_with({"onto/mapping"}), "/texture",
              "a displacement has no texture; expected the mapping normal_map");
-    error_if(!moves && params_.onto->subdivide > 0, IssueKind::conflict, "/onto/subdivide",
+    error_if(!moves && params_.onto->subdivide > 0, conflict_with({"mapping"}), "/onto/subdivide",
              "a normal map does not subdivide; expected the mapping displacement");
   }
 
   void mesh() {
     error_if(params_.refine && (params_.mesh != TerrainMesh::grid || params_.texture > 0),
-             IssueKind::conflict, "/refine",
+             conflict_with({"mesh", "texture"}), "/refine",
              "divides the squares of a grid; expected the mesh grid and texture 0");
-    error_if(params_.max_error && params_.mesh == TerrainMesh::grid, IssueKind::conflict, "/max_error",
+    error_if(params_.max_error && params_.mesh == TerrainMesh::grid, conflict_with({"mesh"}), "/max_error",
              "a grid has every sample and no error; expected the mesh rtin or greedy");
-    error_if(params_.base && params_.skirt > 0, IssueKind::conflict, "/skirt", "a closed solid has no skirt");
-    error_if(params_.detail && params_.texture > 0, IssueKind::conflict, "/detail",
+    error_if(params_.base && params_.skirt > 0, conflict_with({"base"}), "/skirt",
+             "a closed solid has no skirt");
+    error_if(params_.detail && params_.texture > 0, conflict_with({"texture"}), "/detail",
              "a ground with a texture of the whole field has no details that repeat; expected texture 0");
     error_if(params_.texture > 0 && params_.texture < least_texture, IssueKind::out_of_range, "/texture",
              "found " + std::to_string(params_.texture) + "; expected 0, or " +
@@ -380,7 +381,7 @@ class Check {
     if (!issues_.empty() || params_.mesh != TerrainMesh::rtin || params_.algorithm == Algorithm::image)
       return;
     const int side = finished_side(params_);
-    error_if(!fits_rtin(side, side), IssueKind::conflict, "/mesh",
+    error_if(!fits_rtin(side, side), conflict_with({"resolution", "iterations", "resample"}), "/mesh",
              "this field has " + std::to_string(side) +
                  " samples along a side; rtin needs 2^n + 1; resample the field, or use greedy");
   }

@@ -35,8 +35,8 @@ class GroundColors {
   /// `level`: height of the water; there is none at or below range.low.
   GroundColors(PaletteName palette, const Range& range, float level);
   Cover cover(const Site& site) const;
-  glm::vec3 color(const Site& site) const;                                ///< linear
-  float high_share(const Site& site) const { return shares(site).high; }  ///< of high ground
+  glm::vec3 color(const Site& site) const;                                ///< linear RGB
+  float high_share(const Site& site) const { return shares(site).high; }  ///< share of high ground
   PaletteName palette() const { return palette_; }
 
  private:
@@ -55,7 +55,7 @@ class GroundColors {
   bool water_;
 };
 
-/// Sites of a field, row by row, including the margin; sites() fills one row.
+/// Reads the sites of the samples of a field, including those of the margin.
 class Sites {
  public:
   Sites(const Field& field, const Window& world, Rng rng, const Job& job);

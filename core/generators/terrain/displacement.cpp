@@ -8,7 +8,7 @@
 #include "core/geom/mesh/flipped_normals.h"
 #include "core/geom/mesh/point_grid.h"
 #include "core/model/index_width.h"
-#include "core/texture/png.h"
+#include "core/texture/png_image.h"
 
 namespace seedmesh::terrain {
 namespace {
@@ -302,12 +302,9 @@ void displace(Model& model, const Field& field, int rounds, Job& job) {
 
 void add_normal_map(Model& model, const Field& field, std::int32_t side, Job& job) {
   const glm::dvec2 reach = reach_of(field);
-  const Array<std::uint8_t> file = texture::encode_png(slopes_picture(field, 2.0 * reach, side, job).view(),
-                                                       texture::PngEffort::small, job);
-  auto image = std::make_shared<Image>();
-  image->name = "relief_normal";
-  image->bytes.assign(file.begin(), file.end());
-  model.textures.push_back(std::move(image));
+  const texture::Picture slopes = slopes_picture(field, 2.0 * reach, side, job);
+  model.textures.push_back(
+      texture::png_image("relief_normal", slopes.view(), texture::PngEffort::small, job));
   const TextureUse use{static_cast<int>(model.textures.size()) - 1, 1, true};
   for (MeshGroup& group : model.meshes) {
     for (Primitive& each : group.primitives) {

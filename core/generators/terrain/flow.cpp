@@ -109,8 +109,8 @@ void each_inner_neighbour(const Field& field, std::uint32_t sample, const Body& 
   }
 }
 
-/// Sets the receivers of a row of samples to their steepest neighbours, except in depressions, where the water is above
-/// the ground, and on flat ground. `number` is that of the first sample.
+/// Sets the receivers of a row of samples to their steepest neighbours. It leaves out samples below water and on flat
+/// ground. `number` is that of the first sample.
 SEEDMESH_WIDE void follow_slopes(const float* __restrict heights, const float* filled, std::size_t width,
                                  std::size_t count, std::uint32_t number,
                                  std::uint32_t* __restrict receiver) {

@@ -56,8 +56,8 @@ void restore_turned_off(const Mesh& mesh, Array<glm::vec3>& normals, const Job& 
   }
 }
 
-/// The factor of a vertex colour: plants are yellow on dry ground and dark on wet ground, by slow noise and from
-/// vertex to vertex, so that the land has detail where its textures are too small to be seen.
+/// The factor of a vertex colour: plants are yellow on dry ground and dark on wet ground, by noise of low frequency
+/// and a random number of the vertex. Distant land, whose textures are too small to be seen, thus has detail.
 glm::vec3 varied(const Site& site, float number) {
   constexpr glm::vec3 dry{1.18F, 1.04F, 0.88F}, wet{0.8F, 0.9F, 0.86F};
   const float share = std::clamp(0.5F + 0.6F * site.patch, 0.0F, 1.0F);

@@ -1,12 +1,12 @@
 #include "core/generators/terrain/image.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <string>
 
 #include "core/generators/terrain/voids.h"
+#include "core/texture/data_uri.h"
 #include "core/texture/decode.h"
 #include "generated/params/terrain.h"
 
@@ -16,19 +16,8 @@ namespace {
 // Steps of 255 by which WebP and JPEG change the channels of grey.
 constexpr std::uint32_t lossy_slack = 8;
 
-constexpr std::int8_t no_digit = -1;
 constexpr std::uint32_t longest_side = 16'385;
 constexpr float no_height = std::numeric_limits<float>::quiet_NaN();
-
-constexpr std::array<std::int8_t, 256> digit_values() {
-  std::array<std::int8_t, 256> values{};
-  for (std::int8_t& value : values) value = no_digit;
-  constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  for (std::size_t i = 0; i < digits.size(); ++i)
-    values[static_cast<unsigned char>(digits[i])] = static_cast<std::int8_t>(i);
-  return values;
-}
-constexpr std::array<std::int8_t, 256> values = digit_values();
 
 Error invalid_input(std::string pointer, std::string message) {
   return Error{Code::invalid, {{IssueKind::invalid_value, std::move(pointer), std::move(message)}}};
@@ -89,7 +78,7 @@ Result<Field> of_raw(const TerrainImage& image, std::span<const std::uint8_t> by
   return field;
 }
 
-/// Whether a picture can hold heights in this way, in words where it cannot.
+/// Whether a picture can store heights in this way; the reason where it cannot.
 std::string picture_error(const texture::Picture& picture, TerrainEncoding encoding) {
   const std::string found = "found " + std::to_string(picture.channels) + " channels of " +
                             std::to_string(picture.bits) + " bits; ";
@@ -220,33 +209,8 @@ void flip(Field& field) {
 
 }  // namespace
 
-Result<Array<std::uint8_t>> bytes_of_base64(std::string_view text, const Job& job) {
-  std::size_t start = 0;
-  if (text.starts_with("data:")) {
-    const std::size_t comma = text.find(',');
-    if (comma == std::string_view::npos || !text.substr(0, comma).ends_with(";base64"))
-      return invalid_input("", "found a data: URL without base64; expected data:image/png;base64,…");
-    start = comma + 1;
-  }
-  std::string_view digits = text.substr(start);
-  for (int padding = 0; padding < 2 && digits.ends_with('='); ++padding) digits.remove_suffix(1);
-  Array<std::uint8_t> bytes(job);
-  bytes.reserve(digits.size() / 4 * 3 + 2);
-  std::uint32_t word = 0;
-  for (std::size_t i = 0; i < digits.size(); ++i) {
-    const std::int8_t value = values[static_cast<unsigned char>(digits[i])];
-    if (value == no_digit)
-      return invalid_input("", "character " + std::to_string(start + i + 1) + " is not base64");
-    word = word << 6U | static_cast<std::uint32_t>(value);
-    if (i % 4 != 0) bytes.push_back(static_cast<std::uint8_t>(word >> (6 - i % 4 * 2)));
-  }
-  if (digits.size() % 4 == 1)
-    return invalid_input("", "found base64 whose last group has one character of four; expected two or more");
-  return bytes;
-}
-
 Result<Field> field_of_image(const TerrainImage& image, const Job& job) {
-  Result<Array<std::uint8_t>> bytes = bytes_of_base64(image.data, job);
+  Result<Array<std::uint8_t>> bytes = texture::bytes_of_base64(image.data, job);
   if (!bytes) return invalid_input("/image/data", bytes.error().issues.front().message);
   const Scale scale{image.low, image.high - image.low};
   Result<Field> field = is_raw(image.encoding) ? of_raw(image, bytes->span(), scale, job)

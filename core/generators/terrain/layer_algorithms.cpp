@@ -79,7 +79,7 @@ void check_layer_algorithm(const TerrainParams& params, std::size_t index, std::
   const std::string own = "/layers/" + std::to_string(index) + "/";
   const auto belongs = [&](bool is_given, bool is_owner, const char* name, const char* owners) {
     if (is_given && !is_owner) {
-      issues.emplace_back(IssueKind::conflict, own + name,
+      issues.emplace_back(conflict_with({"algorithm"}), own + name,
                           std::string("this algorithm has no ") + name + "; only " + owners + " have it");
     }
   };

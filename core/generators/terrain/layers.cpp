@@ -79,13 +79,12 @@ std::unique_ptr<HeightExpression> checked(const TerrainParams& params, const std
 /// Where a name exists that the expression cannot use; `behind` begins with an unknown name.
 const char* hint_of(const TerrainParams& params, std::string_view behind) {
   const auto is_name = [&](std::string_view name) {
-    if (!behind.starts_with(name)) return false;
-    const char next = behind.size() > name.size() ? behind[name.size()] : ' ';
-    return next != '_' && next != '(' && (std::isalnum(static_cast<unsigned char>(next)) == 0);
+    const auto next = static_cast<unsigned char>(behind.size() > name.size() ? behind[name.size()] : ' ');
+    return behind.starts_with(name) && next != '_' && next != '(' && std::isalnum(next) == 0;
   };
   const bool is_plane = params.shape != TerrainShape::sphere;
-  if (is_plane && (is_name("latitude") || is_name("longitude") || is_name("z")))
-    return "; only the shape sphere has it";
+  if (is_plane && is_name("z")) return "; a plane has x, to the east, and y, to the north";
+  if (is_plane && (is_name("latitude") || is_name("longitude"))) return "; only the shape sphere has it";
   if (!is_plane && is_name("slope")) return "; a sphere has no slope";
   if (is_name("height") || is_name("slope")) return "; only the expressions of layers have it";
   return "";
@@ -96,8 +95,9 @@ void check_text(const TerrainParams& params, const std::string& text, const std:
   std::vector<lang::TextError> errors;
   compiled(params, text, layer, is_layer, errors);
   for (lang::TextError& error : errors) {
-    if (error.kind == IssueKind::unknown_name)
-      error.message += hint_of(params, std::string_view(text).substr(error.offset));
+    if (error.kind != IssueKind::unknown_name) continue;
+    const std::string_view hint = hint_of(params, std::string_view(text).substr(error.offset));
+    if (!hint.empty()) error.message = error.message.substr(0, error.message.find("; did you")).append(hint);
   }
   lang::add_issues(pointer, text, errors, issues);
 }
@@ -203,7 +203,7 @@ struct PlacedText {
   std::string pointer;
 };
 
-/// Refuses the request if a value is not finite. The position is that of the text: samples do not know its operators.
+/// Refuses the request if a value is not finite. The position is that of the text, not of an operator.
 void refuse_invalid(const Ground& ground, const PlacedText& placed, std::span<const double> values) {
   const auto found = std::ranges::find_if(values, [](double value) { return !(std::abs(value) <= highest); });
   if (found == values.end()) return;
@@ -334,7 +334,7 @@ void check_layer(const TerrainParams& params, std::size_t index, std::vector<Iss
   const TerrainLayer& layer = params.layers[index];
   const bool is_text = layer.layer_algorithm == Source::expression;
   if (is_text && !layer.expression) {
-    issues.emplace_back(IssueKind::missing, "/layers/" + std::to_string(index),
+    issues.emplace_back(missing_for({"expression", "algorithm"}), "/layers/" + std::to_string(index),
                         "\"expression\" is missing; the algorithm expression takes its heights from it");
   }
   check_layer_algorithm(params, index, issues);

@@ -179,8 +179,8 @@ const char* size_pointer(const TerrainParams& params) {
 
 /// What the engine of the profile does not take.
 void add_engine_issues(const TerrainParams& params, const WantedFormat& form, std::vector<Issue>& issues) {
-  const auto add_issue = [&](IssueKind kind, const char* pointer, std::string message) {
-    issues.emplace_back(kind, pointer, std::move(message));
+  const auto add_issue = [&](IssueCause cause, const char* pointer, std::string message) {
+    issues.emplace_back(std::move(cause), pointer, std::move(message));
   };
   const std::string profile(form.profile);
   const std::optional<GameEngine> engine = game_engine_of(form.profile);
@@ -190,20 +190,20 @@ void add_engine_issues(const TerrainParams& params, const WantedFormat& form, st
   }
   const TerrainHeightmap& given = params.heightmap;
   if (engine == GameEngine::unity && form.format != "r16") {
-    add_issue(IssueKind::conflict, "/output/format",
+    add_issue(conflict_with({"profile"}), "/output/format",
               "found " + std::string(form.format) + "; Unity reads raw heights: r16");
   }
   if (given.map != TerrainMap::height) {
-    add_issue(IssueKind::conflict, "/heightmap/map",
+    add_issue(conflict_with({"output/profile"}), "/heightmap/map",
               "found " + std::string(text_of(given.map)) + "; the profile " + profile +
                   " is for heights; other maps need the profile core");
   }
   if (given.byte_order != TerrainByteOrder::little) {
-    add_issue(IssueKind::conflict, "/heightmap/byte_order",
+    add_issue(conflict_with({"output/profile"}), "/heightmap/byte_order",
               "found big; the profile " + profile + " has the low byte first");
   }
   if (engine == GameEngine::unity && given.flip) {
-    add_issue(IssueKind::conflict, "/heightmap/flip",
+    add_issue(conflict_with({"output/profile"}), "/heightmap/flip",
               "the profile unity has the southern row first as it is");
   }
   if (params.algorithm == TerrainAlgorithm::image) return;  // whose size is known when it is read
@@ -312,8 +312,8 @@ texture::Picture ground_texture(GroundKind kind, std::int32_t side, Rng rng, con
 
 std::vector<Issue> format_errors(const TerrainParams& params, const WantedFormat& form) {
   std::vector<Issue> issues;
-  const auto add_issue = [&](IssueKind kind, const char* pointer, std::string message) {
-    issues.emplace_back(kind, pointer, std::move(message));
+  const auto add_issue = [&](IssueCause cause, const char* pointer, std::string message) {
+    issues.emplace_back(std::move(cause), pointer, std::move(message));
   };
   const TerrainHeightmap& given = params.heightmap;
   if (params.shape != TerrainShape::plane) {
@@ -322,24 +322,24 @@ std::vector<Issue> format_errors(const TerrainParams& params, const WantedFormat
         "a " + std::string(text_of(params.shape)) + " has no height map; its formats are glb, gltf and zip");
   }
   if (params.refine) {
-    add_issue(IssueKind::conflict, "/refine",
+    add_issue(conflict_with({}), "/refine",
               "a height map has the samples of the field alone; expected a request without refine");
   }
   if (is_picture(given.map) && form.format != "png8") {
-    add_issue(IssueKind::conflict, "/heightmap/map",
+    add_issue(conflict_with({"output/format"}), "/heightmap/map",
               std::string(text_of(given.map)) +
                   " is a picture in colours, which the format png8 holds; found " + std::string(form.format));
   }
   if (is_picture(given.map) && given.flip) {
-    add_issue(IssueKind::conflict, "/heightmap/flip",
+    add_issue(conflict_with({"map"}), "/heightmap/flip",
               "found true with the map " + std::string(text_of(given.map)) +
                   ", a picture for texture coordinates, which begin in the north-west");
   }
   if (given.map == TerrainMap::water && !params.water_level)
-    add_issue(IssueKind::conflict, "/heightmap/map", "there is no water; give a water_level");
+    add_issue(conflict_with({"water_level"}), "/heightmap/map", "there is no water; give a water_level");
   if (params.tile && given.map == TerrainMap::height && (!given.low || !given.high)) {
     add_issue(
-        IssueKind::missing, "/heightmap",
+        missing_for({"low", "high", "map", "tile"}), "/heightmap",
         "low and high are missing: tiles of one world need the same values, or their heights would differ "
         "at the borders");
   }

@@ -82,7 +82,7 @@ class OctavePath {
   }
 
   Octave octave_;
-  double left_ = 0.5, top_ = 0.5;  ///< of the cell; no cell begins at a half
+  double left_ = 0.5, top_ = 0.5;  ///< corner of the cell; no cell begins at a half
   std::array<Gradient, 4> corners_;
 };
 

@@ -326,7 +326,7 @@ RefinedPoint RefinedGround::Sampler::at(double x, double z) {
   if (point.weight <= 0) return point;
   const double dx = x - refinement.east, dz = z - refinement.south;
   const GroundShares shares = bilinear([&](int a, int b) { return ground_.shares_[number(a, b)]; }, u, v);
-  // Rock comes out of steep ground rather than of gentle ground, and hardly of snow and sand.
+  // Rock is exposed on steep ground rather than on gentle ground, and hardly under snow and sand.
   const float least = 0.28F - 0.45F * point.site.slope;
   const float covered = shares.of[GroundShares::snow] + shares.of[GroundShares::sand];
   const float outcrop = (1 - covered) * smooth_step(least, least + 0.2F, outcrop_noise(x, z));

@@ -11,11 +11,13 @@
 #include "core/generators/terrain/displacement.h"
 #include "core/generators/terrain/game_engines.h"
 #include "core/generators/terrain/maps.h"
+#include "core/generators/terrain/model_parts.h"
 #include "core/generators/terrain/plan.h"
 #include "core/generators/terrain/profile.h"
 #include "core/generators/terrain/refinement.h"
 #include "core/generators/terrain/triangulation.h"
 #include "core/generators/terrain/voids.h"
+#include "core/geom/mesh/box_uv.h"
 #include "core/model/build.h"
 #include "core/schema/warning_list.h"
 #include "core/texture/file_size.h"
@@ -29,6 +31,7 @@ constexpr int longest_listed = 257;
 constexpr std::uint64_t bytes_a_vertex = 36;  // position, normal, texture coordinates, colour
 // Of a vertex of ground with details: the texture coordinates of its grounds, and the tangent.
 constexpr std::uint64_t bytes_of_coordinates = 8, bytes_of_tangent = 16;
+constexpr std::uint64_t document_bytes = 1200;  // of the JSON, without the origin of the model
 
 /// Adds the warning of filled voids to a model.
 Result<Model> with_voids(Result<Model> model, const Field& field) {
@@ -126,7 +129,7 @@ void refuse_large_grid(const TerrainParams& params, const Job& job) {
 
 Error no_rtin_of(const Field& field) {
   return Error{Code::invalid,
-               {{IssueKind::conflict, "/mesh",
+               {{conflict_with({"image", "resample"}), "/mesh",
                  "this image has " + std::to_string(field.width) + " x " + std::to_string(field.depth) +
                      " samples; rtin needs a square of 2^n + 1 along a side; resample it, or use greedy"}}};
 }
@@ -236,20 +239,60 @@ static std::uint64_t bytes_of_rock(std::uint64_t vertices, const Demand& demand)
   return sizes.bytes(demand.textures) + vertices * of_five / 5 * of_vertex - vertices * bytes_a_vertex;
 }
 
-/// The bytes of the file of a grid. The grounds of a terrain with details follow from its heights, so their number is a
-/// mean of the presets, 2.7, as is the share of vertices that several grounds have.
-static std::uint64_t estimated_bytes(const TerrainParams& params, std::uint64_t triangles,
-                                     const Demand& demand) {
-  constexpr std::uint64_t document = 1200;
+/// The vertices of a planet for each point of its cube. Those between triangles that face along different axes are doubled
+/// for their texture coordinates; how many these are depends on the heights, and is measured at few points.
+static double vertices_a_point(const TerrainParams& params, const Job& job) {
+  constexpr std::int32_t finest = 65;
+  Job own = job.for_estimate();
+  int level = 0;
+  while (planet_side(params, level) > finest) ++level;
+  const Planet planet = planet_of(params, level, own);
+  Model model;
+  add_mesh(model, "planet", planet_mesh(planet, nullptr, UpDirection::outward, own.rng(), own),
+           add_material(model, Material{}));
+  add_box_coordinates(model, own);
+  return static_cast<double>(model.meshes[0].primitives[0].mesh.position.size()) /
+         static_cast<double>(planet.direction.size());
+}
+
+static std::uint64_t sea_triangles(const TerrainParams& params) {
+  if (!params.water_level) return 0;
+  const auto squares = static_cast<std::uint64_t>(sea_side(params, 0) - 1);
+  return 12 * squares * squares;
+}
+
+/// The bytes of the vertices and indices of a mesh.
+static std::uint64_t bytes_of_mesh(std::uint64_t vertices, std::uint64_t of_vertex, std::uint64_t triangles) {
+  return vertices * of_vertex + 3 * triangles * (vertices > 65'535 ? 4 : 2);
+}
+
+/// The bytes of the file of a planetoid.
+static std::uint64_t bytes_of_planetoid(const TerrainParams& params, std::uint64_t triangles,
+                                        const GenerateContext& context) {
+  constexpr std::uint64_t bytes_without_color = 32;
+  const std::uint64_t points = triangles / 2 + 2, sea = sea_triangles(params);
+  const std::uint64_t with_sea = document_bytes + bytes_of_mesh(sea / 2, bytes_without_color, sea);
+  if (params.detail && context.demand.textures > 0) {
+    return with_sea + bytes_of_mesh(points, bytes_a_vertex, triangles) +
+           bytes_of_rock(points, context.demand);
+  }
+  const double vertices = static_cast<double>(points) * vertices_a_point(params, context.job);
+  const bool has_colors = params.palette != TerrainPalette::none;
+  return with_sea + bytes_of_mesh(static_cast<std::uint64_t>(math::to_int64(vertices)),
+                                  has_colors ? bytes_a_vertex : bytes_without_color, triangles);
+}
+
+/// The bytes of the file of a grid. The classes of ground follow from the heights, which are not computed here. Their
+/// number, 2.7, and the share of vertices that several classes have are means of the presets.
+static std::uint64_t bytes_of_grid(const TerrainParams& params, std::uint64_t triangles,
+                                   const Demand& demand) {
   // Refined ground is one mesh, whose indices are wide.
   const std::uint64_t bytes_a_triangle = params.refine ? 12 : 6;
   constexpr double several = 1.4, bytes_a_texel = 2.7 * 2.5;  // of all images of all grounds
   const auto squares = static_cast<std::uint64_t>(finished_side(params) - 1);
   const std::uint64_t vertices = triangles / 2 + 2 * squares + 1;
-  const std::uint64_t least = document + vertices * bytes_a_vertex + triangles * bytes_a_triangle;
-  const bool has_detail = params.detail && demand.textures > 0;
-  if (has_detail && params.shape == TerrainShape::sphere) return least + bytes_of_rock(vertices, demand);
-  if (!has_detail || params.shape != TerrainShape::plane || params.texture != 0) return least;
+  const std::uint64_t least = document_bytes + vertices * bytes_a_vertex + triangles * bytes_a_triangle;
+  if (!params.detail || demand.textures == 0 || params.texture != 0) return least;
   const std::uint64_t of_vertex =
       bytes_a_vertex + bytes_of_coordinates + (demand.tangents ? bytes_of_tangent : 0);
   const double texels = static_cast<double>(demand.textures) * demand.textures;
@@ -285,7 +328,9 @@ Result<Appraisal> appraise(const TerrainParams& params, const GenerateContext& c
     estimate.triangles += added;
   }
   estimate.exact = !params.water_level;
-  estimate.bytes = estimated_bytes(params, estimate.triangles, context.demand);
+  estimate.bytes = sphere ? bytes_of_planetoid(params, estimate.triangles, context)
+                          : bytes_of_grid(params, estimate.triangles, context.demand);
+  if (sphere) estimate.triangles += sea_triangles(params);
   appraisal.estimate = estimate;
   return appraisal;
 }

@@ -2,7 +2,7 @@
 /// Selects the samples of a reduced mesh and triangulates them.
 ///
 /// Both reduced meshes keep a stated bound: no sample of the field lies further above or below the mesh than
-/// `max_error`. The bound holds for all samples, not only for those tested when a triangle was split;
+/// `max_error`. The bound applies to all samples, not only for those tested when a triangle was split;
 /// measured_error() returns the error reached.
 #include "core/generators/terrain/field.h"
 
@@ -31,7 +31,7 @@ bool fits_rtin(std::int32_t width, std::int32_t depth);
 
 /// Returns a right-triangulated irregular network (Evans, Kirkpatrick and Townsend, "Right-triangulated
 /// irregular networks", 2001): right triangles are split where their error exceeds the bound. Samples that
-/// the usual midpoint test leaves outside the bound are added until it holds. Spends Resource::triangles.
+/// the usual midpoint test leaves outside the bound are added until it is kept. Spends Resource::triangles.
 /// Cost: 10 to 20 ns for each sample.
 Triangulation rtin(const Field& field, double max_error, Border border, Job& job);
 

@@ -5,6 +5,7 @@
 #include "core/generators/terrain/ground.h"
 #include "core/generators/terrain/scan.h"
 #include "core/generators/terrain/surface.h"
+#include "core/model/empty_mesh.h"
 
 namespace seedmesh::terrain {
 
@@ -32,10 +33,7 @@ Mesh walls(const Field& field, const Array<std::uint32_t>& samples, const WallPl
                                    {{0, 0, -1}, true, false, 0},
                                    {{-1, 0, 0}, false, true, 0}}};
   const Ground ground(field);
-  Mesh mesh;
-  mesh.position = Array<glm::vec3>(job);
-  mesh.normal = Array<glm::vec3>(job);
-  mesh.index.wide = Array<std::uint32_t>(job);
+  Mesh mesh = empty_mesh(job);
   const auto quad = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
     for (const std::uint32_t i : {a, b, c}) mesh.index.wide.push_back(i);
   };

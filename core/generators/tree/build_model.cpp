@@ -15,6 +15,7 @@
 #include "core/geom/mesh/flipped_normals.h"
 #include "core/geom/plant/graft/graft.h"
 #include "core/geom/plant/grow.h"
+#include "core/model/build.h"
 #include "core/texture/bark.h"
 
 namespace seedmesh::tree {
@@ -176,13 +177,11 @@ Model build_model(Skeleton skeleton, const TreeParams& params, const GenerateCon
   Job& job = context.job;
   Model model;
   model.name = "tree";
-  Node root;
-  root.name = "tree";
-  model.nodes.push_back(std::move(root));
+  add_node(model, "tree", -1);
   Motion motion;
   if (context.demand.growth) {
     if (context.demand.share_organs) {
-      job.refuse({IssueKind::conflict, "/output/instancing",
+      job.refuse({conflict_with({"animation"}), "/output/instancing",
                   "found leaves as nodes; the growth animation needs them merged"});
     }
     motion.growth = plan_growth(skeleton.limbs, {.most_bones = context.demand.most_bones}, job);

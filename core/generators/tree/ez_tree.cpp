@@ -119,7 +119,7 @@ class EzTreeGrower {
   Array<Branch> queue_;
   std::vector<TreeBranchLevel> levels_;
   EzTurn force_;
-  std::size_t number_ = 0;  ///< of the limb that grows
+  std::size_t number_ = 0;  ///< number of the limb that grows
 
   // Of the limb that grows.
   std::vector<Station> stations_;

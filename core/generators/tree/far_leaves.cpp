@@ -1,6 +1,6 @@
-// A card of one triangle: the twigs of core/geom/plant/leafy_twig.h and needle_twig.h are widest at two fifths of their
-// length from the tip and end in points, so a triangle holds nearly all of a twig with 0.6 of the area that the smallest
-// triangle around the whole square has. Texture coordinates outside 0..1 are those of the transparent margin.
+// A card of one triangle. The twigs of core/geom/plant/leafy_twig.h and needle_twig.h are widest at two fifths of their
+// length from the tip, and end in points. A triangle around nearly all of a twig therefore has only 0.6 of the area of
+// the smallest triangle around the whole square. Texture coordinates outside 0..1 are those of the transparent margin.
 #include "core/generators/tree/far_leaves.h"
 
 #include <algorithm>
@@ -170,7 +170,7 @@ Mesh far_leaf(const TreeParams& params, LeafDetail detail, int level, const Job&
   Mesh squares = leaf_of(coarse, level, job);
   raise_to_mean(squares, params);
   if (detail == LeafDetail::square) return squares;
-  // The first of crossed cards is level where the upper sides of leaves face up; from aside one sees the second.
+  // The first of crossed cards is level where the upper sides of leaves face up; from the side the second is visible.
   const bool has_second = detail == LeafDetail::one_card && squares.position.size() > 4;
   return as_triangles(squares, has_second ? 4 : 0, has_second ? 8 : squares.position.size(), job);
 }

@@ -20,7 +20,7 @@ struct GrownNode {
   bool continues = false;    ///< continues the axis of its parent
   std::uint32_t tree = 0;    ///< 0: the tree of the request; its neighbours follow
   std::uint32_t count = 0;   ///< internodes that it carries, itself included
-  std::uint32_t young = 0;   ///< of these, those that are too young to be shed
+  std::uint32_t young = 0;   ///< number of those that are too young to be shed
   double shade = 0;          ///< weight of its shadow: its length in internodes of full length
   double light = 0;          ///< light of all buds that it carries
   double main_light = 0;     ///< part of `light` from the axis that continues at the node
@@ -37,7 +37,7 @@ struct GrownBud {
   std::uint16_t order = 0;       ///< order of the axis that it grows
   std::uint16_t number = 0;      ///< number of the next internode of its axis
   std::uint16_t idle_since = 0;  ///< year in which it was made or grew last
-  bool ends_axis = false;        ///< at the end of an axis; otherwise it begins a side branch
+  bool ends_axis = false;        ///< whether it is at the end of an axis; otherwise it begins a side branch
   double light = 0, vigour = 0;
   std::uint64_t key = 0;
 };

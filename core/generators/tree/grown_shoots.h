@@ -1,5 +1,5 @@
 #pragma once
-/// What happens to buds and branches in a year of the model grown: buds sense the light, grow shoots and die, branches
+/// The growth of buds and branches in a year of the model `grown`: buds sense the light, grow shoots and die, branches
 /// are shed, and wood thickens.
 #include <array>
 

@@ -30,7 +30,7 @@ struct Shape {
   Array<glm::dvec3> position;
   Array<double> radius;
   Array<std::uint32_t> follower;  ///< the child that continues the limb
-  Array<std::uint32_t> joint;     ///< with which the node moves
+  Array<std::uint32_t> joint;     ///< joint with which the node moves
   double height = 0;
 };
 

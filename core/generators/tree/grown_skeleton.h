@@ -1,5 +1,5 @@
 #pragma once
-/// From the internodes of the model grown to the limbs and leaves that all models of a tree have.
+/// Converts the internodes of the model `grown` to the limbs and leaves that all models of a tree have.
 #include "core/generators/tree/grown_plant.h"
 
 namespace seedmesh::tree {
@@ -10,9 +10,9 @@ struct GrownTime {
   double share = 1;
 };
 
-/// Writes the tree of number 0. At a node, the thickest internode continues the limb, and the others begin
-/// limbs. Limbs are smoothed, thick ones more than thin ones. They have joints where they bend or where other
-/// limbs begin. Leaves are on wood of the last `leaf_years`.
+/// Writes the tree with the number 0, without its neighbours. At a node, the thickest internode continues the limb,
+/// and the others begin limbs. Limbs are smoothed, thick ones more than thin ones. They have joints where they
+/// bend or where other limbs begin. Leaves are on wood of the last `leaf_years`.
 void write_grown(const GrownPlant& plant, const TreeParams& params, const GrownTime& time,
                  const RandomStreams& random, SkeletonWriter& writer);
 

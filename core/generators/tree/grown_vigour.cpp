@@ -7,7 +7,7 @@ namespace {
 
 /// A side branch, a side bud or the bud at the end of an axis.
 struct Claim {
-  std::uint32_t axis = 0;  ///< on which it is
+  std::uint32_t axis = 0;  ///< axis on which it is
   std::uint32_t index = 0;
   bool is_bud = false;
   double mean = 0;  ///< light by internode

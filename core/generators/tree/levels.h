@@ -48,10 +48,10 @@ struct TreeLevels {
   };
   int coarsest_ = 0;           ///< level
   std::uint64_t budget_ = 0;   ///< triangles of the only level that remains; 0: all levels remain
-  std::uint64_t count_ = 0;    ///< of leaves
+  std::uint64_t count_ = 0;    ///< number of leaves
   std::uint64_t of_leaf_ = 0;  ///< triangles of a leaf at the finest level
   bool has_far_leaves_ = false;
-  std::vector<Build> builds_;        ///< in descending order of triangles
+  std::vector<Build> builds_;        ///< builds in descending order of triangles
   std::vector<std::uint64_t> bent_;  ///< triangles of a bent leaf by level
 };
 

@@ -87,15 +87,10 @@ void use_images(Material& material, const Images& images, const std::string& poi
                 const Job& job) {
   const bool repeats = !images.cut_out;
   const auto load = [&](const std::string& uri, const char* member) {
-    TextureUse use;
-    if (uri.empty()) return use;
-    Result<std::shared_ptr<const Image>> image =
-        texture::image_of_data_uri(uri, material.name + "_" + member, job);
-    if (!image)
-      job.refuse({IssueKind::invalid_value, pointer + "/" + member, image.error().issues.front().message});
-    use = {static_cast<int>(model.textures.size()), 0, repeats};
-    model.textures.push_back(*std::move(image));
-    return use;
+    if (uri.empty()) return TextureUse{};
+    const int image =
+        texture::add_image_of_uri(model, uri, material.name + "_" + member, pointer + "/" + member, job);
+    return TextureUse{image, 0, repeats};
   };
   material.base_color_texture = load(images.color, "color");
   material.normal_texture = load(images.normal, "normal");

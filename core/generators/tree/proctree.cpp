@@ -16,7 +16,7 @@ constexpr double least_radius = 1e-3;
 
 struct Node {
   glm::dvec3 tail{0}, head{0};
-  double length = 0;  ///< of its children
+  double length = 0;  ///< length of its children
   double radius = 0;
   bool on_trunk = false, starts_limb = false;
   std::uint32_t parent_joint = Limbs::none;

@@ -8,8 +8,8 @@ namespace seedmesh::tree {
 namespace {
 
 // A root leaves the trunk at the joint whose height is nearest to `wanted_height` times the radius of the
-// root, if it is above `least_height` times that radius and below `most_height` times the radius of the
-// trunk.
+// root. The height has to be above `least_height` times that radius, and below `most_height` times the radius
+// of the trunk.
 constexpr double least_height = 1.25, wanted_height = 1.6, most_height = 2.2;
 // Number of pieces from the trunk to the ground and along the ground.
 constexpr int pieces_down = 4, pieces_out = 8;
@@ -32,11 +32,11 @@ constexpr std::size_t most_stations = 64;
 /// A stretch of a root along the ground.
 struct Run {
   Rng rng{0};
-  std::uint32_t joint = Limbs::none;  ///< from which it continues
+  std::uint32_t joint = Limbs::none;  ///< joint from which it continues
   glm::dvec3 at{0};
   double heading = 0;             ///< degrees
   double radius = 0, length = 0;  ///< the radius where it begins
-  double share = 0;               ///< of the whole root that lies before it
+  double share = 0;               ///< share of the whole root that lies before it
   int pieces = pieces_out, order = 1;
   int forks = 0;  ///< the first after a piece, the second after three
   bool starts_limb = false;
@@ -71,7 +71,7 @@ class RootGrower {
   double trunk_;
   const RandomStreams& random_;
   SkeletonWriter& writer_;
-  std::vector<glm::dvec2> profile_;  ///< of the trunk: radius and height
+  std::vector<glm::dvec2> profile_;  ///< radius and height of the trunk
 };
 
 /// Height of the surface of the trunk at a distance from its axis.

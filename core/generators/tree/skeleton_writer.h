@@ -88,7 +88,7 @@ class SkeletonWriter {
   /// from them. They need not be written. The caller calls pass_over() for their joints, and finish() at the
   /// end.
   void leave_out_below(double radius) { least_radius_ = static_cast<float>(radius); }
-  /// Asks for a joint wherever a limb begins, even where the bark needs none, so that limbs can be measured.
+  /// Requires a joint wherever a limb begins, even where the bark needs none, so that limbs can be measured.
   void mark_every_foot() { marks_every_foot_ = true; }
   bool marks_every_foot() const { return marks_every_foot_; }
   bool leaves_out(double radius) const { return static_cast<float>(radius) < least_radius_; }

@@ -34,10 +34,10 @@ struct Walk {
   bool starts = true;                           ///< its first joint is yet to be written
   std::size_t first_child = 0, next_child = 0;  ///< the latter has no joint yet; both index `waiting`
   Rng leaf_random{0}, child_random{0};
-  int count = 0;  ///< of children or leaves on the whole stem
+  int count = 0;  ///< number of children or leaves on the whole stem
   double spacing = 0, bare = 0;
   double longest_child = 0;   ///< the paper's length_child,max
-  double carried_splits = 0;  ///< of the next child, where Arbaro counts
+  double carried_splits = 0;  ///< rounding error of the next child, where Arbaro counts
 };
 
 std::uint64_t whole(double x) { return static_cast<std::uint64_t>(math::to_int64(x)); }

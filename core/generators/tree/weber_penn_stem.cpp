@@ -208,8 +208,8 @@ double child_radius(const WeberPennTree& tree, const WeberPennStem& stem, double
 
 namespace {
 
-/// The first segment at whose end a stem or one of its clones is outside of the envelope, each clone before the rest of
-/// its stem; -1: there is none.
+/// The first segment at whose end a stem or one of its clones is outside of the envelope; -1: there is none. Each clone
+/// is checked before the rest of its stem.
 int segment_outside(const WeberPennTree& tree, WeberPennStem stem, int& steps) {
   const WeberPennLevel& level = tree.level(stem.level);
   const double length = segment_length(tree, stem);
@@ -231,8 +231,8 @@ int segment_outside(const WeberPennTree& tree, WeberPennStem stem, int& steps) {
   return -1;
 }
 
-/// Arbaro shortens a stem to the segment that is outside, by a half of its length at most and by a fifteenth of the whole
-/// length at least, until it and its clones are inside.
+/// Arbaro shortens a stem to the segment that is outside, until the stem and its clones are inside. Each step removes
+/// at most half of its length, and at least a fifteenth of the whole length.
 bool prune_as_arbaro(const WeberPennTree& tree, WeberPennStem& stem) {
   const double whole = stem.length;
   int steps = most_prune_steps;

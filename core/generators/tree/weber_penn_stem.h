@@ -109,7 +109,7 @@ double carried_before_children(const WeberPennTree& tree, const WeberPennStem& s
 struct SegmentEnd {
   glm::dvec3 position{0};
   int segment = 0;
-  std::uint32_t joint = Limbs::none;  ///< from which clones grow
+  std::uint32_t joint = Limbs::none;  ///< joint from which clones grow
 };
 
 /// Divides a stem at the end of a segment: appends its clones to `clones`, and turns the frame of the stem itself. Does

@@ -14,7 +14,7 @@ namespace seedmesh::world {
 namespace {
 
 constexpr double highest_lift = 2.5;           ///< metres that rivers lie above their water
-constexpr double widest_measured_works = 512;  ///< metres; wider tiles allow for roads without knowing them
+constexpr double widest_measured_works = 512;  ///< metres; wider tiles allow for roads without finding them
 constexpr double works_reach = 56;             ///< metres from a road to untouched ground
 constexpr double plant_spacing = 400;          ///< metres
 
@@ -369,11 +369,11 @@ class AreaFinder {
   TileFrame frame_;
   int count_, cells_ = 0;  ///< links along a side, cells along a link
   double side_ = 0, spacing_ = 0;
-  int plant_stride_ = 1;  ///< samples from one where plants are looked for to the next
+  int plant_stride_ = 1;  ///< samples between two at which plants are searched
   double tallest_class_ = 0;
   std::vector<Area> areas_;
   HeightGrid grid_;                ///< all samples
-  std::vector<float> ruggedness_;  ///< of coarse samples, in the same order
+  std::vector<float> ruggedness_;  ///< ruggedness of coarse samples, in the same order
 };
 
 }  // namespace

@@ -14,7 +14,7 @@
 namespace seedmesh::world {
 namespace {
 
-constexpr double least_fall = 0.99;  ///< of the error of a tile by that above
+constexpr double least_fall = 0.99;  ///< greatest ratio of the error of a tile to that of its parent
 
 struct Block {
   int depth = 0;  ///< levels below the root
@@ -46,7 +46,7 @@ TileBounds in_plan(const World& world, const TileKey& key) {
   return box;
 }
 
-constexpr double plant_error = 1.0 / 192;  ///< of the side of a tile
+constexpr double plant_error = 1.0 / 192;  ///< share of the side of a tile
 
 /// What deviations are multiplied by, so that no tile of the presets has a greater one: errors_test.cpp measures them.
 double margin_of(const Roughness& rough) {
@@ -56,8 +56,8 @@ double margin_of(const Roughness& rough) {
 /// What the model gives too much for terraces, whose edges rarely lie beside other deviations. Skirts keep it.
 double terrace_factor(const World& world) { return 1 - 0.13 * world.params.relief.terraces; }
 
-/// The deviation where samples of the land alone are as far apart as those of the tile: a sum of what was found by cells
-/// twice as wide, of the model without and with water, and of what the most bent cells have. The shares are fitted to
+/// The deviation where samples of the land alone are as far apart as those of the tile. It is a weighted sum of the
+/// deviation of cells twice as wide, of the models without and with water, and of the most bent cells. The weights are fitted to
 /// 5,600 tiles of the presets and of worlds with random parameters. They leave 0.2 % of them below their deviation.
 double estimated_deviation(const World& world, double spacing, const Roughness& rough) {
   constexpr double mesh_share = 0.66, land_share = 0.78, water_share = 1.15, bent_share = 0.76;
@@ -71,8 +71,8 @@ double estimated_deviation(const World& world, double spacing, const Roughness& 
          water_share * std::max(0.0, all - land) + bent_share * rough.measured;
 }
 
-/// What cells with an edge of this length lack of the bed of a river on level ground, which is the only water of
-/// some tiles. Boxes and skirts know the heights of water.
+/// The depth of a river bed on level ground that cells with an edge of this length do not show. Some tiles have no other
+/// water. Boxes and skirts include the heights of water.
 double bed_error(double spacing, const Roughness& rough) {
   constexpr double bank = 0.17;      ///< slope from samples on both sides to the bed
   constexpr double depth = 2.3;      ///< metres of the land beside a narrow river above its bed

@@ -14,9 +14,9 @@ namespace seedmesh::world {
 namespace {
 
 constexpr double least_height = 3;     ///< metres; lower classes are not seen from afar
-constexpr double least_closure = 0.6;  ///< of crowns by the spacing
-constexpr double jitter = 0.28;        ///< of the spacing of samples, to each side
-constexpr double river_gap = 0.75;     ///< of the spacing of samples, from woods to water
+constexpr double least_closure = 0.6;  ///< share of the ground that crowns cover at their spacing
+constexpr double jitter = 0.28;        ///< share of the spacing of samples, to each side
+constexpr double river_gap = 0.75;     ///< share of the spacing of samples, from woods to water
 constexpr double brightness = 1.3;     ///< makes up for the mean of the texture
 
 struct Corner {
@@ -74,7 +74,7 @@ class Canopy {
   }
 
   TileMesh mesh;
-  std::vector<float> coordinates;  ///< of the texture
+  std::vector<float> coordinates;  ///< texture coordinates
 
  private:
   using Place = std::array<int, 2>;

@@ -14,9 +14,9 @@ bool has_canopy(const WorldClass& plant);
 
 /// The woods at a position: the mean of the classes of plants, weighted by their cover.
 struct Wood {
-  double cover = 0;               ///< 0 to 1; of classes with a canopy
-  double height = 0;              ///< metres, of the crowns
-  std::array<double, 3> color{};  ///< linear, of the crowns
+  double cover = 0;               ///< 0 to 1, for classes with a canopy
+  double height = 0;              ///< height of the crowns, metres
+  std::array<double, 3> color{};  ///< linear colour of the crowns
 };
 /// Returns the woods at a position, given as metres east and north. `spacing`: distance of the samples in metres;
 /// cover that varies over shorter distances is averaged.

@@ -13,7 +13,7 @@ namespace {
 constexpr int texels = 256, cells = 20;  ///< along a side; a cell has one crown
 
 struct Crown {
-  double x = 0, y = 0, radius = 1, light = 1, top = 0;  ///< in cells
+  double x = 0, y = 0, radius = 1, light = 1, top = 0;  ///< lengths are in cells
 };
 
 Crown crown_of(int column, int row) {

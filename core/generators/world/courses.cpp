@@ -1,5 +1,5 @@
-/// Courses of rivers: where they flow and how high. The ground beside a river is the valley of the lowest water nearby,
-/// so a river that stayed higher than the valley of another would stand on a dyke.
+/// Courses of rivers: where they flow and how high. The ground beside a river is the valley of the lowest water nearby.
+/// A river above the valley of another would therefore lie on a dyke.
 #include "core/generators/world/courses.h"
 
 #include <algorithm>
@@ -15,9 +15,9 @@ constexpr int settling_rounds = 3;
 constexpr double settling_pace = 700, most_settling = 70;  ///< metres by slope, and a round
 constexpr double bank_margin = 45;                         ///< metres from a bank where land counts
 constexpr double dry_radius = 1450;  ///< metres around dry positions, beyond the reach of valleys by a bend
-constexpr double lake_grade = 0.03;  ///< of a river before a lake
+constexpr double lake_grade = 0.03;  ///< grade of a river before a lake
 constexpr double lake_uneven = 1.2;  ///< radius of a lake by its mean at most
-constexpr int lowering_rounds = 2;   ///< the second knows rivers that the first had not lowered yet
+constexpr int lowering_rounds = 2;   ///< the second includes rivers that the first had not lowered yet
 
 /// The unit vector to the left of a river at a point.
 std::pair<double, double> left_of(const std::vector<RiverPoint>& points, std::size_t k) {
@@ -177,7 +177,7 @@ class Lowering {
     constexpr double turns[8][2] = {{1, 0}, {d, d}, {0, 1}, {-d, d}, {-1, 0}, {-d, -d}, {0, -1}, {d, -d}};
     for (const auto& turn : turns) {
       const double shore = shore_distance(own, own.east + turn[0], own.north + turn[1], 1);
-      // the land of the middle stands for that of the shore
+      // the land of the middle is used for that of the shore
       most = most_at_shore(
           most, {own.east + shore * turn[0], own.north + shore * turn[1], own.level + shallow, 0}, n);
     }

@@ -15,8 +15,8 @@ namespace {
 
 using Point = FlatMesh::Point;
 
-constexpr double least_gap = 1e-9;            ///< of a strip, between two cuts
-constexpr double deepest = 0.6, highest = 1;  ///< of the lift: how far a strip may leave it
+constexpr double least_gap = 1e-9;            ///< share of a strip between two cuts
+constexpr double deepest = 0.6, highest = 1;  ///< shares of the lift by which a strip may differ from it
 constexpr double farthest = 0.999;            ///< cells beyond a tile whose heights are known
 
 /// A cut across a strip. Its share of the strip, its edges on the terrain, and whether it has to stay.

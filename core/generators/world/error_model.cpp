@@ -13,7 +13,7 @@ namespace {
 constexpr double deviation_share = 0.95;  ///< fitted to walks through worlds with random parameters
 constexpr double measured_share = 1.2;  ///< samples at half the spacing miss a part of the greatest deviation
 constexpr double terrace_share =
-    0.3;  ///< of the terraces: their edges also make the sides of valleys steeper
+    0.3;  ///< share of the terraces, whose edges also make the sides of valleys steeper
 
 /// The deviation of an octave of noise of amplitude 1; `q` is the distance of samples by the wavelength.
 double of_noise(double q) {

@@ -10,7 +10,7 @@ namespace seedmesh::world {
 namespace {
 
 using Point = FlatMesh::Point;
-constexpr double overlap = 0.2;  ///< of the width, at the end of a ribbon
+constexpr double overlap = 0.2;  ///< share of the width, at the end of a ribbon
 
 /// Sutherland and Hodgman 1974, for one side.
 std::vector<Point> clipped(const std::vector<Point>& polygon, int axis, double bound, double sign) {

@@ -30,12 +30,12 @@ Nearest nearest_on(const Reach& reach, double east, double north) {
 struct Waters {
   explicit Waters(double land) : valley(land) {}
   double valley;                                 ///< its height, at most that of the land
-  double share = 1;                              ///< of the slope of the land
+  double share = 1;                              ///< share of the slope of the land
   double east = 0, north = 0, pull = 0;          ///< weighted sums of the slopes of valley sides
   double weight = 0, water = 0, half_width = 0;  ///< weighted sums over near rivers
-  double away = 1e12;                            ///< from the nearest middle of a river
-  double bank = 1e12;                            ///< from the nearest bank
-  double lake = 1e12;                            ///< from the nearest shore of a lake
+  double away = 1e12;                            ///< distance from the nearest middle of a river
+  double bank = 1e12;                            ///< distance from the nearest bank
+  double lake = 1e12;                            ///< distance from the nearest shore of a lake
 };
 
 /// Slopes are weighted by distance, so that they do not jump between two waters: gullies would have steps there.

@@ -1,5 +1,5 @@
 #pragma once
-/// The ground around some positions: land, cut by rivers and lakes. A Ground holds the water within reach of a
+/// The ground around some positions: land, cut by rivers and lakes. A Ground contains the water within reach of a
 /// rectangle; the height of a position is the same from each Ground whose rectangle contains it.
 #include <cstdint>
 #include <limits>
@@ -27,7 +27,7 @@ struct GroundSample {
   double cut = 0;                                          ///< depth by which valleys lower the land, metres
   double works = 0;  ///< absolute difference of height between the earthworks of roads and the ground, metres
   int field = -1;    ///< index into WorldFields::colors; -1 outside of fields
-  bool is_hedge = false;  ///< at the border of a field
+  bool is_hedge = false;  ///< whether it is at the border of a field
   double settled = 0;     ///< 1 in a settlement, 0 beyond its cleared land
   bool is_town = false;   ///< within the radius of a town
 };

@@ -47,7 +47,7 @@ double light_at(int column, int row) {
 }
 
 std::string image_of(const Job& job) {
-  constexpr int steps = 64;  ///< of grey, which keeps the file small
+  constexpr int steps = 64;  ///< steps of grey; few keep the file small
   std::vector<std::byte> grey(static_cast<std::size_t>(texels) * texels);
   for (int row = 0; row < texels; ++row) {
     job.check();

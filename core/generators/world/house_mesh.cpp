@@ -14,7 +14,7 @@ namespace {
 
 constexpr double widest_openings = 64, widest_models = 128, widest_roofs = 512, widest_boxes = 2048,
                  widest_prisms = 8192, widest_walls = 1024;  ///< metres
-constexpr double prisms_along = 64;                          ///< of cells of a tile, each with one prism
+constexpr double prisms_along = 64;                          ///< cells along a tile, each with one prism
 constexpr double widest_town_roofs = 256, widest_town_boxes = 512, narrow_prism = 40, wide_prism = 64;
 
 using Point = glm::dvec3;
@@ -51,6 +51,7 @@ class HouseMesh {
   Paint wall_of(const House& h) const { return tinted(wall_, h.wall_light, h.warmth); }
   Paint roof_of(const House& h) const { return tinted(roof_, h.roof_light, 0.4 * h.warmth); }
   const Paint& roof() const { return roof_; }
+  const TileFrame& frame() const { return frame_; }
 
   /// Walls up to a height, closed by a flat roof.
   void add_box(const House& h, double top, const Paint& roof) {
@@ -224,8 +225,9 @@ void add_prisms(HouseMesh& mesh, const std::vector<House>& houses, double prism_
 }
 
 /// The models of houses, on plinths that reach down to the ground.
-void add_models(Glb& glb, const World& world, const TileFrame& frame, const std::vector<House>& houses,
-                HouseMesh& plinths, Job& job, std::string_view folder) {
+void add_models(Glb& glb, const World& world, const std::vector<House>& houses, HouseMesh& plinths, Job& job,
+                std::string_view folder) {
+  const TileFrame& frame = plinths.frame();
   const std::size_t kinds = world.params.settlements.houses.size();
   for (std::size_t k = 0; k < kinds; ++k) {
     Instances copies;
@@ -273,7 +275,7 @@ void add_houses(Glb& glb, const World& world, const TileFrame& frame, double bas
         mesh.add(house, frame.side <= widest_openings ? Finish::with_openings : Finish::walls_and_roof);
       }
     }
-    if (frame.side <= widest_models) add_models(glb, world, frame, houses, mesh, job, folder);
+    if (frame.side <= widest_models) add_models(glb, world, houses, mesh, job, folder);
   }
   const TileMesh made = mesh.take();
   job.spend(Resource::triangles, made.indices.size() / 3);

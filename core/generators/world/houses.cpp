@@ -11,7 +11,7 @@ namespace seedmesh::world {
 namespace {
 
 constexpr double lot = 17;                             ///< metres along a road for a house
-constexpr double plain_reach = 14, plain_height = 23;  ///< of houses without a model
+constexpr double plain_reach = 14, plain_height = 23;  ///< metres, for houses without a model
 constexpr double model_reach = 20, model_height = 30;
 constexpr double most_uneven = 3;   ///< metres that the ground below a house may rise
 constexpr double least_gap = 1.8;   ///< metres between houses
@@ -19,7 +19,7 @@ constexpr double least_town = 150;  ///< metres; the radius of settlements with 
 constexpr double storey = 2.7;      ///< metres
 constexpr double town_storey = 2.9;
 constexpr double widest_town_house = 11.5, deepest_town_house = 7.5;  ///< half; without a model
-constexpr double least_fit = 0.55;                                    ///< of a model on its lot
+constexpr double least_fit = 0.55;                                    ///< least scale of a model on its lot
 constexpr double town_road = 0.3;                                     ///< metres from a house to a street
 constexpr double fountain = 3.2;                                      ///< metres; the side of its basin
 constexpr double least_church = 90;  ///< metres; the radius of settlements with a church

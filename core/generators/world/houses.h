@@ -1,6 +1,6 @@
 #pragma once
 /// Houses of a settlement, in rows along its roads and lanes, a church in its middle, and farms around it. A house
-/// belongs to the tile that holds its middle.
+/// belongs to the tile that contains its middle.
 #include <array>
 #include <memory>
 #include <string_view>

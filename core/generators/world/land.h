@@ -1,6 +1,6 @@
 #pragma once
 /// The height of the land before rivers and lakes: continents, mountain ranges, hills, gullies and detail. Each is a
-/// function of the position alone, so land has no borders.
+/// function of the position alone, so tiles agree at their borders.
 ///
 /// Ridged noise after Musgrave (in Ebert et al. 2003, "Texturing and Modeling", chapter 16).
 #include <array>
@@ -10,8 +10,8 @@
 
 namespace seedmesh::world {
 
-constexpr double belt_wavelength = 64000;   ///< metres; of the belts in which mountains stand
-constexpr double range_wavelength = 22000;  ///< metres; of the widest mountain ridges
+constexpr double belt_wavelength = 64000;   ///< metres; wavelength of the belts that have mountains
+constexpr double range_wavelength = 22000;  ///< metres; wavelength of the widest mountain ridges
 constexpr double range_fall = 0.48;         ///< amplitude of a ridge divided by that of one twice as wide
 constexpr double hill_wavelength = 5200;
 constexpr double detail_wavelength = 720;

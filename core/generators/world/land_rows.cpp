@@ -12,7 +12,7 @@ namespace {
 
 using Row = std::vector<float>;
 
-constexpr float scale = 1.4F;  ///< of noise()
+constexpr float scale = 1.4F;  ///< scale of noise()
 
 /// A cell of a lattice and its four directions.
 struct Cell {

@@ -12,7 +12,7 @@ namespace {
 constexpr double step = 12;   ///< metres between points
 constexpr double apart = 34;  ///< metres between a lane and others, so that houses stand between them
 constexpr double most_lane_works = 1.4;
-constexpr double steepest = 0.13;    ///< of the ground along a lane
+constexpr double steepest = 0.13;    ///< rise over run of the ground along a lane
 constexpr double most_turn = 22;     ///< degrees from a right angle with the road
 constexpr double pin_distance = 46;  ///< metres; earthworks keep away from samples of coarse tiles
 constexpr std::size_t least_points = 4;

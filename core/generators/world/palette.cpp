@@ -66,8 +66,9 @@ GroundColors::GroundColors(const World& world) {
 }
 
 std::array<std::uint8_t, 4> ground_color(const World& world, const GroundColors& colors,
-                                         const GroundSample& sample, double east, double north,
-                                         double steepness, double spacing) {
+                                         const GroundSample& sample, const glm::dvec2& at, double steepness,
+                                         double spacing) {
+  const double east = at.x, north = at.y;
   const Climate climate = climate_at(world, east, north, sample.height);
   const double patch = patches_at(world, east, north, spacing);
   const double banks =

@@ -19,7 +19,7 @@ constexpr int array_buffer = 34962, element_buffer = 34963;
 struct Showing {
   double share =
       1;  ///< of marks, of classes whose crowns close; about 0.7 and 0.4 of the plants at 0.25 and 0.08
-  double open_share = 1;  ///< of other classes
+  double open_share = 1;  ///< share of other classes
   double width = 1;       ///< fewer plants are wider, so that they cover as much
   bool is_simple = false, has_canopy = false;
 };
@@ -32,7 +32,7 @@ constexpr Showing showings[] = {{1, 1, 1, false, false},
 constexpr int levels_of_plants = 5;
 constexpr double widest_open = 1.3;     ///< the most that classes whose crowns do not close are widened
 constexpr double least_far_height = 3;  ///< metres; lower classes are not seen from afar
-constexpr int first_far_level = 3;      ///< above the leaves
+constexpr int first_far_level = 3;      ///< number of the level above the leaves
 
 int add_plant_mesh(Glb& glb, const PlantFile& file, const std::string& name, std::string_view folder) {
   const int buffer =

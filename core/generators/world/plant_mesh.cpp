@@ -47,7 +47,7 @@ class Builder {
   }
 
   /// A part of a crown: an uneven ellipsoid, darker below. Normals turn out of the crown, whose middle is at the height
-  /// `heart`, so that its parts look like one.
+  /// `heart`, so that its parts are shaded as one body.
   void lobe(const glm::dvec3& middle, const glm::dvec3& radius, double heart, int rings, int sides,
             const Rgba& color) {
     const auto first = static_cast<std::uint32_t>(positions_.size());

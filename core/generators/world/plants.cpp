@@ -30,7 +30,7 @@ struct CoverOctave {
 };
 /// Wooded country, woods, clearings and ragged edges.
 constexpr std::array<CoverOctave, 4> cover_octaves{{{4300, 0.5}, {870, 0.75}, {190, 0.35}, {52, 0.12}}};
-constexpr double lone_share = 0.012;  ///< of candidates outside of woods
+constexpr double lone_share = 0.012;  ///< share of candidates outside of woods
 constexpr double edge_low = -0.1, edge_high = 0.16;
 
 /// The share of candidates near a position that may compete. Stops when the finer octaves cannot change it.
@@ -57,7 +57,7 @@ struct Field {
   std::int64_t first_x = 0, first_y = 0;
   int columns = 0, rows = 0;
   std::vector<Candidate> candidates;
-  std::vector<std::uint32_t> starts;  ///< of each cell
+  std::vector<std::uint32_t> starts;  ///< first plant of each cell
 
   template <class Visit>
   void for_near(int column, int row, const Visit& visit) {
@@ -73,7 +73,7 @@ struct Field {
 /// The side of the cells of candidates.
 double cell_of(const WorldClass& plant) { return plant.spacing / 1.4142135623730951; }
 
-/// Candidate `n` of the cell (x, y); its generator goes on to whether the candidate competes.
+/// Candidate `n` of the cell (x, y); the next number of its generator decides whether the candidate competes.
 Candidate candidate_at(std::uint64_t key, double cell, std::int64_t x, std::int64_t y, int n, Rng& rng) {
   rng = Rng(key_at(cell_key(key, x, y), static_cast<std::uint64_t>(n)));
   Candidate c;
@@ -257,7 +257,7 @@ struct Climates {
 };
 
 /// Whether one of the biomes of a class has a climate of the range. A biome has the climates between two temperatures and
-/// two moistures, the lower included, so the lower ends and the limits inside of the range meet all biomes of it.
+/// two moistures, the lower ones included. The lower ends of the range and the limits inside it thus meet all its biomes.
 bool has_biome(const WorldClass& plant, const Climates& range) {
   if (plant.biomes.empty()) return true;
   std::vector<double> moistures{range.moisture[0]}, temperatures{range.temperature[0]};
@@ -303,7 +303,7 @@ double tallest_growing(const World& world, const GroundSample& sample, double ea
 }
 
 double tallest_present(const World& world, const Growth& growth, const Rectangle& box) {
-  constexpr double widest_counted = 256;  ///< metres; of squares in which candidates are looked for
+  constexpr double widest_counted = 256;  ///< metres; side of squares in which candidates are searched
   if (!world.has(Layer::plants)) return 0;
   double most = growth.tallest;
   if (growth.has_river) {

@@ -47,10 +47,10 @@ double tallest_growing(const World& world, const GroundSample& sample, double ea
 /// What is known of a square: bounds of its heights, and of the heights of its plants.
 struct Growth {
   double low = 0, high = 0, tallest = 0;
-  bool has_river = false;  ///< a river beside which `tallest` does not know of the moist ground
+  bool has_river = false;  ///< a river beside which `tallest` does not include the moist ground
 };
-/// Returns the height of the tallest class, among those of at most `growth.tallest` metres, that grows at such heights and,
-/// in squares of up to 256 m, has a candidate in [west, east) x [south, north); 0 without one.
+/// Returns the height of the tallest class that grows here, among those of at most `growth.tallest` metres; 0 without one.
+/// In squares of up to 256 m, the class must also have a candidate in [west, east) x [south, north).
 double tallest_present(const World& world, const Growth& growth, const Rectangle& box);
 
 }  // namespace seedmesh::world

@@ -12,8 +12,8 @@ namespace seedmesh::world {
 namespace {
 
 constexpr int window_margin = 3;  ///< cells that displaced borders reach beyond a region at most
-constexpr double jitter = 0.6;    ///< of a cell
-constexpr int pieces = 12;        ///< of a river between two nodes
+constexpr double jitter = 0.6;    ///< share of a cell
+constexpr int pieces = 12;        ///< pieces of a river between two nodes
 constexpr double cell_area = drain_cell * drain_cell / 1e6;  ///< km²
 constexpr double lake_reach = 640;  ///< metres; greatest radius, below the distance of nodes
 constexpr int sinking_steps = 5;

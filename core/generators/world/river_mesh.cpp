@@ -9,13 +9,13 @@
 namespace seedmesh::world {
 namespace {
 
-constexpr double least_width = 1.0 / 96;                   ///< by the spacing; narrower rivers are left out
-constexpr double least_lake = 1.0 / 4;                     ///< radius by the spacing
+constexpr double least_width = 1.0 / 96;  ///< share of the spacing; narrower rivers are left out
+constexpr double least_lake = 1.0 / 4;    ///< radius as a share of the spacing
 constexpr double resolved_width = 1.5, resolved_lake = 3;  ///< by the spacing
-constexpr double strip_width = 0.35;                       ///< by the spacing; wider ribbons are cut by cells
-constexpr double bend_tolerance = 0.1;                     ///< by the spacing, of the lines of rivers
-constexpr double great_river = 24;                         ///< metres; narrower ones have narrower ribbons
-constexpr int least_corners = 8, most_corners = 24;        ///< of lakes
+constexpr double strip_width = 0.35;                 ///< share of the spacing; wider ribbons are cut by cells
+constexpr double bend_tolerance = 0.1;               ///< share of the spacing, for the lines of rivers
+constexpr double great_river = 24;                   ///< metres; narrower ones have narrower ribbons
+constexpr int least_corners = 8, most_corners = 24;  ///< corners of lakes
 
 /// A ribbon whose pieces share their corners, as triangles.
 class Ribbon {

@@ -4,7 +4,7 @@
 
 namespace seedmesh::world {
 namespace {
-constexpr std::uint64_t entry_bytes = 160;  ///< of the list and the map
+constexpr std::uint64_t entry_bytes = 160;  ///< bytes of an entry of the list and the map
 }
 
 void Store::keep(std::list<Entry>::iterator entry, const Made& made) {

@@ -31,7 +31,7 @@ class Store {
 
   explicit Store(std::uint64_t capacity = std::uint64_t{64} << 20U) : capacity_(capacity) {}
 
-  /// Returns the value of `key`. If the store has none, `make` makes it. `make` may ask for values of lower
+  /// Returns the value of `key`. If the store has none, `make` makes it. `make` may get values of lower
   /// layers. If it throws, one of the waiting threads makes the value. Waiting ends with the job's deadline.
   template <class Value, class Make>
   std::shared_ptr<const Value> get(const Key& key, const Job& job, const Make& make) {

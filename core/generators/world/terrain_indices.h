@@ -1,6 +1,6 @@
 #pragma once
 /// The triangles of the terrain of a tile, and the coordinates of its vertices in the texture of the ground. They are the
-/// same in all tiles with the same number of cells. A client that looks at the ground needs all of them, so they are one
+/// same in all tiles with the same number of cells. A client that shows the ground needs all of them, so they are one
 /// file that tiles share.
 #include <cstdint>
 #include <memory>
@@ -19,7 +19,7 @@ struct FilePart {
 
 struct TerrainFile {
   FilePart indices, dense_indices;  ///< corners of 16 bits of tiles with `tile_cells` and with `dense_cells`
-  FilePart coordinates;             ///< of the vertices of tiles with `tile_cells`, as pairs of floats
+  FilePart coordinates;             ///< texture coordinates of tiles with `tile_cells`, as pairs of floats
   std::string file;                 ///< little-endian
   std::string hash;                 ///< 16 hexadecimal digits of the file
   std::uint64_t bytes() const { return file.size() + sizeof(TerrainFile); }

@@ -13,10 +13,10 @@ namespace {
 
 constexpr double border_share = 0.9;     ///< the greatest deviation along a line, by that of an area
 constexpr double far_share = 0.9;        ///< the same for tiles three levels coarser
-constexpr double unusual = 1.15;         ///< of the usual skirt: the deepest that boxes allow for
+constexpr double unusual = 1.15;         ///< share of the usual skirt: the deepest that boxes include
 constexpr double widest_fine_rise = 64;  ///< metres
-constexpr double fine_share = 0.7;       ///< of normals that follow the slope of finer levels
-constexpr double rounding_steps = 9;     ///< of heights of tiles three levels coarser
+constexpr double fine_share = 0.7;       ///< share of normals that follow the slope of finer levels
+constexpr double rounding_steps = 9;     ///< steps by which heights of tiles three levels coarser are rounded
 
 /// Rises by a metre east and north.
 struct Rise {
@@ -60,7 +60,7 @@ TileVertex vertex_of(const World& world, const GroundColors& colors, const TileF
   vertex.normal[2] = byte(seen.north);
   // as tiles with the usual number of cells
   const double resolved = frame.side / tile_cells;
-  const auto color = ground_color(world, colors, sample, east, north, steepness, resolved);
+  const auto color = ground_color(world, colors, sample, {east, north}, steepness, resolved);
   std::copy(color.begin(), color.end(), vertex.color);
   return vertex;
 }
@@ -132,7 +132,7 @@ double skirt_depth(const World& world, int level, const TerrainGrid& grid) {
       }
     }
   }
-  // as areas_below() finds them, so that boxes hold the skirts
+  // as areas_below() finds them, so that boxes contain the skirts
   const double spacing = area_spacing(world, level);
   if (spacing >= coarse_spacing) {
     const int stride = std::max(1, math::to_int32(spacing / frame.spacing));
@@ -145,7 +145,7 @@ double skirt_depth(const World& world, int level, const TerrainGrid& grid) {
 }
 
 double most_skirt(const World& world, const TileFrame& frame, Roughness rough) {
-  rough.mesh_deviation = {};  // tiles know nothing of it, and their skirts cover neighbours
+  rough.mesh_deviation = {};  // no tile depends on it, and skirts cover the gaps to neighbours
   return unusual * usual_skirt(world, frame, rough);
 }
 

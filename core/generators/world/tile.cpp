@@ -115,12 +115,6 @@ void add_works(Glb& glb, const World& world, const TileFrame& frame, const TileG
 
 }  // namespace
 
-bool has_tile(const World& world, const TileKey& key) {
-  if (key.level < 0 || key.level >= world.levels) return false;
-  const std::int64_t count = std::int64_t{1} << key.level;
-  return key.x >= 0 && key.y >= 0 && key.x < count && key.y < count;
-}
-
 std::string tile_glb(const World& world, const TileKey& key, Job& job, std::string_view folder) {
   const TileFrame frame = frame_of(world, key);
   Glb glb({frame.middle_east - static_cast<double>(world.east), 0.0,

@@ -37,7 +37,7 @@ inline TileFrame frame_of(const World& world, const TileKey& key) {
   frame.south = static_cast<double>(world.north) - world.extent / 2 + static_cast<double>(key.y) * frame.side;
   frame.middle_east = frame.west + frame.side / 2;
   frame.middle_north = frame.south + frame.side / 2;
-  // 16 bits hold the sides, and heights of 8 sides in small tiles, 2 sides in the widest.
+  // 16 bits suffice for the sides, and for heights of 8 sides in small tiles, 2 sides in the widest.
   frame.step = frame.side / (frame.side >= 16384 ? 32768 : frame.side >= 2048 ? 16384 : 8192);
   return frame;
 }

@@ -14,13 +14,14 @@
 namespace seedmesh::world {
 namespace {
 
-constexpr std::size_t directions = 48;  ///< of the outline
+constexpr std::size_t directions = 48;  ///< number of directions of the outline
 constexpr double step = 12;             ///< metres between positions that are tested for the outline
 constexpr double least_shore = 24, above_sea = 3;
-constexpr double steepest = 0.22;       ///< of the ground between two positions
-constexpr double least_share = 0.5;     ///< of the mean square radius; below, the settlement is a village
-constexpr double apart = 30;            ///< metres between given streets
-constexpr double pin_radius = 42;       ///< metres; earthworks keep away from samples of coarse tiles
+constexpr double steepest = 0.22;  ///< rise over run of the ground between two positions
+constexpr double least_share =
+    0.5;                           ///< share of the mean square radius below which a settlement is a village
+constexpr double apart = 30;       ///< metres between given streets
+constexpr double pin_radius = 42;  ///< metres; earthworks keep away from samples of coarse tiles
 constexpr double green_radius = 25;     ///< metres, around the church
 constexpr double green_distance = 62;   ///< metres from the middle of the town
 constexpr double square_distance = 34;  ///< metres from the middle of the town

@@ -74,7 +74,7 @@ void check_towns(const WorldParams& params, std::vector<Issue>& issues) {
   const std::optional<Child>& child = params.settlements.towns.city;
   if (!child || child->generator.empty()) return;
   if (child->generator != "city") {
-    issues.emplace_back(IssueKind::conflict, std::string(pointer) + "/generator",
+    issues.emplace_back(conflict_with({}), std::string(pointer) + "/generator",
                         "found \"" + child->generator + "\", expected \"city\"");
     return;
   }

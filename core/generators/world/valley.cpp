@@ -5,7 +5,7 @@
 namespace seedmesh::world {
 namespace {
 
-constexpr double first_return = 0.12;  ///< of the reach; from here the valley returns to the land
+constexpr double first_return = 0.12;  ///< share of the reach from which the valley returns to the land
 constexpr double slope_blend =
     24;  ///< metres of height over which the slope of a valley becomes that of the land
 

@@ -10,7 +10,7 @@
 namespace seedmesh::world {
 namespace {
 
-constexpr double overlap = 1.0 / 8;          ///< of a cell, at the borders of sheets
+constexpr double overlap = 1.0 / 8;          ///< share of a cell, at the borders of sheets
 constexpr double widest_lake_spacing = 256;  ///< metres between samples that show the shores of lakes
 constexpr double lake_reach = 100;           ///< metres
 

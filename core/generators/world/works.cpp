@@ -32,12 +32,12 @@ double distance_to(const RoadPiece& piece, double east, double north, double& sh
 }
 
 constexpr double steepest_field = 0.11, least_field_moisture = 0.24;
-constexpr double cleared_reach = 2.6;  ///< of the radius of a village: how far woods are cut
+constexpr double cleared_reach = 2.6;  ///< radii of a village up to which woods are cut
 constexpr double hedge = 2.5;          ///< metres from the border of a field
 
 /// The field around a position: a cell of the Voronoi diagram of one point in each cell of a jittered grid.
 struct Field {
-  double east = 0, north = 0;  ///< of its point
+  double east = 0, north = 0;  ///< coordinates of its point
   std::uint64_t key = 0;
   double border = 0;  ///< about the distance of the position from the next field
 };

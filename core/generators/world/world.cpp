@@ -8,6 +8,7 @@
 #include "core/generators/world/terrain_indices.h"
 #include "core/generators/world/terrain_mesh.h"
 #include "core/generators/world/water_mesh.h"
+#include "core/model/empty_mesh.h"
 
 namespace seedmesh::world {
 namespace {
@@ -25,11 +26,8 @@ struct Part {
 
 template <class Corners>
 Mesh mesh_of(const Part& part, const Corners& corners, std::size_t corner_count, double step, Job& job) {
-  Mesh mesh;
-  mesh.position = Array<glm::vec3>(job);
-  mesh.normal = Array<glm::vec3>(job);
+  Mesh mesh = empty_mesh(job);
   mesh.color = Array<glm::u8vec4>(job);
-  mesh.index.wide = Array<std::uint32_t>(job);
   mesh.position.reserve(part.vertex_count);
   mesh.normal.reserve(part.vertex_count);
   mesh.color.reserve(part.vertex_count);

@@ -16,16 +16,14 @@
 
 namespace seedmesh::world {
 
-/// A tile of the quadtree: level 0 is the whole extent; x runs east, y north, from 0.
+/// A tile of the quadtree: level 0 is the whole extent; x runs east, y north, from 0. A world has the tiles with
+/// 0 <= level < world.levels and 0 <= x, y < 2^level.
 struct TileKey {
   int level = 0;
   std::int64_t x = 0, y = 0;
 };
 
-/// Whether the tree has the tile: 0 <= level < world.levels and 0 <= x, y < 2^level.
-bool has_tile(const World& world, const TileKey& key);
-
-/// The upright box of a tile. It holds all vertices of the tile, skirts and instances included, and the boxes of
+/// The upright box of a tile. It contains all vertices of the tile, skirts and instances included, and the boxes of
 /// its children; it lies inside the box of its parent. In plan it is the tile's square, except where plants and
 /// buildings extend beyond it.
 struct TileBounds {
@@ -35,7 +33,7 @@ struct TileBounds {
 };
 
 /// Returns the bounds of a tile. Those of the 341 tiles of one file are made together, in some milliseconds, and
-/// stay in the store. `key` is in the tree.
+/// stay in the store. `key` must be in the tree.
 TileBounds tile_bounds(const World& world, const TileKey& key, Job& job);
 
 /// Returns the geometric error that the root of an implicit tileset has to declare: divided by 2^level, it is at least
@@ -44,7 +42,7 @@ double greatest_error(const World& world);
 
 /// Returns the content of a tile as binary glTF: core glTF with KHR_mesh_quantization. One root node has the middle of
 /// the tile as its translation; below it are nodes named by layer. `folder` leads from the tile to the folder that has
-/// the directory "a" of shared files. Spends Resource::triangles. `key` is in the tree.
+/// the directory "a" of shared files. Spends Resource::triangles. `key` must be in the tree.
 std::string tile_glb(const World& world, const TileKey& key, Job& job, std::string_view folder = "../../../");
 
 /// A file that tiles share, by the hash in its name.

@@ -43,20 +43,20 @@ std::vector<Issue> issues_of(const WorldParams& params) {
                                       {"/temperature", plant.temperature},
                                       {"/heights", plant.heights}}) {
       if (range[0] <= range[1]) continue;
-      issues.emplace_back(IssueKind::conflict, at + name,
+      issues.emplace_back(conflict_with({}), at + name,
                           "found " + number_text(range[0]) + " before " + number_text(range[1]) +
                               ", expected the lower number first");
     }
     if (plant.model && !plant.model->generator.empty() && plant.model->generator != "tree" &&
         plant.model->generator != "lsystem") {
-      issues.emplace_back(IssueKind::conflict, at + "/model/generator",
+      issues.emplace_back(conflict_with({}), at + "/model/generator",
                           "found \"" + plant.model->generator + "\", expected \"tree\" or \"lsystem\"");
     }
   }
   for (std::size_t k = 0; k < params.settlements.houses.size(); ++k) {
     const std::string& generator = params.settlements.houses[k].model.generator;
     if (generator.empty() || generator == "building") continue;
-    issues.emplace_back(IssueKind::conflict, "/settlements/houses/" + std::to_string(k) + "/model/generator",
+    issues.emplace_back(conflict_with({}), "/settlements/houses/" + std::to_string(k) + "/model/generator",
                         "found \"" + generator + "\", expected \"building\"");
   }
   check_towns(params, issues);

@@ -4,7 +4,7 @@
 ///
 /// Joints of a limb are selected after Douglas and Peucker, "Algorithms for the reduction of the number of
 /// points required to represent a digitized line or its caricature", 1973; the error is the area by which the
-/// outline changes. Twigs are removed as wholes: thin, short and hidden ones first. Both decisions compare
+/// outline changes. Whole twigs are removed: thin, short and hidden ones first. Both decisions compare
 /// the error with the number of triangles times a Lagrange multiplier, which bisection finds. For skin() the
 /// multiplier also decides how many corners each limb has; thick limbs keep more.
 #include <span>
@@ -17,7 +17,7 @@
 namespace seedmesh {
 
 struct CoarseOptions {
-  std::uint64_t triangles = 0;  ///< approximate number wanted, counted as closed tubes
+  std::uint64_t triangles = 0;  ///< approximate target, counted as closed tubes
   /// The options of the finest level where skin() makes the bark; null where graft() makes it. skin() allows
   /// different barks and cross-sections along a limb; joints where those change are kept.
   const SkinOptions* skin = nullptr;

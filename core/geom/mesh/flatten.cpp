@@ -5,6 +5,7 @@
 
 #include "core/base/math.h"
 #include "core/model/build.h"
+#include "core/model/empty_mesh.h"
 
 namespace seedmesh {
 namespace {
@@ -28,12 +29,10 @@ void append_or_fill(Array<T>& out, const Array<T>& part, std::size_t count, cons
 class Join {
  public:
   Join(const std::vector<Shown>& parts, Job& job) : job_(job) {
+    mesh_ = empty_mesh(job);
     mesh_.topology = parts.front().mesh->topology;
-    mesh_.position = Array<glm::vec3>(job);
-    mesh_.normal = Array<glm::vec3>(job);
     mesh_.uv[0] = Array<glm::vec2>(job);
     mesh_.color = Array<glm::u8vec4>(job);
-    mesh_.index.wide = Array<std::uint32_t>(job);
     std::size_t vertices = 0, corners = 0;
     for (const Shown& part : parts) {
       vertices += part.mesh->position.size();

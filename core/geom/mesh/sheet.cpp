@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/base/math.h"
+#include "core/model/empty_mesh.h"
 
 namespace seedmesh {
 namespace {
@@ -22,11 +23,8 @@ void share_vertices(Mesh& mesh) {
 }  // namespace
 
 Mesh empty_sheet(const Job& job) {
-  Mesh mesh;
-  mesh.position = Array<glm::vec3>(job);
-  mesh.normal = Array<glm::vec3>(job);
+  Mesh mesh = empty_mesh(job);
   mesh.uv[0] = Array<glm::vec2>(job);
-  mesh.index.wide = Array<std::uint32_t>(job);
   return mesh;
 }
 

@@ -74,7 +74,7 @@ Measures measure(const Limbs& limbs, Job& job) {
 }
 
 /// True where a bone may begin with the internode of `joint`: at roots and side branches, and where a limb
-/// goes on in a later class of birth.
+/// continues in a later class of birth.
 bool may_begin(const Limbs& limbs, const Measures& measures, std::uint32_t joint) {
   const std::uint32_t parent = limbs.parent[joint];
   if (parent == Limbs::none) return true;

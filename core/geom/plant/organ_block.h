@@ -29,7 +29,7 @@ class OrganBlock {
   void place(const Array<Organ>& organs, std::span<const std::uint32_t> numbers);
 
   /// Writes the vertices of the first `count` organs, one organ after the other. `tangent` is null where no
-  /// tangents are wanted.
+  /// the mesh gets tangents.
   void write(std::size_t count, glm::vec3* position, glm::vec3* normal, glm::vec4* tangent) const;
 
  private:

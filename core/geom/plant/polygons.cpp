@@ -11,6 +11,7 @@
 #include "core/geom/mesh/point_grid.h"
 #include "core/geom/plant/outline_plane.h"
 #include "core/geom/polygon/triangulate.h"
+#include "core/model/empty_mesh.h"
 #include "core/model/index_width.h"
 
 namespace seedmesh {
@@ -280,10 +281,8 @@ class PieceWriter {
     for (const auto& [at, need] : needs) {
       check_vertex_count(job_, need.vertices, "The polygons");
       Mesh& mesh = meshes_[at];
-      mesh.position = Array<glm::vec3>(job_);
-      mesh.normal = Array<glm::vec3>(job_);
+      mesh = empty_mesh(job_);
       mesh.uv[0] = Array<glm::vec2>(job_);
-      mesh.index.wide = Array<std::uint32_t>(job_);
       mesh.bone = Array<std::uint16_t>(job_);
       mesh.position.reserve(need.vertices);
       mesh.normal.reserve(need.vertices);

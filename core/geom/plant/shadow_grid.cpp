@@ -8,7 +8,7 @@
 namespace seedmesh {
 namespace {
 
-// Whole numbers in a shade of 1. A cell can hold 65,535 times that.
+// Whole numbers in a shade of 1. A cell can store 65,535 times that.
 constexpr double whole = 65536;
 // Cells beyond these count as the outermost ones, so that the number of cells fits into 64 bits.
 constexpr double farthest = 1e5;

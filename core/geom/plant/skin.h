@@ -80,7 +80,7 @@ struct Bark {
 ///   left out if its corners would be welded at 1e-6 of the diagonal.
 /// - Repeated internodes. Of internodes that coincide (same ends in either order, same radii) the first is
 ///   written. What grows from a later one grows from the first.
-/// - Colours. A limb that changes its colour goes on in the other mesh with the same ring; together the
+/// - Colours. A limb that changes its colour continues in the other mesh with the same ring; together the
 ///   meshes are closed.
 /// - Coincident rings are moved apart by a few hundredths of the radius, by a hash of the joint's key.
 ///

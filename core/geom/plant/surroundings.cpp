@@ -110,7 +110,7 @@ void Surroundings::fill_cells() {
     longest = std::max(longest, length_of(each.to - each.from));
     thickest = std::max(thickest, each.radius);
   }
-  // Cells of about the mean length hold few internodes; none lies in more than most_cells along an axis.
+  // Cells of about the mean length contain few internodes; none lies in more than most_cells along an axis.
   double sum = 0;
   for (const GrownInternode& each : grown_) sum += length_of(each.to - each.from);
   const double mean = grown_.empty() ? 1 : sum / static_cast<double>(grown_.size());

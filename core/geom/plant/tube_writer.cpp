@@ -228,7 +228,7 @@ void TubeWriter::close(TubeClosing closing, float free) {
   const float cone = closing == TubeClosing::tip ? tip : cap_share * end;
   const float ring_at = closing == TubeClosing::tip ? internode_.length - cone : internode_.length;
   const Slope slope = slope_of(radius_, end, ring_at);
-  spin_ *= internode_.length / ring_at;  // the whole twist happens before the cone
+  spin_ *= internode_.length / ring_at;  // the whole twist is before the cone
   write_pending_ring(slope);
   write_inner_rings({end, ring_at, reach_, ring_at});
 
@@ -277,7 +277,7 @@ void TubeWriter::write_inner_rings(const Taper& taper) {
   for (int i = 1; i <= count; ++i) {
     const float share = static_cast<float>(i) / static_cast<float>(count + 1);
     const float at = taper.low + (taper.high - taper.low) * share;
-    // By the free length only: on the inner side of a bend the whole change of radius happens there.
+    // By the free length only: on the inner side of a bend the whole change of radius is there.
     const float radius = radius_ + (taper.end - radius_) * share;
     if (twist_ < 1) {
       u_ = first_u_ + (last_u - first_u_) * (at / taper.length);

@@ -1,7 +1,7 @@
 #pragma once
 /// The turtle of Prusinkiewicz and Lindenmayer (The Algorithmic Beauty of Plants, 1990, sections 1.3 and
 /// 1.5): a position, a frame, a width and a colour, with a stack for branches and another for polygons. It
-/// writes a Skeleton and measures what it draws. It knows no grammar.
+/// writes a Skeleton and measures what it draws. It does not depend on a grammar.
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <optional>
@@ -160,7 +160,7 @@ class Turtle {
   const TurtleReport& report() const { return report_; }
 
   /// A command would have taken a coordinate of the position beyond 1e15 metres. The caller refuses the
-  /// request, since it knows the module and the text that wrote it.
+  /// request, since it has the module and the text that wrote it.
   bool is_out_of_range() const { return is_out_of_range_; }
   static constexpr const char* too_far = "the turtle went further than 1e15 metres from its start";
 
@@ -246,7 +246,7 @@ class Turtle::Recording {
   Array<glm::dvec3> places_;
   State start_, end_;
   float radius_ = 0;                 ///< radius of the joint that it grows from
-  std::uint32_t shared_joints_ = 0;  ///< 1: joint 0 stands for the joint that the drawing grows from
+  std::uint32_t shared_joints_ = 0;  ///< 1: joint 0 represents the joint that the drawing grows from
   double reach_ = 0;                 ///< the largest sum of the absolute coordinates of a joint
   TurtleReport report_;
 };

@@ -79,7 +79,7 @@ class RoofMaker {
     return std::move(roof_);
   }
 
-  /// Whether the roof has the slopes that were asked for.
+  /// Whether the roof has the requested slopes.
   bool has_slopes() const { return !is_flat_; }
 
  private:

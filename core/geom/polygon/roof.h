@@ -4,7 +4,7 @@
 /// Points are in space as by `raised` of plan.h; the walls end at height 0. A roof has one or two closed
 /// solids. The body stands on the plan: slopes, vertical gables and a base at height 0 that faces down. With
 /// an overhang or a thickness there is also a cover: a shell over the slopes and beyond the walls, with an
-/// underside (soffit) and an edge (fascia). The two share no plane, so that one mesh can hold both.
+/// underside (soffit) and an edge (fascia). The two share no plane, so that one mesh can contain both.
 #include <array>
 #include <optional>
 

@@ -3,6 +3,7 @@
 
 #include "core/geom/mesh/weld.h"
 #include "core/geom/polygon/roof.h"
+#include "core/model/empty_mesh.h"
 
 namespace seedmesh {
 namespace {
@@ -60,11 +61,8 @@ std::vector<RoofMesh> meshes_of(const Roof& roof, Job& job) {
   job.spend(Resource::triangles, corners);
   for (std::size_t r = 0; r < roof_role_names.size(); ++r) {
     const auto role = static_cast<RoofRole>(r);
-    Mesh mesh;
-    mesh.position = Array<glm::vec3>(job);
-    mesh.normal = Array<glm::vec3>(job);
+    Mesh mesh = empty_mesh(job);
     mesh.uv[0] = Array<glm::vec2>(job);
-    mesh.index.wide = Array<std::uint32_t>(job);
     for (const RoofFace& face : roof.faces) {
       if (face.role == role) add_face(mesh, roof, face, job);
     }

@@ -51,7 +51,7 @@ class Triangulator {
   void count_step() const;
 
   const Job* job_;
-  mutable std::uint32_t steps_ = 0;  ///< looks at corners since the last check of the job
+  mutable std::uint32_t steps_ = 0;  ///< corners tested since the last check of the job
   std::span<const glm::dvec2> points_;
   double least_ = 0;              ///< twice the least area
   bool uses_all_points_ = false;  ///< thin triangles are kept where no others are possible

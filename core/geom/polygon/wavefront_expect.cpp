@@ -13,8 +13,8 @@ using glm::dvec2;
 
 // With fewer edges, and fewer pairs of an edge and a corner, all are compared.
 constexpr std::size_t few_edges = 512, few_pairs = 4096;
-// The horizon is nearer where the regions up to it need more entries of the grid, or more pairs of an edge and a
-// corner that share a cell, for each edge and corner.
+// The greatest number, for each edge and corner, of entries of the grid, and of pairs of an edge and a corner that share
+// a cell. Where the regions up to the horizon would need more, the horizon is nearer.
 constexpr std::size_t entries_each = 128;
 // With more, thin spikes of rough stars need far too many pairs once they move.
 constexpr double most_effort = 9;

@@ -11,7 +11,7 @@
 namespace seedmesh::gltf {
 namespace {
 
-/// Textures that come later bring normals, and these want tangents.
+/// Textures are added later. Their normal maps require tangents.
 bool can_be_packed(const Primitive& primitive, const Model& model) {
   const Mesh& mesh = primitive.mesh;
   if (mesh.packed || mesh.topology != Topology::triangles || mesh.elements() == 0) return false;

@@ -211,7 +211,7 @@ void rewrite(Part& part, Array<std::uint32_t>& corners, Job& job) {
 /// Joins points that are equal in all columns.
 void clean_points(Part& part, Job& job) {
   const std::size_t count = part.columns.front().count;
-  Array<std::uint32_t> corners(job, (count + 2) / 3 * 3);  // meshoptimizer wants whole triangles
+  Array<std::uint32_t> corners(job, (count + 2) / 3 * 3);  // meshoptimizer requires whole triangles
   for (std::size_t i = 0; i < corners.size(); ++i)
     corners[i] = static_cast<std::uint32_t>(std::min(i, count - 1));
   std::size_t different = 0;

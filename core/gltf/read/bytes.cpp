@@ -1,7 +1,8 @@
 #include "core/gltf/read/bytes.h"
 
-#include <array>
 #include <cstring>
+
+#include "core/base/base64.h"
 
 namespace seedmesh::gltf {
 namespace {
@@ -9,16 +10,6 @@ namespace {
 constexpr std::uint32_t glb_magic = 0x46546C67, json_chunk = 0x4E4F534A;
 constexpr std::size_t most_json = std::size_t{1} << 20U;
 constexpr int deepest_json = 32;
-constexpr std::uint8_t no_digit = 255;
-
-constexpr auto digit_values = [] {
-  constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::array<std::uint8_t, 256> values{};
-  for (std::uint8_t& value : values) value = no_digit;
-  for (std::size_t i = 0; i < digits.size(); ++i)
-    values[static_cast<unsigned char>(digits[i])] = static_cast<std::uint8_t>(i);
-  return values;
-}();
 
 std::uint32_t word_at(std::span<const std::byte> bytes, std::size_t offset) {
   std::uint32_t word = 0;
@@ -49,22 +40,13 @@ void check_depth(std::string_view json) {
 }  // namespace
 
 Array<std::byte> bytes_of_base64(std::string_view text, const Job& job) {
-  const std::size_t length = text.size();
-  while (!text.empty() && text.back() == '=' && length - text.size() < 2) text.remove_suffix(1);
-  if (text.size() % 4 == 1) throw Unreadable{"its base64 text is truncated"};
-  Array<std::byte> bytes(job, text.size() / 4 * 3 + (text.size() % 4 ? text.size() % 4 - 1 : 0));
-  std::uint32_t bits = 0;
-  int count = 0;
-  std::size_t at = 0;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const std::uint8_t value = digit_values[static_cast<unsigned char>(text[i])];
-    if (value == no_digit)
-      throw Unreadable{"character " + std::to_string(i + 1) + " of its base64 text is not a base64 digit"};
-    bits = bits << 6U | value;
-    count += 6;
-    if (count < 8) continue;
-    count -= 8;
-    bytes[at++] = static_cast<std::byte>(bits >> static_cast<unsigned>(count) & 0xFFU);
+  const std::string_view digits = without_padding(text);
+  if (digits.size() % 4 == 1) throw Unreadable{"its base64 text is truncated"};
+  Array<std::byte> bytes(job, base64_bytes(digits.size()));
+  const Base64End end = read_base64(digits, reinterpret_cast<std::uint8_t*>(bytes.data()));
+  if (end.bad != std::string_view::npos) {
+    throw Unreadable{"character " + std::to_string(end.bad + 1) +
+                     " of its base64 text is not a base64 digit"};
   }
   return bytes;
 }

@@ -91,12 +91,13 @@ Array<std::byte> rebuilt(const nlohmann::json& json, std::span<const std::byte> 
   return glb;
 }
 
+// NOLINTNEXTLINE(readability-function-size): the type of the callback
 bool refuse_image(tinygltf::Image*, int, std::string*, std::string*, int, int, const unsigned char*, int,
                   void*) {
   return false;
 }
 
-/// No file may be looked at. Later versions of the library ask for a file's size, too.
+/// No file of the disk may be read. Later versions of the library query a file's size, too.
 template <class Callbacks>
 Callbacks without_files() {
   Callbacks callbacks = {};

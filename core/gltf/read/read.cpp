@@ -9,6 +9,7 @@
 #include "core/gltf/read/accessor.h"
 #include "core/gltf/read/bytes.h"
 #include "core/gltf/read/file.h"
+#include "core/model/empty_mesh.h"
 
 namespace seedmesh {
 namespace {
@@ -110,11 +111,9 @@ class Scene {
 class Joining {
  public:
   Joining(const tinygltf::Model& file, const std::vector<Shown>& parts, Job& job) : file_(file), job_(job) {
-    mesh_.position = Array<glm::vec3>(job);
-    mesh_.normal = Array<glm::vec3>(job);
+    mesh_ = empty_mesh(job);
     mesh_.uv[0] = Array<glm::vec2>(job);
     mesh_.color = Array<glm::u8vec4>(job);
-    mesh_.index.wide = Array<std::uint32_t>(job);
     for (const Shown& part : parts) {
       has_uv_ |= part.primitive->attributes.contains("TEXCOORD_0");
       has_color_ |= part.primitive->attributes.contains("COLOR_0");

@@ -31,7 +31,7 @@ TEST(QuickMath, KeepsRightAnglesRight) {
   }
 }
 
-TEST(QuickMath, KnowsTheAxesAndNoDirection) {
+TEST(QuickMath, IsExactForTheAxesAndForNoDirection) {
   EXPECT_EQ(quick_atan2(0, 0), 0);
   EXPECT_EQ(quick_atan2(0, 1), 0);
   EXPECT_EQ(quick_atan2(0, -1), pi);

@@ -17,7 +17,7 @@ TEST(TextPosition, CountsACharacterOfSeveralBytesOnce) {
   EXPECT_EQ(text_position(text, text.find('B')).column, 5);
 }
 
-TEST(Result, HoldsAValueOrItsErrors) {
+TEST(Result, ContainsAValueOrItsErrors) {
   const Result<int> good = 3;
   ASSERT_TRUE(good);
   EXPECT_EQ(*good, 3);

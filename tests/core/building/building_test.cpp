@@ -41,7 +41,7 @@ TEST(BuildingRules, KnowRulesOfTheThesis) {
   EXPECT_EQ(leaves("5: a ~> Comp(\"edge\", 3){ B. }"), "B");
 }
 
-TEST(BuildingRules, TakeTheFirstCaseThatHolds) {
+TEST(BuildingRules, TakeTheFirstCaseThatIsTrue) {
   const std::string rules = "A --> case scope.sx > 20: B. case scope.sx > 5: C. else: D.";
   EXPECT_EQ(leaves(rules, {30, 1, 1}), "B");
   EXPECT_EQ(leaves(rules, {10, 1, 1}), "C");

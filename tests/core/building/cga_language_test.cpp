@@ -142,7 +142,7 @@ TEST(CgaLanguage, GivesAttributesToImportedFiles) {
       ElementsAre(5));
 }
 
-TEST(CgaLanguage, RedefinesExtensionRulesAndKnowsStartRules) {
+TEST(CgaLanguage, RedefinesExtensionRulesAndAcceptsStartRules) {
   const std::string library = "extension Roof(a) --> Flat.\nstart Init --> Roof(22)";
   EXPECT_EQ(active(derived(with_files({{"m", "import l : \"l\"  Lot --> l.start"}, {"l", library}}))),
             "Flat");
@@ -202,7 +202,7 @@ TEST(CgaLanguage, WarnsWhereAStepOfARuleFileCannotBeDone) {
   EXPECT_THROW(derived(with("version \"2019.1\"\nLot --> t(0, 1, 0) Lot")), Stop);
 }
 
-TEST(CgaLanguage, AsksForTheMainFileIfSeveralCouldBe) {
+TEST(CgaLanguage, RequiresTheMainFileIfSeveralAreCandidates) {
   const std::vector<Issue> issues = check(with_files({{"a", "A --> B."}, {"b", "A --> C."}}), Limits{});
   ASSERT_FALSE(issues.empty());
   EXPECT_THAT(issues[0].message, HasSubstr("several files that no other file imports (a, b)"));
@@ -236,7 +236,7 @@ TEST(CgaLanguage, ConvertsColours) {
   EXPECT_NEAR(reported("colorHexToG(colorRamp(\"blackToWhite\", 5, 0, 10))"), 128.0 / 255, 1e-9);
 }
 
-TEST(CgaLanguage, RestrictsAttributesOnlyIfTheAnnotationSaysSo) {
+TEST(CgaLanguage, RestrictsAttributesOnlyByTheAnnotation) {
   BuildingParams params = with("@Range(min=1, max=5, restricted=false) attr w = 2  A --> s(w, 1, 1) B.");
   params.attributes["w"] = 9.0;
   EXPECT_THAT(check(params, Limits{}), IsEmpty());

@@ -363,7 +363,7 @@ constexpr Case cases[] = {
     {R"~(Lot --> extrude(3) footprint(union) report("a",geometry.area) X.)~", "a", 80},
 };
 
-TEST(CgaNames, DoWhatTheReferenceSays) {
+TEST(CgaNames, FollowTheReference) {
   for (const Case& each : cases) {
     const Json answer = result_of(each.rules);
     expect_done(answer, each.rules);

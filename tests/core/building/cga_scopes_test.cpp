@@ -36,6 +36,25 @@ BuildingParams on_lot(std::string rules) { return with(std::move(rules), {10, 0,
 
 constexpr const char* headers[] = {"version \"2024.0\"\n", "@StartRule\n"};
 
+TEST(CgaScopes, OfMassesOnTerracesStandUpInAllRules) {
+  const std::string tower =
+      "Lot --> Stage(3)\n"
+      "Stage(k) --> case k > 0: extrude(6) comp(f){ side: Wall. | top: setback(1){ all: Ledge. | "
+      "remainder: Stage(k - 1) } } else: taper(4) Spire.";
+  const Json answer = derived(on_lot(tower));
+  const std::vector<Json> walls = shapes_of(answer, "Wall");
+  ASSERT_EQ(walls.size(), 12U);
+  for (const Json& wall : walls) EXPECT_NEAR(vector_of(wall, "size")[1], 6, 1e-9);
+  const std::vector<Json> spires = shapes_of(answer, "Spire");
+  ASSERT_EQ(spires.size(), 1U);
+  EXPECT_THAT(vector_of(spires[0], "size"), near(4, 4, 4));
+  EXPECT_NEAR(spires[0]["scope"]["origin"][1].get<double>(), 18, 1e-9);
+  // After @KeepScopes the scope of the second stage keeps the axes of the terrace: its y is horizontal.
+  const Json kept = derived(on_lot("@KeepScopes " + tower));
+  ASSERT_EQ(shapes_of(kept, "Spire").size(), 1U);
+  EXPECT_LT(shapes_of(kept, "Spire")[0]["scope"]["origin"][1].get<double>(), 12);
+}
+
 TEST(CgaScopes, TurnWithRaisedFacesAfterStartRule) {
   // On a facade of 10 x 4 m, y of the extruded slab is its depth.
   const std::string rules = "Lot --> extrude(4) comp(f){ front: extrude(0.5) Slab. | all: NIL }";

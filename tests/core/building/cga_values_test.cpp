@@ -32,7 +32,7 @@ TEST(CgaValues, FindsAValueOfWithOnceForEachCall) {
   EXPECT_EQ(reported("g with ( a := 3 ) = a * a  A --> report(\"x\", g) B."), 9);
 }
 
-TEST(CgaValues, TellsFunctionsOfOneNameApartByTheirParameters) {
+TEST(CgaValues, DistinguishesFunctionsOfOneNameByTheirParameters) {
   // The example of the reference: the numbers of Fibonacci.
   const std::string fibonacci =
       "fibonacci(n) = case n <= 2 : [0:n-1] else : fibonacci([0,1], n)\n"
@@ -79,7 +79,7 @@ TEST(CgaValues, ChangesArraysAndLists) {
       "B");
 }
 
-TEST(CgaValues, AsksForTagsAndTextureCoordinates) {
+TEST(CgaValues, QueriesTagsAndTextureCoordinates) {
   EXPECT_EQ(leaves("A --> tag(\"wall\") D  D --> case geometry.hasTags && geometry.hasTags(\"wall\") && "
                    "!geometry.hasTags(\"roof\"): B. else: C."),
             "B");

@@ -166,7 +166,7 @@ TEST(Collision, CutsBodiesThatAreFarFromConvex) {
   EXPECT_NEAR(volume_of_collision(demanded(params, {.collision = CollisionNames::godot})), 105, 3.1);
 }
 
-TEST(Hull, HoldsAllPointsOfRandomClouds) {
+TEST(Hull, ContainsAllPointsOfRandomClouds) {
   Rng rng(9);
   for (int trial = 0; trial < 100; ++trial) {
     std::vector<glm::dvec3> points;

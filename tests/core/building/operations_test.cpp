@@ -36,6 +36,34 @@ TEST(SplitArea, CutsAFaceIntoCellsOfTheirArea) {
   EXPECT_THAT(refusal(with("A --> splitArea(x){ ~1: B. }")), HasSubstr("expected a face"));
 }
 
+TEST(Resize, MakesACutSolidTheFaceThatItCovers) {
+  BuildingParams params = with(
+      "Lot --> extrude(5) split(x){ ~1: Part | ~1: Part } Part --> s('1, 0, '1) report(\"area\", "
+      "geometry.area) roofShed(20, 0) R.");
+  params.footprint = {{{0, 0}, {20, 0}, {20, 10}, {0, 10}}};
+  const Json answer = derived(params);
+  EXPECT_NEAR(sum_of(answer, "area"), 200, 1e-9);
+  EXPECT_EQ(answer["warnings"].dump().find("no roof"), std::string::npos) << answer["warnings"].dump();
+  params.footprint = l_shape;  // 72 square metres
+  EXPECT_NEAR(sum_of(derived(params), "area"), 72, 1e-9);
+}
+
+TEST(Operations, RefuseArgumentsThatTheyDoNotHave) {
+  EXPECT_THAT(refusal(with("A --> s('1, 0, '1) taper(9, 2) B.")),
+              HasSubstr("`taper` takes (height), found another argument"));
+  EXPECT_THAT(refusal(with("A --> t(1, 2, 3, 4) B.")),
+              HasSubstr("`t` takes (x, y, z), found another argument"));
+  EXPECT_THAT(refusal(with("A --> deleteHoles(1) B.")), HasSubstr("`deleteHoles` takes ()"));
+  EXPECT_THAT(refusal(with("A ~> Repeat(\"X\", 2, 3){ B. }")), HasSubstr("`Repeat` takes (axis, size)"));
+  EXPECT_EQ(leaves("A ~> Subdiv(\"X\", 2, 3, 1r){ B. | C. | D. }"), "B C D");
+  // Rule files of CityEngine are used as they are.
+  for (const char* header : {"version \"2025.0\" A -->", "B --> C. @StartRule A -->"}) {
+    const Json answer = derived(with(std::string(header) + " t(1, 2, 3, 4) D.", {10, 0, 8}));
+    EXPECT_THAT(answer["warnings"].dump(), HasSubstr("found more, which has no effect"));
+    EXPECT_EQ(active(answer), "D");
+  }
+}
+
 TEST(InnerRectangle, IsTheLargestInsideAFace) {
   BuildingParams params = with(
       "Lot --> innerRectangle(scope){ shape: report(\"in\", geometry.area) B. | remainder: report(\"rest\", "

@@ -503,6 +503,26 @@ TEST(City, LeavesNoShortPieceOfAGivenStreetBesideACrossing) {
   }
 }
 
+// A corner of the given streets is at the border or up to 10 cm beyond it, and rounding adds a piece of 2 cm there.
+TEST(City, LeavesNoShortPieceOfAGivenStreetAtTheBorder) {
+  CityParams params = small_town(200, 200);
+  params.lots.division = CityDivision::none;
+  params.area.polygon = {{{-94.5, -125.5}, {94.5, -125.5}, {94.5, 125.5}, {-12.5, 11.77}, {-94.5, 125.5}}};
+  for (int n = 0; n < 60; ++n) {
+    // The border between the last two corners.
+    const double share = 0.1 + 0.013 * n, east = -12.5 - 82 * share, north = 11.77 + 113.73 * share;
+    params.given.given_streets = lines({{{east + 2.5, -140}, {east, north + 0.003 * n}, {east - 6, 251}}});
+    for (const CityMethod method : {CityMethod::given, CityMethod::growth}) {
+      params.streets.method = method;
+      const StreetGraph graph = made(params, 3).graph;
+      for (std::uint32_t e = 0; e < graph.edges.size(); ++e) {
+        if (!graph.is_street(e)) continue;
+        ASSERT_GE(distance(graph.nodes[graph.edges[e].from], graph.nodes[graph.edges[e].to]), 300) << n;
+      }
+    }
+  }
+}
+
 TEST(City, AvoidsObstacles) {
   CityParams params = small_town(900, 900);
   params.maps.obstacles = "sqrt(x * x + (y - 100) ^ 2) < 120";

@@ -73,9 +73,9 @@ TEST(Division, CutsRandomBlocksIntoAnExactPartition) {
   for (const CityDivision method : {CityDivision::recursive, CityDivision::offset, CityDivision::skeleton,
                                     CityDivision::burgage, CityDivision::none}) {
     std::size_t divided = 0;
-    for (std::uint64_t seed = 0; seed < 4'000; ++seed)
+    for (std::uint64_t seed = 0; seed < 20'000; ++seed)
       divided += expect_a_partition(seed, method) > 1 ? 1 : 0;
-    EXPECT_EQ(divided > 1'200, method != CityDivision::none) << divided << " of 4,000 blocks are divided";
+    EXPECT_EQ(divided > 6'000, method != CityDivision::none) << divided << " of 20,000 blocks are divided";
   }
 }
 

@@ -39,14 +39,15 @@ std::string bytes_of(const Json& parameters, int threads) {
   return bytes;
 }
 
-/// Streets by their lines, without regard to their direction.
+/// Streets by their lines, without regard to their direction and heights.
 std::set<std::string> lines_of(const Json& features, double east = -1e9, double north = -1e9) {
   std::set<std::string> lines;
   for (const Json& each : features) {
     if (each["properties"]["kind"] != "street") continue;
     Json line = each["geometry"]["coordinates"];
     bool is_far = true;
-    for (const Json& p : line) {
+    for (Json& p : line) {
+      p = {p[0], p[1]};
       const double off_east = std::max(0.0, east - p[0].get<double>()),
                    off_north = std::max(0.0, north - p[1].get<double>());
       is_far &= east < -1e8 || std::hypot(off_east, off_north) > 300;
@@ -148,6 +149,41 @@ TEST(CityOnHills, LinksPartsThatDeepStreetsConnected) {
   std::set<std::string> networks;
   for (const std::string& each : nodes) networks.insert(find(each));
   EXPECT_EQ(networks.size(), 1U);
+}
+
+// The ground is so steep that few pieces keep the grade limit of major streets.
+const Json steep =
+    Json::parse(R"({"area": {"size": [1000, 1000]}, "maps": {"density": "0.62"}, "lots": {"method": "none"},
+  "terrain": {"generator": "terrain", "seed": 7, "parameters": {"algorithm": "fbm", "size": 1200, "resolution": 241,
+    "wavelength": 700, "amplitude": 48, "iterations": 4}}, "buildings": {"rules": []},
+  "streets": {"pattern": "slope", "major_spacing": 190, "length": 80, "branch_probability": 0.6, "dead_ends": 0.2,
+    "classes": {"major": {"width": 12, "lanes": 3, "grade": 0.14}, "minor": {"width": 8, "grade": 0.2}}}})");
+
+TEST(CityOnHills, KeepsNearlyAllStreetsFarFromAQuarterThatBecomesDenser) {
+  for (const std::uint64_t seed : {8U, 12U, 33U}) {
+    Json denser = steep;
+    denser["maps"]["density"] = "0.62 + 0.3 * (x > 100 && y > 100)";
+    const auto far = lines_of(plan_of(steep, seed), 100, 100);
+    ASSERT_GT(far.size(), 150U);
+    EXPECT_GE(kept_share(far, lines_of(plan_of(denser, seed))), 0.95) << seed;
+  }
+}
+
+TEST(CityOnHills, HasStreetsInNearlyAllSquaresOf250Metres) {
+  std::size_t squares = 0;
+  for (const std::uint64_t seed : {4U, 9U, 29U, 34U}) {
+    std::set<std::pair<int, int>> found;
+    for (const Json& each : plan_of(steep, seed)) {
+      if (each["properties"]["kind"] != "street") continue;
+      for (const Json& p : each["geometry"]["coordinates"])
+        found.emplace(static_cast<int>(std::floor(p[0].get<double>() / 250)),
+                      static_cast<int>(std::floor(p[1].get<double>() / 250)));
+    }
+    squares += static_cast<std::size_t>(std::count_if(found.begin(), found.end(), [](const auto& each) {
+      return each.first >= -2 && each.first < 2 && each.second >= -2 && each.second < 2;
+    }));
+  }
+  EXPECT_GE(squares, 4 * 15U);
 }
 
 TEST(BadCities, AreRefusedWithinATenthOfASecondWithTheirPointers) {

@@ -54,6 +54,17 @@ double greatest_change(const CityPlan& plan) {
   return greatest;
 }
 
+/// The steepest grade of a street, as rise over run.
+double steepest_grade(const StreetHeights& heights, std::uint32_t edge) {
+  double steepest = 0;
+  for (std::uint32_t k = heights.first[edge] + 1; k < heights.first[edge + 1]; ++k) {
+    const ProfilePoint &a = heights.points[k - 1], &b = heights.points[k];
+    const double run = distance(a.at, b.at) / 100;
+    if (run > 0) steepest = std::max(steepest, std::abs(b.height - a.height) / run);
+  }
+  return steepest;
+}
+
 TEST(CityGrades, KeepTheLimitOfEachClassAndLevelJunctions) {
   std::size_t streets = 0;
   for (std::uint64_t seed = 0; seed < 40; ++seed) {

@@ -161,7 +161,7 @@ TEST(Fractal, DrawsTheSameCopiesAsNodesAndAsOneMesh) {
   const Result<Element> element = element_of(params, context_of(job));
   ASSERT_TRUE(element);
   baked.nodes.emplace_back();
-  add_pieces(baked, 0, whole, *element, 10, 1, job);
+  add_pieces(baked, 0, whole, *element, {10, 1}, job);
   EXPECT_EQ(count(baked).triangles, 12U * 1024U);
   const Box a = bounds_of(*model), b = bounds_of(baked);
   EXPECT_LT(glm::length(a.min - b.min) + glm::length(a.max - b.max), 2e-5F)

@@ -260,7 +260,7 @@ TEST(Cpfg, ReadsAViewFileAndFunctionsBesideIt) {
               ElementsAre(HasSubstr("`odd thing` has no counterpart"), HasSubstr("nothing will be drawn")));
 }
 
-TEST(Cpfg, KnowsTheFunctionsOfFilesInTheStart) {
+TEST(Cpfg, CallsFunctionsOfFilesInTheStart) {
   // A line from 2 to 8: 3.5 at a quarter. Arrays of the file stay apart from the samples.
   const std::string system =
       "Lsystem: 1\nDefine: {array v[2] = {7, 8};}\nStart: {a =\n\tfunc(1, 0.25) + 1; v[0] = 9;}\n"

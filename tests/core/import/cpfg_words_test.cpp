@@ -137,7 +137,7 @@ TEST(CpfgRules, GoesOnInLinesThatBeginWithABlank) {
   EXPECT_EQ(derived(result), "F(1)[+F]-F");
 }
 
-TEST(CpfgRules, ReadsStarsAsNoContextAndAsWhatHolds) {
+TEST(CpfgRules, ReadsStarsAsNoContextAndAsTrue) {
   EXPECT_EQ(derived(file("Axiom: A(1)\n* < A(x) > * : * --> F(x)\n")), "F(1)");
   EXPECT_EQ(derived(file("Axiom: A(1)\nA(x) : * {y = x*2;} --> F(y)\n")), "F(2)");
 }

@@ -60,7 +60,7 @@ TEST(GeoJson, ReadsHeightsAndRoofsOfSimple3DBuildings) {
   EXPECT_EQ(made["base"], 3);
 }
 
-TEST(GeoJson, KnowsEveryRoofShape) {
+TEST(GeoJson, AcceptsEveryRoofShape) {
   for (const char* shape : {"skillion", "gabled", "half-hipped", "gambrel", "saltbox", "round", "hipped",
                             "mansard", "pyramidal", "dome", "onion"}) {
     const Value made = building_of({{"building", "yes"}, {"height", 12}, {"roof:shape", shape}});

@@ -116,7 +116,7 @@ TEST(Houdini, RefusesUnknownTextAtItsLineAndColumn) {
   EXPECT_THAT(reports(imported("houdini", "A=F\n")), Contains(HasSubstr("no premise")));
 }
 
-TEST(Houdini, KnowsTheVariablesOfItsNode) {
+TEST(Houdini, ReadsTheVariablesOfItsNode) {
   const auto result = imported(
       "houdini", "Premise: A\nGenerations: 3\nGravity: 4\nRule 1: A=F(t)B(i,T)A\nRule 2: C(t)=C(t+1)\n");
   ASSERT_TRUE(result) << reports(result)[0];

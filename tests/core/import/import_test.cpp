@@ -36,7 +36,7 @@ TEST(Import, ReportsTheErrorOfTheLikeliestFormat) {
   EXPECT_THAT(read_as("{"), StartsWith("found no keywords of a known format"));
 }
 
-TEST(Import, MindsTheEncodingOfCommentsNot) {
+TEST(Import, AcceptsAnyEncodingOfComments) {
   EXPECT_TRUE(imported("fractint", "{ by Gr\x8Fnbaum }\nE { ; \x8F\n angle 4\n axiom F\n}\n"));
   EXPECT_TRUE(imported("", "/* v\xE9g\xE9tal */\nLsystem: 1\nderivation length: 1\nAxiom: F // \xE9\n"));
   const auto name = imported("fractint", "Gr\x8Fn { ; \x8F\n angle 4\n axiom F\n}\n");
@@ -45,7 +45,7 @@ TEST(Import, MindsTheEncodingOfCommentsNot) {
   EXPECT_FALSE(imported("proctree", "{\"mLevels\": 4, \"\xE9\": 1}"));
 }
 
-TEST(Import, SaysThatAFileIsUtf16) {
+TEST(Import, ReportsThatAFileIsUtf16) {
   using namespace std::string_literals;
   const std::string text = "{'shape': 7, 'g_scale': 9}";
   std::string little, big;

@@ -44,7 +44,7 @@ TEST(Defined, ExpandsAFunctionWithItsArguments) {
   EXPECT_THAT(text.faults, IsEmpty());
 }
 
-TEST(Defined, KnowsItsParametersAndConstantsAndNothingOfTheCaller) {
+TEST(Defined, UsesItsParametersAndConstantsAndNothingOfTheCaller) {
   Text text({"f(x) = x + k", "g() = x"});
   EXPECT_EQ(text.value("f(5) + x", 100), 115);
   text.value("g()", 1);

@@ -348,7 +348,7 @@ TEST(IssueList, ComeFromANestingThatIsTooDeep) {
   EXPECT_THAT(faults(nested(300, "(", ")"), 1'000'000), HasSubstr("nested deeper than 256"));
 }
 
-TEST(Expression, HoldsAllRegistersOfTheDeepestNesting) {
+TEST(Expression, HasAllRegistersOfTheDeepestNesting) {
   // Every level keeps the left sides of a comparison, a sum, a product and a power and two arguments waiting.
   std::string text = "x";
   for (int i = 0; i < 90; ++i) text = "sin(x) < cos(x) + tan(x)*abs(x)^clamp(x+1, y+1, " + text + ")";

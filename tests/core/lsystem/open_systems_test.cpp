@@ -63,7 +63,7 @@ TEST(OpenSystems, ReportsTheDirectionToTheSurface) {
   EXPECT_EQ(derived(params), "F(0.5)?E(1,2,2,1,1,0,0)");
 }
 
-TEST(OpenSystems, SeesWhatHasGrownButNotItsOwnStem) {
+TEST(OpenSystems, FindsWhatHasGrownButNotItsOwnStem) {
   const auto answer = [](const char* axiom) {
     const std::string word = derived(grammar_of(axiom, {}, 0));
     return word.substr(word.find("?E"), 5);

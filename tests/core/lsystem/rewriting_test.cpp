@@ -111,7 +111,7 @@ TEST(Consider, PassesOverEverythingElse) {
   EXPECT_THAT(errors_of(params), ElementsAre(HasSubstr("/consider")));
 }
 
-TEST(NewContext, SeesWhatTheStepHasWrittenOnTheLeft) {
+TEST(NewContext, ReadsWhatTheStepHasWrittenOnTheLeft) {
   EXPECT_EQ(derived(grammar_of("ABBB", {"A -> C", "C << B -> C"})), "CCCC") << "a signal in one step";
   EXPECT_EQ(derived(grammar_of("ABBB", {"A -> C", "C < B -> C"})), "CBBB");
   EXPECT_EQ(derived(grammar_of("A[DB]B", {"A -> C", "C << B -> C", "D -> D"})), "C[DB]C");
@@ -119,7 +119,7 @@ TEST(NewContext, SeesWhatTheStepHasWrittenOnTheLeft) {
             "A(2)A(4)A(8)");
 }
 
-TEST(NewContext, SeesWhatTheStepHasWrittenOnTheRight) {
+TEST(NewContext, ReadsWhatTheStepHasWrittenOnTheRight) {
   EXPECT_EQ(derived(grammar_of("BBBA", {"A -> C", "B >> C -> C"})), "CCCC");
   EXPECT_EQ(derived(grammar_of("B[XA]BA", {"A -> C", "B >> [X]C -> C"})), "B[XC]BC");
   EXPECT_EQ(derived(grammar_of("B[XA]DA", {"A -> C", "B >> [X]D -> E"})), "E[XC]DC");

@@ -31,7 +31,7 @@ TEST(Loop, KeepsPolygonsInItsBody) {
   EXPECT_EQ(derived(grammar_of("A", {"A -> for(i=0;i<2;i++){ {.f.} }"})), "{.f.}{.f.}");
 }
 
-TEST(Loop, RunsWhileItsConditionHolds) {
+TEST(Loop, RunsWhileItsConditionIsTrue) {
   EXPECT_EQ(derived(grammar_of("A(20)", {"A(n) -> let x = n; while (x > 1) { F(x) x /= 2; } G(x)"})),
             "F(20)F(10)F(5)F(2.5)F(1.25)G(0.625)");
 }

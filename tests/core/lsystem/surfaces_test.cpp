@@ -74,6 +74,38 @@ TEST(Tubes, WarnOfInternodesThatAreTooThin) {
                   .warnings.empty());
 }
 
+/// Figure 2.6 of The Algorithmic Beauty of Plants, whose trunk has a length of 1 and a width of 10.
+TEST(Tubes, WarnOfInternodesThatAreAsWideAsThePlant) {
+  const std::string figure = R"json(,
+    "productions":["A(l,w) -> !(w)F(l)[&(45)B(l*0.6,w*0.707)]/(137.5)A(l*0.9,w*0.707)",
+                   "B(l,w) -> !(w)F(l)[-(45)$C(l*0.6,w*0.707)]C(l*0.9,w*0.707)",
+                   "C(l,w) -> !(w)F(l)[+(45)$B(l*0.6,w*0.707)]B(l*0.9,w*0.707)"],"iterations":10})json";
+  const Model pixels = model_of((R"json({"axiom":"A(1,10)")json" + figure).c_str());
+  ASSERT_EQ(pixels.warnings.size(), 1U);
+  EXPECT_EQ(pixels.warnings[0].pointer, "/width");
+  EXPECT_THAT(pixels.warnings[0].message, testing::StartsWith("the widest internode has a diameter of 10 m"));
+  EXPECT_TRUE(model_of((R"json({"axiom":"A(1,0.1)")json" + figure).c_str()).warnings.empty());
+}
+
+TEST(Organs, HaveTheColourOfTheirKindInThePaletteInsteadOfThatOfBark) {
+  const auto organ_of = [](const std::string& members) {
+    const Model model = model_of(
+        (R"json({"axiom":"F;(2)F,(0)~leaf","surfaces":{"leaf":{"build":"mesh"}})json" + members + "}")
+            .c_str());
+    const auto& mesh = model.meshes[static_cast<std::size_t>(node_named(model, "organs")->mesh)];
+    return model.materials[static_cast<std::size_t>(mesh.primitives[0].material)].name;
+  };
+  EXPECT_EQ(organ_of(""), "leaf_surface");
+  EXPECT_EQ(
+      organ_of(R"(,"materials":[{"name":"wood","color":"#553311"},{"name":"green","color":"#00ff00"}])"),
+      "wood_surface");
+  const Model model =
+      model_of(R"json({"axiom":"F~aF~bF'~a","surfaces":{"a":{"shape":"petal"},"b":{"shape":"fruit"}}})json");
+  std::vector<std::string> names;
+  for (const Material& material : model.materials) names.push_back(material.name);
+  EXPECT_THAT(names, testing::UnorderedElementsAre("bark", "petal_surface", "berry", "leaf_surface"));
+}
+
 TEST(Organs, AreReportedWhereThereAreNoSurfaces) {
   const Model model = model_of(R"({"axiom":"F~F"})");
   ASSERT_EQ(model.warnings.size(), 1U);

@@ -40,7 +40,7 @@ TEST(Row, StandsModelsBesideEachOther) {
   EXPECT_EQ(row.nodes[4].extras[0].json, "2");
 }
 
-TEST(Row, SharesMaterialsAndSaysAWarningOnce) {
+TEST(Row, SharesMaterialsAndGivesAWarningOnce) {
   const Job job(1, Job::Options{});
   std::vector<Model> models;
   models.push_back(plant(job, 1, 4, "summer"));

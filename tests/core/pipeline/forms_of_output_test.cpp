@@ -136,7 +136,7 @@ TEST(ListedLevels, AreRefusedWhereTheyDoNotFall) {
   EXPECT_THAT(pointers("[1, \"half\"]"), ElementsAre("/output/lods/1"));
 }
 
-TEST(ListedLevels, NeedAFormatThatHoldsThem) {
+TEST(ListedLevels, NeedAFormatThatContainsThem) {
   const Made result = made("oak", R"({"lods":[1,0.5]})");
   ASSERT_EQ(result.issues.size(), 1U);
   EXPECT_EQ(result.issues[0].pointer, "/output/lods");
@@ -168,7 +168,7 @@ TEST(ImageFormat, IsWebpInTheProfileWebAndRequired) {
   EXPECT_THAT(png.document["extensionsUsed"], Not(Contains("EXT_texture_webp")));
 }
 
-TEST(ImageFormat, HoldsBothForReadersOfEither) {
+TEST(ImageFormat, ContainsBothForReadersOfEither) {
   const Made both = made("birch", R"({"textures":64,"image_format":"both"})");
   EXPECT_THAT(both.document["extensionsUsed"], Contains("EXT_texture_webp"));
   EXPECT_FALSE(both.document.contains("extensionsRequired"));

@@ -41,8 +41,8 @@ struct Made {
   Statistics statistics;
 };
 
-Made made(const std::string& preset, const std::string& output) {
-  const Result<Request> request = read_request(request_of(preset, output), Limits{});
+Made made_of(const std::string& text) {
+  const Result<Request> request = read_request(text, Limits{});
   if (!request) {
     ADD_FAILURE() << request.error().issues.front().message;
     return {};
@@ -56,6 +56,10 @@ Made made(const std::string& preset, const std::string& output) {
   std::uint32_t size = 0;
   std::memcpy(&size, bytes.data() + 12, sizeof size);
   return {json::parse(bytes.substr(20, size)), product->statistics};
+}
+
+Made made(const std::string& preset, const std::string& output) {
+  return made_of(request_of(preset, output));
 }
 
 std::vector<std::string> required(const json& document) {
@@ -92,6 +96,31 @@ TEST(Impostors, AreTheCoarsestLevelOfTheWholeTree) {
   EXPECT_EQ(pictures, 1U);
 }
 
+/// The bytes of the images of impostors in a grove that is seen from afar.
+std::size_t bytes_of_impostors(const std::string& budget) {
+  const json document =
+      made_of(R"({"generator":"scene","parameters":{"ground":{"size":100},"camera":{"position":[0,2,90]},
+    "layers":[{"model":{"preset":"proctree_0","parameters":{"mLevels":3}},"variants":1,
+               "place":{"method":"poisson","distance":9}}]},"output":{"textures":128)" +
+              budget + "}}")
+          .document;
+  std::size_t sum = 0;
+  for (const json& image : document.at("images")) {
+    if (image.at("name").get<std::string>().find("impostor") != std::string::npos)
+      sum += document.at("bufferViews")
+                 .at(image.at("bufferView").get<std::size_t>())
+                 .at("byteLength")
+                 .get<std::size_t>();
+  }
+  return sum;
+}
+
+TEST(Impostors, AreDrawnFromTheFinestLevelWhenABudgetRemovesIt) {
+  const std::size_t drawn = bytes_of_impostors("");
+  EXPECT_GT(drawn, 2000U);
+  EXPECT_EQ(bytes_of_impostors(R"(,"max_triangles":4000)"), drawn);
+}
+
 TEST(Impostors, AreMadeOfEveryVariant) {
   const json document =
       made("proctree_0", R"({"impostor":true,"profile":"unity","variants":3,"textures":64})").document;
@@ -110,7 +139,7 @@ TEST(Output, RequiresNothingBeyondCoreOfWhoDoesNotReadIt) {
               UnorderedElementsAre("KHR_mesh_quantization", "EXT_meshopt_compression"));
 }
 
-TEST(Output, RefusesLevelsThatNoFileHolds) {
+TEST(Output, RefusesLevelsThatNoFileCanContain) {
   for (const char* profile : {"core", "unreal", "godot", "blender"}) {
     const std::string output = std::string(R"({"lods":3,"profile":")") + profile + "\"";
     EXPECT_THAT(refused("hutsko_tree", output + "}"), ElementsAre("/output/lods")) << profile;
@@ -177,7 +206,7 @@ TEST(Output, MakesLevelsOfASceneWhoseGroundIsPacked) {
   EXPECT_EQ(product->statistics.warnings, 0U);
 }
 
-TEST(Output, SaysWhereThereAreFewerLevelsThanWanted) {
+TEST(Output, WarnsOfFewerLevelsThanRequested) {
   const Made house = made("house", R"({"lods":5,"profile":"unity","textures":"none"})");
   EXPECT_EQ(house.statistics.warnings, 1U);
   EXPECT_THAT(house.document["asset"]["extras"]["warnings"][0]["message"].get<std::string>(),
@@ -185,7 +214,7 @@ TEST(Output, SaysWhereThereAreFewerLevelsThanWanted) {
   EXPECT_EQ(made("house", R"({"lods":3,"profile":"unity","textures":"none"})").statistics.warnings, 0U);
 }
 
-TEST(Output, SaysHowRulesMakeLevels) {
+TEST(Output, ExplainsHowRulesMakeLevels) {
   const auto message = [](const std::string& rules) {
     const std::string body = R"({"generator":"building","parameters":{"rules":")" + rules +
                              R"("},"output":{"lods":2,"profile":"unity"}})";
@@ -280,7 +309,7 @@ TEST(Output, RefusesVariantsBeyondTheLastSeed) {
   EXPECT_THAT(pointers_of(request.error()), ElementsAre("/output/variants"));
 }
 
-TEST(Output, HoldsABudgetOfTriangles) {
+TEST(Output, KeepsABudgetOfTriangles) {
   const std::uint64_t whole = made("growing_tree", R"({"animation":"none"})").statistics.triangles;
   ASSERT_GT(whole, 20'000U);
   for (const int most : {20'000, 9'000, 3'000}) {
@@ -313,12 +342,12 @@ TEST(Output, MakesTheLevelsThatABudgetLeavesNoneOf) {
   for (std::size_t i = 1; i < 4; ++i) EXPECT_LE(drawn[i], drawn[i - 1] * 3 / 4) << i;
 }
 
-TEST(Output, HoldsTheBudgetOfAllVariantsTogether) {
+TEST(Output, KeepsTheBudgetOfAllVariantsTogether) {
   EXPECT_LE(made("hutsko_tree", R"({"variants":3,"max_triangles":2000})").statistics.triangles, 2'000U);
 }
 
 /// Flat ground is simplified without an error, so one point gets more faces than a collapse may have.
-TEST(Output, HoldsTheBudgetOfWideFlatGround) {
+TEST(Output, KeepsTheBudgetOfWideFlatGround) {
   const Result<Request> request =
       read_request(R"({"preset":"mandelbrot_satellite","parameters":{"escape":{"span":20}},)"
                    R"("output":{"max_triangles":5000}})",
@@ -356,6 +385,21 @@ TEST(Output, EstimatesTheBytesOfATreeBeforeItIsMade) {
   }
 }
 
+TEST(Output, EstimatesTheBytesOfPlanetsAndLeavesWithinAQuarter) {
+  for (const char* preset : {"planetoid", "small_planet", "boulder", "simple_leaf_5_6a", "simple_leaf_5_6c",
+                             "sojma_leaf", "alternate_leaf_5_12a", "leafy_birch"}) {
+    const Result<Request> request = read_request(request_of(preset, "{}"), Limits{});
+    ASSERT_TRUE(request) << preset;
+    const Result<Product> product = produce(*request, {});
+    ASSERT_TRUE(product) << preset;
+    const json estimate = json::parse(*validate(*request, {}))["estimate"];
+    const auto bytes = static_cast<double>(product->payload.size());
+    EXPECT_LT(estimate["bytes"].get<double>(), 1.25 * bytes) << preset;
+    EXPECT_GT(estimate["bytes"].get<double>(), bytes / 1.25) << preset;
+    EXPECT_EQ(estimate["triangles"], product->statistics.triangles) << preset;
+  }
+}
+
 TEST(Output, RefusesABudgetThatCannotBeHeld) {
   EXPECT_THAT(refused("menger_sponge", R"({"max_triangles":10})"), ElementsAre("/output/max_triangles"));
 }
@@ -369,7 +413,7 @@ TEST(Output, RefusesWhatAFormThatIsNoModelHasNoUseFor) {
                            "/output/instancing", "/output/tangents"));
 }
 
-TEST(Output, SaysSoWhereNothingIsToBeSeen) {
+TEST(Output, WarnsWhereNothingIsVisible) {
   const Result<Request> seed = read_request(R"({"preset":"oak","parameters":{"age":0}})", Limits{});
   ASSERT_TRUE(seed);
   const Result<Product> product = produce(*seed, {});

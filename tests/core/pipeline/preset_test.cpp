@@ -42,7 +42,7 @@ TEST(Catalog, ListsEveryPresetWithItsText) {
   }
 }
 
-TEST(Catalog, HoldsOnlyRequestsThatAreInOrder) {
+TEST(Catalog, ContainsOnlyValidRequests) {
   for (const PresetInfo& preset : presets()) {
     const Result<Request> request = read_request(*preset_json(preset.name), Limits{});
     ASSERT_TRUE(request) << preset.name << request.error().issues.front().pointer << ": "

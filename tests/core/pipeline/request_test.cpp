@@ -59,6 +59,10 @@ TEST(ReadRequest, ReportsNoConflictWithTheDefaultOfARefusedMember) {
   EXPECT_THAT(pointers(terrain(R"("algorithm":null)")), ElementsAre("/parameters/algorithm"));
   EXPECT_THAT(pointers(terrain(R"("algoritm":"fbm")")), ElementsAre("/parameters/algoritm"));
   EXPECT_THAT(pointers(terrain(R"("algorithm":"diamond_square")")), ElementsAre("/parameters/resolution"));
+  EXPECT_THAT(pointers(terrain(R"("algorithm":"fbm","hydraulic":{"metod":"stream_power","iterations":9})")),
+              ElementsAre("/parameters/hydraulic/metod"));
+  EXPECT_THAT(pointers(terrain(R"("algorithm":"fbm","hydraulic":{"droplets":9},"note":1)")),
+              UnorderedElementsAre("/parameters/note", "/parameters/hydraulic/iterations"));
   EXPECT_THAT(pointers(terrain(R"("note":1,"size":"1 km")")),
               UnorderedElementsAre("/parameters/note", "/parameters/size", "/parameters/resolution"));
 }
@@ -73,6 +77,22 @@ TEST(ReadRequest, ReportsNothingMissingForTheDefaultOfARefusedMember) {
   EXPECT_THAT(pointers(scene("{}")), ElementsAre("/parameters/layers/0/place"));
   EXPECT_THAT(pointers(scene(R"({"count":-1})")),
               UnorderedElementsAre("/parameters/layers/0/place/count", "/parameters/layers/0/place"));
+}
+
+TEST(ReadRequest, SaysWhichSeedsItTakes) {
+  const auto message = [](const std::string& seed) {
+    const Error error = error_of(R"({"generator":"lsystem","parameters":{"axiom":"F"},"seed":)" + seed + "}");
+    return error.issues.front().message;
+  };
+  const std::string expected =
+      ", expected an integer from 0 to 18446744073709551615, or its decimal digits as a text";
+  EXPECT_EQ(message("18446744073709551616"), "found 18446744073709551616" + expected);
+  EXPECT_EQ(message("\"18446744073709551616\""), "found 18446744073709551616" + expected);
+  EXPECT_EQ(message("2e19"), "found 20000000000000000000" + expected);
+  EXPECT_EQ(message("-18446744073709551617"), "found -18446744073709551617" + expected);
+  EXPECT_EQ(message("-1"), "found -1" + expected);
+  EXPECT_EQ(message("1.5"), "found 1.5" + expected);
+  EXPECT_EQ(message("\"0x1\""), "found the text \"0x1\"" + expected);
 }
 
 TEST(ReadRequest, ReportsNumbersThatAreTooLargeWithAllOtherErrors) {
@@ -104,7 +124,7 @@ TEST(ReadRequest, ReportsOnceThatAPresetIsOfAnotherGenerator) {
   EXPECT_TRUE(read_request(R"({"preset":"oak","generator":"fractal","parameters":null})", Limits{}));
 }
 
-TEST(ReadRequest, SaysWhichGeneratorsThereAre) {
+TEST(ReadRequest, ListsTheGenerators) {
   EXPECT_EQ(error_of(R"({"generator":"tre"})").issues.front().message,
             "there is no generator \"tre\"; did you mean \"tree\"?");
   EXPECT_THAT(error_of(R"({"generator":"galaxies"})").issues.front().message,
@@ -165,7 +185,7 @@ TEST(ReadRequest, PointsAtEachUnknownMember) {
       UnorderedElementsAre("/sed", "/parameters/angel", "/output/fromat"));
 }
 
-TEST(ReadRequest, SaysWhereAMemberBelongs) {
+TEST(ReadRequest, NamesTheParentOfAMisplacedMember) {
   const Result<Request> request =
       read_request(R"({"generator":"tree","Levels":2,"lods":3,"colour":1})", Limits{});
   ASSERT_FALSE(request);
@@ -198,7 +218,7 @@ TEST(ReadRequest, DoesNotEchoWhatTheSchemaSaid) {
               ElementsAre("/parameters/axiom"));
 }
 
-TEST(ReadRequest, HoldsTheLimitsOfTheService) {
+TEST(ReadRequest, EnforcesTheLimitsOfTheService) {
   Limits limits;
   limits.iterations = 10;
   const Result<Request> request =

@@ -56,7 +56,7 @@ int holds(const Cover& c, std::int64_t column, std::int64_t row) {
   return is_inside ? 1 : 0;
 }
 
-TEST(Cover, HoldsTheSamplesInsideOfRandomTriangles) {
+TEST(Cover, ContainsTheSamplesInsideOfRandomTriangles) {
   for (std::uint64_t seed = 0; seed < 3'000; ++seed) {
     const Rng rng = Rng::of_seed(seed);
     // Small ones, slivers, and ones that leave the image by far.

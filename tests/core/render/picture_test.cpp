@@ -135,7 +135,7 @@ TEST(Picture, FitsASphereIntoTheShorterSide) {
   }
 }
 
-TEST(Picture, LooksAtLowModelsFromFartherAbove) {
+TEST(Picture, ShowsLowModelsFromAHigherElevation) {
   const auto elevation = [](float width, float height) {
     return elevation_of({}, Box{{0, 0, 0}, {width, height, 1}});
   };
@@ -234,6 +234,30 @@ TEST(Picture, ShowsTheGroundWhereItIsAsked) {
   const texture::Picture without = draw_picture(model, {128, 128, {35, 18.0}, false}, job);
   EXPECT_EQ(brightness(with, 64, 40), brightness(without, 64, 40));    // the sphere
   EXPECT_NE(brightness(with, 10, 120), brightness(without, 10, 120));  // beside it
+}
+
+/// A box of 1 m, of which the share `below` is below the height 0, and the ground.
+texture::Picture box_on_ground(float below, const Job& job) {
+  Mesh mesh = empty_mesh(job);
+  add_box(mesh, {-0.5F, -below, -0.5F}, {0.5F, 1 - below, 0.5F});
+  return draw_picture(model_of(std::move(mesh)), {128, 128, {35, 18.0}, true}, job);
+}
+
+/// Pixels that differ by more than a rounding error.
+int changed_pixels(const texture::Picture& a, const texture::Picture& b) {
+  int sum = 0;
+  for (std::uint32_t y = 0; y < a.height; ++y) {
+    for (std::uint32_t x = 0; x < a.width; ++x)
+      sum += std::abs(brightness(a, x, y) - brightness(b, x, y)) > 8;
+  }
+  return sum;
+}
+
+TEST(Picture, HidesRootsInTheGroundButNoCurveThatDescendsBelowItsStart) {
+  const Job job = job_of();
+  const texture::Picture standing = box_on_ground(0, job);
+  EXPECT_LT(changed_pixels(box_on_ground(0.2F, job), standing), 20);
+  EXPECT_GT(changed_pixels(box_on_ground(0.1F, job), standing), 100);
 }
 
 /// An upright unit square with a texture of 8 x 8 texels with four channels.

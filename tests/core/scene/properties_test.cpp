@@ -226,7 +226,7 @@ class Checked {
   Planted made_;
 };
 
-TEST(SceneProperties, EveryRuleHoldsInEveryRandomScene) {
+TEST(SceneProperties, EveryRuleIsKeptInEveryRandomScene) {
   std::size_t placements = 0;
   for (std::uint64_t seed = 0; seed < 300 && !testing::Test::HasFailure(); ++seed) {
     const Json json = scene_by_chance(seed);

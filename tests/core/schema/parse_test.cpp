@@ -139,5 +139,20 @@ TEST(ParseJson, NamesTheMemberAfterAnObjectThatHasClosed) {
   EXPECT_EQ(refusal_of(R"([[{"k":[1e999]}]])").issue.pointer, "/0/0/k/0");
 }
 
+TEST(ParseJson, KeepsAllDigitsOfASeedThatADoubleWouldRound) {
+  const auto seed = [](const std::string& text) { return parsed("{\"seed\":" + text + "}")["seed"]; };
+  for (const char* text : {"9007199254740993.0", "9007199254740993e0", "900719925474099300e-2",
+                           "0.9007199254740993e+16", "90071992547409.93E2"})
+    EXPECT_EQ(seed(text), "9007199254740993") << text;
+  EXPECT_EQ(seed("18446744073709551616"), "18446744073709551616");
+  EXPECT_EQ(seed("-18446744073709551617"), "-18446744073709551617");
+  EXPECT_EQ(seed("1e19"), "10000000000000000000");
+  EXPECT_EQ(seed("18446744073709551615"), 18446744073709551615U);
+  EXPECT_EQ(seed("1e3"), 1000.0);
+  EXPECT_EQ(seed("1.5"), 1.5);
+  EXPECT_EQ(seed("1e300"), 1e300);
+  EXPECT_EQ(parsed("{\"size\":9007199254740993e0}")["size"], 9007199254740992.0);
+}
+
 }  // namespace
 }  // namespace seedmesh

@@ -33,7 +33,7 @@ TEST(Reader, FindsEveryErrorAtOnce) {
                                             "/constants/1x", "/constants/y", "/alphabet"));
 }
 
-TEST(Reader, SaysWhatItFoundAndWhatItExpected) {
+TEST(Reader, StatesWhatItFoundAndWhatItExpected) {
   const auto message = [](const char* text) { return reading<read_lsystem>(text).issues.front().message; };
   EXPECT_EQ(message(R"({"axiom":"F","iterations":-1})"), "found -1, expected an integer from 0 to 1000");
   EXPECT_EQ(message(R"({"axiom":"F","iterations":2.5})"), "found 2.5, expected an integer from 0 to 1000");

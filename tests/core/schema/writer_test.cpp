@@ -67,6 +67,7 @@ TEST(Seed, IsTakenAsNumberAndAsDigits) {
   EXPECT_EQ(seed("7.0"), 7U);
   EXPECT_EQ(seed("\"7\""), 7U);
   EXPECT_EQ(seed("\"007\""), 7U);
+  EXPECT_EQ(seed("1e3"), 1'000U);
   EXPECT_EQ(seed("18446744073709551615"), 18446744073709551615U);
   EXPECT_EQ(seed("\"18446744073709551615\""), 18446744073709551615U);
 }

@@ -69,6 +69,8 @@ TEST(HeightExpressions, HaveTheirErrorsAtTheColumn) {
   EXPECT_THAT(errors_of(expressed("noise(x, noise(y, q))")), ElementsAre(HasSubstr("1:19 ")));
   EXPECT_THAT(errors_of(expressed("latitude")),
               ElementsAre(HasSubstr("1:1 unknown name `latitude`; only the shape sphere has it")));
+  EXPECT_THAT(errors_of(expressed("x + z")),
+              ElementsAre(HasSubstr("1:5 unknown name `z`; a plane has x, to the east, and y")));
   EXPECT_THAT(errors_of(expressed("x y")), ElementsAre(HasSubstr("1:3 found `y`")));
   TerrainParams params;
   params.algorithm = TerrainAlgorithm::expression;

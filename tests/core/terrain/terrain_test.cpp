@@ -368,15 +368,6 @@ TEST(Images, HaveAWidthOnlyWhereTheyAreRaw) {
   EXPECT_THAT(pointers(params), IsEmpty());
 }
 
-TEST(Images, AreReadWithOrWithoutPaddingAndAsDataUrls) {
-  const Job job = any_job();
-  for (const char* text : {"TWE=", "TWE", "data:image/png;base64,TWE="}) {
-    const Result<Array<std::uint8_t>> bytes = bytes_of_base64(text, job);
-    ASSERT_TRUE(bytes) << text;
-    EXPECT_EQ(std::string(bytes->begin(), bytes->end()), "Ma");
-  }
-}
-
 TEST(Derive, ListsHeightsOfSmallFieldsAndStatisticsOfAll) {
   TerrainParams params = small(TerrainAlgorithm::diamond_square);
   Job job = any_job();

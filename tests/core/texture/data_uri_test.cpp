@@ -25,6 +25,27 @@ TEST(DataUri, ReturnsTheFileByteForByte) {
   EXPECT_EQ((*image)->bytes[1], 'P');
 }
 
+TEST(DataUri, ReadsBase64WithOrWithoutPaddingAndAsDataUri) {
+  const Job job(1, Job::Options{});
+  for (const char* text : {"TWE=", "TWE", "data:image/png;base64,TWE="}) {
+    const Result<Array<std::uint8_t>> bytes = bytes_of_base64(text, job);
+    ASSERT_TRUE(bytes) << text;
+    EXPECT_EQ(std::string(bytes->begin(), bytes->end()), "Ma");
+  }
+  for (const char* text : {"data:image/png,TWE", "TWE!", "TWEaT"})
+    EXPECT_FALSE(bytes_of_base64(text, job)) << text;
+}
+
+TEST(DataUri, GivesTheMeanOfTheChannelsAsBrightness) {
+  const Job job(1, Job::Options{});
+  const Result<Brightness> image = brightness_of_png(red, job);
+  ASSERT_TRUE(image) << image.error().issues.front().message;
+  EXPECT_EQ(image->width, 1U);
+  EXPECT_EQ(image->height, 1U);
+  ASSERT_EQ(image->values.size(), 1U);
+  EXPECT_FLOAT_EQ(image->values[0], 1.0F / 3);
+}
+
 TEST(DataUri, RejectsOtherFiles) {
   EXPECT_NE(fault_of("https://example.org/a.png").find("expected \"data:image/png;base64,"),
             std::string::npos);

@@ -67,7 +67,7 @@ TEST(WebpWrite, KeepsAlphaToTheBitInFilesOfEverySize) {
   }
 }
 
-TEST(WebpWrite, KeepsAlphaOfRunsThatAreLongerThanACodeHolds) {
+TEST(WebpWrite, KeepsAlphaOfRunsThatAreLongerThanOneCode) {
   const Job job = job_of();
   for (const std::uint32_t side : {64U, 300U}) {
     Picture given = sample(side, side, 4, 3, job);

@@ -8,6 +8,11 @@ _space = re.compile(r"[ \t\n\r]*")
 _scalar = re.compile(r"[^\s,\]}]+")
 
 
+def token_of(name: str) -> str:
+    """A name as a token of a JSON Pointer."""
+    return name.replace("~", "~0").replace("/", "~1")
+
+
 class Positions:
     """Reads a text that json.loads accepts."""
 
@@ -41,7 +46,7 @@ class Positions:
             if sign == "{":
                 begin = index
                 name, index = scanstring(self.text, index + 1, True)
-                name = name.replace("~", "~0").replace("/", "~1")
+                name = token_of(name)
                 if f"{pointer}/{name}" in self.starts:
                     raise json.JSONDecodeError(f'the key "{name}" is given twice', self.text, begin)
                 index = self._skip(self._skip(index) + 1)

@@ -6,7 +6,7 @@ from typing import Any, Dict, List, Optional, cast
 
 from .errors import SeedmeshError
 from .links import extension_of
-from .positions import Positions, parse
+from .positions import Positions, parse, token_of
 from .types import Request
 
 suffix = ".seedmesh"
@@ -55,7 +55,7 @@ def read_request_file(path: str, text: str) -> RequestFile:
         raise _refusal(path, text, "/outputs", "expected an object of file names, at least one")
     outputs: Dict[str, Request] = {}
     for file, changes in given.items():
-        pointer = "/outputs/" + file.replace("~", "~0").replace("/", "~1")
+        pointer = "/outputs/" + token_of(file)
         if not _is_file_name(file) or file.endswith(suffix):
             raise _refusal(path, text, pointer, "expected the name of a file, without a directory")
         if not isinstance(changes, dict):
@@ -79,7 +79,7 @@ def error_lines(file: RequestFile, output: Optional[str], error: SeedmeshError) 
     for each in error.errors:
         pointer = each["pointer"]
         if output and pointer.startswith("/output/"):
-            changed = "/outputs/" + output.replace("~", "~0").replace("/", "~1") + pointer[len("/output"):]
+            changed = "/outputs/" + token_of(output) + pointer[len("/output"):]
             pointer = changed if changed in positions.starts else pointer
         line, column = positions.of(pointer)
         inner = f" (line {each['line']}, column {each['column']} of this text)" if "line" in each and "column" in each else ""

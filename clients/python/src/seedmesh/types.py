@@ -355,7 +355,7 @@ class _CityParametersBuildingsLandmarksItemRequired(TypedDict):
 
 class CityParametersBuildingsLandmarksItem(_CityParametersBuildingsLandmarksItemRequired, total=False):
     turn: float
-    plot: Literal['lot', 'block', 'free']
+    plot: Literal['lot', 'block', 'square', 'free']
     radius: float
 
 
@@ -430,6 +430,7 @@ class CityParametersYards(TypedDict, total=False):
     trees: float
     models: List["Child"]
     border: Literal['none', 'hedge', 'fence', 'wall']
+    front: bool
     height: float
 
 

@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/base/math.h"
+#include "core/model/empty_mesh.h"
 
 namespace seedmesh::building {
 namespace {
@@ -52,10 +53,8 @@ Mesh& PartWriter::mesh_of(std::string_view role) {
   }
   PartPiece piece;
   piece.role = role;
-  piece.mesh.position = Array<glm::vec3>(job_);
-  piece.mesh.normal = Array<glm::vec3>(job_);
+  piece.mesh = empty_mesh(job_);
   piece.mesh.uv[0] = Array<glm::vec2>(job_);
-  piece.mesh.index.wide = Array<std::uint32_t>(job_);
   pieces_.push_back(std::move(piece));
   return pieces_.back().mesh;
 }

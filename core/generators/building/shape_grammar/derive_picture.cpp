@@ -193,7 +193,7 @@ class PictureRun {
     if (right_of(match)) keep(std::move(match));
   }
 
-  /// The right shape for the values of a match; null: its condition does not hold.
+  /// The right shape for the values of a match; null: its condition is false.
   std::optional<ShapePicture> right_of(const PictureMatch& match) {
     const PicturePair& pair = grammar_.pairs[match.pair];
     if (pair.open.empty()) return pair.right;

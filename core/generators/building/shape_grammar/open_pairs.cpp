@@ -69,12 +69,11 @@ void check_open_variables(const BuildingPair& given, const std::string& pointer,
     const BuildingOpenVariable& each = given.open[k];
     const std::string at = pointer + "/open/" + std::to_string(k);
     if (!names.insert(each.name).second) {
-      issues.emplace_back(IssueKind::conflict, at + "/name",
-                          "found two variables of this name, expected one");
+      issues.emplace_back(conflict_with({}), at + "/name", "found two variables of this name, expected one");
     }
     for (std::size_t side = 0; side < 2; ++side) {
       if (given.pair[side].parameters.contains(each.name)) {
-        issues.emplace_back(IssueKind::conflict,
+        issues.emplace_back(conflict_with({"open"}),
                             pointer + "/pair/" + std::to_string(side) + "/parameters/" + each.name,
                             "found a value for an open variable, expected none: a match determines it");
       }

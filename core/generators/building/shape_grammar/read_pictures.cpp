@@ -362,7 +362,7 @@ PictureGrammar read_pictures(const BuildingShapeGrammar& given, PictureRestricti
       read_open_pair(given, i, grammar, pair, issues);
     } else {
       if (!given.rules[i].condition.empty()) {
-        issues.emplace_back(IssueKind::conflict, pointer + "/condition",
+        issues.emplace_back(conflict_with({"open"}), pointer + "/condition",
                             "found a condition without open variables, expected `open` as well");
       }
       reader.read(given.rules[i].pair[0], pointer + "/pair/0", pair.left);

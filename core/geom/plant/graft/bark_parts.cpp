@@ -18,7 +18,7 @@ constexpr std::size_t least_joints = 128, most_joints = std::size_t{1} << 18U;
 constexpr std::size_t most_parts = 8;
 // Upper bounds, by which parts are not used where a limit of the request may be met.
 constexpr std::uint64_t most_triangles_a_joint = 256, most_bytes_a_triangle = 64;
-// Parts may write one joint in this number twice, only to know the loops of their limbs.
+// Parts may write one joint in this number twice, only to find the loops of their limbs.
 constexpr std::size_t joints_a_repeated = 4;
 // Triangles are spent in small amounts: the rest of a larger one would not be available to other meters.
 constexpr std::uint64_t charged_at_once = 4096;
@@ -50,8 +50,8 @@ bool is_worth_parting(const GraftInput& in, Job& job) {
   return triangles < left && most_bytes_a_triangle * triangles < job.limits().memory_bytes / 2;
 }
 
-/// As many parts as threads; no parts where they would write too much twice, as in trees whose stems are
-/// stored one after the other, each with all that grows from it.
+/// As many parts as threads; no parts where they would write too much twice. This happens in trees whose stems
+/// are stored one after the other, each with all that grows from it.
 PartPlan plan_parts(const GraftInput& in, const Job& job) {
   const Array<std::uint32_t>& head = in.chains.head;
   const std::size_t wanted = std::min<std::size_t>(most_parts, static_cast<std::size_t>(job.threads()));
@@ -81,7 +81,7 @@ PartPlan plan_parts(const GraftInput& in, const Job& job) {
   return repeated * joints_a_repeated > joints ? PartPlan{} : plan;
 }
 
-/// Lets a part know the loops that have been written elsewhere.
+/// Copies the loops that other parts have written into a part.
 void copy_loops(const BarkBuffers& from, BarkBuffers& part) {
   part.loop_vertices.append(from.loop_vertices.span());
   part.group_normal.append(from.group_normal.span());
@@ -89,7 +89,7 @@ void copy_loops(const BarkBuffers& from, BarkBuffers& part) {
   for (const std::uint32_t limb : part.group_limb) part.loops[limb] = from.loops[limb];
 }
 
-/// Writes the limbs that a part needs to know and drops everything but their loops.
+/// Writes the limbs whose loops a part needs, and drops everything but these loops.
 void write_before(Part& part, const std::vector<std::uint32_t>& before) {
   for (const std::uint32_t limb : before) write_limb(part.writer, limb);
   BarkBuffers& bark = part.bark;

@@ -24,7 +24,7 @@ struct BarkRounds {
 
 /// Writes all limbs, or, from the second round on, those whose join mode or loop has changed and the limbs
 /// that they grow from. New ranges lie behind the old ones. Sets what has to be checked. The first round uses
-/// all threads of the job where that pays; the result does not depend on it. Spends Resource::triangles.
+/// all threads of the job where that is faster; the result does not depend on it. Spends Resource::triangles.
 void write_round(const GraftInput& in, BarkBuffers& bark, BarkRounds& rounds, Job& job);
 
 /// The first round on all threads of the job: limbs in contiguous parts, each with buffers of its own, which

@@ -131,8 +131,7 @@ void find_bad_faces(const FaceCheck& check, const std::uint32_t* index, std::uin
 }
 
 std::size_t check_round(const GraftInput& in, BarkBuffers& bark, const BarkRounds& rounds,
-                        std::vector<JoinMode>& join, std::vector<std::uint32_t>& creased, bool is_late,
-                        const Job& job) {
+                        const BarkRepairs& repairs, const Job& job) {
   solve_junction_normals(bark, rounds, job);
   const FaceCheck check{bark.mesh.position.data(), bark.mesh.normal.data(), least_face_square(in.scale.size)};
   const std::size_t limbs = bark.range.size(), chunk = limbs_a_chunk(limbs);
@@ -155,7 +154,7 @@ std::size_t check_round(const GraftInput& in, BarkBuffers& bark, const BarkRound
       find_bad_faces_of(check, bark, rounds, limb, bad[index]);
     }
   });
-  DefectSorter sorter(in, bark, join, creased, is_late);
+  DefectSorter sorter(in, bark, repairs.join, repairs.creased, repairs.is_late);
   for (std::size_t i = 0; i < bad.size(); ++i) sorter.add(bad[i], i * chunk);
   return sorter.defects();
 }

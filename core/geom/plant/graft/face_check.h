@@ -26,13 +26,19 @@ float least_face_square(float model_size);
 void find_bad_faces(const FaceCheck& check, const std::uint32_t* index, std::uint32_t first,
                     std::uint32_t last, std::vector<std::uint32_t>& bad);
 
+/// The results of checks so far, which check_round() extends.
+struct BarkRepairs {
+  std::vector<JoinMode>& join;          ///< by limb
+  std::vector<std::uint32_t>& creased;  ///< faces with vertices of their own
+  bool is_late = false;                 ///< whether limbs with defects get the simplest join mode
+};
+
 /// Computes and stores the normals of changed loops, then checks the faces for which something has changed.
 /// Bad faces that are not folded over, or are too small to be seen, are added to `creased` and get vertices
 /// of their own. Any other bad face changes join modes. If it touches loops, their child limbs become at
 /// least `detached` (`closed` if `is_late`); otherwise its own limb becomes `closed`, or `none` if it is
 /// closed or `is_late`. Returns the number of these faces; 0: the bark is sound except for creases.
 std::size_t check_round(const GraftInput& in, BarkBuffers& bark, const BarkRounds& rounds,
-                        std::vector<JoinMode>& join, std::vector<std::uint32_t>& creased, bool is_late,
-                        const Job& job);
+                        const BarkRepairs& repairs, const Job& job);
 
 }  // namespace seedmesh

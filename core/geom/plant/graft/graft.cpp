@@ -18,7 +18,7 @@
 namespace seedmesh {
 namespace {
 
-// From this round on a limb with defects goes to skin() at once, and after twice as many rounds all limbs do.
+// From this round on a limb with defects is made by skin(), and after twice as many rounds all limbs are.
 constexpr int patient_rounds = 4;
 constexpr std::size_t points_a_chunk = std::size_t{1} << 14U;
 
@@ -106,7 +106,7 @@ std::vector<Crease> write_sound_bark(const GraftInput& in, BarkBuffers& bark, st
   std::vector<std::uint32_t> creased;
   for (int round = 0;; ++round) {
     write_round(in, bark, rounds, job);
-    if (check_round(in, bark, rounds, join, creased, round >= patient_rounds, job) == 0) break;
+    if (check_round(in, bark, rounds, {join, creased, round >= patient_rounds}, job) == 0) break;
     if (round + 1 == 2 * patient_rounds) std::fill(join.begin(), join.end(), JoinMode::none);
   }
   return remaining_creases(bark, std::move(creased));

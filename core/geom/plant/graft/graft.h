@@ -16,7 +16,7 @@
 ///
 /// Phases: ring_plan.h plans each limb, limb_writer.h writes it, junction_normals.h computes the normals of
 /// loops, face_check.h finds defects. Limbs with defects are written again in a simpler way (bark_rounds.h),
-/// and at last by skin() (fallback_skin.h).
+/// and finally by skin() (fallback_skin.h).
 #include <span>
 
 #include "core/geom/plant/contour.h"

@@ -55,8 +55,8 @@ SEEDMESH_WIDE void measure_angles(FaceBlock& block, const float (&along)[3][Face
 /// Adds faces to the sums of their groups and lists them. One for each chunk of limbs.
 class FaceSums {
  public:
-  /// `unused`: the first of FaceBlock::most groups that corners without a changed group are added to, one for
-  /// each face of a block, so that no addition waits for another.
+  /// `unused`: the first of FaceBlock::most groups, to which corners without a changed group are added. Each
+  /// face of a block has one of them, so that no addition waits for another.
   FaceSums(BarkBuffers& bark, const BarkRounds& rounds, std::uint32_t unused, LoopFace* faces)
       : bark_(bark), rounds_(rounds), unused_(unused), face_(faces) {}
 

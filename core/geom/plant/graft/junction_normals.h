@@ -1,7 +1,7 @@
 #pragma once
 /// The normal solver for loops: normals that both surfaces of a junction share.
 ///
-/// Rings know their normals by formula; vertices on loops do not. A loop's normal is the mean of two normals,
+/// Rings have normals by formula; vertices on loops do not. A loop's normal is the mean of two normals,
 /// one of each surface. Each of these is the mean of the faces weighted by their angle at the vertex (Thürmer
 /// and Wüthrich, "Computing vertex normals from polygonal facets", 1998). It is then turned, where possible, until its
 /// dot product with the normal of each of its faces is positive.

@@ -225,7 +225,7 @@ void LimbContinuation::write_internode(std::uint32_t joint) {
   bool starts = !is_moved && next_[drawn_from] != joint;
   const glm::vec3 from = to.position[parent], whole = limbs_.position[joint] - from;
   const float length = length_of(whole);
-  // A limb that goes on begins at least as thick as the internode before, as in graft().
+  // A limb that continues begins at least as thick as the internode before, as in graft().
   const float first_radius = is_moved ? to.radius[parent]
                              : starts || limbs_.parent[drawn_from] == Limbs::none
                                  ? limbs_.base_radius[joint]

@@ -21,7 +21,7 @@ constexpr float cap_slope = -0.5F;
 // The foot of a limb is levelled where its sine from the vertical is at least the first number, and its
 // cosine at least the second one: flatter limbs lie on the ground.
 constexpr float least_lean_of_foot = 0.05F, least_rise_of_foot = 0.3F;
-// The largest ring that a vertex cache of 16 entries still holds when the next ring needs it.
+// The largest ring that a vertex cache of 16 entries still contains when the next ring needs it.
 constexpr std::size_t cached_corners = 13;
 
 /// The limb that is written, and how it begins.

@@ -8,7 +8,7 @@ namespace seedmesh {
 /// tree of 17 m.
 constexpr float least_closed_length = 60;
 
-/// Appends a limb to the buffers, joined as GraftInput::join says, and records its range, its start and the
+/// Appends a limb to the buffers, joined by GraftInput::join, and records its range, its start and the
 /// loops of its side limbs. Parents must be written before their children. Limbs that are too thin, too short
 /// or hidden inside their parent are left out; their range is empty.
 void write_limb(LimbWriter& w, std::uint32_t limb);

@@ -38,7 +38,7 @@ float thickest_base(const Limbs& limbs) {
 RingTables ring_tables(const Limbs& limbs, const GraftOptions& options) {
   static const std::vector<UnitCircle> common = circles_up_to(common_corners);
   RingTables tables;
-  // The planner looks up half a side of a ring, which is a side of a ring of twice as many corners.
+  // The planner uses half a side of a ring, which is a side of a ring of twice as many corners.
   const int most = 2 * std::max(least_opened_corners, ribbed_corners(options, options.sides));
   if (most > common_corners) tables.own_circles = circles_up_to(most);
   tables.circles = most > common_corners ? tables.own_circles.data() : common.data();

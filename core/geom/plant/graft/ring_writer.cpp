@@ -52,7 +52,7 @@ CornerBlock corner_block(const LimbWriter& w, const RingPlane& plane, Float4 x, 
 /// more.
 struct RingArrays {
   glm::vec3 *position, *normal;
-  glm::vec4* tangent;  ///< null: not wanted
+  glm::vec4* tangent;  ///< null: no tangents
 };
 
 void write_circle(const LimbWriter& w, const RingPlane& plane, int sides, const RingArrays& to) {

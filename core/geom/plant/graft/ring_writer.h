@@ -74,7 +74,7 @@ void set_joint(LimbWriter& w, float at);
 /// Returns the texture coordinates of a vertex: u around the limb, v along it.
 glm::vec2 texture_at(const LimbWriter& w, float radius, float angle, float at);
 
-/// Adds one vertex; -0 becomes 0. Its tangent, where wanted, goes around the limb. `group`: Limbs::none for
+/// Adds one vertex; -0 becomes 0. Its tangent, if there are tangents, goes around the limb. `group`: Limbs::none for
 /// vertices that are on no loop.
 std::uint32_t add_vertex(LimbWriter& w, const glm::vec3& position, const glm::vec3& normal, glm::vec2 uv,
                          std::uint32_t group);

@@ -123,13 +123,39 @@ TEST(Blueprints, StandOnFootprintsOfAnyForm) {
   const Json l = Json::parse("[[[-14,-10],[14,-10],[14,2],[2,2],[2,12],[-14,12]]]");
   const Json court =
       Json::parse("[[[-20,-16],[20,-16],[20,10],[14,16],[-20,16]],[[-7,-4],[7,-4],[7,4],[-7,4]]]");
+  const Json plus =
+      Json::parse("[[[0,7],[7,7],[7,0],[14,0],[14,7],[21,7],[21,14],[14,14],[14,21],[7,21],[7,14],[0,14]]]");
+  const Json oblique = Json::parse("[[[0,0],[20,4],[17,15],[-3,10]]]"),
+             rectangle = Json::parse("[[[0,0],[22,0],[22,9],[0,9]]]");
+  Json round = Json::array({Json::array()});
+  for (int i = 0; i < 24; ++i) {
+    const double angle = i * 3.14159265358979 / 12;
+    round[0].push_back({10 * std::cos(angle), 10 * std::sin(angle)});
+  }
   for (const auto& [name, size] : lots()) {
-    for (const Json& footprint : {l, court}) {
+    for (const Json& footprint : {l, court, plus, oblique, rectangle, round}) {
       const Result<Model> model = model_of({{"blueprint", name}, {"footprint", footprint}}, 1);
       ASSERT_TRUE(model) << name << ": " << model.error().issues[0].message;
       EXPECT_GT(seedmesh::count(*model).triangles, 50U) << name;
+      for (const Warning& warning : model->warnings)
+        EXPECT_EQ(warning.message.find("roof"), std::string::npos) << name << ": " << warning.message;
     }
   }
+}
+
+/// Over arms of 6 m the ridge is 3 m times the tangent of the slope above the eaves.
+TEST(Blueprints, TerracedHouseHasItsChimneysOnTheRoofOfEachWing) {
+  const Json plus =
+      Json::parse("[[[0,6],[6,6],[6,0],[12,0],[12,6],[18,6],[18,12],[12,12],[12,18],[6,18],[6,12],[0,12]]]");
+  const Json shapes = shapes_of({{"blueprint", "terraced_house"}, {"footprint", plus}}, 1);
+  const double ridge = 0.3 + 2 * 2.75 + 3 * std::tan(38 * 3.14159265358979 / 180);
+  int chimneys = 0;
+  for (const Json& shape : shapes) {
+    if (shape["symbol"] != "Chimney") continue;
+    ++chimneys;
+    EXPECT_LT(shape["scope"]["origin"][1].get<double>(), ridge);
+  }
+  EXPECT_GE(chimneys, 3);
 }
 
 /// Every attribute at its ends and with each of its choices; one of them must show in the shapes.

@@ -95,7 +95,7 @@ TEST(Flatten, FillsAttributesThatOnlySomePartsHave) {
   EXPECT_EQ(parts[0].mesh.color.back(), glm::u8vec4(1, 2, 3, 255));
 }
 
-TEST(UnitBox, HoldsAllPrimitivesWithItsLongestSideAsOne) {
+TEST(UnitBox, EnclosesAllPrimitivesWithItsLongestSideAsOne) {
   Job job = any_job();
   auto parts = flatten(with_nodes(job, {shown({7, 0, 0}, {4, 1, 1})}), job);
   ASSERT_TRUE(fit_unit_box(parts));

@@ -93,7 +93,7 @@ TEST(MeshField, FindsTheSamePointWithEveryGuess) {
   }
 }
 
-TEST(Solid, TellsSidesAsTheSignOfTheDistance) {
+TEST(Solid, ReportsSidesAsTheSignOfTheDistance) {
   Job job(1, Job::Options{});
   Solid mesh = solid(SolidShape::mesh);
   mesh.mesh = std::make_shared<const MeshField>(cube(job), glm::dvec3{1, 1, 1}, glm::dvec3{0, 1, 0}, job);

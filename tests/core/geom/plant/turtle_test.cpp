@@ -162,7 +162,7 @@ TEST_F(TurtleTest, KeepsKeysBesideTheirJointsWhereOnlySomeHaveOne) {
   EXPECT_EQ(std::vector<std::uint64_t>(keys.begin(), keys.end()), (std::vector<std::uint64_t>{0, 0, 7, 0}));
 }
 
-TEST_F(TurtleTest, StaysWhereItIsAndSaysSoBeyondTheWorld) {
+TEST_F(TurtleTest, StaysWhereItIsAndReportsPositionsBeyondTheWorld) {
   turtle.draw(1, 0);
   const glm::dvec3 before = turtle.position();
   EXPECT_FALSE(turtle.is_out_of_range());

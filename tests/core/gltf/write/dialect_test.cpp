@@ -129,7 +129,7 @@ TEST(Compressed, RequiresWhatItIsWrittenIn) {
   EXPECT_LE(end, document["buffers"][1]["byteLength"].get<std::size_t>());
 }
 
-TEST(Compressed, AsksForNothingWhereNothingIsStored) {
+TEST(Compressed, RequiresNoExtensionWhereNothingIsStored) {
   const json document = json_of(written(Model{}, compressed));
   EXPECT_FALSE(document.contains("extensionsRequired"));
   EXPECT_FALSE(document.contains("buffers"));

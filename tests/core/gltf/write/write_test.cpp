@@ -323,7 +323,7 @@ TEST(Glb, IsTheSameEveryTimeAndInEveryLocale) {
   EXPECT_EQ(first, second);
 }
 
-TEST(Gltf, HoldsTheSameBufferAsTheGlbInBase64) {
+TEST(Gltf, ContainsTheBufferOfTheGlbInBase64) {
   Job fresh = job();
   for (int extra = 0; extra < 3; ++extra) {  // so that the buffer ends at every remainder by 3
     Mesh mesh = square(fresh);
@@ -337,7 +337,7 @@ TEST(Gltf, HoldsTheSameBufferAsTheGlbInBase64) {
   }
 }
 
-TEST(Gltf, HoldsLargeArraysInBase64Too) {
+TEST(Gltf, ContainsLargeArraysInBase64Too) {
   Job fresh = job();
   Mesh mesh = square(fresh);
   mesh.normal = {};

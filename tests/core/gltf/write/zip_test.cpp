@@ -120,7 +120,7 @@ TEST(Zip, DoesNotDependOnTheTimeOrItsZone) {
   EXPECT_EQ(first, second);
 }
 
-TEST(ZipContainer, HoldsDocumentBufferAndTextures) {
+TEST(ZipContainer, ContainsDocumentBufferAndTextures) {
   Model model = textured(job());
   model.name = "Old oak/1";
   const Unpacked unpacked = unpack(zip_of(std::move(model)).text());
