@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "core/base/math.h"
 #include "core/texture/noise.h"
@@ -25,6 +26,9 @@ float across_sill(float x) {
 Relief grime(int size, Rng rng, const Job& job) {
   const Noise streak_noise(size, {36, 2}, {3, 0.6F}, 1, rng.at("streaks"));
   const Noise splash_noise(size, {10, 10}, {4, 0.6F}, 1, rng.at("splash"));
+  std::vector<float> sill(static_cast<std::size_t>(size));
+  for (std::size_t x = 0; x < sill.size(); ++x)
+    sill[x] = across_sill((static_cast<float>(x) + 0.5F) / static_cast<float>(size));
   Relief relief{Field(job, size, 0.5F), Field(job, size, 0.5F), Field(job, 1, 0), Field(job, size)};
   for_rows(job, size, [&](int begin, int end) {
     NoiseRows streak_rows(streak_noise), splash_rows(splash_noise);
@@ -38,10 +42,9 @@ Relief grime(int size, Rng rng, const Job& job) {
                                          (1 - step_between(0.7F, 1, down))
                                    : (down - 1) * (down - 1);
       for (int x = 0; x < size; ++x) {
-        const float across = (static_cast<float>(x) + 0.5F) / static_cast<float>(size);
-        const float share = is_streak
-                                ? most_streak * across_sill(across) * clamp_share(0.5F + 1.1F * streaks[x])
-                                : most_splash * clamp_share(0.65F + 0.9F * splashes[x]);
+        const float share = is_streak ? most_streak * sill[static_cast<std::size_t>(x)] *
+                                            clamp_share(0.5F + 1.1F * streaks[x])
+                                      : most_splash * clamp_share(0.65F + 0.9F * splashes[x]);
         cover[x] = clamp_share(share * fall);
       }
     }

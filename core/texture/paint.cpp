@@ -218,7 +218,7 @@ std::span<const std::string_view> texture_kinds() {
 int painted_size(std::string_view kind, int size) {
   constexpr int least = 64;
   const bool is_single = !is_repeating_kind(kind) && leaf_picture(kind).count == 1;
-  return is_single && size > least ? size / 2 : size;
+  return (is_single || kind == "grime") && size > least ? size / 2 : size;
 }
 
 bool is_repeating_kind(std::string_view name) { return is_bark_kind(name) || wall_kind(name) != nullptr; }

@@ -20,7 +20,8 @@ std::span<const std::string_view> texture_kinds();
 bool is_repeating_kind(std::string_view name);
 
 /// Returns the width and height in texels at which a kind is painted for textures of `size`. For single leaves
-/// and petals, which cover few pixels, this is half of `size`, but not below 64.
+/// and petals, which cover few pixels, and for grime, which has no sharp edges, this is half of `size`, but not below
+/// 64.
 int painted_size(std::string_view kind, int size);
 
 /// Paints a texture. `kind` is one of texture_kinds(). Its tint changes nothing but the finish.

@@ -327,6 +327,12 @@ TEST(Paint, TakesSomeImagesFromAllThatAreStored) {
   EXPECT_NE(texture::maps_of(recipe_of("slate"), 32, {}, &store, job)->normal, nullptr);
 }
 
+TEST(Paint, DrawsDirtAtHalfTheSize) {
+  const Job job = job_of();
+  EXPECT_EQ(decoded(*texture::maps_of(recipe_of("grime"), 256, {}, nullptr, job)->color).width, 128U);
+  EXPECT_EQ(decoded(*texture::maps_of(recipe_of("rooms"), 256, {}, nullptr, job)->color).width, 256U);
+}
+
 TEST(Paint, DrawsSingleLeavesAtHalfTheSize) {
   const Job job = job_of();
   for (const std::string kind : {"plaster", "concrete", "brick", "slate", "rooms", "oak_bark"})
