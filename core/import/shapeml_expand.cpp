@@ -46,6 +46,12 @@ struct OperationRule {
   std::vector<std::uint8_t> is_operation;  ///< for each parameter
 };
 
+/// A call, and the number of one of its arguments.
+struct Argument {
+  std::string_view name;
+  int index = 0;
+};
+
 class Expander {
  public:
   Expander(std::set<std::string>& made_names, ForeignText& source) : texts_(made_names), source_(source) {}
@@ -59,12 +65,21 @@ class Expander {
           end > i ? parameters_of(tokens, i + 2) : std::vector<std::string_view>();
       std::vector<std::uint8_t> is_operation(parameters.size(), 0);
       std::vector<std::string_view> around;  // brackets: in those of expressions, the sign is a power
+      std::vector<Argument> arguments;       // what stands before them, and the argument at the token
       for (std::size_t k = i; k + 1 < end; ++k) {
-        if (opens(tokens[k])) around.push_back(tokens[k].text);
-        if (closes(tokens[k]) && !around.empty()) around.pop_back();
+        if (opens(tokens[k])) {
+          around.push_back(tokens[k].text);
+          arguments.push_back({tokens[k - 1].text, 0});
+        }
+        if (closes(tokens[k]) && !around.empty()) {
+          around.pop_back();
+          arguments.pop_back();
+        }
+        if (is_symbol(tokens[k], ",") && !arguments.empty()) ++arguments.back().index;
         const auto used = std::ranges::find(parameters, tokens[k + 1].text);
         const bool is_value_of = !around.empty() && around.back() == "(" && is_value(tokens[k - 1]);
-        if (is_symbol(tokens[k], "^") && used != parameters.end() && !is_value_of)
+        const bool is_body = is_body_of_split(tokens, k + 1, arguments);
+        if (used != parameters.end() && ((is_symbol(tokens[k], "^") && !is_value_of) || is_body))
           is_operation[static_cast<std::size_t>(used - parameters.begin())] = 1;
       }
       if (std::ranges::find(is_operation, 1) == is_operation.end()) {
@@ -138,9 +153,9 @@ class Expander {
         continue;
       }
       // A constant of operations as an argument of a split.
-      const bool is_body = tokens[i].kind == TokenKind::name &&
-                           known_.contains(std::string(tokens[i].text)) &&
-                           known_.find(std::string(tokens[i].text))->second.parameters.empty() && i > 0 &&
+      const Operations* const named =
+          tokens[i].kind == TokenKind::name ? operations_named(tokens[i].text) : nullptr;
+      const bool is_body = named != nullptr && named->parameters.empty() && i > 0 &&
                            is_symbol(tokens[i - 1], ",") && i + 1 < tokens.size() &&
                            (is_symbol(tokens[i + 1], ",") || is_symbol(tokens[i + 1], ")"));
       if (is_body) {
@@ -178,6 +193,17 @@ class Expander {
     token.kind = TokenKind::symbol;
     token.text = text;
     return token;
+  }
+  /// Whether the token alone is an argument of a split or of a repetition that consists of operations.
+  static bool is_body_of_split(std::span<const Token> tokens, std::size_t i,
+                               const std::vector<Argument>& arguments) {
+    if (arguments.empty() || tokens[i].kind != TokenKind::name || !is_symbol(tokens[i - 1], ","))
+      return false;
+    if (!is_symbol(tokens[i + 1], ",") && !is_symbol(tokens[i + 1], ")")) return false;
+    const auto& [name, index] = arguments.back();
+    if (name.starts_with("splitRepeat") || name.starts_with("repeat")) return index == 1;
+    if (name == "splitFace") return index % 2 == 1;
+    return name.starts_with("split") && index >= 2 && index % 2 == 0;
   }
   /// Behind the rule that begins at `i`; `i`: none does.
   static std::size_t end_of_rule(std::span<const Token> tokens, std::size_t i) {

@@ -60,23 +60,13 @@ constexpr Row of_tree[] = {{"shape", "Shape"},
                            {"prunePowerHigh", "PrunePowerHigh"},
                            {"scale0", "0Scale"},
                            {"scaleV0", "0ScaleV"}};
-constexpr Row of_levels[] = {{"length", "Length"},
-                             {"length_v", "LengthV"},
-                             {"lengthV", "LengthV"},
-                             {"taper", "Taper"},
-                             {"seg_splits", "SegSplits"},
-                             {"segSplits", "SegSplits"},
-                             {"split_angle", "SplitAngle"},
-                             {"splitAngle", "SplitAngle"},
-                             {"split_angle_v", "SplitAngleV"},
-                             {"splitAngleV", "SplitAngleV"},
-                             {"curve_res", "CurveRes"},
-                             {"curveRes", "CurveRes"},
-                             {"curve", "Curve"},
-                             {"curve_back", "CurveBack"},
-                             {"curveBack", "CurveBack"},
-                             {"curve_v", "CurveV"},
-                             {"curveV", "CurveV"}};
+constexpr Row of_levels[] = {
+    {"length", "Length"},         {"length_v", "LengthV"},          {"taper", "Taper"},
+    {"seg_splits", "SegSplits"},  {"segSplits", "SegSplits"},       {"split_angle", "SplitAngle"},
+    {"splitAngle", "SplitAngle"}, {"split_angle_v", "SplitAngleV"}, {"splitAngleV", "SplitAngleV"},
+    {"curve_res", "CurveRes"},    {"curveRes", "CurveRes"},         {"curve", "Curve"},
+    {"curve_back", "CurveBack"},  {"curveBack", "CurveBack"},       {"curve_v", "CurveV"},
+    {"curveV", "CurveV"}};
 constexpr Row of_branches[] = {
     {"down_angle", "DownAngle"},  {"downAngle", "DownAngle"}, {"down_angle_v", "DownAngleV"},
     {"downAngleV", "DownAngleV"}, {"rotate", "Rotate"},       {"rotate_v", "RotateV"},
@@ -219,9 +209,9 @@ class TreeGenReader {
 
   /// Members that set_sapling() reads.
   static bool is_of_sapling(const DictionaryEntry& each) {
-    constexpr const char* names[] = {"baseSize",       "baseSize_s",  "downAngle",
-                                     "downAngleV",     "customShape", "leafDownAngle",
-                                     "leafDownAngleV", "leafRotate",  "leafRotateV"};
+    constexpr const char* names[] = {"baseSize",    "baseSize_s", "downAngle",     "downAngleV",
+                                     "customShape", "lengthV",    "leafDownAngle", "leafDownAngleV",
+                                     "leafRotate",  "leafRotateV"};
     return std::find(std::begin(names), std::end(names), each.name) != std::end(names);
   }
 
@@ -247,6 +237,14 @@ class TreeGenReader {
       for (int level = 1; factor && level + 1 < levels && level < 4; ++level) {
         base->value *= factor->value;
         species_.set(std::to_string(level) + "BaseSize", base->value, factor->at);
+      }
+    }
+    // The variation of lengths is a share of the length.
+    for (std::size_t level = 0; level < 4; ++level) {
+      if (const auto spread = member("lengthV", level)) {
+        const auto length = member("length", level);
+        species_.set(std::to_string(level) + "LengthV", spread->value * (length ? length->value : 1),
+                     spread->at);
       }
     }
     const auto is_old = member("useOldDownAngle", 0);

@@ -174,6 +174,23 @@ double area_of_corners(const std::vector<glm::dvec3>& points) {
   return twice;
 }
 
+/// Which side of the line from `a` to `b` the point is on.
+double side_of(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& p) {
+  return (b.x - a.x) * (p.z - a.z) - (b.z - a.z) * (p.x - a.x);
+}
+
+bool has_crossing_sides(const std::vector<glm::dvec3>& points) {
+  const std::size_t count = points.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    const glm::dvec3 &a = points[i], &b = points[(i + 1) % count];
+    for (std::size_t k = i + 2; k < count; ++k) {
+      const glm::dvec3 &c = points[k], &e = points[(k + 1) % count];
+      if (side_of(a, b, c) * side_of(a, b, e) < 0 && side_of(c, e, a) * side_of(c, e, b) < 0) return true;
+    }
+  }
+  return false;
+}
+
 }  // namespace
 
 void primitive_fitted(Derivation& d, const Step& step, ShapeState& state, const StepContext&) {
@@ -200,6 +217,8 @@ void primitive_polygon(Derivation& d, const Step& step, ShapeState& state, const
   const double area = area_of_corners(solid.points);
   if (!(std::abs(area) > 1e-12 && std::abs(area) < 1e12))
     reject(d, step.offset, "found corners without an area between them");
+  if (!d.named_solids.contains(key) && has_crossing_sides(solid.points))
+    reject(d, step.offset, "the sides of the polygon cross");
   if (area < 0) {
     warn(d, step.offset, "the corners of a polygon run clockwise; it faces up all the same");
     std::ranges::reverse(solid.points);

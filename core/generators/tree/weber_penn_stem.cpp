@@ -214,6 +214,10 @@ double down_angle_at(const WeberPennTree& tree, const WeberPennStem& stem, doubl
 }
 
 double child_length(const WeberPennTree& tree, const WeberPennStem& stem, double offset, double longest) {
+  if (stem.level > 0 && tree.params.counting == TreeParams::Counting::sapling) {
+    const double bearing = std::max(1e-9, stem.length * (1 - tree.level(stem.level).bare));
+    return longest * stem.length * (0.5 + 0.5 * std::min(1.0, (stem.length - offset) / bearing));
+  }
   if (stem.level > 0) return longest * (stem.length - 0.6 * offset);
   const double crown = std::max(1e-9, stem.length - tree.bare_length());
   const double ratio = shape_ratio(tree.params, tree.params.crown_shape, (stem.length - offset) / crown);

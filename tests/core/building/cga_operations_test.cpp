@@ -70,6 +70,17 @@ TEST(Primitives, CanTouchAllSidesOfTheScope) {
   EXPECT_NEAR(volume_after("primitivePolygon([0, 0, 0, 2, 2, 0]) extrude(3)", {10, 0, 10}), 150, 1e-9);
 }
 
+TEST(Primitives, RefusePolygonsThatAreNone) {
+  const auto fault = [](const std::string& corners) {
+    Job job(0, Job::Options{});
+    const Result<Json> answer = derive(with("A --> primitivePolygon([" + corners + "]) B."), context_of(job));
+    return answer ? std::string() : answer.error().issues.front().message;
+  };
+  EXPECT_THAT(fault("0, 0, 4, 4, 4, 0, 0, 5"), HasSubstr("the sides of the polygon cross"));
+  EXPECT_THAT(fault("0, 0, 1, 1, 2, 2"), HasSubstr("without an area"));
+  EXPECT_THAT(fault("0, 0, 1, 1, 2"), HasSubstr("3 to 1000 corners"));
+}
+
 TEST(ExtrudeInADirection, KeepsTheVolumeOfTheProjection) {
   // A slope of 30 degrees over 10 x 5 has the plan 50, so that 2 m straight up add 100 cubic metres.
   const std::string slope = "A --> s('1, 0, '1) roofShed(30) comp(f){ aslant: ";

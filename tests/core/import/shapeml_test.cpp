@@ -101,6 +101,18 @@ TEST(Shapeml, GivesOperationsToRulesAndSplits) {
   EXPECT_NEAR(heights["Own_"], 5, 1e-9);
 }
 
+TEST(Shapeml, GivesOperationsToSplitsInsideOfRules) {
+  const auto result =
+      imported("shapeml",
+               "rule Frame(inner, width) = { splitX(\"fsf\", width, { Beam_ }, 1, inner, width, "
+               "{ Beam_ }) };\n"
+               "rule Axiom = { size(10, 4, 1) cube Frame({ Glass_ }, 2) [ Frame({ Row }, 1) ] };\n"
+               "rule Row = { splitRepeatY(2, { Pane_ }) };\n");
+  ASSERT_TRUE(result) << reports(result)[0];
+  const std::map<std::string, int> expected = {{"Beam_", 4}, {"Glass_", 1}, {"Pane_", 2}};
+  EXPECT_EQ(leaves_of(result), expected);
+}
+
 /// Offsets and sizes along x of the active shapes, in order.
 std::vector<std::pair<double, double>> parts_along_x(const std::string& split) {
   std::vector<std::pair<double, double>> parts;
