@@ -103,6 +103,7 @@ class Wavefront {
   void find_hits_of_corner(std::uint32_t corner, double from);
   void find_hits_on_edge(std::uint32_t edge);
   void move_horizon();
+  double median_life(double from) const;
   void drop_ended();
   void place_grid(double time);
   bool fill_grid(double from, double ahead);

@@ -25,6 +25,8 @@ constexpr std::size_t nearby_each = 512;
 constexpr double cells_each = 4;
 // The farthest horizon, in diagonals of the plan that the fastest edge could cross.
 constexpr double farthest = 1e6;
+// The first horizon in median lives of edges, and each later one in lengths of the previous one, if the grid allows it.
+constexpr double first_horizon = 8, next_horizon = 8;
 constexpr std::size_t comparisons_a_check = 20'000;
 
 }  // namespace
@@ -118,7 +120,7 @@ void Wavefront::move_horizon() {
     // Less would not be a step where times are large.
     const double least = least_ahead_ = std::max(16 * soon_, 1e-9 * from);
     const double whole = std::min(farthest * scale / fastest_, std::max(end_time_ + 4 * soon_ - from, least));
-    ahead_ = ahead_ > 0 ? std::min(8 * ahead_, whole) : whole;
+    ahead_ = std::min(ahead_ > 0 ? next_horizon * ahead_ : first_horizon * median_life(from), whole);
     // Where little has changed up to the last horizon, a farther one is cheaper.
     effort_ = 4 * changes_ < front_.size() ? std::min(most_effort, 3 * effort_) : 1;
     changes_ = 0;
@@ -151,6 +153,16 @@ void Wavefront::move_horizon() {
     }
   }
   horizon_before_ = -1;
+}
+
+/// The median time until an edge shrinks to length 0. Infinite, if most edges never do.
+double Wavefront::median_life(double from) const {
+  std::vector<double> lives;
+  lives.reserve(front_.size());
+  for (const std::uint32_t edge : front_) lives.push_back(std::max(edges_[edge].until - from, 0.0));
+  const auto middle = lives.begin() + static_cast<std::ptrdiff_t>(lives.size() / 2);
+  std::nth_element(lives.begin(), middle, lives.end());
+  return *middle;
 }
 
 void Wavefront::drop_ended() {
