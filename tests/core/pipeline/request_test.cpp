@@ -61,7 +61,7 @@ TEST(ReadRequest, ReportsNoConflictWithTheDefaultOfARefusedMember) {
   EXPECT_THAT(pointers(terrain(R"("algorithm":"diamond_square")")), ElementsAre("/parameters/resolution"));
   EXPECT_THAT(pointers(terrain(R"("algorithm":"fbm","hydraulic":{"metod":"stream_power","iterations":9})")),
               ElementsAre("/parameters/hydraulic/metod"));
-  EXPECT_THAT(pointers(terrain(R"("algorithm":"fbm","hydraulic":{"droplets":9},"note":1)")),
+  EXPECT_THAT(pointers(terrain(R"("algorithm":"fbm","hydraulic":{"iterations":9},"note":1)")),
               UnorderedElementsAre("/parameters/note", "/parameters/hydraulic/iterations"));
   EXPECT_THAT(pointers(terrain(R"("note":1,"size":"1 km")")),
               UnorderedElementsAre("/parameters/note", "/parameters/size", "/parameters/resolution"));

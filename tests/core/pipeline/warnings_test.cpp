@@ -17,7 +17,8 @@ int warnings_seen = 0;
 
 void expect_in_request(const std::string& name, const Request& request, const Json& answer) {
   const Json canonical = Json::parse(request.canonical());
-  for (const Json& warning : answer.value("warnings", Json::array())) {
+  const Json warnings = answer.value("warnings", Json::array());
+  for (const Json& warning : warnings) {
     const auto pointer = warning.at("pointer").get<std::string>();
     ++warnings_seen;
     EXPECT_TRUE(canonical.contains(Json::json_pointer(pointer)))
@@ -72,7 +73,8 @@ TEST(Warnings, AreAboutWhatTheRequestContains) {
     if (!request) return std::vector<std::string>{request.error().issues.front().message};
     const Result<std::string> answer = validate(*request, {});
     if (!answer) return std::vector<std::string>{answer.error().issues.front().message};
-    for (const Json& warning : Json::parse(*answer).at("warnings")) found.push_back(warning.at("pointer"));
+    const Json read = Json::parse(*answer);
+    for (const Json& warning : read.at("warnings")) found.push_back(warning.at("pointer"));
     return found;
   };
   EXPECT_EQ(pointers(rules).front(), "/parameters/productions/1");
