@@ -297,7 +297,7 @@ async function draw_parameters(state: State, is_new: boolean, signal: AbortSigna
   form = mine;
   output_form ??= make_output((asked) => store.edit({ output: asked }));
   output_form.follow(with_formats(output, formats_of(schema, request), request), request.output ?? {}, base.output ?? {});
-  part('parameters').replaceChildren(el('h2', { class: 'unseen' }, 'Parameters'), about(generator, schema, state.description), ...(generator === 'world' ? [el('p', {}, el('a', { href: './world.html', onclick: (event) => void enter_world(event) }, 'Move in this world'))] : []), form.element, output_form.element);
+  part('parameters').replaceChildren(el('h2', { class: 'unseen' }, 'Parameters'), about(generator, schema, state.description), ...(generator === 'world' ? [el('p', {}, el('a', { href: './world.html', onclick: (event) => void enter_world(event) }, 'Move in this world'))] : []), form.element, ...(generator === 'world' ? [] : [output_form.element]));
   restore();
   if (is_new) part('parameters').scrollTop = 0;
   explain();
@@ -306,7 +306,8 @@ async function draw_parameters(state: State, is_new: boolean, signal: AbortSigna
   else show_issues();
 }
 
-const formats_of = (of: Schema, request: Request): string[] => [...formats, ...own_formats(of, request)];
+/** Tiles have no options of output, so the page offers only the root tile of a world. */
+const formats_of = (of: Schema, request: Request): string[] => (request.generator === 'world' ? ['glb'] : [...formats, ...own_formats(of, request)]);
 
 const explain = (): void => {
   if (!schema) return;
