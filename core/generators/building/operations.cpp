@@ -120,9 +120,7 @@ constexpr OperationRow rows[] = {
      "Replaces the geometry of the shape by a solid, a part or an asset that fills the scope. Sizes of 0 "
      "follow from the others. For parts: the number of panes, steps, sides or teeth, the width of the frame, "
      "and the angle of the roof; 0 means by size. The last number selects what is behind a window: 0 "
-     "darkness, "
-     "1 "
-     "curtains, 2 a blind, 3 a short curtain.",
+     "darkness, 1 curtains, 2 a blind, 3 a short curtain.",
      "A --> i(\"cylinder\")"},
     {"primitive", Op::insert, "t", Braces::absent, "name", "As i.", "A --> primitive(\"prism\")"},
     {"color", Op::color, "t|nnn", Braces::absent, "color",

@@ -16,7 +16,7 @@ constexpr double far_share = 0.9;        ///< the same for the coarsest tiles be
 constexpr double unusual = 1.15;         ///< share of the usual skirt: the deepest that boxes include
 constexpr double widest_fine_rise = 64;  ///< metres
 constexpr double fine_share = 0.7;       ///< share of normals that follow the slope of finer levels
-constexpr double rounding_steps = 9;     ///< steps by which heights of the coarsest tiles beside it are rounded
+constexpr double rounding_steps = 9;  ///< steps by which heights of the coarsest tiles beside it are rounded
 
 /// Rises by a metre east and north.
 struct Rise {
