@@ -136,7 +136,7 @@ TreeBuild build_of(const TreeParams& params) {
 
 bool shows_twig(const TreeParams& params) {
   const TreeBuild build = build_of(params);
-  if (has_needles(static_cast<LeafShape>(params.leaf.leaf_shape))) return build != TreeBuild::mesh;
+  if (params.leaf.leaf_shape == TreeLeafShape::needles) return build != TreeBuild::mesh;
   return build == TreeBuild::twig || build == TreeBuild::bunch;
 }
 

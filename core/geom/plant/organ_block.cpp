@@ -19,8 +19,12 @@ static_assert(sizeof(Lanes3) == 3 * lanes * sizeof(float) && sizeof(Lanes4) == 4
 // A normal that follows a crown has at least the first cosine to its faces; one with less is turned to the
 // second.
 constexpr float least_over = 0.1F, wanted_over = 0.15F;
+// The same of outward normals. They may be almost flat to their faces: the lower side of a leaf is then lit nearly as
+// its upper side. The margin is several times the error of normals of eight bits.
+constexpr float least_beside = 0.03F, wanted_beside = 0.05F;
 // Outward normals are between straight up and the surface of the crown, because leaves turn to the light.
 constexpr float up_share = 0.6F;
+constexpr int most_passes = 4;
 
 /// Of each lane: the columns of the rotation, the columns multiplied by the scale, and the inverse of the
 /// scale, which normals are multiplied by before they are rotated.
@@ -173,14 +177,14 @@ SEEDMESH_WIDE void ellipsoid_normal(const glm::vec3& middle, const glm::vec3& by
   }
 }
 
-/// Between the direction outward and a normal, which is inverted where it faces the other way: both sides of a leaf get
-/// the same normal.
+/// Between a normal and the direction outward.
 SEEDMESH_WIDE void mix_outward(float share, const Lanes3& outward, const Lanes3& normal,
                                Lanes3& __restrict out) {
   for (std::size_t l = 0; l < lanes; ++l) {
     const glm::vec3 own = at(normal, l), away = at(outward, l);
-    const float by = dot_of(away, own) < 0.0F ? share - 1 : 1 - share;
-    put(out, l, {own.x * by + away.x * share, own.y * by + away.y * share, own.z * by + away.z * share});
+    put(out, l,
+        {own.x + (away.x - own.x) * share, own.y + (away.y - own.y) * share,
+         own.z + (away.z - own.z) * share});
   }
 }
 
@@ -213,12 +217,34 @@ SEEDMESH_WIDE void lean_toward(const Lanes3& face, const Lanes3& normal, Lanes3&
   }
 }
 
+/// Turns a normal where it is too flat to a face, at right angles to the face as far as possible. `turned` gets the
+/// vector before it is normalised.
+SEEDMESH_WIDE void turn_beside(const Lanes3& face, const Lanes3& normal, Lanes3& __restrict turned) {
+  constexpr float by_share = wanted_beside / 0.99874922F;  // sqrt(1 - wanted_beside^2)
+  for (std::size_t l = 0; l < lanes; ++l) {
+    const glm::vec3 here = at(normal, l), f = at(face, l);
+    const float over = dot_of(here, f);
+    const glm::vec3 beside{here.x - f.x * over, here.y - f.y * over, here.z - f.z * over};
+    const float by = by_share * std::sqrt(dot_of(beside, beside)) + 1e-6F;
+    put(turned, l, {beside.x + f.x * by, beside.y + f.y * by, beside.z + f.z * by});
+  }
+}
+
 SEEDMESH_WIDE void select_flat(const Lanes3& face, const Lanes3& turned, float least_cosine,
                                Lanes3& __restrict normal) {
   for (std::size_t l = 0; l < lanes; ++l) {
     const glm::vec3 here = at(normal, l), other = at(turned, l);
     const bool is_flat = dot_of(here, at(face, l)) < least_cosine;
     put(normal, l, {is_flat ? other.x : here.x, is_flat ? other.y : here.y, is_flat ? other.z : here.z});
+  }
+}
+
+/// Takes the vertex's own normal where the turned one is behind the face or flat to it.
+SEEDMESH_WIDE void select_restored(const Lanes3& face, const Lanes3& own, Lanes3& __restrict normal) {
+  for (std::size_t l = 0; l < lanes; ++l) {
+    const glm::vec3 here = at(normal, l), other = at(own, l), f = at(face, l);
+    const bool is_off = dot_of(here, f) < 0.01F * std::sqrt(dot_of(f, f));
+    put(normal, l, {is_off ? other.x : here.x, is_off ? other.y : here.y, is_off ? other.z : here.z});
   }
 }
 
@@ -231,6 +257,7 @@ OrganBlock::OrganBlock(const Mesh& surface, const FoliageOptions& options, std::
       axes_(axes),
       position_(job, surface.position.size()),
       normal_(job, surface.position.size()),
+      own_(job, options.crown && options.outward ? surface.position.size() : 0),
       tangent_(job, surface.tangent.empty() ? axes.size() : surface.tangent.size()) {}
 
 void OrganBlock::place(const Array<Organ>& organs, std::span<const std::uint32_t> numbers) {
@@ -260,6 +287,7 @@ void OrganBlock::place(const Array<Organ>& organs, std::span<const std::uint32_t
           own);
     }
     normal_[i] = own;
+    if (!own_.empty()) own_[i] = own;
     if (!surface_.tangent.empty()) turn_tangent(turns, surface_.tangent[i], own, tangent_[i]);
     if (!options_.crown) continue;
     const auto its_own = [&](std::size_t l) { return at(own, l); };
@@ -277,7 +305,14 @@ void OrganBlock::place(const Array<Organ>& organs, std::span<const std::uint32_t
     }
     to_units(normal_[i], its_own, normal_[i]);
   }
-  if (options_.crown && !options_.outward) turn_toward_faces();
+  if (options_.crown && options_.outward) {
+    // Normals of bent surfaces have several faces: turning a normal for one of them may turn it off another.
+    int pass = 0;
+    while (pass < most_passes && turn_toward_faces()) ++pass;
+    if (pass == most_passes) restore_turned_off();
+  } else if (options_.crown) {
+    turn_toward_faces();
+  }
   Lanes3 u, across;
   for (std::size_t i = 0; i < axes_.size(); ++i) {
     if (i == 0 || axes_[i] != axes_[i - 1]) place_axes(turns, axes_[i], u, across);
@@ -285,25 +320,42 @@ void OrganBlock::place(const Array<Organ>& organs, std::span<const std::uint32_t
   }
 }
 
-void OrganBlock::turn_toward_faces() {
+void OrganBlock::restore_turned_off() {
+  const std::uint32_t* corner = surface_.index.wide.data();
+  for (const std::uint32_t* end = corner + surface_.index.wide.size(); corner != end; corner += 3) {
+    Lanes3 face;
+    if (!face_of(position_.data(), normal_.data(), corner, least_beside, face)) continue;
+    for (int k = 0; k < 3; ++k) select_restored(face, own_[corner[k]], normal_[corner[k]]);
+  }
+}
+
+bool OrganBlock::turn_toward_faces() {
+  bool has_turned = false;
+  const float least = options_.outward ? least_beside : least_over;
   const std::uint32_t* corner = surface_.index.wide.data();
   for (const std::uint32_t* end = corner + surface_.index.wide.size(); corner != end; corner += 3) {
     Lanes3 face, turned;
-    if (!face_of(position_.data(), normal_.data(), corner, least_over, face)) continue;
+    if (!face_of(position_.data(), normal_.data(), corner, least, face)) continue;
     to_units(
         face,
         [](std::size_t) {
           return glm::vec3{0, 1, 0};
         },
         face);
+    has_turned = true;
     for (int k = 0; k < 3; ++k) {
       Lanes3& normal = normal_[corner[k]];
-      lean_toward(face, normal, turned);
+      if (options_.outward) {
+        turn_beside(face, normal, turned);
+      } else {
+        lean_toward(face, normal, turned);
+      }
       to_units(
           turned, [&](std::size_t l) { return at(face, l); }, turned);
-      select_flat(face, turned, least_over, normal);
+      select_flat(face, turned, least, normal);
     }
   }
+  return has_turned;
 }
 
 void OrganBlock::write(std::size_t count, glm::vec3* position, glm::vec3* normal, glm::vec4* tangent) const {

@@ -21,7 +21,7 @@ struct OrganLanes4 {
 class OrganBlock {
  public:
   /// `axes`: of each vertex of the surface, or empty where no tangents are made of texture coordinates. All
-  /// are borrowed. Charges 704 bytes a vertex of the surface to the job.
+  /// are borrowed. Charges 704 bytes a vertex, 896 with outward normals, of the surface to the job.
   OrganBlock(const Mesh& surface, const FoliageOptions& options, std::span<const TextureAxes> axes,
              const Job& job);
 
@@ -33,13 +33,16 @@ class OrganBlock {
   void write(std::size_t count, glm::vec3* position, glm::vec3* normal, glm::vec4* tangent) const;
 
  private:
-  /// Keeps normals that follow a crown on the side of all their faces.
-  void turn_toward_faces();
+  /// Keeps normals that follow a crown on the side of all their faces. Returns whether any was not.
+  bool turn_toward_faces();
+  /// Gives vertices their own normals again where turned ones are behind one of their faces.
+  void restore_turned_off();
 
   const Mesh& surface_;
   const FoliageOptions& options_;
   std::span<const TextureAxes> axes_;
   Array<OrganLanes3> position_, normal_;
+  Array<OrganLanes3> own_;  ///< normals of the surface; empty where they are not needed again
   Array<OrganLanes4> tangent_;
 };
 

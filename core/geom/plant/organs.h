@@ -33,12 +33,12 @@ struct FoliageOptions {
   /// vertices at 1e-6 of the diagonal would make points of their triangles.
   float model_size = 0;
   /// If set, normals are mixed with the direction away from this point, so that a crown is lit as one body.
-  /// Without `outward` they stay on the side of their faces, since renderers turn the normals of back faces around.
+  /// They stay on the side of their faces, since renderers turn the normals of back faces around.
   std::optional<glm::vec3> crown;
   float crown_share = 0.75F;
-  /// With `crown`: for surfaces whose sides have vertices of their own and are drawn single-sided. Both sides get the same
-  /// normal, which turns to the light and may be behind its face. The light comes from the mean of the directions
-  /// straight up (weight 0.6) and away from `crown` (0.4), which are those of an ellipsoid with these half axes.
+  /// With `crown`: for surfaces whose sides have vertices of their own. The normals of both sides turn to the light,
+  /// as far as they stay on the side of their faces. The light comes from the mean of the directions straight up
+  /// (weight 0.6) and away from `crown` (0.4). The directions away are those of an ellipsoid with these half axes.
   bool outward = false;
   glm::vec3 crown_axes{1};
   /// Organs differ in brightness by up to this share, by a hash of their key, as vertex colours; 0: no

@@ -72,21 +72,11 @@ TEST(OrganBlock, RotatesScalesAndMovesASurface) {
   }
 }
 
-/// n = normalize(share light + (1 - share) f) in double precision, where light = unit(0.4 unit((p - c) / e^2) + 0.6 up) and f
-/// is the face's normal or its inverse, whichever is on the side of the light.
-TEST(OrganBlock, GivesBothSidesOfALeafOneNormalThatTurnsToTheLight) {
+/// m = normalize(share unit(0.4 unit((p - c) / e^2) + 0.6 up) + (1 - share) f); where m f < 0.03, n has the
+/// direction of m beside f and n f = 0.05, in double precision.
+TEST(OrganBlock, TurnsNormalsOutwardAsFarAsTheyStayOnTheSideOfTheirFaces) {
   Job job = job_of();
-  Mesh leaf = leaf_of(LeafBuild::card, job);
-  const std::size_t corners = leaf.position.size();
-  for (std::size_t i = 0; i < corners; ++i) {  // the back
-    leaf.position.push_back(leaf.position[i]);
-    leaf.normal.push_back(-leaf.normal[i]);
-    leaf.uv[0].push_back(leaf.uv[0][i]);
-  }
-  for (std::size_t i = 0, count = leaf.index.wide.size(); i < count; i += 3) {
-    for (const std::size_t corner : {i, i + 2, i + 1})
-      leaf.index.wide.push_back(leaf.index.wide[corner] + static_cast<std::uint32_t>(corners));
-  }
+  const Mesh leaf = leaf_of(LeafBuild::card, job);
   const Organs organs = organs_of(45, job);
   FoliageOptions options = options_of(leaf);
   options.outward = true;
@@ -94,7 +84,7 @@ TEST(OrganBlock, GivesBothSidesOfALeafOneNormalThatTurnsToTheLight) {
   options.crown_axes = {3, 2.5F, 3};
   const Mesh mesh = std::move(place_organs(organs, options, job)[0].mesh);
   const std::size_t vertices = leaf.position.size();
-  ASSERT_EQ(mesh.position.size(), 45 * vertices);
+  std::size_t turned = 0;
   for (std::size_t i = 0; i < mesh.position.size(); ++i) {
     const Organ& organ = organs.organ[i / vertices];
     const glm::dmat3 turn = glm::mat3_cast(glm::dquat(organ.frame));
@@ -104,12 +94,14 @@ TEST(OrganBlock, GivesBothSidesOfALeafOneNormalThatTurnsToTheLight) {
     const glm::dvec3 away =
         glm::normalize((glm::dvec3(mesh.position[i]) - glm::dvec3(*options.crown)) / (axes * axes));
     const glm::dvec3 light = glm::normalize(0.4 * away + glm::dvec3(0, 0.6, 0));
-    const glm::dvec3 lit = glm::dot(own, light) < 0 ? -own : own;
-    ASSERT_LT(glm::distance(glm::dvec3(mesh.normal[i]), glm::normalize(0.65 * light + 0.35 * lit)), 1e-4)
-        << i;
-    const std::size_t other = i % vertices < corners ? i + corners : i - corners;
-    ASSERT_LT(glm::distance(mesh.normal[i], mesh.normal[other]), 1e-5F) << i;
+    glm::dvec3 wanted = glm::normalize(0.65 * light + 0.35 * own);
+    const double over = glm::dot(wanted, own);
+    if (over < 0.03) wanted = std::sqrt(1 - 0.05 * 0.05) * glm::normalize(wanted - over * own) + 0.05 * own;
+    turned += over < 0.03 ? 1 : 0;
+    ASSERT_LT(glm::distance(glm::dvec3(mesh.normal[i]), wanted), 1e-4) << i;
+    ASSERT_GT(glm::dot(glm::dvec3(mesh.normal[i]), own), 0.029) << i;
   }
+  EXPECT_GT(turned, vertices) << "some leaves face the inside of the crown";
 }
 
 TEST(OrganBlock, KeepsNormalsThatFollowACrownOnTheSideOfTheirFaces) {
