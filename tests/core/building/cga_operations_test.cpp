@@ -73,8 +73,13 @@ TEST(Primitives, CanTouchAllSidesOfTheScope) {
 TEST(Primitives, RefusePolygonsThatAreNone) {
   const auto fault = [](const std::string& corners) {
     Job job(0, Job::Options{});
-    const Result<Json> answer = derive(with("A --> primitivePolygon([" + corners + "]) B."), context_of(job));
-    return answer ? std::string() : answer.error().issues.front().message;
+    try {
+      const Result<Json> answer =
+          derive(with("A --> primitivePolygon([" + corners + "]) B."), context_of(job));
+      return answer ? std::string() : answer.error().issues.front().message;
+    } catch (const Stop& stop) {
+      return stop.issue().message;
+    }
   };
   EXPECT_THAT(fault("0, 0, 4, 4, 4, 0, 0, 5"), HasSubstr("the sides of the polygon cross"));
   EXPECT_THAT(fault("0, 0, 1, 1, 2, 2"), HasSubstr("without an area"));
