@@ -271,11 +271,12 @@ class HoudiniReader {
 
   /// J(,,2): arguments that are not given are 0. The symbols that have them draw nothing here.
   static std::string with_empty_arguments(const std::string& arguments) {
+    if (arguments == "()") return arguments;
     std::string out;
     for (const char c : arguments) {
       const bool is_empty =
           !out.empty() && (out.back() == '(' || out.back() == ',') && (c == ',' || c == ')');
-      if (is_empty && out != "()") out += '0';
+      if (is_empty) out += '0';
       out += c;
     }
     return out;
