@@ -271,7 +271,7 @@ class HoudiniReader {
 
   /// J(,,2): arguments that are not given are 0. The symbols that have them draw nothing here.
   static std::string with_empty_arguments(const std::string& arguments) {
-    if (arguments == "()") return arguments;
+    if (arguments == "()") return {};
     std::string out;
     for (const char c : arguments) {
       const bool is_empty =

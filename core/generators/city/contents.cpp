@@ -15,6 +15,7 @@
 #include "core/generators/city/model_copies.h"
 #include "core/generators/city/objects.h"
 #include "core/generators/city/solid_builder.h"
+#include "core/generators/city/yard_borders.h"
 #include "core/generators/scene/model_levels.h"
 #include "core/texture/file_size.h"
 #include "generated/params/city.h"
@@ -24,8 +25,6 @@ namespace {
 
 using glm::dvec2;
 
-constexpr float border_depth = 0.25F;  // of hedges and fences below the ground, m
-constexpr double post_spacing = 2.6;
 constexpr std::uint64_t bytes_a_copy = 150;
 
 Transform transform_at(const dvec2& position, double height, double turn, double scale = 1) {
@@ -151,104 +150,6 @@ std::optional<Error> make_and_add(Job& job, std::size_t count, const Make& make,
   return std::nullopt;
 }
 
-/// A hedge or a wall, or the panel and the posts of a fence, along a border. `ground` has the heights of the ground
-/// at its ends.
-void add_border(SolidBuilder& solid, const BorderPiece& piece, const std::array<double, 2>& ground,
-                CityBorder kind, double height) {
-  const dvec2 run = piece.b - piece.a;
-  const double length = glm::length(run);
-  const dvec2 along = run / length, side(-along.y, along.x);
-  const auto corner = [&](double s, double offset) {
-    const dvec2 p = piece.a + along * s + side * offset;
-    return glm::vec2(static_cast<float>(p.x), static_cast<float>(0 - p.y));
-  };
-  const auto base = [&](double s) {
-    return static_cast<float>(ground[0] + (ground[1] - ground[0]) * s / length);
-  };
-  const auto add = [&](double from, double to, double half, float low, float high) {
-    const float a = base(from), b = base(to);
-    solid.add_slab({corner(from, -half), corner(to, -half), corner(to, half), corner(from, half)},
-                   {a + low, b + low, b + low, a + low}, {a + high, b + high, b + high, a + high});
-  };
-  const auto top = static_cast<float>(height);
-  if (kind != CityBorder::fence) {
-    // The gap keeps pieces that meet in a line from sharing edges.
-    const double gap = std::min(0.01, length / 4);
-    add(gap, length - gap, kind == CityBorder::hedge ? 0.3 : 0.15, 0 - border_depth, top);
-    return;
-  }
-  add(0, length, 0.02, 0.1F, top);
-  const int posts = 1 + math::to_int32(std::floor(length / post_spacing));
-  for (int i = 0; i <= posts; ++i) {
-    const double at = 0.06 + (length - 0.12) * i / posts;
-    add(at - 0.05, at + 0.05, 0.05, 0 - border_depth, top + 0.08F);
-  }
-}
-
-SolidMaterial solid_material_of(CityBorder kind) {
-  if (kind == CityBorder::hedge) return {"hedge", {0x45, 0x5e, 0x33}, 1, 0};
-  if (kind == CityBorder::wall) return {"yard_wall", {0xb9, 0xae, 0x9a}, 0.95F, 0};
-  return {"fence", {0x8a, 0x76, 0x5e}, 0.9F, 0};
-}
-
-std::uint64_t border_triangles(const BorderPiece& piece, CityBorder kind) {
-  if (kind != CityBorder::fence) return 12;
-  const int posts = 1 + math::to_int32(std::floor(glm::length(piece.b - piece.a) / post_spacing));
-  return 12 + 12 * static_cast<std::uint64_t>(posts + 1);
-}
-
-/// The borders; on a terrain in short pieces, 2 cm apart, that follow the ground.
-std::vector<BorderPiece> borders_of(const Surface& surface, const CityParams& params, const Job& job) {
-  constexpr double longest = 6, gap = 0.02;
-  if (!params.yards || params.yards->border == CityBorder::none) return {};
-  std::vector<BorderPiece> whole = lot_borders(surface.plan(), job);
-  if (params.yards->front) {
-    const std::vector<BorderPiece> fronts = front_borders(surface.plan(), job);
-    whole.insert(whole.end(), fronts.begin(), fronts.end());
-  }
-  if (surface.is_level()) return whole;
-  std::vector<BorderPiece> pieces;
-  for (const BorderPiece& each : whole) {
-    const dvec2 run = each.b - each.a;
-    const double length = glm::length(run);
-    const int count = math::to_int32(std::ceil(length / longest));
-    for (int i = 0; i < count; ++i) {
-      const double end = i + 1 < count ? (i + 1.0) / count - gap / length : 1;
-      pieces.push_back({each.a + run * (static_cast<double>(i) / count), each.a + run * end, each.part});
-    }
-  }
-  return pieces;
-}
-
-void add_borders(Model& model, ChunkNodes& nodes, const Chunks& chunks, const Surface& surface,
-                 const CityParams& params, Job& job) {
-  const CityPlan& plan = surface.plan();
-  std::map<std::uint32_t, SolidBuilder> by_chunk;
-  for (const BorderPiece& piece : borders_of(surface, params, job)) {
-    job.spend(Resource::triangles, border_triangles(piece, params.yards->border));
-    const std::uint32_t chunk = chunks.at((piece.a + piece.b) / 2.0, plan.parts[piece.part].block);
-    const std::array<double, 2> ground = {surface.height(piece.part, piece.a),
-                                          surface.height(piece.part, piece.b)};
-    add_border(by_chunk.try_emplace(chunk, job).first->second, piece, ground, params.yards->border,
-               params.yards->height);
-  }
-  if (by_chunk.empty()) return;
-  const auto material = static_cast<int>(model.materials.size());
-  const SolidMaterial look = solid_material_of(params.yards->border);
-  model.materials.push_back(material_of(look));
-  for (auto& [chunk, solid] : by_chunk) {
-    MeshGroup group;
-    group.name = look.name;
-    Primitive primitive;
-    primitive.mesh = solid.take(job);
-    primitive.material = material;
-    group.primitives.push_back(std::move(primitive));
-    const int node = add_node(model, look.name, nodes.group(chunk, "borders"));
-    model.nodes[static_cast<std::size_t>(node)].mesh = static_cast<int>(model.meshes.size());
-    model.meshes.push_back(std::move(group));
-  }
-}
-
 /// Adds what all copies of a model add to an estimate.
 void add_copies(Estimate& estimate, const LevelInfo& info, std::uint64_t bytes, const ViewPoint& view,
                 const std::vector<Copy>& copies) {
@@ -320,7 +221,7 @@ std::optional<Error> add_contents(Model& model, ChunkNodes& nodes, const Chunks&
                    is_landmark ? CopyWriter::Bodies::boxes : CopyWriter::Bodies::none);
       });
   if (error) return error;
-  add_borders(model, nodes, chunks, surface, params, job);
+  add_yard_borders(model, nodes, chunks, surface, params, job);
   return std::nullopt;
 }
 
@@ -362,8 +263,8 @@ std::optional<Error> estimate_contents(Estimate& estimate, const Surface& surfac
     const auto [info, bytes] = measured(std::move(made));
     add_copies(estimate, info, bytes, view, each.copies);
   }
-  for (const BorderPiece& piece : borders_of(surface, params, job)) {
-    const std::uint64_t triangles = border_triangles(piece, params.yards->border);
+  for (const BorderPiece& piece : yard_borders(surface, params, job)) {
+    const std::uint64_t triangles = yard_border_triangles(piece, params.yards->border);
     estimate.triangles += triangles;
     estimate.bytes += 50 * triangles;
   }

@@ -66,7 +66,7 @@ TEST(Houdini, ReadsParametersWithOtherSignsBehindTheirNames) {
 TEST(Houdini, FillsArgumentsThatAreNotGivenForCopiesOfGeometry) {
   const auto result = imported("houdini", "A\nA=FJ(,,2)[K(,)]M()\n");
   ASSERT_TRUE(result) << reports(result)[0];
-  EXPECT_EQ(parameters_of(result)["productions"], json({"A -> FJ(0,0,2)[K(0,0)]M()"}));
+  EXPECT_EQ(parameters_of(result)["productions"], json({"A -> FJ(0,0,2)[K(0,0)]M"}));
 }
 
 TEST(Houdini, RefusesArrowsAndAPremiseWithoutRules) {
