@@ -18,12 +18,13 @@ const patterns = [
   /(?<!return \{)IssueKind::conflict\s*,/,  // conflict_with({...}) also says which members are in conflict
 ];
 
-/** The functions that may receive a message. They store it or show it whole. Add a name only if that is true of it. */
+/** The functions that may receive a message. They store it or show it, where `brief` of the
+ * page shortens lists of names for the eye. Add a name only if that is true of it. */
 const receivers = new Set(('if while filter move tie stringify ' +  // no function, or one that changes no text
   'Error SchemaError super Busy Refusal push_back emplace_back append add insert set member ' +
   'issue_at invalid_input report abandon refuse refused error_if add_missing warn add_warning print_warning ' +
   'problem internal_error fail fprintf text line_of with_hint ' +
-  'el map issues say sentence with_groups state spot print').split(' '));
+  'el map issues brief say sentence with_groups state spot print').split(' '));
 
 /** The name of the function in whose arguments the position lies; undefined outside of calls. */
 function receiver(text, position) {

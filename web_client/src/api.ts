@@ -50,14 +50,18 @@ export interface Made { bytes: ArrayBuffer; statistics: Statistics }
 
 interface Problem { title?: string; detail?: string; format?: string; errors?: Issue[] }
 
+/** Shows long lists of names in short. The reference documentation contains them all. */
+const brief = (text: string): string =>
+  text.replace(/((?:[\w.-]+, ){8})((?:[\w.-]+, ){4,}[\w.-]+)/, (_, first: string, rest: string) => `${first}and ${rest.split(', ').length} more`);
+
 /** The server rejects the request itself, so that a retry would not help. */
 export class Refusal extends Error {
   readonly issues: Issue[];
   /** For an import: the format that the server recognised. */
   readonly format: string;
   constructor(problem: Problem) {
-    super(problem.detail ?? problem.title ?? 'The server refused the request.');
-    this.issues = problem.errors ?? [];
+    super(brief(problem.detail ?? problem.title ?? 'The server refused the request.'));
+    this.issues = (problem.errors ?? []).map((issue) => ({ ...issue, message: brief(issue.message) }));
     this.format = problem.format ?? '';
   }
 }
