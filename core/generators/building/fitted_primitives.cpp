@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <string>
 #include <utility>
 
@@ -9,6 +10,7 @@
 #include "core/generators/building/interpret.h"
 #include "core/generators/building/operator_arguments.h"
 #include "core/generators/building/operators.h"
+#include "core/generators/building/round_solids.h"
 #include "core/generators/building/value_functions.h"
 
 namespace seedmesh::building::operators {
@@ -17,92 +19,30 @@ namespace {
 constexpr double most_sides = 256;
 constexpr std::size_t most_corners = 1'000;
 
-/// The corner `i` of a regular polygon with a diameter of 1 around the origin, whose first side faces +z.
-glm::dvec3 corner_of(std::uint32_t i, std::uint32_t sides) {
-  const math::SinCos at = math::sincos_degrees(270 + 360.0 * (i - 0.5) / sides);
-  return {0.5 * at.cos, 0, -0.5 * at.sin};
+/// A smooth form whose first side faces +z.
+RoundForm front_form(std::uint32_t sides) {
+  return {.sides = sides, .first = 270 - 180.0 / sides, .is_smooth = true};
 }
 
-void add_ring(Solid& solid, std::uint32_t sides, double radius, double y) {
-  for (std::uint32_t i = 0; i < sides; ++i)
-    solid.points.push_back(corner_of(i, sides) * radius + glm::dvec3(0, y, 0));
-}
-
-/// A face of the points from `first`; `is_reversed`: it faces down.
-void add_cap(Solid& solid, std::uint32_t first, std::uint32_t sides, bool is_reversed) {
-  std::vector<std::uint32_t> ring;
-  for (std::uint32_t i = 0; i < sides; ++i) ring.push_back(first + (is_reversed ? sides - 1 - i : i));
-  add_face(solid, ring);
-}
-
-/// Faces between the ring of points from `low` and the one from `high`.
-void add_band(Solid& solid, std::uint32_t low, std::uint32_t high, std::uint32_t sides) {
-  for (std::uint32_t i = 0; i < sides; ++i) {
-    const std::uint32_t next = (i + 1) % sides;
-    add_face(solid, std::array{low + i, low + next, high + next, high + i}, true);
-  }
-}
-
-void add_fan(Solid& solid, std::uint32_t ring, std::uint32_t sides, std::uint32_t tip, bool is_reversed) {
-  for (std::uint32_t i = 0; i < sides; ++i) {
-    const std::uint32_t next = (i + 1) % sides;
-    add_face(solid, std::array{ring + (is_reversed ? next : i), ring + (is_reversed ? i : next), tip}, true);
-  }
-}
-
-Solid disk(std::uint32_t sides) {
-  Solid solid;
-  add_ring(solid, sides, 1, 0);
-  add_cap(solid, 0, sides, false);
-  return solid;
-}
-
-Solid cylinder(std::uint32_t sides) {
-  Solid solid;
-  solid.is_closed = true;
-  add_ring(solid, sides, 1, 0);
-  add_ring(solid, sides, 1, 1);
-  add_cap(solid, 0, sides, true);
-  add_cap(solid, sides, sides, false);
-  add_band(solid, 0, sides, sides);
-  return solid;
-}
-
-Solid cone(std::uint32_t sides) {
-  Solid solid;
-  solid.is_closed = true;
-  add_ring(solid, sides, 1, 0);
-  solid.points.emplace_back(0, 1, 0);
-  add_cap(solid, 0, sides, true);
-  add_fan(solid, 0, sides, sides, false);
-  return solid;
-}
-
-Solid sphere(std::uint32_t sides, std::uint32_t rows) {
-  Solid solid;
-  solid.is_closed = true;
-  for (std::uint32_t r = 1; r < rows; ++r) {
-    const math::SinCos up = math::sincos_degrees(-90 + 180.0 * r / rows);
-    add_ring(solid, sides, up.cos, 0.5 * up.sin);
-  }
-  const auto low = static_cast<std::uint32_t>(solid.points.size());
-  solid.points.emplace_back(0, -0.5, 0);
-  solid.points.emplace_back(0, 0.5, 0);
-  add_fan(solid, 0, sides, low, true);
-  for (std::uint32_t r = 0; r + 2 < rows; ++r) add_band(solid, r * sides, (r + 1) * sides, sides);
-  add_fan(solid, (rows - 2) * sides, sides, low + 1, false);
-  return solid;
-}
-
+/// The tube has a side, not a corner, on the outside.
 Solid torus(double radius, double tube, std::uint32_t sides, std::uint32_t tube_sides) {
   Solid solid;
   solid.is_closed = true;
+  const RoundForm form = front_form(sides);
   for (std::uint32_t j = 0; j < tube_sides; ++j) {
     const math::SinCos at = math::sincos_degrees(360.0 * (j - 0.5) / tube_sides);
-    add_ring(solid, sides, 2 * (radius + tube * at.cos), tube * at.sin);
+    for (std::uint32_t i = 0; i < sides; ++i) {
+      const glm::dvec2 p = (corner_of(form, i) - 0.5) * (2 * (radius + tube * at.cos));
+      solid.points.emplace_back(p.x, tube * at.sin, p.y);
+    }
   }
-  for (std::uint32_t j = 0; j < tube_sides; ++j)
-    add_band(solid, j * sides, (j + 1) % tube_sides * sides, sides);
+  for (std::uint32_t j = 0; j < tube_sides; ++j) {
+    const std::uint32_t low = j * sides, high = (j + 1) % tube_sides * sides;
+    for (std::uint32_t i = 0; i < sides; ++i) {
+      const std::uint32_t next = (i + 1) % sides;
+      add_face(solid, std::array{low + i, low + next, high + next, high + i}, true);
+    }
+  }
   return solid;
 }
 
@@ -125,11 +65,11 @@ Solid solid_named(Derivation& d, const Step& step, const std::string& name) {
       reject(d, step.offset, "expected a radius of the torus that is at least that of its tube, above 0");
     return torus(radius, tube, sides_at(d, step, 3, 3), sides_at(d, step, 4, 3));
   }
-  const std::uint32_t sides = sides_at(d, step, 1, 3);
-  if (name == "disk") return disk(sides);
-  if (name == "cylinder") return cylinder(sides);
-  if (name == "cone") return cone(sides);
-  if (has_rows) return sphere(sides, sides_at(d, step, 2, 2));
+  const RoundForm form = front_form(sides_at(d, step, 1, 3));
+  if (name == "disk") return disk_of(form);
+  if (name == "cylinder") return cylinder_of(form);
+  if (name == "cone") return cone_of(form);
+  if (has_rows) return sphere_of(form, sides_at(d, step, 2, 2));
   reject(d, step.offset,
          "found " + lang::in_quotes(name) + ", expected disk, cylinder, cone, sphere or torus");
 }
@@ -223,7 +163,9 @@ void primitive_polygon(Derivation& d, const Step& step, ShapeState& state, const
     warn(d, step.offset, "the corners of a polygon run clockwise; it faces up all the same");
     std::ranges::reverse(solid.points);
   }
-  add_cap(solid, 0, static_cast<std::uint32_t>(solid.points.size()), false);
+  std::vector<std::uint32_t> corners(solid.points.size());
+  std::iota(corners.begin(), corners.end(), 0U);
+  add_face(solid, corners);
   take_fitted(d, std::move(solid), key, state);
 }
 

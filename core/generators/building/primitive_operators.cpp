@@ -9,6 +9,7 @@
 #include "core/generators/building/operator_arguments.h"
 #include "core/generators/building/operators.h"
 #include "core/generators/building/projections.h"
+#include "core/generators/building/round_solids.h"
 
 namespace seedmesh::building::operators {
 namespace {
@@ -16,73 +17,7 @@ namespace {
 constexpr std::uint32_t most_sphere_faces = 50'000;
 constexpr double most_sides = 1'000, most_copies = 10'000;
 
-/// The corner `i` of a regular polygon in the unit square, from +x towards -z, which is counter-clockwise seen from above.
-glm::dvec2 corner_of(std::uint32_t i, std::uint32_t sides) {
-  const math::SinCos at = math::sincos_degrees(360.0 * i / sides);
-  return {0.5 + 0.5 * at.cos, 0.5 - 0.5 * at.sin};
-}
-
-std::vector<std::uint32_t> ring(std::uint32_t first, std::uint32_t sides, bool is_reversed) {
-  std::vector<std::uint32_t> out;
-  for (std::uint32_t i = 0; i < sides; ++i) out.push_back(first + (is_reversed ? sides - 1 - i : i));
-  return out;
-}
-
-Solid disk(std::uint32_t sides) {
-  Solid solid;
-  for (std::uint32_t i = 0; i < sides; ++i) {
-    const glm::dvec2 p = corner_of(i, sides);
-    solid.points.emplace_back(p.x, 0, p.y);
-  }
-  add_face(solid, ring(0, sides, false));
-  return solid;
-}
-
-Solid cylinder_of(std::uint32_t sides) {
-  Solid solid = extruded(disk(sides), 1);
-  for (std::size_t f = 2; f < solid.faces.size(); ++f) solid.faces[f].is_round = sides > 8;
-  return solid;
-}
-
-Solid cone_of(std::uint32_t sides) {
-  Solid solid;
-  solid.is_closed = true;
-  for (std::uint32_t i = 0; i < sides; ++i) {
-    const glm::dvec2 p = corner_of(i, sides);
-    solid.points.emplace_back(p.x, 0, p.y);
-  }
-  solid.points.emplace_back(0.5, 1, 0.5);
-  add_face(solid, ring(0, sides, true));
-  for (std::uint32_t i = 0; i < sides; ++i) add_face(solid, std::array{i, (i + 1) % sides, sides}, sides > 8);
-  return solid;
-}
-
-Solid sphere_of(std::uint32_t sides, std::uint32_t rows) {
-  Solid solid;
-  solid.is_closed = true;
-  for (std::uint32_t r = 1; r < rows; ++r) {
-    const math::SinCos up = math::sincos_degrees(-90 + 180.0 * r / rows);
-    for (std::uint32_t i = 0; i < sides; ++i) {
-      const glm::dvec2 p = corner_of(i, sides) - 0.5;
-      solid.points.emplace_back(0.5 + p.x * up.cos, 0.5 + 0.5 * up.sin, 0.5 + p.y * up.cos);
-    }
-  }
-  const auto low = static_cast<std::uint32_t>(solid.points.size()), high = low + 1;
-  solid.points.emplace_back(0.5, 0, 0.5);
-  solid.points.emplace_back(0.5, 1, 0.5);
-  const std::uint32_t last = (rows - 2) * sides;
-  for (std::uint32_t i = 0; i < sides; ++i) {
-    const std::uint32_t next = (i + 1) % sides;
-    add_face(solid, std::array{next, i, low}, true);
-    for (std::uint32_t r = 0; r + 2 < rows; ++r) {
-      add_face(solid,
-               std::array{r * sides + i, r * sides + next, (r + 1) * sides + next, (r + 1) * sides + i},
-               true);
-    }
-    add_face(solid, std::array{last + i, last + next, high}, true);
-  }
-  return solid;
-}
+RoundForm smooth_above_8(std::uint32_t sides) { return {.sides = sides, .is_smooth = sides > 8}; }
 
 std::uint32_t sides_at(Derivation& d, const Step& step, std::uint32_t i, double other) {
   const double sides = number_or(d, step, i, other);
@@ -156,7 +91,8 @@ void primitive(Derivation& d, const Step& step, ShapeState& state, const StepCon
       break;
     case Op::primitive_disk:
       state.geometry = stored(
-          d, "disk", [](std::uint32_t a, std::uint32_t) { return disk(a); }, sides_at(d, step, 0, 32), 0);
+          d, "disk", [](std::uint32_t a, std::uint32_t) { return disk_of({.sides = a}); },
+          sides_at(d, step, 0, 32), 0);
       has_size = count == 2;
       if (has_size) state.size = glm::dvec3(2 * length_at(d, step, 1), 0, 2 * length_at(d, step, 1));
       break;
@@ -164,7 +100,9 @@ void primitive(Derivation& d, const Step& step, ShapeState& state, const StepCon
       const std::uint32_t rows = count > 1 ? sides_at(d, step, 1, 16) : 16;
       if (sides_at(d, step, 0, 32) * rows > most_sphere_faces)
         reject(d, step.offset, "found a sphere of more than 50,000 faces");
-      state.geometry = stored(d, "sphere", sphere_of, sides_at(d, step, 0, 32), rows);
+      state.geometry = stored(
+          d, "sphere", [](std::uint32_t a, std::uint32_t b) { return sphere_of({.sides = a}, b); },
+          sides_at(d, step, 0, 32), rows);
       has_size = count == 3;
       if (has_size) state.size = glm::dvec3(2 * length_at(d, step, 2));
       break;
@@ -175,9 +113,11 @@ void primitive(Derivation& d, const Step& step, ShapeState& state, const StepCon
       state.geometry =
           is_cone
               ? stored(
-                    d, "cone", [](std::uint32_t a, std::uint32_t) { return cone_of(a); }, sides, 0)
+                    d, "cone", [](std::uint32_t a, std::uint32_t) { return cone_of(smooth_above_8(a)); },
+                    sides, 0)
               : stored(
-                    d, "cylinder", [](std::uint32_t a, std::uint32_t) { return cylinder_of(a); }, sides, 0);
+                    d, "cylinder",
+                    [](std::uint32_t a, std::uint32_t) { return cylinder_of(smooth_above_8(a)); }, sides, 0);
       has_size = count == 3;
       if (count == 2) reject(d, step.offset, "found a radius without a height");
       if (has_size) radius_and_height(1);
