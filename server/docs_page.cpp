@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/pipeline.h"
+#include "server/html_text.h"
 #include "server/problem.h"
 
 namespace seedmesh {
@@ -21,43 +22,24 @@ td,th{text-align:left;vertical-align:top;padding:.3rem .6rem;border-bottom:1px s
 td,th,h2{border-color:#38443d} a{color:#8fd0a8}}
 )";
 
-/// Text for HTML content and attributes.
-std::string escaped(std::string_view text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '&') {
-      out += "&amp;";
-    } else if (c == '<') {
-      out += "&lt;";
-    } else if (c == '>') {
-      out += "&gt;";
-    } else if (c == '"') {
-      out += "&quot;";
-    } else {
-      out += c;
-    }
-  }
-  return out;
-}
-
 std::string text_at(const Json& object, const char* key) {
   const auto found = object.find(key);
-  return found != object.end() && found->is_string() ? escaped(found->get<std::string>()) : "";
+  return found != object.end() && found->is_string() ? html_text(found->get<std::string>()) : "";
 }
 
 std::string code(const Json& value) {
-  return "<code>" + escaped(value.is_string() ? value.get<std::string>() : value.dump()) + "</code>";
+  return "<code>" + html_text(value.is_string() ? value.get<std::string>() : value.dump()) + "</code>";
 }
 
 /// A link to the table of a schema on this page, or the name of what a reference refers to.
 std::string reference(const std::string& target) {
   const std::string served = "/v1/schemas/";
   if (target.compare(0, served.size(), served) == 0) {
-    const std::string name = escaped(target.substr(served.size(), target.find('#') - served.size()));
+    const std::string name = html_text(target.substr(served.size(), target.find('#') - served.size()));
     return "<a href=\"#schema-" + name + "\">" + name + "</a>";
   }
   const auto slash = target.rfind('/');
-  return "<code>" + escaped(slash == std::string::npos ? target : target.substr(slash + 1)) + "</code>";
+  return "<code>" + html_text(slash == std::string::npos ? target : target.substr(slash + 1)) + "</code>";
 }
 
 std::string type_of(const Json& schema) {
@@ -78,7 +60,7 @@ std::string type_of(const Json& schema) {
   }
   const auto type = schema.find("type");
   if (type == schema.end()) return "any";
-  std::string name = type->is_string() ? escaped(type->get<std::string>()) : code(*type);
+  std::string name = type->is_string() ? html_text(type->get<std::string>()) : code(*type);
   if (const auto items = schema.find("items"); items != schema.end() && items->is_object())
     name += " of " + type_of(*items);
   return name;
@@ -98,16 +80,16 @@ void add_properties(std::string& out, const Json& schema, const std::string& pre
   if (properties == schema.end() || depth > 4) return;
   for (const auto& [name, property] : properties->items()) {
     const auto fallback = property.find("default");
-    out += "<tr><td><code>" + escaped(prefix + name) + "</code></td><td>" + type_of(property) + "</td><td>" +
-           (fallback == property.end() ? "" : code(*fallback)) + "</td><td>" + range_of(property) +
-           "</td><td>" + text_at(property, "description") + "</td></tr>\n";
+    out += "<tr><td><code>" + html_text(prefix + name) + "</code></td><td>" + type_of(property) +
+           "</td><td>" + (fallback == property.end() ? "" : code(*fallback)) + "</td><td>" +
+           range_of(property) + "</td><td>" + text_at(property, "description") + "</td></tr>\n";
     add_properties(out, property, prefix + name + ".", depth + 1);
   }
 }
 
 void add_schema(std::string& out, const std::string& name, const Json& schema) {
-  out += "<h3 id=\"schema-" + escaped(name) + "\">" + escaped(name) + "</h3>\n<p>" +
-         text_at(schema, "description") + " <a href=\"/v1/schemas/" + escaped(name) +
+  out += "<h3 id=\"schema-" + html_text(name) + "\">" + html_text(name) + "</h3>\n<p>" +
+         text_at(schema, "description") + " <a href=\"/v1/schemas/" + html_text(name) +
          "\">JSON Schema</a></p>\n";
   std::string rows;
   add_properties(rows, schema, "", 0);
@@ -144,7 +126,7 @@ void add_contents(std::string& out, const char* label, const Json& holder) {
   if (content == holder.end()) return;
   for (const auto& [type, form] : content->items()) {
     const Json schema = form.value("schema", Json());
-    out += std::string(out.empty() ? "" : " ") + label + "<code>" + escaped(type) + "</code>" +
+    out += std::string(out.empty() ? "" : " ") + label + "<code>" + html_text(type) + "</code>" +
            (schema.is_object() && !schema.empty() ? " " + type_of(schema) : "");
   }
 }
@@ -155,7 +137,7 @@ void add_operation(std::string& out, const Json& document, const std::string& me
   if (const auto body = operation.find("requestBody"); body != operation.end()) {
     std::string forms;
     add_contents(forms, "", resolved(document, *body));
-    out += "<p>Body of the " + escaped(method) + ": " + forms + "</p>\n";
+    out += "<p>Body of the " + html_text(method) + ": " + forms + "</p>\n";
   }
   const auto responses = operation.find("responses");
   if (responses == operation.end()) return;
@@ -164,7 +146,7 @@ void add_operation(std::string& out, const Json& document, const std::string& me
     const Json& response = resolved(document, given);
     std::string forms;
     add_contents(forms, "", response);
-    out += "<tr><td>" + escaped(status) + "</td><td>" + text_at(response, "description") + "</td><td>" +
+    out += "<tr><td>" + html_text(status) + "</td><td>" + text_at(response, "description") + "</td><td>" +
            forms + "</td></tr>\n";
   }
   out += "</table>\n";
@@ -178,7 +160,7 @@ void add_paths(std::string& out, const Json& document) {
       const auto operation = item.find(method);
       if (operation == item.end()) continue;
       const std::string shown = std::string(method) == "get" ? "GET" : "POST";
-      out += "<h3><span class=\"method\">" + shown + "</span> <code>" + escaped(path) + "</code></h3>\n";
+      out += "<h3><span class=\"method\">" + shown + "</span> <code>" + html_text(path) + "</code></h3>\n";
       add_parameters(out, document, item);
       add_operation(out, document, shown, *operation);
     }
@@ -211,7 +193,7 @@ std::string docs_page() {
       "content=\"width=device-width\"><title>Seedmesh reference</title><style>";
   out += style;
   out +=
-      "</style></head><body>\n<h1>Seedmesh " + escaped(program_version()) + "</h1>\n<p>" +
+      "</style></head><body>\n<h1>Seedmesh " + html_text(program_version()) + "</h1>\n<p>" +
       text_at(info, "description") +
       "</p>\n<nav><a href=\"/\">Start page</a><a href=\"#routes\">Routes</a><a href=\"#schemas\">Schemas</a>"
       "<a href=\"#problems\">Problems</a><a href=\"/openapi.json\">OpenAPI</a><a "

@@ -1,6 +1,7 @@
 /// GET /m/{token}: the address of a model for people. Programs that show links as cards read the name and picture of
 /// the model; browsers go on to the page, whose fragment they do not send.
 #include "server/caching.h"
+#include "server/html_text.h"
 #include "server/permalink.h"
 #include "server/routes.h"
 
@@ -22,25 +23,9 @@ const PresetInfo* preset_of(const Request& request) {
   return found;
 }
 
-std::string escaped(std::string_view text) {
-  std::string html;
-  for (const char c : text) {
-    if (c == '&') {
-      html += "&amp;";
-    } else if (c == '<') {
-      html += "&lt;";
-    } else if (c == '"') {
-      html += "&quot;";
-    } else {
-      html += c;
-    }
-  }
-  return html;
-}
-
 std::string meta(std::string_view attribute, std::string_view name, std::string_view content) {
-  return "<meta " + std::string(attribute) + "=\"" + std::string(name) + "\" content=\"" + escaped(content) +
-         "\">\n";
+  return "<meta " + std::string(attribute) + "=\"" + std::string(name) + "\" content=\"" +
+         html_text(content) + "\">\n";
 }
 
 /// `picture`: its signed path; "" for none.
@@ -52,7 +37,7 @@ std::string page_of(const Request& request, const std::string& token, const std:
       preset ? preset->description : "A 3D model of the generator " + std::string(request.generator());
   const std::string place = "../#" + token + (preset ? "." + preset->name : "");
   std::string html = "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<title>" +
-                     escaped(title) + "</title>\n";
+                     html_text(title) + "</title>\n";
   html += meta("name", "description", text);
   html += meta("property", "og:type", "website") + meta("property", "og:site_name", "Seedmesh");
   html += meta("property", "og:title", title) + meta("property", "og:description", text);
@@ -64,7 +49,7 @@ std::string page_of(const Request& request, const std::string& token, const std:
   }
   html += meta("name", "twitter:card", "summary_large_image");
   html += meta("http-equiv", "refresh", "0;url=" + place);
-  return html + "</head>\n<body><p><a href=\"" + escaped(place) + "\">" + escaped(title) +
+  return html + "</head>\n<body><p><a href=\"" + html_text(place) + "\">" + html_text(title) +
          "</a></p></body>\n</html>\n";
 }
 
