@@ -165,6 +165,7 @@ Seedmesh began with five theses. This page lists their systems, tables and figur
 - *We get* is computed by the program for the preset or request of the row.
 - *Missing* rows are things that Seedmesh cannot make yet.
 - *No number* rows have a model, but the thesis prints nothing to compare with.
+- A note that begins with *slip* describes a misprint of the thesis.
 
 The table is generated from \`docs/theses.json\` by \`tests/docs/theses.mjs\`. A test computes every row again. It fails if a number differs without a note.
 `;

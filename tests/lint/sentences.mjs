@@ -1,5 +1,5 @@
 #!/usr/bin/env node
-// Refuses sentences of more than 25 words in README.md, CONTRIBUTING.md, docs/ and the pages of clients/. Code blocks, tables and inline code are not counted:
+// Refuses sentences of more than 25 words in README.md, CONTRIBUTING.md, CHANGELOG.md, docs/ and the pages of deploy/ and clients/. Code blocks, tables and inline code are not counted:
 // they contain lists and names. A sentence ends at . ! ? : or ; and white space.
 //   sentences.mjs [root]
 import fs from 'node:fs';
@@ -31,7 +31,7 @@ const sentences_of = (text) => text
   .split(/(?<=[.!?:;])\s+/);
 const words_in = (sentence) => sentence.split(/\s+/).filter((word) => /[\p{L}\p{N}]/u.test(word)).length;
 
-const pages = ['README.md', 'CONTRIBUTING.md',
+const pages = ['README.md', 'CONTRIBUTING.md', 'CHANGELOG.md', 'deploy/README.md',
   ...fs.readdirSync(path.join(root, 'clients')).map((name) => `clients/${name}/README.md`).filter((file) => fs.existsSync(path.join(root, file))),
   ...fs.readdirSync(path.join(root, 'docs'), { recursive: true }).filter((file) => file.endsWith('.md')).map((file) => `docs/${file}`)];
 let failed = 0, sentences = 0;
