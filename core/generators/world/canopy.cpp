@@ -205,14 +205,13 @@ Wood wood_at(const World& world, const GroundSample& sample, const Climate& clim
   return wood;
 }
 
-void add_canopy(Glb& glb, const World& world, const TileFrame& frame, const TileGround& ground, Job& job,
-                std::string_view folder) {
+void add_canopy(Glb& glb, const World& world, const TileFrame& frame, const TileGround& ground, Job& job) {
   Canopy canopy(world, frame, ground.grid, ground.base);
   if (!canopy.find_woods(job)) return;
   canopy.make();
   if (canopy.mesh.indices.empty()) return;
   job.spend(Resource::triangles, canopy.mesh.indices.size() / 3);
-  const std::string image = std::string(folder) + "a/" + canopy_texture(world, job)->hash + ".png";
+  const std::string image = shared_files + canopy_texture(world, job)->hash + ".png";
   glb.add_mesh("plants", canopy.mesh, glb.add_material("canopy", 1, image), frame.step, ground.base,
                canopy.coordinates);
 }

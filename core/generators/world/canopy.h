@@ -2,7 +2,6 @@
 /// Woods seen from afar: a surface over the crowns, from edge to edge, with a texture of crowns. Its positions are
 /// those of the terrain's samples, and its edges follow the cover of woods between them, so that no grid is visible.
 #include <array>
-#include <string_view>
 
 #include "core/generators/world/glb.h"
 #include "core/generators/world/terrain_grid.h"
@@ -25,9 +24,8 @@ Wood wood_at(const World& world, const GroundSample& sample, const Climate& clim
 
 constexpr double wood_edge = 0.45;  ///< cover above which a position belongs to a wood
 
-/// Adds the surface of woods of a tile. `folder`: see tile_glb().
-void add_canopy(Glb& glb, const World& world, const TileFrame& frame, const TileGround& ground, Job& job,
-                std::string_view folder);
+/// Adds the surface of woods of a tile.
+void add_canopy(Glb& glb, const World& world, const TileFrame& frame, const TileGround& ground, Job& job);
 
 /// A square of crowns from above in grey, which repeats, as a PNG file.
 struct CanopyTexture {

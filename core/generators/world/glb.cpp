@@ -1,7 +1,6 @@
 #include "core/generators/world/glb.h"
 
 #include <algorithm>
-#include <cstring>
 
 #include "core/generators/world/asset.h"
 
@@ -72,13 +71,13 @@ int Glb::add_material(std::string_view name, double roughness, const std::string
   return material;
 }
 
-int Glb::add_shared_buffer(std::string uri, std::size_t bytes) {
-  return append(json_["buffers"], {{"uri", std::move(uri)}, {"byteLength", bytes}});
+int Glb::add_shared_buffer(const std::string& file, std::size_t bytes) {
+  return append(json_["buffers"], {{"uri", shared_files + file}, {"byteLength", bytes}});
 }
 
-std::vector<int> Glb::add_asset(const Asset& asset, std::string_view folder) {
+std::vector<int> Glb::add_asset(const Asset& asset) {
   if (const auto known = assets_.find(asset.hash); known != assets_.end()) return known->second;
-  const int buffer = add_shared_buffer(std::string(folder) + "a/" + asset.hash + ".bin", asset.file.size());
+  const int buffer = add_shared_buffer(asset.hash + ".bin", asset.file.size());
   std::map<std::string, int> first;
   for (const char* list : lists_of_assets)
     first[list] = json_.contains(list) ? static_cast<int>(json_[list].size()) : 0;

@@ -14,6 +14,9 @@ namespace seedmesh::world {
 
 struct Asset;
 
+/// The path from a tile to the directory of the files that tiles share.
+constexpr char shared_files[] = "../../../a/";
+
 struct TileVertex {
   std::int16_t x = 0, y = 0, z = 0;  ///< position in steps; +Y up
   std::int16_t unused = 0;
@@ -60,11 +63,10 @@ class Glb {
   int add_shared_indices(int buffer, std::size_t offset, std::size_t count);
   /// Adds texture coordinates at a part of another buffer and returns the index of their accessor.
   int add_shared_coordinates(int buffer, std::size_t offset, std::size_t count);
-  /// Adds a buffer in a file of its own, which tiles share, and returns its index.
-  int add_shared_buffer(std::string uri, std::size_t bytes);
-  /// Adds a shared model, whose file is in the directory "a" of `folder`, and returns the indices of its meshes.
-  /// An asset that was added before is not added again.
-  std::vector<int> add_asset(const Asset& asset, std::string_view folder);
+  /// Adds a buffer in a file of shared_files and returns its index.
+  int add_shared_buffer(const std::string& file, std::size_t bytes);
+  /// Adds a shared model and returns the indices of its meshes. An asset that was added before is not added again.
+  std::vector<int> add_asset(const Asset& asset);
   int add_view(int buffer, std::size_t offset, std::size_t bytes, std::size_t stride, int target);
   /// Appends bytes to the file's own buffer, aligned to 4 bytes, and returns the index of their view.
   int add_bytes(const void* data, std::size_t bytes, std::size_t stride, int target);

@@ -225,8 +225,8 @@ void add_prisms(HouseMesh& mesh, const std::vector<House>& houses, double prism_
 }
 
 /// The models of houses, on plinths that reach down to the ground.
-void add_models(Glb& glb, const World& world, const std::vector<House>& houses, HouseMesh& plinths, Job& job,
-                std::string_view folder) {
+void add_models(Glb& glb, const World& world, const std::vector<House>& houses, HouseMesh& plinths,
+                Job& job) {
   const TileFrame& frame = plinths.frame();
   const std::size_t kinds = world.params.settlements.houses.size();
   for (std::size_t k = 0; k < kinds; ++k) {
@@ -246,14 +246,13 @@ void add_models(Glb& glb, const World& world, const std::vector<House>& houses, 
     }
     if (!asset) continue;
     job.spend(Resource::triangles, copies.count() * asset->triangles);
-    copies.add_to(glb, "buildings_" + std::to_string(k), glb.add_asset(*asset, folder));
+    copies.add_to(glb, "buildings_" + std::to_string(k), glb.add_asset(*asset));
   }
 }
 
 }  // namespace
 
-void add_houses(Glb& glb, const World& world, const TileFrame& frame, double base, Job& job,
-                std::string_view folder) {
+void add_houses(Glb& glb, const World& world, const TileFrame& frame, double base, Job& job) {
   if (frame.side > widest_prisms) return;
   std::vector<House> houses = houses_of(world, frame, job);
   if (frame.side > widest_walls)
@@ -275,7 +274,7 @@ void add_houses(Glb& glb, const World& world, const TileFrame& frame, double bas
         mesh.add(house, frame.side <= widest_openings ? Finish::with_openings : Finish::walls_and_roof);
       }
     }
-    if (frame.side <= widest_models) add_models(glb, world, houses, mesh, job, folder);
+    if (frame.side <= widest_models) add_models(glb, world, houses, mesh, job);
   }
   const TileMesh made = mesh.take();
   job.spend(Resource::triangles, made.indices.size() / 3);

@@ -3,7 +3,6 @@
 /// belongs to the tile that contains its middle.
 #include <array>
 #include <memory>
-#include <string_view>
 #include <vector>
 
 #include "core/generators/world/asset.h"
@@ -64,7 +63,6 @@ std::vector<House> houses_near(const World& world, const Rectangle& box, double 
 /// In tiles of up to 512 m all are walls and a roof. In tiles of up to 2 km they are boxes. In tiles of 4 km and 8 km
 /// there is one prism for each square with 1/64 of the tile's side. Towns have boxes in tiles of 512 m. They have
 /// prisms for squares of 40 m in tiles of 1 km, and for squares of 64 m in tiles of 2 km.
-void add_houses(Glb& glb, const World& world, const TileFrame& frame, double base, Job& job,
-                std::string_view folder);
+void add_houses(Glb& glb, const World& world, const TileFrame& frame, double base, Job& job);
 
 }  // namespace seedmesh::world

@@ -1,7 +1,6 @@
 #include "core/generators/world/plant_layer.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "core/base/math.h"
 #include "core/generators/world/canopy.h"
@@ -34,9 +33,8 @@ constexpr double widest_open = 1.3;     ///< the most that classes whose crowns 
 constexpr double least_far_height = 3;  ///< metres; lower classes are not seen from afar
 constexpr int first_far_level = 3;      ///< number of the level above the leaves
 
-int add_plant_mesh(Glb& glb, const PlantFile& file, const std::string& name, std::string_view folder) {
-  const int buffer =
-      glb.add_shared_buffer(std::string(folder) + "a/" + file.hash + ".bin", file.bytes.size());
+int add_plant_mesh(Glb& glb, const PlantFile& file, const std::string& name) {
+  const int buffer = glb.add_shared_buffer(file.hash + ".bin", file.bytes.size());
   const std::size_t size = file.vertices * plant_vertex_bytes;
   const int vertices = glb.add_view(buffer, 0, size, plant_vertex_bytes, array_buffer);
   const int order = glb.add_view(buffer, size, file.indices * 2, 0, element_buffer);
@@ -103,8 +101,7 @@ double scale_of(const WorldClass& plant, const Asset& asset) {
                    deepest_root * plant.height / deep});
 }
 
-void add_places(Glb& glb, const World& world, int above_leaves, const TileFrame& frame, Job& job,
-                std::string_view folder) {
+void add_places(Glb& glb, const World& world, int above_leaves, const TileFrame& frame, Job& job) {
   const Rectangle box{frame.west, frame.south, frame.west + frame.side, frame.south + frame.side};
   const Ground ground = Ground::with_works(world, box, job);
   const Showing& showing = showings[above_leaves];
@@ -124,25 +121,24 @@ void add_places(Glb& glb, const World& world, int above_leaves, const TileFrame&
     const Instances copies = copies_of(plants, frame, asset ? scale_of(plant, *asset) : 1, width, !asset);
     if (asset) {
       job.spend(Resource::triangles, copies.count() * asset->triangles);
-      copies.add_to(glb, name, glb.add_asset(*asset, folder));
+      copies.add_to(glb, name, glb.add_asset(*asset));
     } else {
       const PlantFile file = plant_file(world, number, is_far ? PlantForm::simple : PlantForm::whole);
       job.spend(Resource::triangles, copies.count() * file.indices / 3);
-      copies.add_to(glb, name, {add_plant_mesh(glb, file, name, folder)});
+      copies.add_to(glb, name, {add_plant_mesh(glb, file, name)});
     }
   }
 }
 
 }  // namespace
 
-void add_plants(Glb& glb, const World& world, const TileKey& key, const TileGround& ground, Job& job,
-                std::string_view folder) {
+void add_plants(Glb& glb, const World& world, const TileKey& key, const TileGround& ground, Job& job) {
   const TileFrame frame = frame_of(world, key);
   const int above_leaves = world.levels - 1 - key.level;
   const bool has_places = above_leaves < levels_of_plants;
-  if (has_places) add_places(glb, world, above_leaves, frame, job, folder);
+  if (has_places) add_places(glb, world, above_leaves, frame, job);
   if (has_places ? showings[above_leaves].has_canopy : frame.side <= widest_plants)
-    add_canopy(glb, world, frame, ground, job, folder);
+    add_canopy(glb, world, frame, ground, job);
 }
 
 std::shared_ptr<const Asset> plant_asset(const World& world, int plant_class, AssetForm form, Job& job) {

@@ -2,7 +2,6 @@
 /// The plants of a tile. The leaves of the tree and tiles of 128 m show whole plants. Tiles of 256 m to 1 km show
 /// simple ones. Each tile shows a part of the plants that the tiles below it show. Tiles from 512 m to 4 km show the
 /// surface of woods.
-#include <string_view>
 
 #include "core/generators/world/asset.h"
 #include "core/generators/world/glb.h"
@@ -12,9 +11,8 @@ namespace seedmesh::world {
 
 constexpr double widest_plants = 4096;  ///< metres; wider tiles have the colour of woods alone
 
-/// Adds the plants of a tile. `folder`: see tile_glb().
-void add_plants(Glb& glb, const World& world, const TileKey& key, const TileGround& ground, Job& job,
-                std::string_view folder);
+/// Adds the plants of a tile.
+void add_plants(Glb& glb, const World& world, const TileKey& key, const TileGround& ground, Job& job);
 
 /// Returns the model of a class from the store; makes it if the store has none. Null if the class has no model.
 std::shared_ptr<const Asset> plant_asset(const World& world, int plant_class, AssetForm form, Job& job);

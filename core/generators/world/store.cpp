@@ -1,7 +1,5 @@
 #include "core/generators/world/store.h"
 
-#include <chrono>
-
 namespace seedmesh::world {
 namespace {
 constexpr std::uint64_t entry_bytes = 160;  ///< bytes of an entry of the list and the map

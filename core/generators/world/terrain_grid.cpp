@@ -1,7 +1,6 @@
 #include "core/generators/world/terrain_grid.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "core/generators/world/roads.h"
 

@@ -30,12 +30,10 @@ void add_mesh(Glb& glb, const Surface& surface, const TileMesh& mesh, const Tile
   glb.add_mesh(surface.name, mesh, glb.add_material(surface.name, surface.roughness), frame.step, base);
 }
 
-void add_terrain(Glb& glb, const World& world, const TileFrame& frame, const TerrainMesh& terrain, Job& job,
-                 std::string_view folder) {
-  const std::string files = std::string(folder) + "a/";
+void add_terrain(Glb& glb, const World& world, const TileFrame& frame, const TerrainMesh& terrain, Job& job) {
   const auto [name, roughness] = ground_surface;
   const auto shared = terrain_file(world, job);
-  const int buffer = glb.add_shared_buffer(files + shared->hash + ".bin", shared->file.size());
+  const int buffer = glb.add_shared_buffer(shared->hash + ".bin", shared->file.size());
   const FilePart& indices = frame.cells == dense_cells ? shared->dense_indices : shared->indices;
   job.spend(Resource::triangles, indices.count / 3);
   Glb::SharedParts parts;
@@ -45,7 +43,7 @@ void add_terrain(Glb& glb, const World& world, const TileFrame& frame, const Ter
     const auto texture = ground_texture(world, job);
     parts.coordinates =
         glb.add_shared_coordinates(buffer, shared->coordinates.offset, shared->coordinates.count);
-    material = glb.add_material(name, roughness, files + texture->hash + ".png");
+    material = glb.add_material(name, roughness, shared_files + texture->hash + ".png");
   } else {
     material = glb.add_material(name, roughness);
   }
@@ -86,8 +84,7 @@ void add_squares(FlatMesh& roads, const World& world, const Rectangle& box, cons
 }
 
 /// Roads and houses of small tiles.
-void add_works(Glb& glb, const World& world, const TileFrame& frame, const TileGround& ground, Job& job,
-               std::string_view folder) {
+void add_works(Glb& glb, const World& world, const TileFrame& frame, const TileGround& ground, Job& job) {
   const double base = ground.base;
   const Rectangle box{frame.west, frame.south, frame.west + frame.side, frame.south + frame.side};
   if (frame.spacing <= widest_road_spacing && world.has(Layer::roads)) {
@@ -110,24 +107,24 @@ void add_works(Glb& glb, const World& world, const TileFrame& frame, const TileG
     }
     add_mesh(glb, {"roads", 0.95}, roads.take(), frame, base, job);
   }
-  if (world.has(Layer::buildings)) add_houses(glb, world, frame, base, job, folder);
+  if (world.has(Layer::buildings)) add_houses(glb, world, frame, base, job);
 }
 
 }  // namespace
 
-std::string tile_glb(const World& world, const TileKey& key, Job& job, std::string_view folder) {
+std::string tile_glb(const World& world, const TileKey& key, Job& job) {
   const TileFrame frame = frame_of(world, key);
   Glb glb({frame.middle_east - static_cast<double>(world.east), 0.0,
            0.0 - (frame.middle_north - static_cast<double>(world.north))});
   const TerrainGrid grid = sample_grid(world, frame, frame.cells, 1, job);
   const TerrainMesh terrain = terrain_mesh(world, frame, grid, skirt_depth(world, key.level, grid));
-  if (world.has(Layer::terrain)) add_terrain(glb, world, frame, terrain, job, folder);
+  if (world.has(Layer::terrain)) add_terrain(glb, world, frame, terrain, job);
   if (world.has(Layer::water)) {
     const WaterMesh water = water_of(world, frame, {grid, terrain.height}, job);
     add_mesh(glb, water_surface, water.mesh, frame, terrain.height, job);
   }
-  add_works(glb, world, frame, {grid, terrain.height}, job, folder);
-  if (world.has(Layer::plants)) add_plants(glb, world, key, {grid, terrain.height}, job, folder);
+  add_works(glb, world, frame, {grid, terrain.height}, job);
+  if (world.has(Layer::plants)) add_plants(glb, world, key, {grid, terrain.height}, job);
   return std::move(glb).text();
 }
 

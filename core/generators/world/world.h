@@ -41,9 +41,9 @@ TileBounds tile_bounds(const World& world, const TileKey& key, Job& job);
 double greatest_error(const World& world);
 
 /// Returns the content of a tile as binary glTF: core glTF with KHR_mesh_quantization. One root node has the middle of
-/// the tile as its translation; below it are nodes named by layer. `folder` leads from the tile to the folder that has
-/// the directory "a" of shared files. Spends Resource::triangles. `key` must be in the tree.
-std::string tile_glb(const World& world, const TileKey& key, Job& job, std::string_view folder = "../../../");
+/// the tile as its translation; below it are nodes named by layer. The files that tiles share
+/// are in the directory "../../../a" of a tile. Spends Resource::triangles. `key` must be in the tree.
+std::string tile_glb(const World& world, const TileKey& key, Job& job);
 
 /// A file that tiles share, by the hash in its name.
 struct SharedFile {

@@ -1,6 +1,5 @@
 #include "core/generators/world/world_parameters.h"
 
-#include <algorithm>
 #include <set>
 
 #include "core/generators/world/town.h"

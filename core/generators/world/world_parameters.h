@@ -3,7 +3,6 @@
 #include <array>
 #include <cstdint>
 #include <memory>
-#include <string_view>
 
 #include "core/generators/world/asset.h"
 #include "core/generators/world/store.h"
