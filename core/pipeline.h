@@ -122,9 +122,9 @@ struct ImportedRequest {
 /// Turns a file of another program into a request. Text that is not UTF-8 gives Code::malformed. An unknown
 /// format has the pointer "/format". What the reader does not understand is Code::invalid with pointer "" and
 /// its line and column.
-Result<ImportedRequest> import_request(const ImportInput& question, const Job::Options& options);
+Result<ImportedRequest> import_request(const ImportInput& input, const Job::Options& options);
 /// The same without a time limit.
-Result<ImportedRequest> import_request(const ImportInput& question, const Limits& limits);
+Result<ImportedRequest> import_request(const ImportInput& input, const Limits& limits);
 struct ImportFormatInfo {
   std::string name, title, text;
 };

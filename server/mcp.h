@@ -60,7 +60,7 @@ RpcResult read_message(const std::string& text);
 /// Whether the message is a notification, which gets no response.
 bool is_notification(const Json& message);
 
-/// Returns the era that follows from the parameters of a message, or nullopt if they state none.
+/// Returns the mode that the parameters of a message state, or nullopt if they state none.
 std::optional<ProtocolMode> protocol_mode_of(const Json& message);
 
 /// Checks `_meta` of a stateless message.
@@ -69,7 +69,7 @@ std::optional<Failure> check_meta(const Json& message);
 /// Calls the method of a message.
 RpcResult answer_message(Context& context, const Json& message);
 
-/// Returns the whole response to a message, with its id and the members that the era adds to every result.
+/// Returns the whole response to a message, with its id and the members that the mode adds to every result.
 std::string response_text(const Context& context, const Json& message, RpcResult answer);
 std::string failure_text(const Json& id, const Failure& failure);
 

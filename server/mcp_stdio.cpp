@@ -1,5 +1,4 @@
 /// `seedmesh mcp`: the same messages on standard input and output, one on a line.
-#include <cstdio>
 #include <iostream>
 #include <nlohmann/json.hpp>
 

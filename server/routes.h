@@ -27,8 +27,8 @@ enum class OtherQueryKeys { refused, kept };
 std::variant<PictureOptions, http::Response> read_options(const RequestContext& call, Overrides& query,
                                                           OtherQueryKeys rest);
 /// Returns a picture of the model of a request.
-http::Response picture_answer(RequestContext& call, const Request& request, const PictureOptions& picture,
-                              Caching caching);
+http::Response picture_response(RequestContext& call, const Request& request, const PictureOptions& picture,
+                                Caching caching);
 
 http::Response get_card(RequestContext& call);  // routes_card.cpp
 

@@ -1,6 +1,5 @@
 /// GET /m/{token}: the address of a model for people. Programs that show links as cards read the name and picture of
 /// the model; browsers go on to the page, whose fragment they do not send.
-#include "server/caching.h"
 #include "server/html_text.h"
 #include "server/permalink.h"
 #include "server/routes.h"
@@ -66,7 +65,7 @@ http::Response get_card(RequestContext& call) {
   const std::string picture =
       call.service.access.signed_for(call.grant, permalink(own, "webp") + std::string(picture_query));
   http::Response response =
-      json_answer(call, page_of(request, own, origin_of(call), picture), "text/html; charset=utf-8");
+      json_response(call, page_of(request, own, origin_of(call), picture), "text/html; charset=utf-8");
   response.set("Content-Security-Policy", "default-src 'none'");
   response.set("Referrer-Policy", "no-referrer");
   return response;

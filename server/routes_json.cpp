@@ -20,7 +20,7 @@ http::Response answer_with(RequestContext& call,
   if (const auto refused = with_worker(call, call.request.disconnect_token(), run))
     return refuse(call, *refused);
   if (!*result) return refuse(call, problem_of(result->error()));
-  return json_answer(call, std::move(**result));
+  return json_response(call, std::move(**result));
 }
 
 /// The question of an import from its query; the response for an unknown key.
@@ -102,12 +102,12 @@ http::Response post_import(RequestContext& call) {
       problem.format = likely_import_format(question.text);
     return refuse(call, problem);
   }
-  return json_answer(call, std::move((*imported)->answer));
+  return json_response(call, std::move((*imported)->answer));
 }
 
 http::Response get_presets(RequestContext& call) {
-  return static_answer(call, "/v1/presets", "application/json",
-                       [&] { return preset_list(call.service.access); });
+  return static_response(call, "/v1/presets", "application/json",
+                         [&] { return preset_list(call.service.access); });
 }
 
 http::Response get_schema(RequestContext& call) {
@@ -120,16 +120,17 @@ http::Response get_schema(RequestContext& call) {
   }
   const auto text = schema_json(name);
   if (!text) return refuse(call, problem(404, "There is no schema with this name."));
-  return static_answer(call, "/v1/schemas/" + name, "application/schema+json",
-                       [&] { return std::string(*text); });
+  return static_response(call, "/v1/schemas/" + name, "application/schema+json",
+                         [&] { return std::string(*text); });
 }
 
 http::Response get_vocabulary(RequestContext& call) {
-  return static_answer(call, "/v1/vocabulary", "application/json", vocabulary_json);
+  return static_response(call, "/v1/vocabulary", "application/json", vocabulary_json);
 }
 
 http::Response get_openapi(RequestContext& call) {
-  return static_answer(call, "/openapi.json", "application/json", [] { return std::string(openapi_json()); });
+  return static_response(call, "/openapi.json", "application/json",
+                         [] { return std::string(openapi_json()); });
 }
 
 }  // namespace seedmesh

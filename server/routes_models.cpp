@@ -166,7 +166,7 @@ http::Response picture_of_permalink(RequestContext& call, const Request& request
   if (auto* refusal = std::get_if<http::Response>(&query)) return std::move(*refusal);
   auto picture = read_options(call, std::get<Overrides>(query), OtherQueryKeys::refused);
   if (auto* refusal = std::get_if<http::Response>(&picture)) return std::move(*refusal);
-  return picture_answer(call, request, std::get<PictureOptions>(picture), caching);
+  return picture_response(call, request, std::get<PictureOptions>(picture), caching);
 }
 
 http::Response picture_of_preset(RequestContext& call, const std::string& name, Overrides query) {
@@ -176,7 +176,7 @@ http::Response picture_of_preset(RequestContext& call, const std::string& name, 
   if (!read) return refuse(call, problem(404, no_preset(name)));
   if (!*read) return refuse(call, problem_of(read->error()));
   if (auto refusal = check_allowed(call, **read)) return std::move(*refusal);
-  return picture_answer(call, **read, std::get<PictureOptions>(picture), Caching::revalidate);
+  return picture_response(call, **read, std::get<PictureOptions>(picture), Caching::revalidate);
 }
 
 http::Response redirect_to_own(const RequestContext& call, const Request& request,
@@ -244,7 +244,7 @@ static http::Response saved_file(RequestContext& call, const Request& request, s
   Result<ExportedFile> file = export_request(request, program, options);
   if (!file) return refuse(call, problem_of(file.error()));
   http::Response response =
-      json_answer(call, std::move(file->text), "application/json", cache_control(call, caching));
+      json_response(call, std::move(file->text), "application/json", cache_control(call, caching));
   response.set("Seedmesh-Warnings", std::to_string(file->warnings.size()));
   return response;
 }
@@ -278,7 +278,7 @@ http::Response get_model(RequestContext& call) {
   if (!program.empty()) return saved_file(call, *request, program, caching);
   if (extension == "json") {
     http::Response response =
-        json_answer(call, request->canonical(), "application/json", cache_control(call, caching));
+        json_response(call, request->canonical(), "application/json", cache_control(call, caching));
     name_file(response, *request, extension);
     return response;
   }
@@ -308,7 +308,7 @@ http::Response get_preset(RequestContext& call) {
   if (!*read) return refuse(call, problem_of(read->error()));
   if (auto refusal = check_allowed(call, **read)) return std::move(*refusal);
   if (extension.empty() || extension == "json") {
-    return json_answer(call, overrides.empty() ? *preset_json(name) : (*read)->canonical());
+    return json_response(call, overrides.empty() ? *preset_json(name) : (*read)->canonical());
   }
   Result<Request> formatted = in_format(**read, extension);
   if (!formatted) return refuse(call, pointed(call, problem_of(formatted.error())));

@@ -26,8 +26,8 @@ std::variant<PictureOptions, http::Response> read_options(const RequestContext& 
   return *picture;
 }
 
-http::Response picture_answer(RequestContext& call, const Request& request, const PictureOptions& picture,
-                              Caching caching) {
+http::Response picture_response(RequestContext& call, const Request& request, const PictureOptions& picture,
+                                Caching caching) {
   const std::string tag = tag_of(request.canonical() + '\n' + picture.text(), engine_version());
   http::Response response;
   response.set("Cache-Control", cache_control(call, caching));

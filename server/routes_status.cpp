@@ -74,7 +74,7 @@ http::Response get_metrics(RequestContext& call) {
 
 http::Response get_docs(RequestContext& call) {
   http::Response response =
-      static_answer(call, "/docs", "text/html; charset=utf-8", [&] { return call.service.pages.docs(); });
+      static_response(call, "/docs", "text/html; charset=utf-8", [&] { return call.service.pages.docs(); });
   add_page_headers(response, docs_security);
   return response;
 }

@@ -208,8 +208,8 @@ std::shared_ptr<const StaticText> StaticTexts::get(const std::string& path, Codi
   return text;
 }
 
-http::Response json_answer(const RequestContext& call, std::string text, std::string_view type,
-                           std::string_view cache_control) {
+http::Response json_response(const RequestContext& call, std::string text, std::string_view type,
+                             std::string_view cache_control) {
   const auto coding = choose_coding(call.request.header("Accept-Encoding"));
   if (!coding) return refuse(call, not_acceptable());
   const Coding used = text.size() >= smallest_compressed ? *coding : Coding::identity;
@@ -230,8 +230,8 @@ http::Response json_answer(const RequestContext& call, std::string text, std::st
   return response;
 }
 
-http::Response static_answer(const RequestContext& call, const std::string& path, std::string_view type,
-                             const std::function<std::string()>& make) {
+http::Response static_response(const RequestContext& call, const std::string& path, std::string_view type,
+                               const std::function<std::string()>& make) {
   const auto coding = choose_coding(call.request.header("Accept-Encoding"), small_codings);
   if (!coding) return refuse(call, not_acceptable());
   const auto fixed = call.service.texts.get(path, *coding, make);

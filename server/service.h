@@ -8,7 +8,6 @@
 #include <semaphore>
 #include <string>
 #include <unordered_map>
-#include <variant>
 
 #include "core/base/huge_page_cache.h"
 #include "core/pipeline.h"
@@ -151,13 +150,13 @@ bool wait_for_memory(const RequestContext& call);
 Problem too_much_in_flight(Service& service);
 
 /// Returns a response with an ETag: 304 where the client has the text already, else the text in the best coding.
-http::Response json_answer(const RequestContext& call, std::string text,
-                           std::string_view type = "application/json",
-                           std::string_view cache_control = "no-cache");
+http::Response json_response(const RequestContext& call, std::string text,
+                             std::string_view type = "application/json",
+                             std::string_view cache_control = "no-cache");
 
 /// The same for the static text at `path`. Calls `make` at most once for each coding.
-http::Response static_answer(const RequestContext& call, const std::string& path, std::string_view type,
-                             const std::function<std::string()>& make);
+http::Response static_response(const RequestContext& call, const std::string& path, std::string_view type,
+                               const std::function<std::string()>& make);
 
 /// 406: the client accepts none of the codings.
 Problem not_acceptable();

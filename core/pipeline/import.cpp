@@ -77,8 +77,8 @@ Error all_errors(std::vector<Issue> errors, std::vector<Issue> found, const Impo
 }
 
 /// The errors of a file whose format was guessed; the first one names the format.
-Error in_format(Error error, const ImportInput& question, const ImportFormat& format) {
-  if (question.format.empty() && !error.issues.empty()) {
+Error in_format(Error error, const ImportInput& input, const ImportFormat& format) {
+  if (input.format.empty() && !error.issues.empty()) {
     error.issues[0].message = "read as " + std::string(format.name) + ": " + error.issues[0].message;
   }
   return error;
@@ -115,12 +115,12 @@ std::optional<Error> append_appraisal(const Request& request, Imported& imported
 
 /// A body `{"files": {name: text, ...}}` contains several files. The one that matches a format best is the text, the
 /// others are beside it. `main` owns its text.
-void unpack(ImportInput& question, std::string& main, const Job& job) {
-  const std::size_t first = question.text.find_first_not_of(" \t\r\n");
-  if (first == std::string_view::npos || question.text[first] != '{' ||
-      question.text.find("\"files\"") == std::string_view::npos)
+void unpack(ImportInput& input, std::string& main, const Job& job) {
+  const std::size_t first = input.text.find_first_not_of(" \t\r\n");
+  if (first == std::string_view::npos || input.text[first] != '{' ||
+      input.text.find("\"files\"") == std::string_view::npos)
     return;
-  const Result<Json> body = parse_json(question.text, {.job = &job});
+  const Result<Json> body = parse_json(input.text, {.job = &job});
   if (!body || !body->is_object() || body->size() != 1 || !body->contains("files")) return;
   const Json& files = body->at("files");
   if (!files.is_object() || files.empty()) return;
@@ -130,7 +130,7 @@ void unpack(ImportInput& question, std::string& main, const Job& job) {
     if (!text.is_string()) return;
     const std::string& content = text.get_ref<const std::string&>();
     const ImportFormat* const format =
-        question.format.empty() ? likeliest_format(content) : find_import_format(question.format);
+        input.format.empty() ? likeliest_format(content) : find_import_format(input.format);
     const int score = format ? format->score(content) : 0;
     if (score <= most) continue;
     most = score;
@@ -140,10 +140,10 @@ void unpack(ImportInput& question, std::string& main, const Job& job) {
     if (name == chosen) {
       main = text.get<std::string>();
     } else {
-      question.files[name] = text.get<std::string>();
+      input.files[name] = text.get<std::string>();
     }
   }
-  question.text = main;
+  input.text = main;
 }
 
 /// Whether the text is UTF-16, by its byte order mark or by the zero bytes of its first two characters.
@@ -157,64 +157,61 @@ bool is_utf16(std::string_view text) {
 
 static Result<ImportedRequest> import_within(const ImportInput& asked, const Job::Options& options,
                                              const Job& job) {
-  ImportInput question = asked;
+  ImportInput input = asked;
   std::string main;
-  unpack(question, main, job);
+  unpack(input, main, job);
   constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
-  if (question.text.starts_with(byte_order_mark)) question.text.remove_prefix(byte_order_mark.size());
-  if (is_utf16(question.text)) {
+  if (input.text.starts_with(byte_order_mark)) input.text.remove_prefix(byte_order_mark.size());
+  if (is_utf16(input.text)) {
     return Error{
         Code::malformed,
         {{IssueKind::syntax, "", "found text in UTF-16, expected UTF-8; save the file as UTF-8", 1, 1}}};
   }
   std::string lines;
-  if (question.text.find('\n') == std::string_view::npos &&
-      question.text.find('\r') != std::string_view::npos) {
-    lines = question.text;  // of the old Mac OS
+  if (input.text.find('\n') == std::string_view::npos && input.text.find('\r') != std::string_view::npos) {
+    lines = input.text;  // of the old Mac OS
     std::replace(lines.begin(), lines.end(), '\r', '\n');
-    question.text = lines;
+    input.text = lines;
   }
   const ImportFormat* format =
-      question.format.empty() ? likeliest_format(question.text) : find_import_format(question.format);
+      input.format.empty() ? likeliest_format(input.text) : find_import_format(input.format);
   std::string clean;
-  std::size_t bad = find_bad_utf8(question.text);
+  std::size_t bad = find_bad_utf8(input.text);
   if (bad != std::string_view::npos && format && format->without_comments) {
-    clean = format->without_comments(question.text);
-    question.text = clean;
-    bad = find_bad_utf8(question.text);
+    clean = format->without_comments(input.text);
+    input.text = clean;
+    bad = find_bad_utf8(input.text);
   }
   if (bad != std::string_view::npos) {
     return Error{Code::malformed,
-                 {issue_at(IssueKind::syntax, "", question.text, bad, "found a byte that is not UTF-8")}};
+                 {issue_at(IssueKind::syntax, "", input.text, bad, "found a byte that is not UTF-8")}};
   }
-  if (!format) return unknown_format(question.format);
-  Result<Imported> imported =
-      format->read(question.text, {std::string(question.entry), question.files, &job});
-  if (!imported) return in_format(std::move(imported).error(), question, *format);
+  if (!format) return unknown_format(input.format);
+  Result<Imported> imported = format->read(input.text, {std::string(input.entry), input.files, &job});
+  if (!imported) return in_format(std::move(imported).error(), input, *format);
   Result<Request> request = read_request_body(imported->request, options);
   if (!request && is_stopped(request.error())) return std::move(request).error();
   if (!request || !imported->errors.empty()) {
     std::vector<Issue> found;
     if (!request) found = std::move(request).error().issues;
-    return in_format(all_errors(std::move(imported->errors), std::move(found), *imported, question.text),
-                     question, *format);
+    return in_format(all_errors(std::move(imported->errors), std::move(found), *imported, input.text), input,
+                     *format);
   }
-  if (auto stopped = append_appraisal(*request, *imported, options, question.text))
-    return std::move(*stopped);
+  if (auto stopped = append_appraisal(*request, *imported, options, input.text)) return std::move(*stopped);
   Json answer = {{"format", format->name},
                  {"request", Json::parse(request->canonical())},
                  {"warnings", warning_list(imported->warnings)}};
   return ImportedRequest{std::move(*request), canonical_text(answer), std::move(imported->warnings)};
 }
 
-Result<ImportedRequest> import_request(const ImportInput& question, const Job::Options& options) {
-  return guarded<ImportedRequest>([&] { return import_within(question, options, Job(0, options)); });
+Result<ImportedRequest> import_request(const ImportInput& input, const Job::Options& options) {
+  return guarded<ImportedRequest>([&] { return import_within(input, options, Job(0, options)); });
 }
 
-Result<ImportedRequest> import_request(const ImportInput& question, const Limits& limits) {
+Result<ImportedRequest> import_request(const ImportInput& input, const Limits& limits) {
   Job::Options options;
   options.limits = limits;
-  return import_request(question, options);
+  return import_request(input, options);
 }
 
 std::string_view likely_import_format(std::string_view text) {

@@ -79,7 +79,7 @@ class TileWriter {
       json_.array("children", [&] {
         for (std::int64_t k = 0; k < 4; ++k) {
           const Address child{at.level + 1, 2 * at.x + k % 2, 2 * at.y + k / 2};
-          if (!naming_.holds || naming_.holds(child)) append(child, false);
+          if (!naming_.has_tile || naming_.has_tile(child)) append(child, false);
         }
       });
     });

@@ -33,7 +33,7 @@ struct Naming {
   std::string_view prefix;  ///< relative to the address of the file; ends with "/" or is empty
   int levels = 0;           ///< levels of the tree; its last level has no children
   int first_content = 0;    ///< tiles above this level have no content
-  std::function<bool(const Address&)> holds = {};  ///< whether the tree has a tile; empty: it has all tiles
+  std::function<bool(const Address&)> has_tile = {};  ///< whether the tree has a tile; empty: it has all
 };
 
 /// Returns an explicit tileset of at most four levels from `root` down. Tiles below the last of these levels

@@ -124,7 +124,7 @@ Result<std::string> world_tileset(const OpenWorld& world, const TileAddress& roo
     if (part) {
       naming.levels = part->last + 1;
       naming.first_content = part->first;
-      naming.holds = [&](const tiles::Address& at) {
+      naming.has_tile = [&](const tiles::Address& at) {
         const TileRange range = tiles_in(world, at.level, part->box);
         return at.x >= range.west && at.x <= range.east && at.y >= range.south && at.y <= range.north;
       };

@@ -108,7 +108,7 @@ void add_counts(const Pixels& pixels, ByteCounts& bytes, Counts& counts) {
 struct ByteRange {
   std::uint8_t low = 255, high = 0;  ///< with the sign reversed, so that they are compared as unsigned
   std::uint8_t bits = 0;
-  bool holds(std::uint8_t byte) const {
+  bool contains(std::uint8_t byte) const {
     const std::uint8_t reversed = byte ^ sign;
     return reversed >= low && reversed <= high && (byte & ~bits) == 0;
   }
@@ -141,7 +141,7 @@ Counts count(const Pixels& pixels) {
   if (is_estimate) {
     const ByteRange range = range_of(pixels.data);
     for (std::size_t i = 0; i < counts.size(); ++i) {
-      const bool may_occur = i > end_of_block || range.holds(static_cast<std::uint8_t>(i));
+      const bool may_occur = i > end_of_block || range.contains(static_cast<std::uint8_t>(i));
       counts[i] = parts * counts[i] + (may_occur ? 1 : 0);
     }
   }

@@ -54,7 +54,7 @@ std::vector<DecomposedBody> masses_of(const Shapes& shapes) {
 }
 
 /// Whether the hull contains the other hull, to within a hundredth of its size.
-bool holds(const Mass& mass, const Mass& other) {
+bool contains(const Mass& mass, const Mass& other) {
   const double near = 0.01 * math::cbrt(mass.hull_volume);
   return std::ranges::all_of(mass.hull.faces, [&](const Face& face) {
     const glm::dvec3 normal = math::unit(area_vector(mass.hull, face, glm::dvec3(1)), glm::dvec3(0, 1, 0));
@@ -136,7 +136,7 @@ void add_collision(Model& model, const Shapes& shapes, const GenerateContext& co
   std::vector<Mass> outer;
   for (Mass& mass : masses) {
     if (outer.size() < most_bodies &&
-        std::ranges::none_of(outer, [&](const Mass& each) { return holds(each, mass); }))
+        std::ranges::none_of(outer, [&](const Mass& each) { return contains(each, mass); }))
       outer.push_back(std::move(mass));
   }
   masses = std::move(outer);

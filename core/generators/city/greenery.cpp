@@ -25,7 +25,7 @@ constexpr int tries = 6;
 struct HouseBox {
   dvec2 centre{0}, x{1, 0}, y{0, 1}, half{0};
 
-  bool holds(const dvec2& p, double margin) const {
+  bool contains(const dvec2& p, double margin) const {
     const dvec2 off = p - centre;
     return std::abs(glm::dot(off, x)) < half.x + margin && std::abs(glm::dot(off, y)) < half.y + margin;
   }
@@ -92,7 +92,7 @@ void plant_yard(const CityPlan& plan, const Lot& lot, double mean, Rng rng, Obje
       const dvec2 p(draw.uniform(low.x, high.x), draw.uniform(low.y, high.y));
       const bool is_near_tree = std::any_of(placed.begin(), placed.end(),
                                             [&p](const dvec2& each) { return glm::length(each - p) < 4; });
-      if (is_near_tree || house.holds(p, house_margin) || !is_in(rings, p * 100.0) ||
+      if (is_near_tree || house.contains(p, house_margin) || !is_in(rings, p * 100.0) ||
           !is_far_from(rings, p, yard_margin))
         continue;
       placed.push_back(p);

@@ -34,7 +34,7 @@ std::array<dvec2, 4> corners_of(const Footing& footing, double ledge) {
 }
 
 /// Whether a ring has all of these corners inside, and none of its own corners between them.
-bool holds(const CmRing& ring, const std::array<dvec2, 4>& corners) {
+bool contains(const CmRing& ring, const std::array<dvec2, 4>& corners) {
   const auto is_left_of_all = [&](const CmPoint& p) {
     for (std::size_t k = 0; k < 4; ++k) {
       const dvec2 along = corners[(k + 1) % 4] - corners[k], off = in_metres(p) - corners[k];
@@ -50,7 +50,7 @@ bool holds(const CmRing& ring, const std::array<dvec2, 4>& corners) {
 /// The corners of a foundation, with the widest ledge that keeps it on its lot. So foundations of neighbours do not meet.
 std::array<dvec2, 4> foundation_of(const Footing& footing, const Part& part) {
   for (const double ledge : ledges) {
-    if (part.kind != PartKind::lot || holds(part.rings[0], corners_of(footing, ledge + apart)))
+    if (part.kind != PartKind::lot || contains(part.rings[0], corners_of(footing, ledge + apart)))
       return corners_of(footing, ledge);
   }
   return corners_of(footing, least_ledge);

@@ -15,7 +15,7 @@ namespace {
 /// The box around a ring, in centimetres.
 struct Box {
   glm::dvec2 low, high;
-  bool holds(const glm::dvec2& p) const {
+  bool contains(const glm::dvec2& p) const {
     return p.x >= low.x && p.y >= low.y && p.x <= high.x && p.y <= high.y;
   }
 };
@@ -102,7 +102,8 @@ void place_landmarks(CityPlan& plan) {
   for (std::uint32_t i = 0; i < plan.landmarks.size(); ++i) {
     Landmark& landmark = plan.landmarks[i];
     for (std::uint32_t n = 0; n < plan.parts.size() && landmark.part == no_index; ++n) {
-      if (boxes[n].holds(landmark.position * 100.0) && is_in(plan.parts[n].rings, landmark.position * 100.0))
+      if (boxes[n].contains(landmark.position * 100.0) &&
+          is_in(plan.parts[n].rings, landmark.position * 100.0))
         landmark.part = n;
     }
     landmark.lot = landmark.part != no_index ? lot_of_part[landmark.part] : no_index;

@@ -112,7 +112,7 @@ Array<Placement> in_rows(const Extent& part, const RowPlan& plan, Rng rng, const
       placement.key = own.key();
       placement.turn = static_cast<float>(plan.angle);
       placement.at = position + drawn_offset(own, plan.jitter);
-      if (part.holds(placement.at)) placements.push_back(placement);
+      if (part.contains(placement.at)) placements.push_back(placement);
     }
   }
   return placements;

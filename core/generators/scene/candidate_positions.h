@@ -7,7 +7,6 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <span>
-#include <vector>
 
 #include "core/base/array.h"
 
@@ -16,7 +15,7 @@ namespace seedmesh::scene {
 struct Extent {
   glm::dvec2 min{0}, max{0};
   glm::dvec2 size() const { return max - min; }
-  bool holds(const glm::dvec2& p) const {
+  bool contains(const glm::dvec2& p) const {
     return p.x >= min.x && p.y >= min.y && p.x <= max.x && p.y <= max.y;
   }
 };

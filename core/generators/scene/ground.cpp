@@ -14,7 +14,6 @@
 #include "core/generators/terrain/smooth_step.h"
 #include "core/generators/terrain/square.h"
 #include "core/generators/terrain/terrain.h"
-#include "core/model/append.h"
 #include "core/model/build.h"
 #include "core/model/empty_mesh.h"
 #include "generated/params/scene.h"
@@ -115,7 +114,7 @@ Result<Ground> Ground::make(const SceneParams& params, const Job& job) {
   return ground;
 }
 
-bool Ground::holds(const glm::dvec2& p, double edge) const {
+bool Ground::contains(const glm::dvec2& p, double edge) const {
   if (round_) return glm::length(p) <= extent_.max.x - edge;
   return p.x >= extent_.min.x + edge && p.y >= extent_.min.y + edge && p.x <= extent_.max.x - edge &&
          p.y <= extent_.max.y - edge;
@@ -145,7 +144,7 @@ static_assert(static_cast<int>(SceneGroundClass::grass) == terrain::GroundShares
               static_cast<int>(SceneGroundClass::litter) == terrain::GroundShares::litter);
 
 bool Ground::refines(const glm::dvec2& p) const {
-  return refined_ && refined_->holds(p.x - extent_.min.x, p.y - extent_.min.y);
+  return refined_ && refined_->contains(p.x - extent_.min.x, p.y - extent_.min.y);
 }
 
 double Ground::refined_height(const glm::dvec2& p) const {

@@ -35,7 +35,7 @@ class Ground {
 
   const Extent& extent() const { return extent_; }
   /// Returns true where there is ground and its border is at least `edge` metres away.
-  bool holds(const glm::dvec2& p, double edge) const;
+  bool contains(const glm::dvec2& p, double edge) const;
 
   /// Returns the height of the grid mesh at a position. A reduced mesh differs by its error. On refined
   /// ground, it returns the height of the refined surface, on which the vertices of the mesh lie.

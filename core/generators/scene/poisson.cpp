@@ -133,7 +133,7 @@ class Darts {
     Rng random(key_at(key_of(spot), round));
     for (int k = 0; k < darts_of_round[round]; ++k) {
       const glm::vec2 dart(corner + cell_ * random_point(around.open, random.next()));
-      if (!part_.holds(whole_.min + glm::dvec2(dart)) || is_near(dart, around)) continue;
+      if (!part_.contains(whole_.min + glm::dvec2(dart)) || is_near(dart, around)) continue;
       point_[cell] = dart;
       return;
     }

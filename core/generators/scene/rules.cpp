@@ -156,7 +156,7 @@ Rules::Rules(Inputs given, const std::string& pointer, const Job& job) : inputs_
 
 double Rules::share(const glm::dvec2& p, double reach) const {
   const ScenePlace& place = inputs_.place;
-  if (!inputs_.ground.holds(p, place.edge)) return 0;
+  if (!inputs_.ground.contains(p, place.edge)) return 0;
   if (!area_.empty() && !is_inside(area_, p)) return 0;
   double share = place.density * share_of_ground(p);
   if (share > 0 && image_) {

@@ -1,7 +1,6 @@
 #include "core/generators/terrain/ground_cover.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "core/base/math.h"
 #include "core/generators/terrain/plan.h"
@@ -31,7 +30,7 @@ GroundCover::GroundCover(const TerrainParams& params, const Field& field,
 }
 
 GroundShares GroundCover::at(double x, double z) const {
-  if (refined_ && refined_->holds(x, z)) {
+  if (refined_ && refined_->contains(x, z)) {
     RefinedGround::Sampler sampler(*refined_);
     return ground_shares(colors_, sampler.at(x, z).site);
   }

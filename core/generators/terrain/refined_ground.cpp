@@ -172,7 +172,7 @@ RefinedGround::RefinedGround(const Refinement& refinement, const GroundColors& c
   }
 }
 
-bool RefinedGround::holds(double x, double z) const {
+bool RefinedGround::contains(double x, double z) const {
   return refinement_.level(math::to_int32(std::floor(x / refinement_.cell)),
                            math::to_int32(std::floor(z / refinement_.cell))) > 0;
 }

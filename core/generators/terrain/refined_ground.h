@@ -29,7 +29,7 @@ class RefinedGround {
 
   const Refinement& refinement() const { return refinement_; }
   /// Returns true in a divided square. `x` and `z` are metres to the east and south of the north-west sample.
-  bool holds(double x, double z) const;
+  bool contains(double x, double z) const;
 
   /// Returns points one after the other. For one thread. Cost: about 0.3 microseconds for a point.
   class Sampler {

@@ -33,7 +33,7 @@ struct Turned {
   glm::vec3 normal;
 };
 
-std::vector<Turned> corners_looking_in(const Mesh& mesh, const Job& job) {
+std::vector<Turned> corners_facing_inward(const Mesh& mesh, const Job& job) {
   constexpr std::size_t check_interval = 65'536;
   const Array<std::uint32_t>& index = mesh.index.wide;
   std::vector<Turned> found;
@@ -53,7 +53,7 @@ std::vector<Turned> corners_looking_in(const Mesh& mesh, const Job& job) {
 }  // namespace
 
 void repair_inward_normals(Mesh& mesh, const Job& job) {
-  const std::vector<Turned> turned = corners_looking_in(mesh, job);
+  const std::vector<Turned> turned = corners_facing_inward(mesh, job);
   if (turned.empty()) return;
   Array<std::uint32_t> uses(job, mesh.position.size());
   std::ranges::fill(uses, 0U);

@@ -206,7 +206,7 @@ MeshField::Nearest MeshField::nearest(const glm::dvec3& point, std::uint32_t gue
   return best;
 }
 
-bool MeshField::holds(const glm::dvec3& point) const {
+bool MeshField::contains(const glm::dvec3& point) const {
   if (squared_distance(point, bvh_nodes_[0].low, bvh_nodes_[0].high) > 0) return false;
   const glm::dvec3 ray = ray_across(bvh_nodes_[0].high - bvh_nodes_[0].low), by_ray = 1.0 / ray;
   bool inside = false;

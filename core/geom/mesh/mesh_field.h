@@ -33,7 +33,7 @@ class MeshField {
   Nearest nearest(const glm::dvec3& point, std::uint32_t guess = 0) const;
   /// True where the point is inside, by the parity of the intersections of a ray. The direction of the ray depends on
   /// the extent of the mesh only and is unlikely to be parallel to an edge.
-  bool holds(const glm::dvec3& point) const;
+  bool contains(const glm::dvec3& point) const;
 
  private:
   struct BvhNode {

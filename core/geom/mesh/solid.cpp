@@ -74,7 +74,7 @@ glm::dvec3 middle_of(const Solid& solid) { return solid.position + glm::dvec3{0,
 
 /// True inside; on the surface, where the distance is 0, it may be either.
 bool encloses(const Solid& solid, const glm::dvec3& point) {
-  if (solid.shape == SolidShape::mesh) return solid.mesh->holds(point);
+  if (solid.shape == SolidShape::mesh) return solid.mesh->contains(point);
   return is_inside(solid.shape, (point - middle_of(solid)) / (0.5 * solid.size));
 }
 

@@ -33,7 +33,7 @@ ShadowGrid::Cell ShadowGrid::cell_of(const glm::dvec3& point) const {
   return {along(point.x), along(point.y), along(point.z)};
 }
 
-bool ShadowGrid::holds(const Cell& low, const Cell& high) const {
+bool ShadowGrid::contains(const Cell& low, const Cell& high) const {
   const auto inside = [](std::int32_t from, std::int32_t until, std::int32_t first, std::int32_t size) {
     return from >= first && until - first < size;
   };
@@ -84,7 +84,7 @@ void ShadowGrid::cast(const Cell& cell, double weight, std::uint32_t sign) {
   const auto depth = static_cast<std::int32_t>(amounts_.size()) - 1;
   const Cell low{cell.x - depth, cell.y - depth, cell.z - depth};
   const Cell high{cell.x + depth, cell.y, cell.z + depth};
-  if (!holds(low, high)) extend(low, high);
+  if (!contains(low, high)) extend(low, high);
   for (std::int32_t layer = 0; layer <= depth; ++layer) {
     const double wanted = std::floor(amounts_[static_cast<std::size_t>(layer)] * weight + 0.5);
     const std::uint32_t amount = sign * static_cast<std::uint32_t>(math::to_int32(wanted));
@@ -103,7 +103,7 @@ void ShadowGrid::remove(const glm::dvec3& point, double weight) {
 
 double ShadowGrid::shade_at(const glm::dvec3& point) const {
   const Cell cell = cell_of(point);
-  return holds(cell, cell) ? shade_[index_of(cell)] / whole : 0;
+  return contains(cell, cell) ? shade_[index_of(cell)] / whole : 0;
 }
 
 }  // namespace seedmesh

@@ -33,7 +33,7 @@ class ShadowGrid {
     Cell low{0, 0, 0}, size{0, 0, 0};
   };
   Cell cell_of(const glm::dvec3& point) const;
-  bool holds(const Cell& low, const Cell& high) const;
+  bool contains(const Cell& low, const Cell& high) const;
   void extend(const Cell& low, const Cell& high);
   std::size_t index_of(const Cell& cell) const;
   void cast(const Cell& cell, double weight, std::uint32_t sign);

@@ -145,10 +145,10 @@ class Triangulation {
       at = twin_[leave] / 3;
     }
     last_ = at;
-    return holds(at, p) ? at : scan(p);
+    return contains(at, p) ? at : scan(p);
   }
 
-  bool holds(std::uint32_t triangle, const dvec2& p) const {
+  bool contains(std::uint32_t triangle, const dvec2& p) const {
     for (std::uint32_t k = 0; k < 3; ++k) {
       const std::uint32_t half = 3 * triangle + k;
       if (cross_of(points_[from(after(half))] - points_[from(half)], p - points_[from(half)]) <= 0)
@@ -160,7 +160,7 @@ class Triangulation {
   /// A walk in a polygon that is not convex can end at its outline.
   std::uint32_t scan(const dvec2& p) const {
     for (std::uint32_t t = 0; 3 * t < corners_.size(); ++t) {
-      if (holds(t, p)) return t;
+      if (contains(t, p)) return t;
     }
     return none;
   }

@@ -1,6 +1,5 @@
 // Faces of a planar graph; see planar_graph.h.
 #include <algorithm>
-#include <cmath>
 
 #include "core/base/disjoint_sets.h"
 #include "core/geom/polygon/planar_graph.h"
@@ -36,7 +35,7 @@ bool contains(const PlanarFaces& faces, const PlanarFaces::Loop& loop, std::span
 
 struct LoopBox {
   CmPoint low{greatest_cm, greatest_cm}, high{-greatest_cm, -greatest_cm};
-  bool holds(const CmPoint& p) const {
+  bool contains(const CmPoint& p) const {
     return low.x <= p.x && p.x <= high.x && low.y <= p.y && p.y <= high.y;
   }
 };
@@ -79,7 +78,7 @@ void nest(PlanarFaces& faces, std::span<const CmPoint> nodes, std::span<const Pl
     std::uint32_t owner = PlanarFaces::none;
     for (std::uint32_t k = 0; k < faces.loops.size(); ++k) {
       const PlanarFaces::Loop& other = faces.loops[k];
-      if (other.doubled_area <= 0 || !boxes[k].holds(p) || component_of(other) == component_of(loop))
+      if (other.doubled_area <= 0 || !boxes[k].contains(p) || component_of(other) == component_of(loop))
         continue;
       if (!contains(faces, other, nodes, edges, p)) continue;
       if (owner == PlanarFaces::none || other.doubled_area < faces.loops[owner].doubled_area) owner = k;

@@ -162,7 +162,7 @@ TEST(ExplicitTileset, RepeatsBoxAndErrorOfTheTileThatPointsToIt) {
 TEST(ExplicitTileset, OfAPartLeavesOutTheOtherTiles) {
   Naming naming{"", 7};
   naming.first_content = 2;
-  naming.holds = [](const Address& at) { return at.x == 0; };
+  naming.has_tile = [](const Address& at) { return at.x == 0; };
   const json file = json::parse(explicit_tileset({0, 0, 0}, naming, bounds_of));
   EXPECT_FALSE(file["root"].contains("content"));
   ASSERT_EQ(file["root"]["children"].size(), 2U);

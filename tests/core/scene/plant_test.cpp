@@ -56,7 +56,7 @@ TEST(Plant, KeepsEveryRuleOnRandomScenes) {
       if (made.ground.water()) {
         EXPECT_GE(height, *made.ground.water());
       }
-      EXPECT_TRUE(made.ground.holds(placement.at, place["edge"].get<double>()));
+      EXPECT_TRUE(made.ground.contains(placement.at, place["edge"].get<double>()));
     }
   }
 }

@@ -126,7 +126,7 @@ class Checked {
   void check_ground(std::size_t i) const {
     const Json& place = layer(i)["place"];
     for (const Placement& placement : made_.layer(i)) {
-      EXPECT_TRUE(made_.ground.holds(placement.at, place.value("edge", 0.0)));
+      EXPECT_TRUE(made_.ground.contains(placement.at, place.value("edge", 0.0)));
       expect_within({{"from", layer(i)["scale"][0]}, {"to", layer(i)["scale"][1]}},
                     static_cast<double>(placement.scale), "scale");
       if (place.contains("area")) {

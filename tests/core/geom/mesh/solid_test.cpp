@@ -72,7 +72,7 @@ TEST(MeshField, AgreesWithTheBoxOfItsForm) {
   for (int i = 0; i < 500; ++i) {
     const glm::dvec3 p{rng.uniform(-2, 2), rng.uniform(-1, 3), rng.uniform(-2, 2)};
     EXPECT_NEAR(field.nearest(p).distance, std::abs(distance(box, p)), 1e-9);
-    EXPECT_EQ(field.holds(p), distance(box, p) < 0);
+    EXPECT_EQ(field.contains(p), distance(box, p) < 0);
   }
 }
 
@@ -118,8 +118,8 @@ TEST(Solid, ReportsSidesAsTheSignOfTheDistance) {
 TEST(MeshField, IsStretchedThenMoved) {
   Job job(1, Job::Options{});
   const MeshField field(cube(job), {2, 1, 1}, {5, 0, 0}, job);
-  EXPECT_TRUE(field.holds({6.9, 0, 0}));
-  EXPECT_FALSE(field.holds({7.1, 0, 0}));
+  EXPECT_TRUE(field.contains({6.9, 0, 0}));
+  EXPECT_FALSE(field.contains({7.1, 0, 0}));
   EXPECT_NEAR(field.nearest({8, 0, 0}).distance, 1, 1e-9);
 }
 
