@@ -219,7 +219,7 @@ std::variant<WorldBox, http::Response> box_of(const RequestContext& call, const 
   const Overrides& given = std::get<Overrides>(query);
   std::vector<Issue> issues = keys_but(given, "box");
   if (issues.empty() && given.size() != 1) {
-    issues.emplace_back(given.empty() ? IssueKind::missing : conflict_with({}), "/box",
+    issues.emplace_back(given.empty() ? missing_for({"box"}) : conflict_with({}), "/box",
                         "expected one box=west,south,east,north in metres");
   }
   if (!issues.empty()) return refuse(call, problem_of({Code::invalid, std::move(issues)}));

@@ -19,8 +19,8 @@ struct Reader {
   std::vector<Issue> issues;
   std::vector<Warning> warnings;
 
-  void report(IssueKind kind, const std::string& pointer, std::string message) {
-    issues.emplace_back(kind, pointer, std::move(message));
+  void report(IssueCause cause, const std::string& pointer, std::string message) {
+    issues.emplace_back(std::move(cause), pointer, std::move(message));
   }
   /// `pointer` leads into the file; "" is the whole file.
   void warn(const std::string& pointer, std::string message) {
@@ -305,7 +305,7 @@ Result<Imported> import_ez_tree(std::string_view text, const ImportOptions& opti
   Reader reader;
   reader.known(&*file, "", {"seed", "type", "bark", "branch", "leaves", "trellis"});
   if (!file->contains("branch"))
-    reader.report(IssueKind::missing, "", "found no member \"branch\", which every tree of ez-tree has");
+    reader.report(missing_for({"branch"}), "", "found no member \"branch\", which every tree of ez-tree has");
   const double seed = reader.number(&*file, "", "seed", 0, {0, 9007199254740991});
   Imported imported;
   Json parameters = Writer(*file, reader).parameters();

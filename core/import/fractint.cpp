@@ -14,7 +14,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
 #include <set>
 #include <utility>
 
@@ -373,7 +372,7 @@ Result<Imported> import_fractint(std::string_view text, const ImportOptions& opt
           "there is no entry \"" + shortened(options.entry, 40) + "\"; the file has " + list_of(entries)}}};
   } else if (options.entry.empty() && entries.size() > 1) {
     return Error{Code::invalid,
-                 {{IssueKind::missing, "/entry",
+                 {{missing_for({"entry"}), "/entry",
                    "the file contains several systems; expected one of " + list_of(entries)}}};
   }
   Imported imported;

@@ -96,14 +96,15 @@ class GeoJsonReader {
     return scene_of_map(std::move(data_), "", options_);
   }
 
-  void report(IssueKind kind, std::string pointer, std::string message) {
-    if (issues_.size() < most_errors) issues_.emplace_back(kind, std::move(pointer), std::move(message));
+  void report(IssueCause cause, std::string pointer, std::string message) {
+    if (issues_.size() < most_errors)
+      issues_.emplace_back(std::move(cause), std::move(pointer), std::move(message));
   }
 
   const Json* member(const Json& object, const char* name, const std::string& pointer) {
     const auto found = object.find(name);
     if (found != object.end()) return &*found;
-    report(IssueKind::missing, pointer, std::string("expected a member \"") + name + "\"");
+    report(missing_for({name, "type"}), pointer, std::string("expected a member \"") + name + "\"");
     return nullptr;
   }
 

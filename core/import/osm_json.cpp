@@ -20,8 +20,9 @@ class OsmJsonReader {
   Result<Imported> read(const Json& file) {
     const auto elements = file.find("elements");
     if (elements == file.end() || !elements->is_array()) {
-      return Error{Code::invalid,
-                   {{IssueKind::missing, "", "expected an array \"elements\", as Overpass writes it"}}};
+      return Error{
+          Code::invalid,
+          {{missing_for({"elements"}), "", "expected an array \"elements\", as Overpass writes it"}}};
     }
     read_bounds(file);
     for (std::size_t i = 0; i < elements->size() && issues_.size() < most_errors; ++i)

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "core/schema/json.h"
+#include "core/base/json_pointer.h"
 
 namespace seedmesh {
 
@@ -13,7 +13,7 @@ void IssueList::add(Issue issue) {
 
 void IssueList::add_missing(const std::string& pointer, std::string_view member, std::string message) {
   if (!full()) refused_.insert(pointer + pointer_token(member));
-  keep({IssueKind::missing, pointer, std::move(message)});
+  keep({missing_for({member}), pointer, std::move(message)});
 }
 
 void IssueList::keep(Issue issue) {

@@ -256,7 +256,7 @@ RuleText rule_text_of(const BuildingParams& params, std::vector<Issue>& issues) 
   if (const auto* const text = std::get_if<std::string>(&*params.rules)) return rule_text(*text);
   const auto& files = std::get<std::map<std::string, std::string>>(*params.rules);
   if (files.empty()) {
-    issues.emplace_back(IssueKind::missing, "/rules", "found no rule file, expected at least one");
+    issues.emplace_back(missing_for({"rules"}), "/rules", "found no rule file, expected at least one");
     return rule_text("");
   }
   std::string_view start = params.start ? std::string_view(*params.start) : std::string_view();

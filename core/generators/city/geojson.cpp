@@ -43,14 +43,15 @@ class Reader {
   }
 
  private:
-  void refuse(IssueKind kind, std::string pointer, std::string message) {
-    if (found_.size() < most_issues) found_.emplace_back(kind, std::move(pointer), std::move(message));
+  void refuse(IssueCause cause, std::string pointer, std::string message) {
+    if (found_.size() < most_issues)
+      found_.emplace_back(std::move(cause), std::move(pointer), std::move(message));
   }
 
   void read_collection(const Json& json) {
     const auto list = json.find("features");
     if (list == json.end()) {
-      return refuse(IssueKind::missing, pointer_,
+      return refuse(missing_for({"features", "type"}), pointer_,
                     "found no member \"features\", expected a list of features");
     }
     if (!list->is_array())
@@ -73,7 +74,8 @@ class Reader {
       return refuse(IssueKind::wrong_type, pointer + "/properties", "expected an object or null");
     const auto geometry = json.find("geometry");
     if (geometry == json.end()) {
-      return refuse(IssueKind::missing, pointer, "found no member \"geometry\", expected a geometry or null");
+      return refuse(missing_for({"geometry", "type"}), pointer,
+                    "found no member \"geometry\", expected a geometry or null");
     }
     if (geometry->is_null()) return;
     add(*geometry, {pointer, pointer + "/geometry", has_properties ? *properties : Json::object(), {}, {}});
@@ -96,7 +98,7 @@ class Reader {
     const char* name = is_collection ? "geometries" : "coordinates";
     const auto content = json.find(name);
     if (content == json.end() || !content->is_array()) {
-      return refuse(content == json.end() ? IssueKind::missing : IssueKind::wrong_type, pointer,
+      return refuse(content == json.end() ? missing_for({name, "type"}) : IssueKind::wrong_type, pointer,
                     std::string("expected a list \"") + name + "\"");
     }
     const std::string at = pointer + "/" + name;
