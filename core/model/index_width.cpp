@@ -21,7 +21,7 @@ void check_vertex_count(const Job& job, std::uint64_t vertices, std::string_view
   constexpr std::uint64_t most = 0xFFFFFFFEU;  // the greatest index is reserved
   if (vertices <= most) return;
   job.refuse(limit_issue({Resource::vertices, most, vertices},
-                         std::string(what) + " would have more vertices than 32-bit indices can name."));
+                         std::string(what) + " would have more vertices than 32-bit indices can address"));
 }
 
 namespace {

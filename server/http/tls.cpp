@@ -47,9 +47,9 @@ std::variant<std::shared_ptr<const TlsIdentity>, std::string> TlsIdentity::read(
                                   SSL_MODE_ACCEPT_MOVING_WRITE_BUFFER);
   ::SSL_CTX_set_alpn_select_cb(context, choose_protocol, nullptr);
   if (::SSL_CTX_use_certificate_chain_file(context, certificate.c_str()) != 1)
-    return certificate + " holds no certificate in PEM form: " + last_error();
+    return certificate + " has no certificate in PEM form: " + last_error();
   if (::SSL_CTX_use_PrivateKey_file(context, key.c_str(), SSL_FILETYPE_PEM) != 1)
-    return key + " holds no private key in PEM form that fits the certificate: " + last_error();
+    return key + " has no private key in PEM form that fits the certificate: " + last_error();
   return identity;
 }
 

@@ -102,7 +102,7 @@ test('a certificate without a key, a key that does not fit and an invalid file a
   for (const [given, expected] of [
     [['--tls-certificate', certificate], /needed together/],
     [['--tls-certificate', certificate, '--tls-key', stranger], /fits the certificate/],
-    [['--tls-certificate', path.join(folder, 'none'), '--tls-key', key], /holds no certificate/],
+    [['--tls-certificate', path.join(folder, 'none'), '--tls-key', key], /has no certificate/],
   ]) {
     const { status, err } = await run(program, ['serve', '--port', '0', ...given]);
     assert.notEqual(status, 0);

@@ -55,7 +55,7 @@ std::uint32_t add_solid(Derivation& d, Solid solid) {
   if (d.solid_corners > most_corners) {
     d.job.refuse(limit_issue(
         {Resource::vertices, most_corners, d.solid_corners},
-        "The solids that the rules cut and make have more than " + std::to_string(most_corners) + " corners.",
+        "the solids that the rules cut and make have more than " + std::to_string(most_corners) + " corners",
         d.task.is_blueprint ? "/blueprint" : "/rules"));
   }
   d.out.solids.push_back(std::make_unique<const Solid>(std::move(solid)));

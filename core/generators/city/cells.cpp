@@ -378,7 +378,8 @@ CellStreets grow_cell(const GrowthInput& input, const StreetGraph& majors,
   const auto grow = [&](const std::vector<StreetGrammar::Start>& starts) {
     const auto steps = input.grammar.grow(starts, cell, most_steps_of_a_cell, job);
     if (!steps) return;
-    job.refuse(limit_issue({Resource::steps, *steps, *steps + 1}, "the streets of a cell do not stop growing",
+    job.refuse(limit_issue({Resource::steps, *steps, *steps + 1},
+                           "the minor streets between some major streets do not stop growing",
                            "/streets/productions"));
   };
   grow(cell.starts());

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <glm/common.hpp>
-#include <map>
 #include <optional>
 #include <set>
 
@@ -355,7 +354,7 @@ Route grow_majors(const GrowthInput& input, Job& job) {
   NetRules rules(input, net);
   for (auto starts = rules.starts(); !starts.empty(); starts = rules.starts_beyond_water()) {
     if (const auto steps = input.grammar.grow(starts, rules, job.limits().shapes, job)) {
-      job.refuse(limit_issue({Resource::steps, *steps, *steps + 1}, "the streets do not stop growing",
+      job.refuse(limit_issue({Resource::steps, *steps, *steps + 1}, "the major streets do not stop growing",
                              "/streets/productions"));
     }
   }

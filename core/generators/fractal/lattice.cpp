@@ -56,9 +56,9 @@ Extent extent_of(const Lattice& lattice, int rounds, const Job& job) {
     const glm::i64vec3 size = extent.high - extent.low;
     if (std::max({side, size.x, size.y, size.z}) > longest_side) {
       job.refuse(limit_issue({Resource::steps, longest_side, longest_side + 1},
-                             "a lattice of more than " + std::to_string(longest_side) +
+                             "the lattice has more than " + std::to_string(longest_side) +
                                  " cells a side after " + std::to_string(round + 1) +
-                                 " rounds; fewer rounds, or derive, which needs no cells",
+                                 " rounds; expected fewer rounds (`derive` needs no lattice)",
                              "/iterations"));
     }
   }
@@ -145,7 +145,7 @@ BitGrid::BitGrid(const Job& job, glm::ivec3 low, glm::ivec3 size)
   const double words = static_cast<double>(words_) * size.y * size.z;
   if (words > 0x1p40) {
     job.refuse(limit_issue({Resource::memory_bytes, job.limits().memory_bytes, std::uint64_t{1} << 43U},
-                           "a lattice of more than 2^46 cells", "/iterations"));
+                           "the lattice has more than 2^46 cells; expected fewer rounds", "/iterations"));
   }
   bits_ = Array<std::uint64_t>(
       job, words_ * static_cast<std::size_t>(size.y) * static_cast<std::size_t>(size.z), 0);

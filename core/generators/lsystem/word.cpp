@@ -28,8 +28,8 @@ class Writer {
   double* add(KindId kind, std::uint64_t key, std::uint32_t step) {
     if (word.size() >= limit_) {
       job_.refuse(limit_issue({Resource::modules, limit_, limit_ + 1},
-                              "needs more than " + std::to_string(limit_) +
-                                  " modules, which is the limit, in step " + std::to_string(step)));
+                              "step " + std::to_string(step) + " needs more than " + std::to_string(limit_) +
+                                  " modules, which is the limit"));
     }
     word.kind.push_back(kind);
     word.born.push_back(static_cast<std::uint16_t>(step));

@@ -215,7 +215,8 @@ TEST(Limits, ThatADerivationPassesPointAtTheIterations) {
   Limits few;
   few.modules = 100;
   EXPECT_THAT(refusal_of(grammar_of("A(1)", {"B<A(x)->A(x)", "A(x)->A(x)A(x)"}, 20), few),
-              testing::StartsWith("/iterations needs more than 100 modules, which is the limit, in step "));
+              testing::AllOf(testing::StartsWith("/iterations step "),
+                             testing::EndsWith(" needs more than 100 modules, which is the limit")));
   Limits shallow;
   shallow.bracket_depth = 10;
   EXPECT_EQ(refusal_of(grammar_of("A", {"A->[A]"}, 20), shallow), "/iterations brackets nest deeper than 10");

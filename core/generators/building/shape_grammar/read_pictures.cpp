@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/base/math.h"
 #include "core/generators/building/shape_grammar/anchors.h"
 #include "core/generators/building/shape_grammar/open_pairs.h"
 #include "core/generators/building/shape_grammar/picture_value.h"
@@ -73,7 +72,7 @@ class PictureReader {
     if (given.size() != wanted) {
       add_error(IssueKind::invalid_value, pointer,
                 "found " + std::to_string(given.size()) + " coordinates, expected " + std::to_string(wanted) +
-                    " as \"dimensions\" says");
+                    " by \"dimensions\"");
       return glm::dvec3(0);
     }
     glm::dvec3 p(0);

@@ -74,7 +74,7 @@ void refuse_inward_faces(const Mesh& mesh, const GraftOptions& options, const Jo
     for (int k = 0; k < 3; ++k) {
       if (glm::dot(face, mesh.normal[corner[k]]) < 0) {
         return refuse_bark(options,
-                           "A limb bends so sharply for its thickness that its bark would face inward.", job);
+                           "a limb bends so sharply for its thickness that its bark would face inward", job);
       }
     }
   }

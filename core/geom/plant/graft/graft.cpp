@@ -70,8 +70,8 @@ void refuse_overlapping_clusters(const JoinedBark& bark, const Scale& scale, con
   const Array<std::uint8_t> near = near_others(points, bark.twin.span(), box, reach, job);
   if (near.empty() || !has_nonmanifold_edges(part_with(bark.mesh, near, job), reach, job)) return;
   refuse_bark(options,
-              "The limbs are less than a millionth of the tree's size apart, so their bark is no surface. "
-              "Use fewer or thicker limbs.",
+              "the limbs are less than a millionth of the tree's size apart, so their bark is no surface; "
+              "expected fewer or thicker limbs",
               job);
 }
 

@@ -199,7 +199,7 @@ std::uint32_t LimbContinuation::add(std::uint32_t joint, std::uint32_t parent) {
   copy_row(limbs_.key, joint, to.key);
   if (to.size() >= Limbs::none) {
     job_.refuse(limit_issue({Resource::joints, Limbs::none, to.size() + 1},
-                            "The limbs have more joints than 32-bit indices can address."));
+                            "the limbs have more joints than 32-bit indices can address"));
   }
   out_.original.push_back(joint);
   return static_cast<std::uint32_t>(to.size() - 1);
