@@ -46,9 +46,9 @@ class ModelSource {
 /// Makes models here. `config` has to outlive the source.
 std::unique_ptr<ModelSource> local_source(const Config& config);
 
-/// Asks a server: "http://127.0.0.1:8080", or https, with or without a path. While the server is busy, it
-/// waits for the time of Retry-After and tries again, for at most a minute. Returns null where the address is
-/// not valid. `key`: an API key; "" for none.
+/// Requests models from a server: "http://127.0.0.1:8080", or https, with or without a path. While the server is
+/// busy, it waits for the time of Retry-After and tries again, for at most a minute. Returns null where the address
+/// is not valid. `key`: an API key; "" for none.
 std::unique_ptr<ModelSource> remote_source(const std::string& url, const std::string& key);
 
 }  // namespace seedmesh

@@ -64,7 +64,7 @@ struct Generator {
   /// share it.
   using Prepared = std::shared_ptr<const void>;
 
-  /// Is called with each request inside the parameters while they are read.
+  /// Called with each request inside the parameters while they are read.
   using VisitChild = std::function<void(const ChildLocation&)>;
 
   std::string_view name;       ///< in requests; also the name of its schema and its directory of presets

@@ -11,7 +11,7 @@
 namespace seedmesh::gltf {
 
 /// Arrays with equal use and stride are stored together, so that small ones share a bufferView: all vertex
-/// attributes of a view have one stride. The buffer holds the pools in this order.
+/// attributes of a view have one stride. The buffer contains the pools in this order.
 enum class Pool {
   vertex4,
   vertex8,

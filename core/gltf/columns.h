@@ -1,5 +1,5 @@
 #pragma once
-/// The arrays of a model in the form that glTF stores. A column holds the data of one accessor.
+/// The arrays of a model in the form that glTF stores. A column contains the data of one accessor.
 #include <cstddef>
 #include <cstdint>
 #include <memory>

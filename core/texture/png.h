@@ -25,7 +25,7 @@ struct PictureView {
   int channels = 1;                  ///< 1 grey, 2 grey and alpha, 3 RGB, 4 RGBA
   int bits = 8;                      ///< bits of a channel: 8, or 16 in the byte order of the machine
   std::span<const std::byte> bytes;  ///< width * height * channels * bits / 8
-  /// Up to 256 colours. If there are any, the picture has one channel of 8 bits, which holds indices into
+  /// Up to 256 colours. If there are any, the picture has one channel of 8 bits, which contains indices into
   /// them.
   std::span<const glm::u8vec3> palette = {};
 };

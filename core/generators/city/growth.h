@@ -90,7 +90,7 @@ struct CellStreets {
 };
 
 /// Returns the minor streets within one cell, which is a face of the graph of major streets and the border. `loops`
-/// holds the half-edges of its outline and of the components inside.
+/// contains the half-edges of its outline and of the components inside.
 CellStreets grow_cell(const GrowthInput& input, const StreetGraph& majors,
                       const std::vector<std::vector<std::uint32_t>>& loops, Job& job);
 

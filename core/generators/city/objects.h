@@ -38,9 +38,9 @@ struct ObjectKind {
 /// Whether a request has furniture or trees along streets.
 bool has_street_furniture(const CityParams& params);
 
-/// Returns the lamps, trees, benches, bins, signs and parked cars along all streets of level 0 that the request asks
-/// for. Choices depend on the key of the street, its side, and the number of the position, counted from the end with
-/// the smaller key. Cost: linear in the lengths of the streets.
+/// Returns the lamps, trees, benches, bins, signs and parked cars along all streets of level 0 that the request
+/// selects. Choices depend on the key of the street, its side, and the number of the position, counted from the end
+/// with the smaller key. Cost: linear in the lengths of the streets.
 std::vector<ObjectKind> street_furniture(const CityPlan& plan, const CityParams& params, const Job& job);
 
 /// Returns the trees in parks and yards. Choices depend on the key of the block or the lot.

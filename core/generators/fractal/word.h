@@ -1,5 +1,5 @@
 #pragma once
-/// Words made of blocks, after Word_Test of Kogovšek (2014). The thesis gives the word TEST and says that its
+/// Words made of blocks, after Word_Test of Kogovšek (2014). The thesis gives the word TEST and states that its
 /// blocks are rotated according to their position. The shapes of the letters and the angles are our own.
 #include <string_view>
 #include <vector>

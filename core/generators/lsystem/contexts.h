@@ -17,7 +17,7 @@ class ContextMatcher {
  public:
   /// `written` is the word that this step produces. New contexts (`<<`, `>>`) are matched against it. If
   /// Grammar::backward is set, it is written from right to left. Each module of `word` then writes one piece
-  /// of it, and `pieces` holds the first index of each piece.
+  /// of it, and `pieces` has the first index of each piece.
   ContextMatcher(const Grammar& grammar, const Word& word, std::span<const std::uint32_t> partner,
                  const Word& written, const std::vector<std::size_t>& pieces, const Job& job)
       : grammar_(grammar),
@@ -35,7 +35,7 @@ class ContextMatcher {
 
   /// Returns the slots of `production` at `position`: the variables, the parameters of the predecessor, then
   /// of the left, right, new left and new right context, each from left to right. Returns null where the
-  /// contexts do not match. The array holds all slots of the production and is valid until the next call.
+  /// contexts do not match. The array has all slots of the production and is valid until the next call.
   double* match(const Production& production, std::size_t position);
 
  private:

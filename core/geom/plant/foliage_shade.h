@@ -2,9 +2,9 @@
 /// Vertex colours of foliage: the light that leaves take from each other, and differences of hue by limb, twig
 /// and leaf.
 ///
-/// - Occlusion: 1 - most (1 - exp(-0.35 L)). L is the one-sided leaf area per area between the leaf and the sky. It
-///   is the mean over the zenith (counted twice) and four directions 45 degrees from it. It is computed on a grid of
-///   at most 16 cells along each axis.
+/// - Occlusion: 1 - Options::occlusion (1 - exp(-0.35 L)). L is the one-sided leaf area per area between the leaf and
+///   the sky. It is the mean over the zenith (counted twice) and four directions 45 degrees from it. It is computed
+///   on a grid of at most 16 cells along each axis.
 /// - Hue: a rotation of the colour about the grey axis. Its variance has three parts in the ratio 9 : 9 : 4. They
 ///   belong to the limb that leaves the trunk, to the limb that bears the leaf, and to the leaf.
 /// - One leaf in fifty is withered where hues differ.

@@ -24,7 +24,7 @@ struct LeafForm {
   LeafBuild build = LeafBuild::mesh;
   double fold = 0.25;  ///< angle by which both halves of a blade are raised about the midrib, radians
   double droop = 0.5;  ///< angle by which the tip bends down, radians
-  /// Of the request. 0 is the finest; each step has fewer points on a margin and fewer rows in a bent square.
+  /// As in requests: 0 is the finest, and each step has fewer points on a margin and fewer rows in a bent square.
   int coarseness = 0;
   /// Level of detail: each has fewer points than the one before, and follows the surface of level 0.
   int level = 0;

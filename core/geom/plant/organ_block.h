@@ -28,8 +28,8 @@ class OrganBlock {
   /// Computes up to organ_lanes organs, by their numbers in `organs`.
   void place(const Array<Organ>& organs, std::span<const std::uint32_t> numbers);
 
-  /// Writes the vertices of the first `count` organs, one organ after the other. `tangent` is null where no
-  /// the mesh gets tangents.
+  /// Writes the vertices of the first `count` organs, one organ after the other. `tangent` is null where
+  /// the mesh gets no tangents.
   void write(std::size_t count, glm::vec3* position, glm::vec3* normal, glm::vec4* tangent) const;
 
  private:

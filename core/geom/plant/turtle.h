@@ -159,7 +159,7 @@ class Turtle {
   const Frame& frame() const { return state_.frame; }
   const TurtleReport& report() const { return report_; }
 
-  /// A command would have taken a coordinate of the position beyond 1e15 metres. The caller refuses the
+  /// Whether a command would have taken a coordinate of the position beyond 1e15 metres. The caller refuses the
   /// request, since it has the module and the text that wrote it.
   bool is_out_of_range() const { return is_out_of_range_; }
   static constexpr const char* too_far = "the turtle went further than 1e15 metres from its start";

@@ -9,7 +9,7 @@
 
 namespace seedmesh {
 
-/// Joins the holes of a polygon to its outer ring. `points` holds all rings one behind the other, with
+/// Joins the holes of a polygon to its outer ring. `points` contains all rings one after the other, with
 /// `ring_sizes` points each: the outer ring counter-clockwise, then the holes clockwise. Returns an outline as
 /// indices into `points`, in which each bridge between two rings occurs once in each direction. If no two edges
 /// of the polygon meet except at common ends, no bridge crosses or touches an edge or another bridge: all tests

@@ -16,7 +16,7 @@ namespace seedmesh {
 /// Cells at the border of the grid extend to infinity, so that every point lies in a cell.
 class CellGrid {
  public:
-  /// Empties the grid and covers the box with about `cells` cells, or fewer of the side `least`.
+  /// Empties the grid and covers the box with about `cells` cells, or with fewer, whose side is then `least`.
   void reset(const glm::dvec2& low, const glm::dvec2& high, std::size_t cells, double least = 0) {
     low_ = low;
     const glm::dvec2 extent = glm::max(high - low, glm::dvec2(1e-300));
@@ -53,7 +53,7 @@ class CellGrid {
 
   std::size_t cells() const { return head_.size(); }
   std::size_t entries() const { return entries_.size() + packed_.size(); }
-  /// Returns the number of entries in a cell since the last `reset`.
+  /// Returns the number of entries that were added to a cell since the last `reset`.
   std::size_t count(std::size_t cell) const { return count_[cell]; }
 
   /// Adds a number to a cell, unless it is the number that was added there last.

@@ -12,9 +12,9 @@ namespace seedmesh {
 
 /// Improves a triangulation of a polygon. Edges of only one triangle form the outline of the polygon and stay.
 /// Lawson, "Software for C1 surface interpolation", 1977: an edge is flipped where the circle about one triangle
-/// holds the opposite corner of the other. Triangles of area 0 at straight corners of the outline disappear.
+/// contains the opposite corner of the other. Triangles of area 0 at straight corners of the outline disappear.
 ///
-/// `triangles` holds three numbers of `points` each, counter-clockwise. The points of `inner` that lie inside are
+/// `triangles` has three numbers of `points` each, counter-clockwise. The points of `inner` that lie inside are
 /// appended to `points` and become corners. `job` may be null. Cost: about n square root of n for n inner points.
 void refine_triangles(std::vector<glm::dvec2>& points, std::vector<std::uint32_t>& triangles,
                       std::span<const glm::dvec2> inner, const Job* job);

@@ -26,16 +26,16 @@ struct Plan {
 /// Returns a point of the plan at a height: x east, y up, -z north.
 inline glm::dvec3 raised(const glm::dvec2& p, double height) { return {p.x, height, -p.y}; }
 
-/// An error at a point of a ring.
+/// A defect at a point of a ring.
 struct PlanDefect {
   std::uint32_t ring = 0, vertex = 0;
   std::string message;  ///< "crosses the edge from point 3 of ring 0"
 };
 
-/// Returns all errors of a plan: fewer than three points, numbers that are not finite, rings without an area, and
-/// edges that cross or touch. A point nearer to the next than a millionth of the diagonal is an error. So is a hole
+/// Returns all defects of a plan: fewer than three points, numbers that are not finite, rings without an area, and
+/// edges that cross or touch. A point nearer to the next than a millionth of the diagonal is a defect. So is a hole
 /// outside of the outer ring or inside another hole. The direction of rings may be wrong, but a last point equal to
-/// the first is an error (see `read_plan`). Cost: about n log n in practice. Checks stop and deadline where there is
+/// the first is a defect (see `read_plan`). Cost: about n log n in practice. Checks stop and deadline where there is
 /// a job.
 std::vector<PlanDefect> defects_of(const Plan& plan, const Job* job = nullptr);
 

@@ -69,7 +69,7 @@ struct Roof {
   std::vector<std::string> warnings;
 };
 
-/// Makes a roof. A plan with errors gets one horizontal face and a warning. Every roof is checked
+/// Makes a roof. A plan with defects gets one horizontal face and a warning. Every roof is checked
 /// (straight_skeleton.h). If the check fails, the roof is made again with other tolerances for merging points. Then
 /// it is made from a plan whose points are moved by up to a thousandth of its diagonal. If all attempts fail, it is
 /// flat with a warning. A flat roof without thickness is one face that faces up, and no solid.

@@ -43,7 +43,7 @@ struct SkeletonOptions {
   double end_time = std::numeric_limits<double>::infinity();
 };
 
-/// Returns the skeleton of rings without errors (plan.h; with errors the result is not valid). Rings need not be
+/// Returns the skeleton of rings without defects (plan.h; with defects the result is not valid). Rings need not be
 /// nested: the inside is to the left of each, so that a single clockwise ring grows outwards, which needs a
 /// finite end time. Cost: about n log n steps over n edges each. Checks the deadline of the job.
 StraightSkeleton straight_skeleton(const Plan& plan, const SkeletonOptions& options, const Job& job);

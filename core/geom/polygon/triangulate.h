@@ -24,8 +24,8 @@ class Triangulator {
   /// has an area of `least_area` or less; points that only such triangles use are left out.
   std::span<const std::uint32_t> run(std::span<const glm::dvec2> outline, double least_area);
 
-  /// Returns triangles that fill a polygon with holes, as numbers of `points`. `points` holds the rings one after the
-  /// other, with `ring_sizes` points each: the outer ring counter-clockwise, then the holes clockwise. If no two
+  /// Returns triangles that fill a polygon with holes, as numbers of `points`. `points` contains the rings one after
+  /// the other, with `ring_sizes` points each: the outer ring counter-clockwise, then the holes clockwise. If no two
   /// edges meet except at common ends, the triangles use every point, so that neighbours along an edge meet without
   /// gaps. Triangles of `least_area` or less occur only where no others are possible.
   std::span<const std::uint32_t> run(std::span<const glm::dvec2> points,

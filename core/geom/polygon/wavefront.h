@@ -15,7 +15,7 @@ namespace seedmesh {
 /// are joined so that the inside stays to the left. At each position as many edges end as begin, so that the
 /// outline stays closed despite rounding errors.
 ///
-/// A corner is compared with the edges of its neighbourhood alone. A grid holds the regions that edges and corners
+/// A corner is compared with the edges of its neighbourhood alone. A grid stores the regions that edges and corners
 /// pass over until a horizon, which is chosen so that these regions stay small; then the grid is made anew with the
 /// corners that are left. Regions end where an edge is known to shrink to nothing. An event therefore costs log n for
 /// the queue, plus the number of neighbours. The grid costs a few steps for each corner and horizon.

@@ -20,7 +20,7 @@ struct FaceCheck {
 /// Returns the least squared size of a face (twice its area) for a model of this size, Scale::size.
 float least_face_square(float model_size);
 
-/// Adds to `bad` the numbers of those triangles from `first` to `last - 1` that are not sound. `index` holds
+/// Adds to `bad` the numbers of those triangles from `first` to `last - 1` that are not sound. `index` has
 /// the corners of all triangles. Requires a readable float after each element of `position`, because four
 /// floats are loaded. 2 ns a triangle.
 void find_bad_faces(const FaceCheck& check, const std::uint32_t* index, std::uint32_t first,
