@@ -4,7 +4,6 @@
 /// A service without keys is open. With API keys or signing keys it is closed: a request for a model needs an
 /// API key (`Authorization: Bearer ...` or `X-Api-Key: ...`) or, for GET and HEAD, a signed URL.
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <set>
 #include <string>

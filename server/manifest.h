@@ -7,7 +7,6 @@
 /// one part of several). During the run, lines are added as models are done, so that a run that is killed can be
 /// resumed. At the end they are in the order of the input, and results of models that are not in the input follow.
 /// A second run makes only the models that are missing or whose request has changed.
-#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>

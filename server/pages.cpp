@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "core/pipeline.h"
 #include "server/docs_page.h"
 
 namespace seedmesh {

@@ -1,7 +1,6 @@
 #include "server/settings.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "server/http/text.h"
 

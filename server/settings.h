@@ -3,7 +3,6 @@
 /// it. Only config.cpp uses it.
 #include <functional>
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>

@@ -12,7 +12,6 @@
 /// x-applies-when: the condition under which the parameter has an effect (docs/add-a-generator.md); x-full: the
 /// member that replaces an omitted number; x-short: beside a oneOf of number and object, the members that the
 /// number sets.
-#include <cstdint>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <stdexcept>

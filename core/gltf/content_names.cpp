@@ -7,7 +7,6 @@
 #include <map>
 #include <memory>
 #include <span>
-#include <utility>
 
 #include "core/base/parallel.h"
 #include "core/gltf/columns.h"

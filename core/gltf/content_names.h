@@ -1,7 +1,6 @@
 #pragma once
 /// Names that follow from content. Meshes, materials and images of equal names have equal content, in all
 /// files. An engine that keeps one file for each name therefore shows every model correctly.
-#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>

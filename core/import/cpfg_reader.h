@@ -5,7 +5,6 @@
 /// cpfg_request.cpp the request
 #include <map>
 #include <optional>
-#include <set>
 #include <string>
 #include <utility>
 #include <vector>

@@ -1,7 +1,6 @@
 /// Variables and arrays of cpfg. What `Start` sets and nothing changes becomes a constant; otherwise the statements of
 /// `Start` run here, and their results are the variables of the request.
 #include <algorithm>
-#include <cmath>
 
 #include "core/base/job.h"
 #include "core/generators/lsystem/word.h"

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "core/base/math.h"
 #include "core/import/map_rings.h"
 #include "core/import/map_scene.h"
 #include "core/import/map_values.h"

@@ -2,7 +2,6 @@
 // open data of cities, and shape files, whose names have ten characters.
 #include "core/import/map_names.h"
 
-#include <algorithm>
 #include <array>
 #include <string>
 

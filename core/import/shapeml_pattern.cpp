@@ -5,7 +5,6 @@
 /// that such patterns are written with their numbers of repetitions.
 #include <algorithm>
 
-#include "core/import/shapeml_names.h"
 #include "core/import/shapeml_reader.h"
 
 namespace seedmesh {

@@ -1,7 +1,5 @@
 /// The built-in functions that grammars for cpfg, ABOP and CGA use. Operations that IEEE 754 does not define exactly
 /// come from core/base/math.h.
-#include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 

@@ -1,7 +1,6 @@
 #include "core/model/row.h"
 
 #include <algorithm>
-#include <map>
 #include <tuple>
 #include <utility>
 

@@ -1,6 +1,5 @@
 #pragma once
 /// Joins models side by side.
-#include <cstdint>
 #include <vector>
 
 #include "core/model/model.h"

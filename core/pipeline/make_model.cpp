@@ -12,7 +12,6 @@
 #include "core/pipeline/fit.h"
 #include "core/pipeline/guarded.h"
 #include "core/pipeline/level_list.h"
-#include "core/pipeline/names.h"
 #include "core/pipeline/profiles.h"
 #include "core/texture/impostor.h"
 #include "core/texture/paint.h"

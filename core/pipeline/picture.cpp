@@ -8,7 +8,6 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "core/geom/mesh/finish.h"
 #include "core/pipeline.h"
 #include "core/pipeline/guarded.h"
 #include "core/pipeline/make_model.h"

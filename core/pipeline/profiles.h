@@ -3,7 +3,6 @@
 /// (three.js r187, Babylon 9.28, glTFast 6.14, UnityGLTF 2.21, Unreal 5's Interchange, Godot 4.5, Blender
 /// 4.2). docs/output.md has them as a table.
 #include <string>
-#include <vector>
 
 #include "core/gltf/write/write.h"
 #include "generated/params/output.h"

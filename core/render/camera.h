@@ -1,7 +1,6 @@
 #pragma once
 /// The camera of a picture, and the axes of a view.
 #include <glm/glm.hpp>
-#include <span>
 
 #include "core/render/items.h"
 #include "core/render/view.h"

@@ -8,7 +8,6 @@
 #include <bit>
 #include <cmath>
 
-#include "core/base/math.h"
 #include "core/base/parallel.h"
 #include "core/base/quick_math.h"
 #include "core/render/samples.h"

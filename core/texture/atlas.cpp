@@ -1,7 +1,6 @@
 #include "core/texture/atlas.h"
 
 #include <algorithm>
-#include <array>
 #include <vector>
 
 #include "core/base/math.h"

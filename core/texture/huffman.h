@@ -1,7 +1,6 @@
 #pragma once
 /// Huffman codes with a limited length, and a writer of bits, for formats that put the first bit lowest: deflate
 /// (RFC 1951) and the lossless part of WebP.
-#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>

@@ -1,8 +1,6 @@
 // WebP files; see decode.h.
 #include <webp/decode.h>
 
-#include <string>
-
 #include "core/texture/decode.h"
 
 namespace seedmesh::texture {

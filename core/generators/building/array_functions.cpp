@@ -1,9 +1,7 @@
 /// Functions on arrays; see value_functions.h. An array has values and perhaps a number of columns.
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 
-#include "core/base/math.h"
 #include "core/generators/building/value_functions.h"
 
 namespace seedmesh::building {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/base/math.h"
 #include "core/generators/building/solid_tools.h"
 
 namespace seedmesh::building {

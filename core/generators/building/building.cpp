@@ -5,7 +5,6 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "core/base/math.h"
 #include "core/generators/building/bodies.h"
 #include "core/generators/building/check.h"
 #include "core/generators/building/collision.h"

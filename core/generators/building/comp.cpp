@@ -1,9 +1,7 @@
 /// The component split: faces, edges and corners as shapes.
-#include <algorithm>
 
 #include "core/base/disjoint_sets.h"
 #include "core/generators/building/components.h"
-#include "core/generators/building/evaluate.h"
 #include "core/generators/building/interpret.h"
 #include "core/generators/building/operator_arguments.h"
 #include "core/generators/building/operators.h"

@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "core/base/math.h"
-#include "core/generators/building/interpret.h"
 #include "core/generators/building/operator_arguments.h"
 #include "core/generators/building/operators.h"
 #include "core/generators/building/round_solids.h"

@@ -1,7 +1,6 @@
 /// Operations that make one shape of several: inline, modify, union, subtract and intersect. Definitions as in the CGA
 /// reference.
 #include <algorithm>
-#include <cmath>
 #include <set>
 #include <utility>
 

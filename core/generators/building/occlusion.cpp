@@ -1,7 +1,6 @@
 #include "core/generators/building/occlusion.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <optional>
 

@@ -9,7 +9,6 @@
 /// touches() tests boxes only. visible("street") is true if the shortest line from the middle of the querying
 /// shape to the nearest shape of that name is not blocked; flat shapes count as targets. Without such a shape
 /// it is false.
-#include <map>
 #include <unordered_map>
 
 #include "core/generators/building/shapes.h"

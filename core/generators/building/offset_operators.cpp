@@ -1,9 +1,7 @@
 /// Moves the border of a face.
-#include <algorithm>
 
 #include "core/generators/building/evaluate.h"
 #include "core/generators/building/face_plans.h"
-#include "core/generators/building/interpret.h"
 #include "core/generators/building/operators.h"
 
 namespace seedmesh::building::operators {

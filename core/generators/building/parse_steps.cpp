@@ -4,8 +4,6 @@
 
 #include "core/generators/building/compile_values.h"
 #include "core/generators/building/operations.h"
-#include "core/generators/building/parse_parts.h"
-#include "core/generators/building/value_tree.h"
 
 namespace seedmesh::building {
 namespace {

@@ -1,7 +1,6 @@
 #include "core/generators/building/picture_shapes.h"
 
 #include <array>
-#include <cmath>
 
 #include "core/base/math.h"
 #include "generated/params/building.h"

@@ -1,6 +1,5 @@
 /// Built-in solids with a number of sides, and parts placed along texture coordinates.
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "core/base/math.h"

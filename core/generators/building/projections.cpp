@@ -1,7 +1,6 @@
 #include "core/generators/building/projections.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace seedmesh::building {
 

@@ -1,7 +1,6 @@
 #pragma once
 /// The rules of one request as one text: one rule file, or several that import each other. Errors are bytes of
 /// the joined text; they are reported in the file that they belong to.
-#include <cstdint>
 #include <map>
 #include <optional>
 #include <string>

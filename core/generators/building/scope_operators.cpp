@@ -1,6 +1,5 @@
 /// Operations that move, resize and rotate the scope.
 #include <algorithm>
-#include <cmath>
 
 #include "core/base/math.h"
 #include "core/generators/building/evaluate.h"

@@ -1,7 +1,6 @@
 #pragma once
 /// The result of a derivation as JSON, for the response of derive.
 #include <nlohmann/json.hpp>
-#include <string_view>
 
 #include "core/base/job.h"
 #include "core/generators/building/shapes.h"

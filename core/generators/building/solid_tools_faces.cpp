@@ -1,7 +1,6 @@
 /// Triangles, convex faces and extrusions; see solid_tools.h.
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <map>
 
 #include "core/generators/building/solid_faces.h"

@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "core/base/math.h"
-#include "core/generators/building/parts/parts.h"
 #include "core/generators/building/value_functions.h"
 
 namespace seedmesh::building {

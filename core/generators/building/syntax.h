@@ -9,7 +9,6 @@
 ///   step    = operation, arguments, parts (cells of a split, selectors of a component split)
 ///   part    = size or selector, body
 #include <cstdint>
-#include <map>
 #include <string>
 #include <string_view>
 #include <vector>

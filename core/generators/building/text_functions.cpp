@@ -3,7 +3,6 @@
 #include <charconv>
 #include <cmath>
 
-#include "core/base/math.h"
 #include "core/generators/building/tables.h"
 #include "core/generators/building/value_functions.h"
 

@@ -1,7 +1,6 @@
 /// Decides which expressions need a tree; see value_tree.h.
 #include <algorithm>
 
-#include "core/generators/building/compile_values.h"
 #include "core/generators/building/value_functions.h"
 #include "core/generators/building/value_tree.h"
 

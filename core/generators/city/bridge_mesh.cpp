@@ -7,7 +7,6 @@
 #include <optional>
 #include <string>
 
-#include "core/base/math.h"
 #include "core/model/empty_mesh.h"
 
 namespace seedmesh::city {

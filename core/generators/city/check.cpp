@@ -1,6 +1,4 @@
 // What the schema cannot say about a city.
-#include <algorithm>
-#include <cmath>
 
 #include "core/generators/city/city.h"
 #include "core/generators/city/density.h"

@@ -2,7 +2,6 @@
 // Peucker, "Algorithms for the reduction of the number of points required to represent a digitized line", 1973.
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <map>
 
 #include "core/base/math.h"

@@ -6,7 +6,6 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "core/base/math.h"
 #include "core/geom/mesh/finish.h"
 #include "core/geom/mesh/weld.h"
 #include "core/geom/polygon/delaunay.h"

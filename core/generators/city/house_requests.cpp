@@ -1,6 +1,5 @@
 #include "core/generators/city/house_requests.h"
 
-#include <array>
 #include <map>
 #include <tuple>
 

@@ -1,7 +1,6 @@
 #pragma once
 /// Landmarks: models at given positions, on lots, in parks or elsewhere.
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "core/base/job.h"

@@ -1,6 +1,5 @@
 // Streets between separate networks, which given streets, water and steep ground can leave behind.
 #include <algorithm>
-#include <cmath>
 #include <glm/geometric.hpp>
 #include <numeric>
 #include <optional>

@@ -1,8 +1,6 @@
 #include "core/generators/city/lots.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <glm/geometric.hpp>
 #include <map>
 

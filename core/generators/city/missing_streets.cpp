@@ -1,6 +1,5 @@
 #include "core/generators/city/missing_streets.h"
 
-#include <algorithm>
 #include <cmath>
 #include <string>
 

@@ -1,7 +1,6 @@
 #include "core/generators/city/productions.h"
 
 #include <algorithm>
-#include <memory>
 
 #include "core/generators/lsystem/notation.h"
 #include "core/lang/text_positions.h"

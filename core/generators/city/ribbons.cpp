@@ -1,7 +1,6 @@
 #include "core/generators/city/ribbons.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 

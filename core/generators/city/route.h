@@ -1,6 +1,5 @@
 #pragma once
 /// Lines of streets, cut at the border of the area and carried over water.
-#include <optional>
 
 #include "core/generators/city/plan.h"
 #include "core/generators/city/region.h"

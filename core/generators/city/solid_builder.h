@@ -5,7 +5,6 @@
 #include <glm/glm.hpp>
 #include <span>
 #include <string>
-#include <vector>
 
 #include "core/base/job.h"
 #include "core/model/model.h"

@@ -1,8 +1,6 @@
 // The street graph from pieces: planar by construction, then cut to the area and to one component.
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <optional>
 
 #include "core/base/math.h"
 #include "core/base/parallel.h"

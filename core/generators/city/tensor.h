@@ -2,7 +2,6 @@
 /// Streets along a tensor field. Chen, Esch, Wonka, Mueller and Zhang, "Interactive procedural street modeling", 2008.
 #include <glm/vec2.hpp>
 #include <memory>
-#include <string>
 #include <vector>
 
 #include "core/base/job.h"

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "core/base/math.h"
 #include "core/generators/city/surface.h"
 
 namespace seedmesh::city {

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <map>
 
 #include "core/base/math.h"
 #include "core/generators/city/landform.h"

@@ -1,9 +1,6 @@
 #pragma once
 /// Wards of a medieval town: cells about a centre, streets between them, a wall around them with gates, a square and a
 /// citadel. After the stages of Dunayev, "Medieval fantasy city generator" (TownGeneratorOS, 2016-2017).
-#include <array>
-#include <optional>
-#include <string>
 #include <vector>
 
 #include "core/base/job.h"

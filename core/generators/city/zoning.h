@@ -1,7 +1,6 @@
 #pragma once
 /// Houses: which rule builds on a lot, and the largest rectangle along its front that keeps the setbacks.
 #include <array>
-#include <string>
 
 #include "core/base/job.h"
 #include "core/generators/city/density.h"

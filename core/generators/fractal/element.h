@@ -1,6 +1,5 @@
 #pragma once
 /// The element that is copied. Its frame is the unit cube around the origin.
-#include <string>
 #include <vector>
 
 #include "core/generators/api.h"

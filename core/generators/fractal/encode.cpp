@@ -5,7 +5,6 @@
 #include <bit>
 #include <cstring>
 
-#include "core/base/math.h"
 #include "core/generators/fractal/chaos.h"
 #include "core/generators/fractal/escape.h"
 #include "core/texture/png.h"

@@ -2,8 +2,6 @@
 /// Converts a solid to a mesh, with a square between each full cell and each of its empty neighbours.
 #include <array>
 #include <cstdint>
-#include <functional>
-#include <optional>
 
 #include "core/generators/fractal/lattice.h"
 #include "core/model/mesh.h"

@@ -18,7 +18,6 @@
 #include "core/generators/fractal/scenes.h"
 #include "core/generators/fractal/topology.h"
 #include "core/generators/unused.h"
-#include "core/gltf/read/read.h"
 #include "core/schema/warning_list.h"
 #include "generated/params/fractal.h"
 #include "generated/params/fractal_unused.h"

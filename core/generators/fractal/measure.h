@@ -1,6 +1,5 @@
 #pragma once
 /// Figures of a fractal without its mesh.
-#include <cstdint>
 #include <optional>
 
 #include "core/generators/fractal/instructions.h"

@@ -2,7 +2,6 @@
 /// Interpreter for the compiled statements of a successor. The statements are compiled to steps, which read
 /// and write the slots of one production.
 #include <array>
-#include <vector>
 
 #include "core/generators/lsystem/choose.h"
 #include "core/schema/json.h"

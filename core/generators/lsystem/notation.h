@@ -13,7 +13,6 @@
 /// contexts are matched against the word that is being written in this step.
 #include <array>
 #include <cstdint>
-#include <string>
 #include <string_view>
 #include <utility>
 #include <vector>

@@ -4,7 +4,6 @@
 /// The number of meshes does not depend on the number of steps. The 21 million segments of a tree of fifteen
 /// steps therefore need the memory of a few thousand segments.
 #include <nlohmann/json_fwd.hpp>
-#include <optional>
 
 #include "core/generators/lsystem/draw.h"
 

@@ -1,9 +1,7 @@
 /// Checks of a scene that the schema cannot express.
 #include <algorithm>
 #include <nlohmann/json.hpp>
-#include <set>
 
-#include "core/generators/child.h"
 #include "core/generators/scene/buildings.h"
 #include "core/generators/scene/model_variants.h"
 #include "core/generators/scene/scene.h"

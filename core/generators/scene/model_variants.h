@@ -3,7 +3,6 @@
 /// have of their own. Each variant is a complete request with a seed, so a client that has the list of
 /// placements can request it separately.
 #include <functional>
-#include <optional>
 #include <string>
 #include <vector>
 

@@ -1,7 +1,6 @@
 #include "core/generators/scene/sampled_share.h"
 
 #include <algorithm>
-#include <cmath>
 #include <string>
 
 #include "core/generators/scene/plant.h"

@@ -9,8 +9,6 @@
 /// The model has the root "scene" with the ground, and a node for each layer with a node for each of its
 /// models. Copies are Node::instances. The centre of the ground is at the origin of X and Z; north is -Z.
 /// docs/scenes.md describes all rules.
-#include <span>
-#include <string_view>
 
 #include "core/generators/api.h"
 #include "core/gltf/payload.h"

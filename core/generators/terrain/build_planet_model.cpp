@@ -5,7 +5,6 @@
 #include "core/generators/terrain/build_model.h"
 #include "core/generators/terrain/model_parts.h"
 #include "core/generators/terrain/plan.h"
-#include "core/generators/terrain/surface.h"
 #include "core/texture/wall.h"
 #include "generated/params/terrain.h"
 

@@ -1,7 +1,6 @@
 #include "core/generators/terrain/decimate.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 #include <vector>
 

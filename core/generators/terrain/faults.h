@@ -4,8 +4,6 @@
 ///
 /// Heights are sums of whole micrometres. The sum therefore depends neither on the order of faults nor on the
 /// window, and tiles of one world agree exactly.
-#include <cstdint>
-#include <vector>
 
 #include "core/generators/terrain/field.h"
 

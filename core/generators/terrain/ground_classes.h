@@ -4,7 +4,6 @@
 ///
 /// Texture coordinates are in set 1. Gentle ground is mapped from above. Ground steeper than 50 degrees is
 /// mapped from the side that it faces (box mapping). No texture is therefore stretched by more than 1.8.
-#include <optional>
 #include <vector>
 
 #include "core/generators/terrain/ground_shares.h"

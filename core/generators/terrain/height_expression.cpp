@@ -4,7 +4,6 @@
 #include <array>
 #include <cctype>
 #include <deque>
-#include <optional>
 
 #include "core/base/math.h"
 

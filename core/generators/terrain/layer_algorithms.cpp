@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <string>
-#include <utility>
 
 #include "core/generators/terrain/plan.h"
 #include "generated/params/terrain.h"

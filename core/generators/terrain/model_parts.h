@@ -1,6 +1,5 @@
 #pragma once
 /// Shared helpers for models of fields and planetoids.
-#include <optional>
 #include <string>
 
 #include "core/model/build.h"

@@ -6,7 +6,6 @@
 /// Every random deviation is a function of (seed, level, position in the world). Therefore one more round
 /// refines the same field, each window can be generated separately, and overlapping windows agree.
 #include <array>
-#include <cstdint>
 #include <optional>
 
 #include "core/generators/terrain/field.h"

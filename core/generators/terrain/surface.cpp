@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/base/math.h"
 #include "core/base/parallel.h"
 #include "core/base/wide.h"
 #include "core/generators/terrain/cache_order.h"

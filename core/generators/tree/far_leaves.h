@@ -1,6 +1,5 @@
 #pragma once
 /// The leaves of coarser levels of detail: cards with fewer triangles and the same texture.
-#include <cstdint>
 
 #include "core/generators/api.h"
 #include "core/model/mesh.h"

@@ -2,7 +2,6 @@
 /// The offsets of leaves on twigs that are straight and have no bark, computed for several twigs at once. A
 /// weeping willow has 50,000 of these twigs. Without batches, the request for a weeping willow takes 40 %
 /// longer. About 20 ns for a twig of ten leaves.
-#include <array>
 #include <cstddef>
 #include <cstdint>
 

@@ -17,7 +17,6 @@
 /// At time t, a piece with birth b has the share 1 - (1 - x)^2 of its final size. Here x = (t - b) / (1 - b), and t
 /// and b are from 0 to 1. Old pieces therefore continue to grow while young ones start. The scale of a node is the
 /// share of its piece divided by that of its parent.
-#include <span>
 
 #include "core/geom/plant/limbs.h"
 #include "core/model/model.h"

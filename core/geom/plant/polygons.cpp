@@ -6,7 +6,6 @@
 #include <cmath>
 #include <map>
 
-#include "core/base/math.h"
 #include "core/geom/mesh/edge_adjacency.h"
 #include "core/geom/mesh/point_grid.h"
 #include "core/geom/plant/outline_plane.h"

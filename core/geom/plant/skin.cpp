@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <limits>
 
 #include "core/base/parallel.h"
 #include "core/geom/plant/tube_count.h"

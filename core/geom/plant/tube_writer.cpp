@@ -1,7 +1,6 @@
 #include "core/geom/plant/tube_writer.h"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 
 #include "core/base/math.h"

@@ -11,7 +11,6 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "core/geom/polygon/plan.h"

@@ -1,7 +1,6 @@
 // The smallest rectangle around a plan; see massing.h. Source: Freeman and Shapira, "Determining the minimum-area
 // encasing rectangle for an arbitrary closed curve", 1975.
 #include <algorithm>
-#include <cmath>
 #include <glm/geometric.hpp>
 
 #include "core/geom/polygon/massing.h"

@@ -1,6 +1,5 @@
 #pragma once
 /// Voronoi cells by the intersection of half planes.
-#include <array>
 #include <glm/vec2.hpp>
 #include <span>
 #include <vector>

@@ -1,7 +1,5 @@
 #include "core/gltf/read/bytes.h"
 
-#include <cstring>
-
 #include "core/base/base64.h"
 
 namespace seedmesh::gltf {

@@ -3,7 +3,6 @@
 
 #include <cmath>
 #include <map>
-#include <set>
 
 #include "core/base/math.h"
 #include "core/gltf/read/accessor.h"

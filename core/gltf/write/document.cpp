@@ -1,7 +1,6 @@
 #include "core/gltf/write/document.h"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <deque>
 #include <optional>

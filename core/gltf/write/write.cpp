@@ -1,7 +1,6 @@
 #include "core/gltf/write/write.h"
 
 #include <algorithm>
-#include <array>
 #include <set>
 #include <string_view>
 

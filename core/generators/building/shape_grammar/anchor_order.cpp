@@ -1,6 +1,5 @@
 /// The order in which anchors of left shapes with open variables are searched.
 #include <algorithm>
-#include <cmath>
 
 #include "core/generators/building/shape_grammar/open_equations.h"
 

@@ -6,7 +6,6 @@
 /// and Wüthrich, "Computing vertex normals from polygonal facets", 1998). It is then turned, where possible, until its
 /// dot product with the normal of each of its faces is positive.
 #include <span>
-#include <vector>
 
 #include "core/geom/plant/graft/bark_rounds.h"
 
