@@ -295,13 +295,11 @@ class Check {
                 std::to_string(farthest_smooth) + " samples away; expected at most 93.7 % for a tile");
     }
     error_if(params_.normalise && !params_.normalise->from, missing_for({"from", "tile"}), "/normalise",
-             "\"from\" is missing; a tile needs it, because the lowest and highest heights of other tiles "
-             "are unknown");
+             "\"from\" is missing; a tile cannot use the range of heights of all tiles");
     error_if(params_.terraces && !params_.terraces->from, missing_for({"from", "tile"}), "/terraces",
-             "\"from\" is missing; a tile needs it, because the lowest and highest heights of other tiles "
-             "are unknown");
+             "\"from\" is missing; a tile cannot use the range of heights of all tiles");
     error_if(params_.island && !params_.island->floor, missing_for({"floor", "tile"}), "/island",
-             "\"floor\" is missing; a tile needs it, because the lowest height of other tiles is unknown");
+             "\"floor\" is missing; a tile cannot use the lowest height of all tiles");
     error_if(params_.island && !faults && !params_.tile->across,
              missing_for({"across", "algorithm", "island"}), "/tile",
              "\"across\" is missing; an island needs the number of its tiles along a side");
