@@ -14,7 +14,7 @@ enum class LeafBuild {
   card,    ///< a square: 2 triangles
   cross,   ///< two crossed squares: 4 triangles
   curved,  ///< a square bent like the leaf: 16 triangles
-  mesh,    ///< the outline: 10 to 100 triangles
+  mesh,    ///< the outline: 4 to 700 triangles
   twig,    ///< a bent square with the texture of a twig: 16 triangles
   bunch,   ///< three of these around the axis: 48 triangles
 };
