@@ -152,7 +152,7 @@ int serve(const Config& config, const std::vector<std::string>& warnings) {
       [&] {
         return MemoryTrimmer::Activity{service.answered.load(), service.in_flight.load()};
       },
-      [&] { service.reserve->clear(); });
+      [&] { service.huge_pages->clear(); });
   std::thread listening([&] { server.run(); });
   int signal = 0;
   ::sigwait(&ending, &signal);

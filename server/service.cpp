@@ -142,7 +142,7 @@ static std::optional<Problem> with_ticket(const RequestContext& call, const std:
   const auto& ticket = std::get<Admission::Ticket>(entered);
   service.metrics.spent("queue", std::chrono::duration<double>(Clock::now() - before).count());
   Job::Options options;
-  options.reserve = call.service.reserve;
+  options.reserve = call.service.huge_pages;
   options.limits = service.config.limits;
   options.threads = ticket.threads();
   options.stop = stop;

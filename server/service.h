@@ -94,7 +94,7 @@ struct Service {
   Cache cache;
   TextureCache textures;
   Worlds worlds;
-  const std::shared_ptr<HugePageCache> reserve = std::make_shared<HugePageCache>();
+  const std::shared_ptr<HugePageCache> huge_pages = std::make_shared<HugePageCache>();
   Access access;
   SharedCache shared;
   Metrics metrics;

@@ -19,17 +19,17 @@ class HugePageCache {
   HugePageCache(const HugePageCache&) = delete;
   HugePageCache& operator=(const HugePageCache&) = delete;
 
-  /// Returns `room` bytes in whole huge pages with unspecified content, or null if the reserve has no adjacent pages
+  /// Returns `bytes` bytes in whole huge pages with unspecified content, or null if the cache has no adjacent pages
   /// of this size.
-  std::byte* take(std::size_t room);
-  /// Returns `room` bytes, a multiple of largest_page (pages.h), from huge pages that several blocks share, with
+  std::byte* take(std::size_t bytes);
+  /// Returns `bytes` bytes, a multiple of largest_page (pages.h), from huge pages that several blocks share, with
   /// unspecified content. Maps a new huge page where none has enough space. Throws std::bad_alloc.
-  std::byte* share(std::size_t room);
+  std::byte* share(std::size_t bytes);
   /// Keeps pages that a request frees. `used` and `peak` are those of its budget; `used` still includes
   /// `memory`. The pages are kept only if all kept pages and `used` together are at most max(most / 2, peak).
-  /// The reserve thus does not increase the memory that a big request needs. If it returns false, the caller unmaps
+  /// The cache thus does not increase the memory that a big request needs. If it returns false, the caller unmaps
   /// the pages.
-  bool keep(std::byte* memory, std::size_t room, std::uint64_t used, std::uint64_t peak);
+  bool keep(std::byte* memory, std::size_t bytes, std::uint64_t used, std::uint64_t peak);
   /// Returns all kept pages to the system.
   void clear();
   std::size_t kept() const;
@@ -37,9 +37,9 @@ class HugePageCache {
  private:
   struct Piece {
     std::byte* memory;
-    std::size_t room;
+    std::size_t bytes;
   };
-  std::byte* cut(std::size_t room, std::size_t aligned);
+  std::byte* cut(std::size_t bytes, std::size_t aligned);
   void join(Piece whole);
 
   static constexpr std::size_t most_pieces = 4096;

@@ -25,11 +25,11 @@ class Cutter {
         most_(most),
         out_(out) {}
 
-  /// Fills the length `room` from `at` on with the cells of one level.
-  void level(std::uint32_t first, std::uint32_t count, double at, double room) {
-    const double end = std::min(at + room, length_);
+  /// Fills `length` from `at` on with the cells of one level.
+  void level(std::uint32_t first, std::uint32_t count, double at, double length) {
+    const double end = std::min(at + length, length_);
     const Sums sums = sums_of(first, count);
-    Plan plan = plan_of(first, count, sums, room);
+    Plan plan = plan_of(first, count, sums, length);
     for (std::uint32_t i = first; i < first + count && !is_full_ && wanted_ <= most_; ++i) {
       const Cell& cell = cells_[i];
       if (!cell.is_group) {
@@ -102,14 +102,14 @@ class Cutter {
     return sum;
   }
 
-  Plan plan_of(std::uint32_t first, std::uint32_t count, const Sums& sums, double room) const {
+  Plan plan_of(std::uint32_t first, std::uint32_t count, const Sums& sums, double length) const {
     Plan plan;
     double fixed_all = sums.fixed, floating_all = sums.floating;
     for (std::uint32_t i = first; i < first + count; ++i) {
       if (!cells_[i].is_group) continue;
       const Sums inner = sums_of(cells_[i].first, cells_[i].count);
       const double floating = inner.floating + nested(cells_[i]), cycle = inner.fixed + floating;
-      const double share = std::max(0.0, room - sums.fixed - sums.floating) / sums.groups;
+      const double share = std::max(0.0, length - sums.fixed - sums.floating) / sums.groups;
       double n = 0;
       if (cycle > 0) {
         const double x = share / cycle;
@@ -120,7 +120,7 @@ class Cutter {
           n = std::floor(x + 0.5 + slack);
         }
         if (floats && inner.fixed > 0)
-          n = std::min(n, std::floor((room - sums.fixed) / sums.groups / inner.fixed + slack));
+          n = std::min(n, std::floor((length - sums.fixed) / sums.groups / inner.fixed + slack));
         if (n < 1 && sums.floating <= 0 && floating > 0) n = 1;
         n = std::max(0.0, n);
       }
@@ -128,7 +128,7 @@ class Cutter {
       fixed_all += n * inner.fixed;
       floating_all += n * floating;
     }
-    plan.stretch = floating_all > 0 ? std::max(0.0, room - fixed_all) / floating_all : 0;
+    plan.stretch = floating_all > 0 ? std::max(0.0, length - fixed_all) / floating_all : 0;
     return plan;
   }
 

@@ -51,8 +51,8 @@ void shade_below_obstacles(const TreeGrown& grown, const Surroundings& obstacles
         site.job.check();
         for (int z = 0; z < steps(size.z); ++z) {
           const glm::dvec3 point = low + (glm::dvec3{x, y, z} + 0.5) * cell;
-          const double room = obstacles.signed_distance_at(point);
-          if (room < 0 && room > -cell) site.shadows.add(point);
+          const double distance = obstacles.signed_distance_at(point);
+          if (distance < 0 && distance > -cell) site.shadows.add(point);
         }
       }
     }
