@@ -120,6 +120,15 @@ for (const block of blocks.filter(({ language }) => language === 'python')) {
   });
 }
 
+for (const page of pages.filter((each) => /^docs\/[^/]+$/.test(each))) {
+  test(`${page} opens with a picture, an example, and a sentence on when to use it`, () => {
+    const opening = read(page).split(/^## /m)[0];
+    assert.match(opening, /^!\[|^```mermaid$/m);
+    assert.match(opening, covered_elsewhere[page] ? /^```/m : /^```(json|sh)$/m);
+    assert.match(opening, /^(Use|Read this page) /m);
+  });
+}
+
 test('curl of the README wrote a GLB', () => {
   assert.equal(fs.readFileSync(path.join(folder, 'plant.glb')).subarray(0, 4).toString(), 'glTF');
 });
