@@ -154,7 +154,7 @@ class ArbaroReader {
     while (end < line.to && (is_letter(text_[end]) || text_[end] == '?' || text_[end] == '/')) ++end;
     const std::string_view name = text_.substr(line.from + 1, end - line.from - 1);
     if (name == "species" && ++species_count_ == 2)
-      source_.report(line.from, "found a second species; a file holds one");
+      source_.report(line.from, "found a second species, expected one");
     if (name != "param") return;
     const std::optional<Line> parameter = attribute(line, "name"), value = attribute(line, "value");
     if (!parameter || !value) {

@@ -57,7 +57,7 @@ std::vector<Line> lines_of(std::string_view text);
 constexpr std::size_t largest_tree_file = 256 * 1024;
 
 /// Returns an error if `options` name an entry, for formats whose files have no entries; else nullopt. `what` begins
-/// the message: "a file of cpfg holds one system".
+/// the message: "a file of cpfg has one system".
 std::optional<Error> entry_error(const ImportOptions& options, const std::string& what);
 
 bool is_blank(char c);

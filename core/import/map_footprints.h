@@ -19,7 +19,7 @@ struct MapBody {
   bool is_hidden = false;  ///< its parts replace it
 };
 
-/// Returns the footprints of all buildings and parts as plans without errors. Sets `is_building` for each feature that
+/// Returns the footprints of all buildings and parts as plans without defects. Sets `is_building` for each feature that
 /// is one, even if it is left out.
 std::vector<MapBody> map_bodies(MapConversion& map, const MapData& data, std::vector<bool>& is_building);
 

@@ -11,7 +11,7 @@ namespace seedmesh::lsystem {
 
 /// A skeleton that occurs several times, with one transform each.
 struct SharedPart {
-  Skeleton* skeleton;  ///< not owned, never null; dress() moves its arrays out
+  Skeleton* skeleton;  ///< not owned, never null; build_model() moves its arrays out
   std::vector<Transform> transforms;
 };
 

@@ -7,8 +7,7 @@
 /// interpolated from the turtle's state. So f = 0 draws step n and f = 1 draws step n + 1, for every grammar:
 ///
 /// - A module of the successor can continue the predecessor; it is called the continuation here. It is the
-///   first
-///   module of the same kind outside brackets and braces. Its parameters and random values are interpolated
+///   first module of the same kind outside brackets and braces. Its parameters and random values are interpolated
 ///   from those of the predecessor.
 /// - A predecessor without a continuation is drawn before its successor, scaled by 1 - f. The state that it sets is
 ///   scaled in the same way.
