@@ -190,7 +190,11 @@ Result<Appraisal> appraise(const TreeParams& params, const GenerateContext& cont
   Appraisal appraisal;
   appraisal.warnings = warnings_of(params);
   Job own = job.for_estimate();
-  const GenerateContext sketch{own, {.textures = context.demand.textures}, context.generators};
+  const GenerateContext sketch{own,
+                               {.two_sided_leaves = context.demand.two_sided_leaves,
+                                .textures = context.demand.textures,
+                                .tangents = context.demand.tangents},
+                               context.generators};
   const bool is_small = attempt([&] {
     Wanted wanted = wanted_for_model(params, sketch);
     wanted.most = most_appraised;
