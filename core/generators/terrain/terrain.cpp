@@ -17,11 +17,13 @@
 #include "core/generators/terrain/refinement.h"
 #include "core/generators/terrain/triangulation.h"
 #include "core/generators/terrain/voids.h"
+#include "core/generators/unused.h"
 #include "core/geom/mesh/box_uv.h"
 #include "core/model/build.h"
 #include "core/schema/warning_list.h"
 #include "core/texture/file_size.h"
 #include "generated/params/terrain.h"
+#include "generated/params/terrain_unused.h"
 
 namespace seedmesh::terrain {
 namespace {
@@ -146,7 +148,7 @@ std::vector<Issue> check(const TerrainParams& params, const Limits& limits) {
   return errors_between(params, limits);
 }
 
-Result<Model> generate(const TerrainParams& params, const GenerateContext& context) {
+static Result<Model> generate_by_shape(const TerrainParams& params, const GenerateContext& context) {
   Job& job = context.job;
   if (auto refused = refusal(params, job.limits())) return std::move(*refused);
   refuse_large_grid(params, job);
@@ -161,6 +163,16 @@ Result<Model> generate(const TerrainParams& params, const GenerateContext& conte
   }
   job.progress("mesh", 0);
   return with_voids(build_field_model(params, *field, context), *field);
+}
+
+Result<Model> generate(const TerrainParams& params, const GenerateContext& context) {
+  Result<Model> model = generate_by_shape(params, context);
+  if (!model) return model;
+  for (Warning& each : warnings_of(unused_parameters(params))) model->warnings.push_back(std::move(each));
+  // `heightmap` belongs to formats that encode() writes.
+  if (!(params.heightmap == TerrainHeightmap{}))
+    model->warnings.push_back({"/heightmap", "`heightmap` has no effect on a model", 0, 0});
+  return model;
 }
 
 Result<Model> dressed(const TerrainParams& params, const Field& field, const GenerateContext& context) {
@@ -309,9 +321,12 @@ Result<Appraisal> appraise(const TerrainParams& params, const GenerateContext& c
   if (params.onto) {
     Result<Appraisal> child =
         appraise_child(params.onto->model, "/onto/model", job.rng().at("onto"), context);
-    if (child) child->estimate.reset();
+    if (!child) return child;
+    child->estimate.reset();
+    for (Warning& each : warnings_of(unused_parameters(params))) child->warnings.push_back(std::move(each));
     return child;
   }
+  appraisal.warnings = warnings_of(unused_parameters(params));
   const bool sphere = params.shape == TerrainShape::sphere;
   if (params.algorithm == TerrainAlgorithm::image || (!sphere && params.mesh != TerrainMesh::grid))
     return appraisal;
