@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -155,6 +156,9 @@ std::optional<std::string> preset_json(std::string_view name);  ///< one whole r
 /// Returns the error message for an unknown preset, with the closest name: "There is no preset ...".
 std::string no_preset(std::string_view name);
 std::optional<std::string_view> schema_json(std::string_view name);  ///< "request", "lsystem", "output", ...
+std::string no_schema(std::string_view name);  ///< the error message for an unknown schema
+/// Returns the one of `names` that `name` most likely misspells, or an empty text.
+std::string_view nearest_name(std::string_view name, std::span<const std::string_view> names);
 std::vector<std::string_view> schema_names();
 std::string vocabulary_json();
 std::string_view openapi_json();

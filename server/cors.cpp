@@ -32,7 +32,7 @@ void allow_origin(const std::vector<std::string>& origins, const http::Request& 
   const bool any = std::find(origins.begin(), origins.end(), "*") != origins.end();
   if (!any) vary_by_origin(response);
   const std::string origin = request.header("Origin");
-  if (origin.empty()) return;
+  // The answer to all origins does not vary, so that a cache may give one page what another program asked for.
   if (!any && std::find(origins.begin(), origins.end(), origin) == origins.end()) return;
   if (http::field_count(response.headers, "Access-Control-Allow-Origin") == 0)
     response.set("Access-Control-Allow-Origin", any ? "*" : origin);

@@ -130,6 +130,33 @@ http::Response options_of_server() {
   return response;
 }
 
+/// The first segments of a path, such as the two of "/v1/presets".
+std::string_view first_segments(std::string_view path, int count) {
+  std::size_t end = 0;
+  for (int i = 0; i < count && end != std::string_view::npos; ++i) end = path.find('/', end + 1);
+  return path.substr(0, end);
+}
+
+/// The message for a path without a resource, with the route that it most likely means.
+std::string no_resource(std::string_view path) {
+  constexpr std::string_view version = "/v1";
+  std::vector<std::string_view> fixed;  // the parts of patterns before {...}
+  for (const Route& row : table) fixed.push_back(row.pattern.substr(0, row.pattern.find("/{")));
+  std::string_view nearest;
+  for (const std::string& meant :
+       {std::string(first_segments(path, 2)), std::string(version).append(first_segments(path, 1)),
+        std::string(first_segments(path.substr(path.starts_with("/v1/") ? version.size() : 0), 1))}) {
+    if (nearest.empty()) nearest = nearest_name(meant, fixed);
+  }
+  std::string message = "There is no resource at this path";
+  for (const Route& row : table) {
+    if (nearest.empty() || row.pattern.substr(0, row.pattern.find("/{")) != nearest) continue;
+    message += "; did you mean " + std::string(row.method) + ' ' + std::string(row.pattern) + '?';
+    return message + " /openapi.json lists all.";
+  }
+  return message + ". /openapi.json lists all.";
+}
+
 }  // namespace
 
 http::Response route(Service& service, const http::Request& request) {
@@ -147,7 +174,7 @@ http::Response route(Service& service, const http::Request& request) {
   if (service.pages.find(request.path)) {
     return allows(asset_route, request.method) ? run(asset_route, call) : other_method(asset_route, call);
   }
-  http::Response response = refuse(call, problem(404, "There is no resource at this path."));
+  http::Response response = refuse(call, problem(404, no_resource(request.path)));
   response.route = "none";
   return response;
 }

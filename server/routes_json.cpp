@@ -119,7 +119,7 @@ http::Response get_schema(RequestContext& call) {
     }
   }
   const auto text = schema_json(name);
-  if (!text) return refuse(call, problem(404, "There is no schema with this name."));
+  if (!text) return refuse(call, problem(404, no_schema(name)));
   return static_response(call, "/v1/schemas/" + name, "application/schema+json",
                          [&] { return std::string(*text); });
 }

@@ -161,6 +161,17 @@ std::optional<Result<Request>> preset_in_format(const RequestContext& call, cons
   return read_preset(name, overrides, call.service.config.limits);
 }
 
+/// Adds where the picture is: who asks for .png of a model without maps most likely wants one.
+Error with_picture(Error error, const std::string& name, std::string_view extension) {
+  if (extension != "png") return error;
+  for (Issue& issue : error.issues) {
+    if (issue.kind == IssueKind::not_available)
+      issue.message +=
+          "; a picture of the model is /v1/presets/" + name + '.' + std::string(picture_extension);
+  }
+  return error;
+}
+
 http::Response picture_of_permalink(RequestContext& call, const Request& request, Caching caching) {
   auto query = parse_query(call);
   if (auto* refusal = std::get_if<http::Response>(&query)) return std::move(*refusal);
@@ -311,7 +322,8 @@ http::Response get_preset(RequestContext& call) {
     return json_response(call, overrides.empty() ? *preset_json(name) : (*read)->canonical());
   }
   Result<Request> formatted = in_format(**read, extension);
-  if (!formatted) return refuse(call, pointed(call, problem_of(formatted.error())));
+  if (!formatted)
+    return refuse(call, pointed(call, problem_of(with_picture(formatted.error(), name, extension))));
   TaggedRequest wanted = tagged(std::move(*formatted));
   wanted.token = token_of(wanted.request);
   call.service.targets.insert(target, wanted);

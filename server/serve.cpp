@@ -55,7 +55,7 @@ http::Response finish(const Service& service, const http::Request& request, http
 }
 
 http::Response handle(Service& service, const http::Request& request) {
-  if (is_probe(request.path)) return route(service, request);
+  if (is_probe(request.path)) return finish(service, request, route(service, request));
   struct InFlight {
     explicit InFlight(std::atomic<std::int64_t>& given) : count(given) { ++count; }
     ~InFlight() { --count; }

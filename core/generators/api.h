@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/base/job.h"
+#include "core/generators/estimate.h"
 #include "core/gltf/payload.h"
 #include "core/model/demand.h"
 #include "core/model/model.h"
@@ -19,13 +20,6 @@
 #include "core/schema/json.h"
 
 namespace seedmesh {
-
-/// The size of a model that has not been made.
-struct Estimate {
-  std::uint64_t triangles = 0;  ///< 0 where the model consists of lines or points
-  std::uint64_t bytes = 0;      ///< approximate size of the GLB
-  bool exact = false;           ///< `triangles` is the exact number
-};
 
 /// What a generator reports about a request without making its model.
 struct Appraisal {

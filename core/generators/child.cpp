@@ -169,8 +169,11 @@ Result<Json> derive_child(const Child& child, const std::string& pointer, Rng st
 Result<Appraisal> appraise_child(const Child& child, const std::string& pointer, Rng stream,
                                  const GenerateContext& around) {
   Call call(child, pointer, stream, around);
+  const Demand demand{.two_sided_leaves = around.demand.two_sided_leaves,
+                      .textures = around.demand.textures,
+                      .tangents = around.demand.tangents};
   Result<Appraisal> appraisal =
-      call.run<Appraisal>(call.generator->appraise, {call.job, {}, around.generators});
+      call.run<Appraisal>(call.generator->appraise, {call.job, demand, around.generators});
   if (appraisal) call.prefix_pointers(appraisal->warnings);
   return appraisal;
 }

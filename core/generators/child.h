@@ -40,7 +40,8 @@ Result<Model> generate_prepared(const Child& child, const std::string& pointer, 
 Result<Json> derive_child(const Child& child, const std::string& pointer, Rng stream,
                           const GenerateContext& around);
 
-/// Returns the appraisal of the child, under the rules of generate_child().
+/// Returns the appraisal of the child, under the rules of generate_child(), but with the textures and tangents of the output
+/// around it.
 Result<Appraisal> appraise_child(const Child& child, const std::string& pointer, Rng stream,
                                  const GenerateContext& around);
 

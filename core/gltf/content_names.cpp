@@ -204,9 +204,17 @@ void name_by_content(Model& model, const ContentNames& names, const Job& job) {
 
 std::vector<std::string> image_names(const Model& model, std::string_view stem) {
   std::vector<std::string> names;
+  const auto add = [&](const Image& image) {
+    const std::string own = image.name.empty() ? "texture" : image.name;
+    names.push_back(with_stem(stem, own) + '_' + spelled(hash_of(image)));
+  };
+  for (const auto& image : model.textures) add(*image);
   for (const auto& image : model.textures) {
-    const std::string own = image->name.empty() ? "texture" : image->name;
-    names.push_back(with_stem(stem, own) + '_' + spelled(hash_of(*image)));
+    if (image->webp) {
+      add(*image->webp);
+    } else {
+      names.emplace_back();
+    }
   }
   return names;
 }

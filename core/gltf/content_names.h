@@ -29,7 +29,7 @@ struct ContentNames {
 /// Call it after finish(). It reads each array once (about 10 GB/s).
 void name_by_content(Model& model, const ContentNames& names, const Job& job);
 
-/// Returns the names of Model::textures in a file: `<stem>_<name>_<hash of the content>`.
+/// Returns the names of images in a file, by number of gltf::image_numbered(): `<stem>_<name>_<hash of the content>`.
 std::vector<std::string> image_names(const Model& model, std::string_view stem);
 
 }  // namespace seedmesh::gltf

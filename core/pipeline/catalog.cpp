@@ -43,6 +43,16 @@ std::string no_preset(std::string_view name) {
   return words;
 }
 
+std::string_view nearest_name(std::string_view name, std::span<const std::string_view> names) {
+  return schema::nearest_word(name, names);
+}
+
+std::string no_schema(std::string_view name) {
+  std::string words = schema::unknown_word_of_few("schema", name, schema_names());
+  words.front() = 'T';
+  return words;
+}
+
 std::optional<std::string_view> schema_json(std::string_view name) {
   const auto rows = embedded_schemas();
   const auto row = std::ranges::find(rows, name, &EmbeddedText::name);

@@ -82,6 +82,12 @@ std::string unknown_key(std::string_view key, std::string_view generator) {
   }
   constexpr std::string_view parameters = "parameters.";
   const std::string_view own = key.starts_with(parameters) ? key.substr(parameters.size()) : key;
+  const std::string_view outer = own.substr(0, own.find('.'));
+  if (outer.size() < own.size() && property(parsed_schemas().at(generator), outer)) {
+    const std::string whole(outer);
+    return found + " is only a part of \"" + whole + "\", which takes its whole value as JSON, such as " +
+           whole + "={\"" + shortened(own.substr(outer.size() + 1), 40) + "\":…}";
+  }
   std::string meant;
   if (part_with(key, "") == "output") {
     meant = "; did you mean \"output." + std::string(key) + "\"?";

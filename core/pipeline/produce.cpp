@@ -231,6 +231,19 @@ static void warn_of_budget(Appraisal& appraisal, const OutputParams& output) {
   appraisal.warnings.push_back({pointer, std::move(message), 0, 0});
 }
 
+/// The size of a file with this output, of which the generator's estimate is one model. Variants share images.
+static Estimate estimate_of_file(const Estimate& model, const OutputParams& output) {
+  const auto variants = static_cast<std::uint64_t>(output.variants);
+  const std::uint64_t images = image_bytes(model);
+  Estimate file{model.triangles * variants, (model.bytes - images) * variants,
+                model.exact && variants == 1 && leaves_meshes(output)};
+  if (profile_of(output.profile).compressed) file.bytes /= compression;
+  const auto most = static_cast<std::uint64_t>(output.max_triangles.value_or(0));
+  if (most > 0 && file.triangles > most) file = {most, file.bytes / file.triangles * most, false};
+  if (!has_links(output)) file.bytes += images;
+  return file;
+}
+
 /// The bytes of what the document of a model states about its origin: in the asset, the scene and the root node.
 static std::uint64_t bytes_of_origin(const Request& request) {
   constexpr std::uint64_t copies = 3, punctuation = 4;
@@ -246,6 +259,7 @@ Result<std::string> validate(const Request& request, const Job::Options& options
     const OutputParams& output = request.body().output;
     const Generator& generator = *request.body().generator;
     GenerateContext context{job, demand_of(output, generator), generators()};
+    context.demand.tangents = output.tangents == OutputTangents::auto_;
     Result<Appraisal> appraisal = generator.appraise(request.body().params, context);
     if (appraisal && generator.repeats_parts && is_merged_as_a_row(*appraisal, output)) {
       context.demand.copies = CopyForm::merge;
@@ -257,14 +271,7 @@ Result<std::string> validate(const Request& request, const Job::Options& options
     point_into_request(appraisal->warnings);
     Json answer = {{"valid", true}, {"warnings", warning_list(appraisal->warnings)}, {"estimate", nullptr}};
     if (std::optional<Estimate>& estimate = appraisal->estimate) {
-      const auto variants = static_cast<std::uint64_t>(output.variants);
-      *estimate = {estimate->triangles * variants, estimate->bytes * variants,
-                   estimate->exact && variants == 1 && leaves_meshes(output)};
-      if (profile_of(output.profile).compressed) estimate->bytes /= compression;
-      const auto most = static_cast<std::uint64_t>(output.max_triangles.value_or(0));
-      if (most > 0 && estimate->triangles > most) {
-        *estimate = {most, estimate->bytes / estimate->triangles * most, false};
-      }
+      *estimate = estimate_of_file(*estimate, output);
       estimate->bytes += bytes_of_origin(request);
       answer["estimate"] = {
           {"triangles", estimate->triangles}, {"bytes", estimate->bytes}, {"exact", estimate->exact}};

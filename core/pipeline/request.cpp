@@ -290,11 +290,13 @@ std::string canonical_request(const Request::Body& body) {
 Result<Request::Body> read_parts(const Json& json, const Job& job) {
   if (const std::string_view type = schema::geojson_type(json);
       !type.empty() && !json.contains("generator")) {
-    return Error{Code::invalid,
-                 {{IssueKind::wrong_type, "",
-                   "found GeoJSON (" + std::string(type) +
-                       "), expected a request with \"generator\" or \"preset\"; \"coordinates\" in metres "
-                       "belong in one of its parameters, such as \"footprint\" of the generator building"}}};
+    return Error{
+        Code::invalid,
+        {{IssueKind::wrong_type, "",
+          "found GeoJSON (" + std::string(type) +
+              "), expected a request with \"generator\" or \"preset\"; POST /v1/import makes one of a map in "
+              "degrees; \"coordinates\" in metres belong in one of its parameters, such as \"footprint\" of "
+              "the generator building"}}};
   }
   IssueList errors;
   const Json merged = with_preset(json);

@@ -32,6 +32,8 @@ Json merged_request(const Location& location) {
 }  // namespace
 
 void read_child(const Location& location, Child& out) {
+  if (location.value().is_string())
+    return location.expected("an object, such as {\"preset\": \"oak\"} or one with \"generator\"");
   if (!check_members(location, known_members, {})) return;
   refuse_unknown_preset(location);
   const Json merged = merged_request(location);

@@ -42,14 +42,42 @@ std::string plain(std::string_view word) {
 
 /// Other words for names of parameters and values.
 constexpr std::pair<std::string_view, std::string_view> synonyms[] = {
-    {"fall", "autumn"},       {"octaves", "iterations"},   {"generations", "iterations"},
-    {"depth", "iterations"},  {"steps", "iterations"},     {"persistence", "hurst"},
-    {"roughness", "hurst"},   {"frequency", "wavelength"}, {"scale", "size"},
-    {"height", "amplitude"},  {"rules", "productions"},    {"productions", "rules"},
-    {"start", "axiom"},       {"axiom", "start"},          {"thickness", "width"},
-    {"segments", "sides"},    {"method", "algorithm"},     {"algorithm", "method"},
-    {"type", "generator"},    {"params", "parameters"},    {"options", "output"},
-    {"polygon", "footprint"}, {"outline", "footprint"},    {"binary", "glb"},
+    {"fall", "autumn"},
+    {"octaves", "iterations"},
+    {"generations", "iterations"},
+    {"depth", "iterations"},
+    {"steps", "iterations"},
+    {"persistence", "hurst"},
+    {"roughness", "hurst"},
+    {"frequency", "wavelength"},
+    {"scale", "size"},
+    {"height", "amplitude"},
+    {"rules", "productions"},
+    {"productions", "rules"},
+    {"start", "axiom"},
+    {"axiom", "start"},
+    {"thickness", "width"},
+    {"segments", "sides"},
+    {"method", "algorithm"},
+    {"algorithm", "method"},
+    {"type", "generator"},
+    {"params", "parameters"},
+    {"options", "output"},
+    {"polygon", "footprint"},
+    {"outline", "footprint"},
+    {"binary", "glb"},
+    {"height", "scale"},
+    {"grid", "raster"},
+    {"mandelbrot", "escape"},
+    {"julia", "escape"},
+    {"ifs", "mrcm"},
+    {"plant", "tree"},
+    {"rock", "terrain"},
+    {"landscape", "terrain"},
+    {"house", "building"},
+    {"town", "city"},
+    {"planet", "world"},
+    {"forest", "scene"},
 };
 
 /// The candidate that `word` spells in other letters, or that it is a synonym of; empty if there is none.
@@ -68,6 +96,20 @@ std::string_view same_meaning(std::string_view word, std::span<const std::string
   return {};
 }
 
+/// The only candidate that begins with `own`, or with which `own` begins; empty if there is none, or several.
+std::string_view only_continuation(const std::string& own, std::span<const std::string_view> words) {
+  constexpr std::size_t least = 4;
+  std::string_view only;
+  for (const std::string_view each : words) {
+    const std::string other = plain(each);
+    if (std::min(own.size(), other.size()) < least || !(other.starts_with(own) || own.starts_with(other)))
+      continue;
+    if (!only.empty()) return {};
+    only = each;
+  }
+  return only;
+}
+
 }  // namespace
 
 std::string_view nearest_word(std::string_view word, std::span<const std::string_view> words) {
@@ -84,7 +126,7 @@ std::string_view nearest_word(std::string_view word, std::span<const std::string
       nearest = candidate;
     }
   }
-  return nearest;
+  return nearest.empty() ? only_continuation(own, words) : nearest;
 }
 
 std::string unknown_word_of_few(std::string_view what, std::string_view word,

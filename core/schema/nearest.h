@@ -9,7 +9,8 @@ namespace seedmesh::schema {
 /// case, "_" and "-" comes first. Next comes a word that a short list of synonyms names, such as autumn for
 /// fall. Otherwise it is the word with the smallest Damerau distance, and the first one of several. That
 /// distance counts insertions, deletions, changes and swaps of neighbours (Damerau, "A technique for computer
-/// detection and correction of spelling errors", 1964). It is at most 3, and at most a third of the letters.
+/// detection and correction of spelling errors", 1964). It is at most 3, and at most a third of the letters. Last comes
+/// the only word that continues `word`, or that `word` continues, if the shorter one has four letters.
 /// Words of more than 64 bytes are not compared. Cost: length squared for each word.
 std::string_view nearest_word(std::string_view word, std::span<const std::string_view> words);
 

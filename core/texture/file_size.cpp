@@ -84,22 +84,30 @@ const KindSize& size_of(std::string_view kind) {
 
 }  // namespace
 
+bool has_normals(const TextureRecipe& recipe) { return !recipe.kind.empty() && !recipe.has_own_sides; }
+
 void TextureSizes::add(const Material& material) {
   const TextureRecipe& recipe = material.recipe;
   if (recipe.kind.empty()) return;
   const auto color = recipe.color.value_or(std::array<std::uint8_t, 3>{});
   colors_.emplace(recipe.kind, std::uint32_t{color[0]} << 16U | std::uint32_t{color[1]} << 8U | color[2]);
-  has_normals_[recipe.kind] |= !recipe.has_own_sides;
+  has_normals_[recipe.kind] |= has_normals(recipe);
 }
 
-std::uint64_t TextureSizes::bytes(int size) const {
-  if (size <= 0) return 0;
-  double a_texel = 0;
-  for (const auto& [kind, color] : colors_) a_texel += static_cast<double>(size_of(kind).color);
-  for (const auto& [kind, has_normal] : has_normals_)
-    a_texel += static_cast<double>(size_of(kind).surface + (has_normal ? size_of(kind).normal : 0));
-  const double scale = math::pow(measured_size / size, fall);
-  return static_cast<std::uint64_t>(math::to_int64(a_texel * scale * size * size));
+std::map<std::string, std::uint64_t> TextureSizes::images(int size) const {
+  std::map<std::string, std::uint64_t> all;
+  if (size <= 0) return all;
+  const double texels = math::pow(measured_size / size, fall) * size * size;
+  const auto add = [&](const std::string& name, float a_texel) {
+    all.emplace(name, static_cast<std::uint64_t>(math::to_int64(static_cast<double>(a_texel) * texels)));
+  };
+  for (const auto& [kind, color] : colors_)
+    add(kind + " color " + std::to_string(color), size_of(kind).color);
+  for (const auto& [kind, has_normal] : has_normals_) {
+    add(kind + " surface", size_of(kind).surface);
+    if (has_normal) add(kind + " normal", size_of(kind).normal);
+  }
+  return all;
 }
 
 }  // namespace seedmesh::texture

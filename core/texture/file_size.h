@@ -10,13 +10,17 @@
 
 namespace seedmesh::texture {
 
+/// Whether paint() adds a normal map, so that vertices need tangents.
+bool has_normals(const TextureRecipe& recipe);
+
 /// The different textures of some materials. Recipes of one kind share the images beside the colour.
 class TextureSizes {
  public:
   void add(const Material& material);
 
-  /// Returns the bytes of all PNG files for textures of `size` texels, within a quarter for sizes from 256 to 1024.
-  std::uint64_t bytes(int size) const;
+  /// Returns the bytes of each PNG file by what it shows, for textures of `size` texels; empty for size 0. Their sum is
+  /// right within a quarter for sizes from 256 to 1024.
+  std::map<std::string, std::uint64_t> images(int size) const;
 
  private:
   std::set<std::pair<std::string, std::uint32_t>> colors_;  ///< kind and colour

@@ -132,6 +132,8 @@ std::shared_ptr<const Image> in_form(const std::shared_ptr<const Image>& image, 
   webp->mime = "image/webp";
   webp->bytes.assign(file.begin(), file.end());
   if (form == ImageForm::webp) return webp;
+  // Engines that find images by name would take one form for the other.
+  webp->name = (image->name.empty() ? "texture" : image->name) + "_webp";
   auto both = std::make_shared<Image>(*image);
   both->webp = std::move(webp);
   return both;

@@ -194,6 +194,7 @@ test('pages of allowed origins can read why a request was refused before it was 
       400: `GET / HTTP/1.1\r\nHost: a b\r\n${fields(origin)}\r\n`,
       411: `POST /v1/generate HTTP/1.1\r\nHost: here\r\n${fields(origin)}\r\n`,
       413: `POST /v1/generate HTTP/1.1\r\nHost: here\r\nContent-Length: 200000\r\n${fields(origin)}\r\n`,
+      '400 ': `GET /%2e%2e/x HTTP/1.1\r\nHost: here\r\n${fields(origin)}\r\n`,
       414: `GET /${'a'.repeat(20000)} HTTP/1.1\r\nHost: here\r\n${fields(origin)}\r\n`,
       431: `GET / HTTP/1.1\r\nHost: here\r\n${fields(origin)}a: ${'b'.repeat(40000)}\r\n\r\n`,
       505: `GET / HTTP/3.0\r\nHost: here\r\n${fields(origin)}\r\n`,
@@ -212,6 +213,19 @@ test('pages of allowed origins can read why a request was refused before it was 
     }
     const { text } = await raw(server, 'HEAD / HTTP/1.1\r\nHost: a b\r\n\r\n');
     assert.match(text, /\r\n\r\n$/, 'a response to HEAD has no body');
+  }));
+
+test('pages of all origins can read every response, also one from a cache that asked without an origin', () =>
+  with_server(['--cors-origins', '*'], async (server) => {
+    for (const target of ['/healthz', '/readyz', '/metrics', '/v1/presets', '/nowhere', '/v1/presets/small.glb']) {
+      for (const headers of [{}, { origin: 'https://a.example' }]) {
+        const answer = await ask(server, 'GET', target, { headers });
+        assert.equal(answer.headers['access-control-allow-origin'], '*', target);
+        assert.doesNotMatch(answer.headers.vary ?? '', /Origin/, target);
+      }
+    }
+    const { text } = await raw(server, 'GET /%2e%2e/x HTTP/1.1\r\nHost: here\r\n\r\n');
+    assert.match(text, /\r\nAccess-Control-Allow-Origin: \*\r\n/);
   }));
 
 test('without origins, responses have no CORS fields', () =>

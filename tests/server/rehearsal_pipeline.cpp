@@ -228,6 +228,8 @@ const std::vector<PresetInfo>& presets() {
   return all;
 }
 std::string no_preset(std::string_view) { return "There is no preset of this name."; }
+std::string no_schema(std::string_view) { return "There is no schema of this name."; }
+std::string_view nearest_name(std::string_view, std::span<const std::string_view>) { return {}; }
 
 std::optional<std::string> preset_json(std::string_view name) {
   if (name != "small") return std::nullopt;

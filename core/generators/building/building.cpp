@@ -20,7 +20,6 @@
 #include "core/model/build.h"
 #include "core/model/levels.h"
 #include "core/schema/warning_list.h"
-#include "core/texture/file_size.h"
 #include "generated/params/building.h"
 
 namespace seedmesh::building {
@@ -235,26 +234,6 @@ void add_levels(Model& model, Work& work, const BuildingParams& params, const Sh
   }
 }
 
-/// The bytes of textures made by seed, and of texture coordinates and tangents of their faces.
-std::uint64_t texture_bytes(const BuildingParams& params, const Grammar& grammar, const Shapes& shapes,
-                            const GenerateContext& context) {
-  constexpr std::uint64_t vertex_bytes = 16;  // of a tangent
-  Model model;
-  MaterialTable materials(model, params, shapes, context);
-  materials.set_symbols(grammar.symbols);
-  std::uint64_t vertices = 0;
-  for (const Shape& shape : shapes.shapes) {
-    if (!shape.is_active || dimension(shape.size) < 2 || (shape.geometry & asset_bit) != 0) continue;
-    if (materials.tile_of(materials.material_of(shape)) == nullptr) continue;
-    vertices += shape.geometry != box_geometry ? shapes.solid_of(shape.geometry).corners.size()
-                : dimension(shape.size) == 3   ? 24U
-                                               : 4U;
-  }
-  texture::TextureSizes sizes;
-  for (const Material& material : model.materials) sizes.add(material);
-  return vertices * vertex_bytes + sizes.bytes(context.demand.textures);
-}
-
 void append(std::vector<Warning>& to, const std::vector<Warning>& from) {
   to.insert(to.end(), from.begin(), from.end());
 }
@@ -330,6 +309,32 @@ Result<Json> derive(const BuildingParams& params, const GenerateContext& context
               {"warnings", warning_list(warnings)}};
 }
 
+/// The size of the file with all levels, of which `shapes` is the finest.
+static std::optional<Estimate> estimate_of_file(Work& work, const BuildingParams& params,
+                                                const Shapes& shapes, const GenerateContext& context) {
+  Job& own = context.job;
+  const GenerateContext sketch{own, {}, context.generators};
+  const Demand& demand = context.demand;
+  const std::vector<double> lods = lods_of(work.rules->grammar, params, demand.lods);
+  Model model;
+  MaterialTable materials(model, params, shapes, context);
+  materials.set_symbols(work.rules->grammar.symbols);
+  // The file contains the merged meshes of all levels.
+  const CopyForm copies = lods.empty() ? demand.copies : CopyForm::merge;
+  std::optional<Estimate> sum =
+      estimate_of(shapes, materials, {copies, demand.share_organs, demand.tangents}, own);
+  for (const double lod : lods) {
+    const Shapes level = shapes_of(work, params, sketch, {.lod = lod, .most_shapes = most_estimated_shapes});
+    materials.use(level);
+    const std::optional<Estimate> more =
+        estimate_of(level, materials, {CopyForm::merge, false, demand.tangents}, own);
+    if (!more || !sum || level.shapes.size() > most_estimated_shapes) return std::nullopt;
+    add_bytes(*sum, *more);
+  }
+  if (sum) add_images_of(*sum, model, demand.textures);
+  return sum;
+}
+
 Result<Appraisal> appraise(const BuildingParams& params, const GenerateContext& context) {
   Job& job = context.job;
   Appraisal appraisal;
@@ -350,22 +355,7 @@ Result<Appraisal> appraise(const BuildingParams& params, const GenerateContext& 
     appraisal.warnings.push_back(*std::move(warning));
   point_at_blueprint(params, appraisal.warnings);
   if (shapes.shapes.size() > most_estimated_shapes) return appraisal;
-  const Demand& demand = context.demand;
-  const std::vector<double> lods = lods_of(work.rules->grammar, params, demand.lods);
-  // The file contains the merged meshes of all levels.
-  const CopyForm copies = lods.empty() ? demand.copies : CopyForm::merge;
-  appraisal.estimate = estimate_of(shapes, copies, demand.share_organs, own);
-  if (appraisal.estimate)
-    appraisal.estimate->bytes += texture_bytes(params, work.rules->grammar, shapes, context);
-  for (const double lod : lods) {
-    const Shapes level = shapes_of(work, params, sketch, {.lod = lod, .most_shapes = most_estimated_shapes});
-    const std::optional<Estimate> more = estimate_of(level, CopyForm::merge, false, own);
-    if (!more || !appraisal.estimate || level.shapes.size() > most_estimated_shapes) {
-      appraisal.estimate.reset();
-      return appraisal;
-    }
-    appraisal.estimate->bytes += more->bytes;
-  }
+  appraisal.estimate = estimate_of_file(work, params, shapes, {own, context.demand, context.generators});
   return appraisal;
 }
 

@@ -17,7 +17,7 @@ constexpr std::uint64_t node_bytes = 110, mesh_bytes = 330, file_bytes = 900;
 /// A body and the number of its copies.
 struct BodyCount {
   BodyCost cost;
-  std::uint64_t count = 0;
+  std::uint64_t count = 0, tangents = 0;  ///< vertices of one body with tangents
   bool is_part = false;
 };
 
@@ -40,21 +40,27 @@ std::uint64_t more_by_neighbours(const Shapes& shapes, Job& job) {
 }
 
 /// The bytes of a body in a file, where every mesh has texture coordinates.
-std::uint64_t bytes_of(const BodyCost& cost) { return cost.bytes() + 8 * cost.vertices; }
+std::uint64_t bytes_of(const BodyCost& cost, std::uint64_t tangents = 0) {
+  return cost.bytes() + 8 * cost.vertices + 16 * tangents;
+}
 
 }  // namespace
 
-std::optional<Estimate> estimate_of(const Shapes& shapes, CopyForm copies, bool shares_all, Job& job) {
+std::optional<Estimate> estimate_of(const Shapes& shapes, MaterialTable& materials,
+                                    const EstimateOptions& options, Job& job) {
   using Key = std::tuple<std::uint32_t, std::uint32_t, std::uint32_t, std::array<std::int64_t, 3>>;
   std::map<Key, BodyCount> bodies;
   std::size_t parts = 0;
   std::uint64_t seen = 0;
+  const auto needs_tangents = [&](int material) {
+    return options.tangents && materials.has_normal_map(material);
+  };
   for (const Shape& shape : shapes.shapes) {
     if (!shape.is_active || dimension(shape.size) < 2) continue;
     const bool is_part = (shape.geometry & asset_bit) != 0;
-    const std::uint32_t options = is_part ? shapes.styles[shape.style].options : 0;
+    const std::uint32_t part_options = is_part ? shapes.styles[shape.style].options : 0;
     const Key key{shape.geometry,
-                  options,
+                  part_options,
                   is_part ? 0U : shape.style,
                   {math::to_int64(shape.size.x * 1e6 + 0.5), math::to_int64(shape.size.y * 1e6 + 0.5),
                    math::to_int64(shape.size.z * 1e6 + 0.5)}};
@@ -64,10 +70,12 @@ std::optional<Estimate> estimate_of(const Shapes& shapes, CopyForm copies, bool 
       const PartRow* const row = part_named(shapes.asset_names[shape.geometry & ~asset_bit]);
       if (row == nullptr || ++parts > most_part_sizes || dimension(shape.size) < 3) return std::nullopt;
       cost.primitives = 0;
-      for (const PartPiece& piece : make_part(*row, shape.size, shapes.part_options[options], job)) {
+      for (const PartPiece& piece : make_part(*row, shape.size, shapes.part_options[part_options], job)) {
         cost.triangles += piece.mesh.elements();
         cost.vertices += piece.mesh.position.size();
         ++cost.primitives;
+        if (needs_tangents(materials.material_of_part(piece.role, shapes.styles[shape.style])))
+          found->second.tangents += piece.mesh.position.size();
       }
     } else if (is_new && shape.geometry == box_geometry) {
       const std::uint64_t sides = dimension(shape.size) == 3 ? 6 : 1;
@@ -82,23 +90,26 @@ std::optional<Estimate> estimate_of(const Shapes& shapes, CopyForm copies, bool 
         cost.vertices += corners;
       }
     }
+    if (is_new && !is_part && needs_tangents(materials.material_of(shape)))
+      found->second.tangents = cost.vertices;
     found->second.is_part = is_part;
     ++found->second.count;
     if ((++seen & 4095U) == 0) job.check();
   }
   Estimate estimate;
   estimate.bytes = file_bytes;
-  if (!shares_all) {
+  if (!options.shares_all) {
     const BodyCost more{more_by_neighbours(shapes, job), 0};
     estimate.triangles = more.triangles;
     estimate.bytes += bytes_of(more);
   }
   for (const auto& each : bodies) {
-    const auto& [cost, count, is_own_part] = each.second;
+    const auto& [cost, count, tangents, is_own_part] = each.second;
     estimate.triangles += cost.triangles * count;
-    const bool is_shared = shares_all || (copies != CopyForm::merge && is_own_part && cost.pays(count));
-    estimate.bytes += is_shared ? bytes_of(cost) + mesh_bytes * cost.primitives + node_bytes * count
-                                : bytes_of(cost) * count;
+    const bool is_shared =
+        options.shares_all || (options.copies != CopyForm::merge && is_own_part && cost.pays(count));
+    const std::uint64_t bytes = bytes_of(cost, tangents);
+    estimate.bytes += is_shared ? bytes + mesh_bytes * cost.primitives + node_bytes * count : bytes * count;
   }
   return estimate;
 }

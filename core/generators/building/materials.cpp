@@ -7,6 +7,7 @@
 #include "core/generators/material_members.h"
 #include "core/schema/color.h"
 #include "core/texture/data_uri.h"
+#include "core/texture/file_size.h"
 #include "generated/params/building.h"
 
 namespace seedmesh::building {
@@ -322,6 +323,12 @@ int MaterialTable::make(const MaterialRequest& request) {
   }
   model_.materials.push_back(std::move(material));
   return found->second;
+}
+
+bool MaterialTable::has_normal_map(int material) const {
+  if (material < 0) return false;
+  const Material& of = model_.materials[static_cast<std::size_t>(material)];
+  return of.normal_texture.texture >= 0 || texture::has_normals(of.recipe);
 }
 
 const glm::dvec2* MaterialTable::tile_of(int material) const {

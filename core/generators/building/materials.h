@@ -37,6 +37,8 @@ class MaterialTable {
   /// Returns the size of one tile in metres if the material has textures, and so needs texture coordinates; else
   /// null.
   const glm::dvec2* tile_of(int material) const;
+  /// Returns true if vertices with this material need tangents.
+  bool has_normal_map(int material) const;
   /// Returns a warning if no shape had the facade picture of the request.
   std::optional<Warning> unused_facade_image() const;
 

@@ -26,6 +26,7 @@ namespace {
 using glm::dvec2;
 
 constexpr std::uint64_t bytes_a_copy = 150;
+constexpr std::uint64_t bytes_a_border_triangle = 76;  ///< two vertices of 35 bytes and an index
 
 Transform transform_at(const dvec2& position, double height, double turn, double scale = 1) {
   Transform at;
@@ -151,17 +152,28 @@ std::optional<Error> make_and_add(Job& job, std::size_t count, const Make& make,
 }
 
 /// Adds what all copies of a model add to an estimate.
-void add_copies(Estimate& estimate, const LevelInfo& info, std::uint64_t bytes, const ViewPoint& view,
+void add_copies(Estimate& estimate, const LevelInfo& info, const Estimate& own, const ViewPoint& view,
                 const std::vector<Copy>& copies) {
   for (const Copy& copy : copies) estimate.triangles += info.triangles[view.level(info, copy.at)];
-  estimate.bytes += bytes + bytes_a_copy * copies.size();
+  add_bytes(estimate, own);
+  estimate.bytes += bytes_a_copy * copies.size();
+}
+
+/// Adds what a model grows by if its parts with a common mesh are merged, as extract_levels() does.
+void grow_to_one_mesh(Estimate& own, const Model& made) {
+  std::uint64_t once = 0;
+  for (const MeshGroup& group : made.meshes) {
+    for (const Primitive& each : group.primitives) once += each.mesh.elements();
+  }
+  if (once == 0 || own.triangles <= once) return;
+  own.bytes += (own.bytes - image_bytes(own)) * (own.triangles - once) / once;
 }
 
 /// A house that was made, from which others of the same rule and number of floors are estimated.
 struct HouseSample {
   double width = 0, depth = 0;
   LevelInfo info;
-  std::uint64_t bytes = 0;
+  Estimate own;
 };
 
 /// The levels of another house: what has windows grows with its walls, the mass alone does not.
@@ -236,9 +248,9 @@ std::optional<Error> estimate_contents(Estimate& estimate, const Surface& surfac
   texture::TextureSizes textures;
   add_ground_textures(textures, surface, params);
   const auto measured = [&](Result<Model> made) {
-    const ModelCounts counts = count(*made);
-    for (const Material& material : made->materials) textures.add(material);
-    return std::pair<LevelInfo, std::uint64_t>(level_info_of(*std::move(made), job), counts.bytes);
+    Estimate own = estimate_of_made(*made, context.demand);
+    grow_to_one_mesh(own, *made);
+    return std::pair<LevelInfo, Estimate>(level_info_of(*std::move(made), job), std::move(own));
   };
   // Windows are a whole number, and with a camera the levels of houses depend on their sizes.
   constexpr double width_of_class = 2;
@@ -251,24 +263,24 @@ std::optional<Error> estimate_contents(Estimate& estimate, const Surface& surfac
     if (is_new) {
       Result<Model> made = generate_child(shared.request, "/buildings", Rng(0), context, demand);
       if (!made) return made.error();
-      auto [info, bytes] = measured(std::move(made));
-      sample->second = {house.width, house.depth, std::move(info), bytes};
+      auto [info, own] = measured(std::move(made));
+      sample->second = {house.width, house.depth, std::move(info), std::move(own)};
     }
     const LevelInfo info = scaled(sample->second, house);
-    add_copies(estimate, info, sample->second.bytes, view, copies_of(shared, surface, chunks));
+    add_copies(estimate, info, sample->second.own, view, copies_of(shared, surface, chunks));
   }
   for (const Contents& each : other_contents(surface, params, chunks, job)) {
     Result<Model> made = model_of(each, demand, context);
     if (!made) return made.error();
-    const auto [info, bytes] = measured(std::move(made));
-    add_copies(estimate, info, bytes, view, each.copies);
+    const auto [info, own] = measured(std::move(made));
+    add_copies(estimate, info, own, view, each.copies);
   }
   for (const BorderPiece& piece : yard_borders(surface, params, job)) {
     const std::uint64_t triangles = yard_border_triangles(piece, params.yards->border);
     estimate.triangles += triangles;
-    estimate.bytes += 50 * triangles;
+    estimate.bytes += bytes_a_border_triangle * triangles;
   }
-  estimate.bytes += textures.bytes(context.demand.textures);
+  add_images(estimate, textures.images(context.demand.textures));
   return std::nullopt;
 }
 

@@ -29,7 +29,4 @@ Estimate estimate_of(const Skeleton& skeleton, const LsystemParams& params, Job&
 /// Estimates the size of a model of `segments` drawn segments in `limbs` limbs, each of which becomes a tube.
 Estimate estimate_of(std::uint64_t segments, std::uint64_t limbs, const LsystemParams& params);
 
-/// Returns the approximate bytes of the file of a model that generate() has made, without the origin in its document.
-std::uint64_t bytes_of_made(const Model& model, const Demand& demand);
-
 }  // namespace seedmesh::lsystem

@@ -339,7 +339,7 @@ static std::optional<Estimate> estimate_of_made(const LsystemParams& params, con
     const Result<Model> model =
         generate(params, {own, {.textures = context.demand.textures}, context.generators});
     if (!model) return;
-    estimate = {count(*model).triangles, bytes_of_made(*model, context.demand), false};
+    estimate = estimate_of_made(*model, context.demand);
   });
   return is_small ? estimate : std::nullopt;
 }

@@ -18,12 +18,13 @@
 namespace seedmesh::scene {
 namespace {
 
-constexpr double poisson_density = 0.67;        ///< positions in a square with the distance as side
-constexpr std::uint64_t bytes_a_node = 230;     ///< size of a copy in core glTF: one line of JSON
+constexpr double poisson_density = 0.67;     ///< positions in a square with the distance as side
+constexpr std::uint64_t bytes_a_node = 230;  ///< size of a copy in core glTF: one line of JSON
+// Bones of a growing plant and their key times; joints and weights add four fifths to its mesh. Measured on the presets.
+constexpr std::uint64_t bytes_a_growing_copy = 16'000;
 constexpr std::uint64_t grid_to_reduced = 8;    ///< approximate triangles of a grid for one of a reduced mesh
 constexpr std::uint64_t bytes_a_triangle = 24;  ///< size of a triangle of a reduced mesh
 constexpr std::uint64_t bytes_an_outline_triangle = 66;  ///< bytes of a building with a node of its own
-constexpr Estimate square{2, 800, true}, disc{94, 3200, true}, none{0, 100, true};
 
 double area_of(const ScenePlace& place, const Extent& extent) {
   const double whole = extent.size().x * extent.size().y;
@@ -76,7 +77,14 @@ double known_width(const SceneParams& params) {
 std::optional<Estimate> ground_of(const SceneParams& params, const GenerateContext& context) {
   if (!params.terrain) {
     const SceneOutline outline = params.ground.value_or(SceneGround{}).outline;
-    return outline == SceneOutline::none ? none : outline == SceneOutline::disc ? disc : square;
+    switch (outline) {
+      case SceneOutline::none:
+        return Estimate{0, 100, true};
+      case SceneOutline::disc:
+        return Estimate{94, 3200, true};
+      default:
+        return Estimate{2, 800, true};
+    }
   }
   const Result<Appraisal> own = appraise_child(*params.terrain, "/terrain", Rng(0), context);
   if (!own || own->estimate) return own ? own->estimate : std::nullopt;
@@ -85,6 +93,8 @@ std::optional<Estimate> ground_of(const SceneParams& params, const GenerateConte
   const std::uint64_t triangles = 2 * squares * squares / grid_to_reduced;
   return Estimate{triangles, triangles * bytes_a_triangle, false};
 }
+
+std::uint64_t whole(double value) { return static_cast<std::uint64_t>(math::to_int64(value)); }
 
 /// Returns the estimates of a layer's variants. A variant without estimate counts as the mean of the others.
 /// Returns nullopt where none has one.
@@ -99,20 +109,16 @@ std::optional<std::vector<Estimate>> layer_estimates(const VariantTable::Layer& 
   for (const std::size_t i : numbers) {
     if (!estimates[i]) continue;
     triangles += static_cast<double>(estimates[i]->triangles);
-    bytes += static_cast<double>(estimates[i]->bytes);
+    bytes += static_cast<double>(estimates[i]->bytes - image_bytes(*estimates[i]));
     ++known;
   }
   if (known == 0) return std::nullopt;
-  const auto mean = [known](double sum) { return static_cast<std::uint64_t>(math::to_int64(sum / known)); };
+  const auto mean = [known](double sum) { return whole(sum / known); };
   std::vector<Estimate> all;
   for (const std::size_t i : numbers)
     all.push_back(estimates[i].value_or(Estimate{mean(triangles), mean(bytes), false}));
   return all;
 }
-
-struct Sum {
-  double triangles = 0, bytes = 0;
-};
 
 /// Expected placements under the rules that depend on the ground, whose field is computed at most once.
 class Sampler {
@@ -172,10 +178,13 @@ std::optional<Estimate> estimate_of(const SceneParams& params, const VariantTabl
   std::optional<Estimate> ground = ground_of(params, context);
   if (!ground) return std::nullopt;
   if (const std::uint64_t outlines = expected_triangles(params); outlines > 0)
-    *ground = {ground->triangles + outlines, ground->bytes + outlines * bytes_an_outline_triangle, false};
+    *ground = {ground->triangles + outlines, ground->bytes + outlines * bytes_an_outline_triangle, false,
+               ground->images};
   bool exact = ground->exact && params.paths.empty() && !params.camera;
   const Extent extent = square_of(known_width(params));
-  Sum sum{static_cast<double>(ground->triangles), static_cast<double>(ground->bytes)};
+  Estimate sum = *std::move(ground);
+  double triangles = static_cast<double>(sum.triangles);
+  std::uint64_t copies = 0;
   Sampler sampler(params, context.job);
   for (std::size_t i = 0; i < params.layers.size(); ++i) {
     const VariantTable::Layer& variants = variant_table.layers[i];
@@ -184,7 +193,7 @@ std::optional<Estimate> estimate_of(const SceneParams& params, const VariantTabl
     double own = 0, mean = 0;  // triangles of positions with their own model; mean of the variants
     for (std::size_t k = 0; k < models->size(); ++k) {
       const Estimate& each = (*models)[k];
-      sum.bytes += static_cast<double>(each.bytes);
+      add_bytes(sum, each);
       exact = exact && each.exact;
       if (k >= variants.count) {
         own += static_cast<double>(each.triangles);
@@ -195,11 +204,15 @@ std::optional<Estimate> estimate_of(const SceneParams& params, const VariantTabl
     }
     const double placements = sampler.placements(i, extent);
     exact = exact && params.layers[i].place.method == SceneMethod::positions;
-    sum.triangles += own + mean * (placements - static_cast<double>(models->size() - variants.count));
-    sum.bytes += placements * static_cast<double>(bytes_a_node);
+    triangles += own + mean * (placements - static_cast<double>(models->size() - variants.count));
+    sum.bytes += whole(placements) * bytes_a_node;
+    copies += whole(placements);
   }
-  const auto whole = [](double value) { return static_cast<std::uint64_t>(math::to_int64(value)); };
-  return Estimate{whole(sum.triangles), whole(sum.bytes), exact};
+  if (context.demand.growth) sum.bytes += (sum.bytes - image_bytes(sum) - copies * bytes_a_node) * 4 / 5;
+  if (context.demand.growth) sum.bytes += copies * bytes_a_growing_copy;
+  sum.triangles = whole(triangles);
+  sum.exact = exact;
+  return sum;
 }
 
 }  // namespace seedmesh::scene

@@ -17,11 +17,13 @@
 #include "core/generators/terrain/refinement.h"
 #include "core/generators/terrain/triangulation.h"
 #include "core/generators/terrain/voids.h"
+#include "core/generators/unused.h"
 #include "core/geom/mesh/box_uv.h"
 #include "core/model/build.h"
 #include "core/schema/warning_list.h"
 #include "core/texture/file_size.h"
 #include "generated/params/terrain.h"
+#include "generated/params/terrain_unused.h"
 
 namespace seedmesh::terrain {
 namespace {
@@ -146,7 +148,7 @@ std::vector<Issue> check(const TerrainParams& params, const Limits& limits) {
   return errors_between(params, limits);
 }
 
-Result<Model> generate(const TerrainParams& params, const GenerateContext& context) {
+static Result<Model> generate_by_shape(const TerrainParams& params, const GenerateContext& context) {
   Job& job = context.job;
   if (auto refused = refusal(params, job.limits())) return std::move(*refused);
   refuse_large_grid(params, job);
@@ -161,6 +163,16 @@ Result<Model> generate(const TerrainParams& params, const GenerateContext& conte
   }
   job.progress("mesh", 0);
   return with_voids(build_field_model(params, *field, context), *field);
+}
+
+Result<Model> generate(const TerrainParams& params, const GenerateContext& context) {
+  Result<Model> model = generate_by_shape(params, context);
+  if (!model) return model;
+  for (Warning& each : warnings_of(unused_parameters(params))) model->warnings.push_back(std::move(each));
+  // `heightmap` belongs to formats that encode() writes.
+  if (!(params.heightmap == TerrainHeightmap{}))
+    model->warnings.push_back({"/heightmap", "`heightmap` has no effect on a model", 0, 0});
+  return model;
 }
 
 Result<Model> dressed(const TerrainParams& params, const Field& field, const GenerateContext& context) {
@@ -227,16 +239,17 @@ Result<Json> derive(const TerrainParams& params, const GenerateContext& context)
   return answer;
 }
 
-/// The bytes that details add to a planet or a rock: tangents and the textures of its rock. Vertices between faces that
+/// What details add to a planet or a rock: tangents and the textures of its rock. Vertices between faces that
 /// are mapped from different sides are duplicated, a fifth of those of the rocks among the presets.
-static std::uint64_t bytes_of_rock(std::uint64_t vertices, const Demand& demand) {
+static void add_rock(Estimate& estimate, std::uint64_t vertices, const Demand& demand) {
   constexpr std::uint64_t of_five = 6;
   Material material;
   material.recipe.kind = rock_kind;
   texture::TextureSizes sizes;
   sizes.add(material);
   const std::uint64_t of_vertex = bytes_a_vertex + (demand.tangents ? bytes_of_tangent : 0);
-  return sizes.bytes(demand.textures) + vertices * of_five / 5 * of_vertex - vertices * bytes_a_vertex;
+  estimate.bytes += vertices * of_five / 5 * of_vertex - vertices * bytes_a_vertex;
+  add_images(estimate, sizes.images(demand.textures));
 }
 
 /// The vertices of a planet for each point of its cube. Those between triangles that face along different axes are doubled
@@ -266,20 +279,19 @@ static std::uint64_t bytes_of_mesh(std::uint64_t vertices, std::uint64_t of_vert
   return vertices * of_vertex + 3 * triangles * (vertices > 65'535 ? 4 : 2);
 }
 
-/// The bytes of the file of a planetoid.
-static std::uint64_t bytes_of_planetoid(const TerrainParams& params, std::uint64_t triangles,
-                                        const GenerateContext& context) {
+/// Sets the bytes of the file of a planetoid.
+static void size_planetoid(Estimate& estimate, const TerrainParams& params, const GenerateContext& context) {
   constexpr std::uint64_t bytes_without_color = 32;
-  const std::uint64_t points = triangles / 2 + 2, sea = sea_triangles(params);
+  const std::uint64_t triangles = estimate.triangles, points = triangles / 2 + 2, sea = sea_triangles(params);
   const std::uint64_t with_sea = document_bytes + bytes_of_mesh(sea / 2, bytes_without_color, sea);
   if (params.detail && context.demand.textures > 0) {
-    return with_sea + bytes_of_mesh(points, bytes_a_vertex, triangles) +
-           bytes_of_rock(points, context.demand);
+    estimate.bytes = with_sea + bytes_of_mesh(points, bytes_a_vertex, triangles);
+    return add_rock(estimate, points, context.demand);
   }
   const double vertices = static_cast<double>(points) * vertices_a_point(params, context.job);
   const bool has_colors = params.palette != TerrainPalette::none;
-  return with_sea + bytes_of_mesh(static_cast<std::uint64_t>(math::to_int64(vertices)),
-                                  has_colors ? bytes_a_vertex : bytes_without_color, triangles);
+  estimate.bytes = with_sea + bytes_of_mesh(static_cast<std::uint64_t>(math::to_int64(vertices)),
+                                            has_colors ? bytes_a_vertex : bytes_without_color, triangles);
 }
 
 /// The bytes of the file of a grid. The classes of ground follow from the heights, which are not computed here. Their
@@ -309,9 +321,12 @@ Result<Appraisal> appraise(const TerrainParams& params, const GenerateContext& c
   if (params.onto) {
     Result<Appraisal> child =
         appraise_child(params.onto->model, "/onto/model", job.rng().at("onto"), context);
-    if (child) child->estimate.reset();
+    if (!child) return child;
+    child->estimate.reset();
+    for (Warning& each : warnings_of(unused_parameters(params))) child->warnings.push_back(std::move(each));
     return child;
   }
+  appraisal.warnings = warnings_of(unused_parameters(params));
   const bool sphere = params.shape == TerrainShape::sphere;
   if (params.algorithm == TerrainAlgorithm::image || (!sphere && params.mesh != TerrainMesh::grid))
     return appraisal;
@@ -328,9 +343,12 @@ Result<Appraisal> appraise(const TerrainParams& params, const GenerateContext& c
     estimate.triangles += added;
   }
   estimate.exact = !params.water_level;
-  estimate.bytes = sphere ? bytes_of_planetoid(params, estimate.triangles, context)
-                          : bytes_of_grid(params, estimate.triangles, context.demand);
-  if (sphere) estimate.triangles += sea_triangles(params);
+  if (sphere) {
+    size_planetoid(estimate, params, context);
+    estimate.triangles += sea_triangles(params);
+  } else {
+    estimate.bytes = bytes_of_grid(params, estimate.triangles, context.demand);
+  }
   appraisal.estimate = estimate;
   return appraisal;
 }

@@ -14,8 +14,6 @@ namespace {
 constexpr std::uint64_t vertex_bytes = 32, tangent_bytes = 16, color_bytes = 4, file_bytes = 4600;
 // Vertices of bark per triangle, measured.
 constexpr double vertices_a_triangle = 0.71;
-// Bytes of PNG files per texel (colour, normal and surface), averaged over all kinds.
-constexpr double bark_texture = 3.8, leaf_texture = 2.3, flat_leaf_texture = 1.2;
 
 std::uint64_t index_bytes(std::uint64_t vertices, std::uint64_t triangles) {
   return 3 * triangles * (vertices > 65'535 ? 4 : 2);
@@ -29,25 +27,24 @@ Estimate estimate_of(Skeleton skeleton, const TreeParams& params, const Generate
   const std::uint64_t bark = graft_triangles(skeleton.limbs, bark_options(params), job);
   const auto vertices =
       static_cast<std::uint64_t>(math::to_int64(vertices_a_triangle * static_cast<double>(bark)));
-  const double texels = static_cast<double>(context.demand.textures) * context.demand.textures;
-  const std::uint64_t tangent = texels > 0 ? tangent_bytes : 0;
-  const bool is_plain = params.bark == TreeBark::none;
-  double texture_bytes = is_plain ? 0 : bark_texture * texels;
+  const std::uint64_t tangent = context.demand.textures > 0 && context.demand.tangents ? tangent_bytes : 0;
+  Model model;  // of materials alone
+  add_bark_material(model, params, job);
   estimate.triangles = bark;
-  estimate.bytes =
-      file_bytes + vertices * (vertex_bytes + (is_plain ? 0 : tangent)) + index_bytes(vertices, bark);
+  estimate.bytes = file_bytes + vertices * (vertex_bytes + (has_bark_relief(params) ? tangent : 0)) +
+                   index_bytes(vertices, bark);
   if (has_leaves(params)) {
     const Mesh leaf = drawn_leaf(params, 0, context);
     fit_leaves(skeleton.organs, params, leaf, job);
     const std::uint64_t count = skeleton.organs.organ.size(), leaves = count * leaf.elements(),
                         corners = count * leaf.position.size();
     estimate.triangles += leaves;
-    const bool has_texture = has_leaf_texture(params), has_relief = has_leaf_relief(params, context.demand);
+    const bool has_relief = has_leaf_relief(params, context.demand);
+    add_leaf_materials(model, params, context);
     estimate.bytes +=
         corners * (vertex_bytes + color_bytes + (has_relief ? tangent : 0)) + index_bytes(corners, leaves);
-    if (has_texture) texture_bytes += (has_relief ? leaf_texture : flat_leaf_texture) * texels;
   }
-  estimate.bytes += static_cast<std::uint64_t>(math::to_int64(texture_bytes));
+  add_images_of(estimate, model, context.demand.textures);
   return estimate;
 }
 

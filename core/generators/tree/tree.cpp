@@ -149,13 +149,25 @@ std::vector<Warning> warnings_of(const TreeParams& params) {
   return warnings;
 }
 
+/// The warnings for a request with this seed.
+static std::vector<Warning> warnings_with_seed(const TreeParams& params, std::uint64_t seed) {
+  std::vector<Warning> warnings = warnings_of(params);
+  if (params.model == TreeModel::proctree && params.mSeed != TreeParams{}.mSeed &&
+      seed_of(params, seed) == seed && seed != static_cast<std::uint64_t>(params.mSeed)) {
+    warnings.push_back({"/mSeed",
+                        "`mSeed` has no effect unless the seed of the request is 0 or `sequence` is original",
+                        0, 0});
+  }
+  return warnings;
+}
+
 Result<Model> generate(const TreeParams& params, const GenerateContext& context) {
   Job& job = context.job;
   Skeleton skeleton = grow(params, wanted_for_model(params, context), context);
   degrade(skeleton, params, job);
   job.progress("mesh", 0);
   Model model = build_model(std::move(skeleton), params, context);
-  model.warnings = warnings_of(params);
+  model.warnings = warnings_with_seed(params, job.seed());
   if (context.demand.wind && context.demand.share_organs && has_leaves(params)) {
     model.warnings.push_back(
         {"/output/wind", "Leaves that share a mesh have no weights, so only bark moves.", 0, 0});
@@ -182,15 +194,19 @@ Result<Json> derive(const TreeParams& params, const GenerateContext& context) {
               {"leaves", skeleton.organs.organ.size()},
               {"height", box.max.y + 0.0F},
               {"bounds", {{"min", vector(box.min)}, {"max", vector(box.max)}}},
-              {"warnings", warning_list(warnings_of(params))}};
+              {"warnings", warning_list(warnings_with_seed(params, context.job.seed()))}};
 }
 
 Result<Appraisal> appraise(const TreeParams& params, const GenerateContext& context) {
   Job& job = context.job;
   Appraisal appraisal;
-  appraisal.warnings = warnings_of(params);
+  appraisal.warnings = warnings_with_seed(params, job.seed());
   Job own = job.for_estimate();
-  const GenerateContext sketch{own, {.textures = context.demand.textures}, context.generators};
+  const GenerateContext sketch{own,
+                               {.two_sided_leaves = context.demand.two_sided_leaves,
+                                .textures = context.demand.textures,
+                                .tangents = context.demand.tangents},
+                               context.generators};
   const bool is_small = attempt([&] {
     Wanted wanted = wanted_for_model(params, sketch);
     wanted.most = most_appraised;

@@ -135,8 +135,7 @@ class Describer {
       JsonWriter json(image_list_);
       json.object([&] {
         json.member("mimeType", image->mime);
-        const std::string& name =
-            options_.image_names.empty() ? image->name : options_.image_names[used % model_.textures.size()];
+        const std::string name = image_name(model_, options_.image_names, used);
         if (!name.empty()) json.member("name", name);
         if (!image->uri.empty()) {
           json.member("uri", image->uri);
@@ -317,6 +316,10 @@ class Describer {
 const std::shared_ptr<const Image>& image_numbered(const Model& model, std::size_t number) {
   const std::size_t count = model.textures.size();
   return number < count ? model.textures[number] : model.textures[number - count]->webp;
+}
+
+std::string image_name(const Model& model, const std::vector<std::string>& names, std::size_t number) {
+  return names.empty() ? image_numbered(model, number)->name : names[number];
 }
 
 Document describe(Model& model, Columns& columns, const DocumentOptions& options, Job& job) {

@@ -20,12 +20,15 @@ struct Document {
 /// Returns an image of the model by number: the elements of Model::textures, and after them their forms as WebP.
 const std::shared_ptr<const Image>& image_numbered(const Model& model, std::size_t number);
 
+/// Returns its name: that of `names`, which are by these numbers, or its own where `names` is empty.
+std::string image_name(const Model& model, const std::vector<std::string>& names, std::size_t number);
+
 struct DocumentOptions {
   std::string generator = {};
   std::size_t lod = 0;  ///< nodes with fewer levels show their coarsest
   std::vector<std::string> image_uris =
       {};  ///< by number of image_numbered(); empty: the images go into the buffer
-  std::vector<std::string> image_names = {};  ///< parallel to Model::textures; empty: their own
+  std::vector<std::string> image_names = {};  ///< by number of image_numbered(); empty: their own
   std::vector<Extra> scene_extras = {};
   Dialect dialect = {};                 ///< `compressed` or `quantized`: `columns` are quantized
   std::vector<std::size_t> parts = {};  ///< of an object whose root has the levels (object_levels.h)

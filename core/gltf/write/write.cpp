@@ -105,7 +105,7 @@ std::vector<std::string> image_files(const Model& model, const std::vector<std::
       names.emplace_back();
       continue;
     }
-    const std::string& own = image_names.empty() ? image->name : image_names[number % count];
+    const std::string own = gltf::image_name(model, image_names, number);
     const std::string stem = "textures/" + (own.empty() ? "texture" : file_stem(own));
     const std::string extension = extension_of(image->mime);
     std::string name = stem + extension;

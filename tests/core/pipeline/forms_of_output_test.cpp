@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <string>
 
 #include "core/pipeline.h"
@@ -180,6 +181,9 @@ TEST(ImageFormat, ContainsBothForReadersOfEither) {
     const json& view = both.document["bufferViews"][other["bufferView"].get<std::size_t>()];
     EXPECT_EQ(both.bin.substr(view.value("byteOffset", std::size_t{0}) + 8, 4), "WEBP");
   }
+  std::set<std::string> names;
+  for (const json& image : images) names.insert(image["name"].get<std::string>());
+  EXPECT_EQ(names.size(), images.size());
 }
 
 TEST(ImageFormat, IsRefusedWhereNoReaderTakesIt) {

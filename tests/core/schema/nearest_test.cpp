@@ -18,6 +18,14 @@ TEST(NearestWord, FindsWhatWasMeant) {
   EXPECT_EQ(nearest_word("Angel", words), "angle");
 }
 
+TEST(NearestWord, FindsTheOnlyContinuation) {
+  constexpr std::string_view shapes[] = {"menger_sponge", "koch_curve", "koch_snowflake", "tree"};
+  EXPECT_EQ(nearest_word("menger", shapes), "menger_sponge");
+  EXPECT_EQ(nearest_word("menger_sponge_of_cubes", shapes), "menger_sponge");
+  EXPECT_EQ(nearest_word("koch", shapes), "") << "two begin with it";
+  EXPECT_EQ(nearest_word("men", shapes), "") << "too short";
+}
+
 TEST(NearestWord, DoesNotGuessWildly) {
   EXPECT_EQ(nearest_word("colour", words), "");
   EXPECT_EQ(nearest_word("x", words), "");
