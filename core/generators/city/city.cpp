@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <glm/common.hpp>
 #include <nlohmann/json.hpp>
+#include <set>
+#include <utility>
 
 #include "core/base/heap.h"
 #include "core/generators/city/bridge_mesh.h"
@@ -116,17 +118,23 @@ Region region_of_request(const CityParams& params, const Maps& maps, const CityP
   return region_of(area, water, job);
 }
 
-/// The given streets as pieces, cut at the border and at water.
+/// The given streets as pieces, cut at the border and at water. A bridge that is given twice is kept once.
 Route given_route_of(const Region& region, const std::vector<GivenLine>& lines) {
   Route all;
+  std::set<std::pair<int, CmRing>> known;
+  const auto add_bridge = [&](BridgeLine bridge) {
+    const CmRing back(bridge.line.rbegin(), bridge.line.rend());
+    if (known.emplace(bridge.level, std::min(bridge.line, back)).second)
+      all.bridges.push_back(std::move(bridge));
+  };
   for (const GivenLine& line : lines) {
     if (line.level != 0) {
-      all.bridges.push_back({line.points, line.section, line.level});
+      add_bridge({line.points, line.section, line.level});
       continue;
     }
-    const Route route = given_route(region, line.points, line.section);
+    Route route = given_route(region, line.points, line.section);
     all.pieces.insert(all.pieces.end(), route.pieces.begin(), route.pieces.end());
-    all.bridges.insert(all.bridges.end(), route.bridges.begin(), route.bridges.end());
+    for (BridgeLine& each : route.bridges) add_bridge(std::move(each));
   }
   return all;
 }

@@ -202,6 +202,7 @@ std::optional<Error> add_contents(Model& model, ChunkNodes& nodes, const Chunks&
   CopyWriter writer(model, nodes, view, context);
   Demand demand;
   demand.lods = level_count(view, context.demand);
+  const auto vertices = context.demand.packs ? scene::Vertices::quantized : scene::Vertices::exact;
   const std::vector<SharedHouse> houses = shared_houses(plan, params);
   const std::map<std::uint32_t, Generator::Prepared> prepared = prepared_rules(houses, context);
   // Levels and collision bodies need a node for each building.
@@ -216,7 +217,7 @@ std::optional<Error> add_contents(Model& model, ChunkNodes& nodes, const Chunks&
                                  prepared.at(houses[i].rule));
       },
       [&](std::size_t i, Model made) {
-        scene::separate_bodies(made);
+        scene::separate_bodies(made, vertices);
         writer.add(std::move(made), "building_" + std::to_string(model.meshes.size()), "buildings",
                    copies_of(houses[i], surface, chunks), CopyWriter::Bodies::boxes);
       });
@@ -226,7 +227,7 @@ std::optional<Error> add_contents(Model& model, ChunkNodes& nodes, const Chunks&
   error = make_and_add(
       job, others.size(), [&](std::size_t i) { return model_of(others[i], demand, context); },
       [&](std::size_t i, Model made) {
-        if (has_parts(others[i], context)) scene::separate_bodies(made);
+        if (has_parts(others[i], context)) scene::separate_bodies(made, vertices);
         const bool is_landmark = others[i].kind.empty();
         for (Warning& each : made.warnings) model.warnings.push_back(std::move(each));
         writer.add(std::move(made), others[i].name, others[i].group, others[i].copies,

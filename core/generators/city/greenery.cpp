@@ -8,6 +8,7 @@
 
 #include "core/base/math.h"
 #include "core/generators/city/geometry.h"
+#include "core/generators/city/house_box.h"
 #include "core/generators/city/objects.h"
 #include "generated/params/city.h"
 
@@ -17,23 +18,9 @@ namespace {
 using glm::dvec2;
 
 constexpr double park_margin = 2.5, yard_margin = 1.6, house_margin = 2.5,
-                 jitter = 0.38;                             // m; share of a cell
-constexpr double house_clearance = 0.4, least_piece = 0.8;  // of borders, m
+                 jitter = 0.38;      // m; share of a cell
+constexpr double least_piece = 0.8;  // of borders, m
 constexpr int tries = 6;
-
-/// A house as a box with its axes.
-struct HouseBox {
-  dvec2 centre{0}, x{1, 0}, y{0, 1}, half{0};
-
-  bool contains(const dvec2& p, double margin) const {
-    const dvec2 off = p - centre;
-    return std::abs(glm::dot(off, x)) < half.x + margin && std::abs(glm::dot(off, y)) < half.y + margin;
-  }
-};
-HouseBox box_of(const House& house) {
-  const math::SinCos turn = math::sincos_degrees(house.turn);
-  return {house.position, {turn.cos, turn.sin}, {-turn.sin, turn.cos}, dvec2(house.width, house.depth) / 2.0};
-}
 
 bool is_far_from(const std::vector<CmRing>& rings, const dvec2& p, double margin) {
   return std::all_of(rings.begin(), rings.end(),
@@ -100,26 +87,6 @@ void plant_yard(const CityPlan& plan, const Lot& lot, double mean, Rng rng, Obje
       break;
     }
   }
-}
-
-/// The part of the line a b, as shares, that lies in a box around a house; empty where none does.
-std::optional<std::array<double, 2>> covered(const HouseBox& house, const dvec2& a, const dvec2& b) {
-  std::array<double, 2> range = {0, 1};
-  const dvec2 half = house.half + house_clearance;
-  for (const int axis : {0, 1}) {
-    const dvec2& direction = axis == 0 ? house.x : house.y;
-    const double from = glm::dot(a - house.centre, direction), run = glm::dot(b - a, direction),
-                 reach = half[axis];
-    if (std::abs(run) < 1e-9) {
-      if (std::abs(from) >= reach) return std::nullopt;
-      continue;
-    }
-    const double first = (-reach - from) / run, second = (reach - from) / run;
-    range[0] = std::max(range[0], std::min(first, second));
-    range[1] = std::min(range[1], std::max(first, second));
-  }
-  if (range[0] >= range[1]) return std::nullopt;
-  return range;
 }
 
 /// An edge of a lot's outline, from the lower to the higher corner.
@@ -194,39 +161,8 @@ void add_pieces(const CityPlan& plan, const LotBorder& border, std::vector<Borde
   for (const auto& each : free) {
     if ((each[1] - each[0]) * length < least_piece) continue;
     pieces.push_back({border.a + (border.b - border.a) * each[0], border.a + (border.b - border.a) * each[1],
-                      plan.lots[border.lots[0]].part});
+                      plan.lots[border.lots[0]].part, plan.lots[border.lots[1]].part});
   }
-}
-
-/// Adds what is open of the front of a lot on both sides of its house.
-void add_front(const CityPlan& plan, const Lot& lot, std::vector<BorderPiece>& pieces) {
-  constexpr double behind = 0.3, gap = 0.02, least = 0.2;  // m
-  const dvec2 start = in_metres(lot.front_start), run = in_metres(lot.front_end) - start;
-  const dvec2 along = run / glm::length(run), inward(-along.y, along.x);
-  const House& house = *lot.house;
-  const double front = glm::dot(house.position - start, inward) - house.depth / 2 + behind;
-  const double middle = glm::dot(house.position - start, along), half = house.width / 2 + gap;
-  double low = -1e9, high = 1e9;  // of the lot along the line
-  for (const CmRing& ring : plan.parts[lot.part].rings) {
-    for (std::size_t i = 0; i < ring.size(); ++i) {
-      const dvec2 a = in_metres(ring[i]) - start, b = in_metres(ring[(i + 1) % ring.size()]) - start;
-      const double from = glm::dot(a, inward) - front, to = glm::dot(b, inward) - front;
-      if ((from > 0) == (to > 0)) continue;
-      const double at = glm::dot(a + (b - a) * (from / (from - to)), along);
-      if (at < middle) {
-        low = std::max(low, at);
-      } else {
-        high = std::min(high, at);
-      }
-    }
-  }
-  if (low < -1e8 || high > 1e8) return;
-  const dvec2 origin = start + inward * front;
-  const auto add = [&](double from, double to) {
-    if (to - from >= least) pieces.push_back({origin + along * from, origin + along * to, lot.part});
-  };
-  add(low + gap, middle - half);
-  add(middle + half, high - gap);
 }
 
 }  // namespace
@@ -274,15 +210,6 @@ std::vector<BorderPiece> lot_borders(const CityPlan& plan, const Job& job) {
     if (i % 1024 == 0) job.check();
     if (plan.lots[borders[i].lots[0]].house || plan.lots[borders[i].lots[1]].house)
       add_pieces(plan, borders[i], pieces);
-  }
-  return pieces;
-}
-
-std::vector<BorderPiece> front_borders(const CityPlan& plan, const Job& job) {
-  std::vector<BorderPiece> pieces;
-  for (std::size_t i = 0; i < plan.lots.size(); ++i) {
-    if (i % 1024 == 0) job.check();
-    if (plan.lots[i].house) add_front(plan, plan.lots[i], pieces);
   }
   return pieces;
 }

@@ -49,7 +49,8 @@ std::vector<ObjectKind> trees_of(const CityPlan& plan, const CityParams& params,
 /// A piece of a hedge or fence, metres.
 struct BorderPiece {
   glm::dvec2 a{0}, b{0};
-  std::uint32_t part = 0;  ///< index of the part of one of its lots
+  std::uint32_t part = 0;          ///< index of the part of one of its lots
+  std::uint32_t other = no_index;  ///< that of the other lot; no_index: none
 };
 
 /// Returns the borders between neighbouring lots of which one has a building, without the parts that pass within
@@ -59,6 +60,15 @@ std::vector<BorderPiece> lot_borders(const CityPlan& plan, const Job& job);
 /// Returns what is open of the fronts of lots beside their buildings, 0.3 m behind the line of the building's front.
 /// Pieces below 0.2 m are left out. Cost: linear in the corners of lots.
 std::vector<BorderPiece> front_borders(const CityPlan& plan, const Job& job);
+
+/// Shortens the borders of fronts that end in a border between lots, so that they end beside it. Both have `half_width`
+/// metres to either side of their lines. Cost: n log n in the pieces.
+void end_beside(std::vector<BorderPiece>& fronts, const std::vector<BorderPiece>& between, double half_width);
+
+/// Returns the borders along the other streets of lots with buildings: beside and behind the border of the front,
+/// without the parts that pass within 0.4 m of the building. They stand inside of the lot, with `half_width` metres to
+/// either side. Pieces below 0.3 m are left out. Cost: n log n in the corners of streets and lots.
+std::vector<BorderPiece> side_street_borders(const CityPlan& plan, double half_width, const Job& job);
 
 /// Returns the distance from a position to a ring, metres.
 double distance_to_ring(const CmRing& ring, const glm::dvec2& metres);

@@ -21,7 +21,9 @@ using glm::dvec2;
 constexpr float border_depth = 0.25F;  // of hedges and fences below the ground, m
 constexpr double post_spacing = 2.6;
 
-double half_width_of(CityBorder kind) { return kind == CityBorder::hedge ? 0.3 : 0.15; }
+double half_width_of(CityBorder kind) {
+  return kind == CityBorder::hedge ? 0.3 : kind == CityBorder::wall ? 0.15 : 0.05;
+}
 
 /// The corners of the hedges or walls so far, in cells of 5 mm.
 using CornerCells = std::set<std::pair<std::int64_t, std::int64_t>>;
@@ -108,8 +110,12 @@ std::vector<BorderPiece> yard_borders(const Surface& surface, const CityParams& 
   if (!params.yards || params.yards->border == CityBorder::none) return {};
   std::vector<BorderPiece> whole = lot_borders(surface.plan(), job);
   if (params.yards->front) {
-    const std::vector<BorderPiece> fronts = front_borders(surface.plan(), job);
+    const double half_width = half_width_of(params.yards->border);
+    std::vector<BorderPiece> fronts = front_borders(surface.plan(), job);
+    end_beside(fronts, whole, half_width);
+    const std::vector<BorderPiece> sides = side_street_borders(surface.plan(), half_width, job);
     whole.insert(whole.end(), fronts.begin(), fronts.end());
+    whole.insert(whole.end(), sides.begin(), sides.end());
   }
   if (surface.is_level()) return whole;
   std::vector<BorderPiece> pieces;

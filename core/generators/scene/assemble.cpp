@@ -126,7 +126,8 @@ class Assembly {
       own.growing_plant = std::move(growing.growing_plant);
       own.growing_plant.mesh = add_mesh(name + "_growing", std::move(growing.primitives), materials);
     }
-    if (generator_of(variant_table_.variants[number])->repeats_parts) separate_bodies(made);
+    if (generator_of(variant_table_.variants[number])->repeats_parts)
+      separate_bodies(made, context_.demand.packs ? Vertices::quantized : Vertices::exact);
     std::vector<std::vector<Primitive>> levels = extract_levels(made, job_);
     for (std::size_t level = 0; level < levels.size(); ++level) {
       const int mesh = add_mesh(level_name(name, level), std::move(levels[level]), materials);

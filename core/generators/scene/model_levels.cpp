@@ -46,13 +46,21 @@ std::vector<Primitive> taken(Model& model, std::size_t level) {
   return primitives;
 }
 
+/// The greatest step of the grids of gltf/compress/quantize.h for meshes of at most this extent.
+float greatest_grid_step(float extent) {
+  constexpr float most_steps = 65'534;
+  int exponent = 0;
+  std::frexp(extent / most_steps, &exponent);
+  return std::ldexp(1.0F, exponent);
+}
+
 }  // namespace
 
 bool is_same(const Material& a, const Material& b, Seeds seeds) {
   return (seeds == Seeds::may_differ || a.recipe.seed == b.recipe.seed) && are_alike(a, b);
 }
 
-void separate_bodies(Model& model) {
+void separate_bodies(Model& model, Vertices vertices) {
   float reach = 0;
   for (const MeshGroup& group : model.meshes) {
     for (const Primitive& each : group.primitives) {
@@ -69,8 +77,8 @@ void separate_bodies(Model& model) {
     }
   };
   each_place([&](const Transform& at) { far = std::max(far, glm::length(at.translation)); });
-  // Meshes are welded on a grid of a millionth of their diagonal.
-  const float step = 8e-6F * (reach + far);
+  const float step =
+      vertices == Vertices::quantized ? 1.5F * greatest_grid_step(2 * (reach + far)) : 8e-6F * (reach + far);
   std::uint32_t place = 0;
   each_place([&](Transform& at) {
     at.translation += step * glm::vec3(place % 8, place / 8 % 8, place / 64 % 8);

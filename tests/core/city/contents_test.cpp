@@ -337,6 +337,68 @@ TEST(Yards, CloseTheFrontsOfLotsBesideTheirBuildings) {
   EXPECT_GT(closed, 5U);
 }
 
+TEST(Yards, CloseTheOtherStreetsOfCornerLots) {
+  constexpr double half = 0.3;  // of a hedge
+  const CityParams params = params_of(R"({"area": {"size": [400, 300]}, "streets": {"pattern": "raster"},
+    "buildings": {"rules": [{"blueprint": "house", "floors": [1, 2], "front": 4, "side": 3, "rear": 6}]}})");
+  const CityPlan plan = plan_with(params, 3);
+  Job job(1, Job::Options{});
+  const std::vector<BorderPiece> sides = side_street_borders(plan, half, job);
+  const auto distance_of = [](const BorderPiece& piece, const dvec2& p) {
+    return distance_to_segment(p * 100.0, piece.a * 100.0, piece.b * 100.0) / 100;
+  };
+  const std::vector<BorderPiece> borders = lot_borders(plan, job);
+  std::vector<BorderPiece> all = borders, fronts = front_borders(plan, job);
+  end_beside(fronts, borders, half);
+  EXPECT_GT(fronts.size(), 100U);
+  for (const BorderPiece& front : fronts) {
+    for (const BorderPiece& other : borders) {
+      for (const dvec2& p : {front.a, front.b}) EXPECT_GT(distance_of(other, p), half) << p.x << ' ' << p.y;
+    }
+  }
+  all.insert(all.end(), sides.begin(), sides.end());
+  for (const BorderPiece& piece : sides) {
+    const CmRing& ring = plan.parts[piece.part].rings[0];
+    for (const dvec2& p : {piece.a, piece.b, (piece.a + piece.b) / 2.0}) {
+      EXPECT_TRUE(is_inside(ring, p * 100.0)) << p.x << ' ' << p.y;
+      for (const BorderPiece& other : borders) {
+        if (other.part == piece.part) {
+          EXPECT_GT(distance_of(other, p), half - 0.01) << p.x << ' ' << p.y;
+        }
+      }
+    }
+  }
+  std::size_t corners = 0, points = 0, open = 0;
+  for (const Lot& lot : plan.lots) {
+    if (!lot.house || !lot.is_corner) continue;
+    ++corners;
+    const dvec2 start = in_metres(lot.front_start), run = in_metres(lot.front_end) - start;
+    const dvec2 inward = dvec2(-run.y, run.x) / glm::length(run);
+    const double front = glm::dot(lot.house->position - start, inward) - lot.house->depth / 2;
+    const CmRing& ring = plan.parts[lot.part].rings[0];
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      const dvec2 a = in_metres(ring[i]), b = in_metres(ring[(i + 1) % ring.size()]);
+      const auto is_on_street = [&](const dvec2& p) {
+        return std::any_of(plan.parts.begin(), plan.parts.end(), [&](const Part& part) {
+          return (is_street_space(part) || part.kind == PartKind::verge) && is_in(part, p);
+        });
+      };
+      const dvec2 outward = dvec2(b.y - a.y, a.x - b.x) / glm::length(b - a);
+      for (double share = 0.01; share < 1; share += 0.02) {
+        const dvec2 p = a + (b - a) * share;
+        if (glm::dot(p - start, inward) < front + 1.5 || !is_on_street(p + outward * 0.05)) continue;
+        ++points;
+        double nearest = 1e9;
+        for (const BorderPiece& piece : all) nearest = std::min(nearest, distance_of(piece, p));
+        open += nearest > 1.2 ? 1 : 0;
+      }
+    }
+  }
+  EXPECT_GT(corners, 10U);
+  EXPECT_GT(points, 400U);
+  EXPECT_LT(static_cast<double>(open), 0.02 * static_cast<double>(points));
+}
+
 TEST(Landmarks, MakeTheirBlockASquare) {
   const char* json = R"({"area": {"size": [300, 300]}, "streets": {"method": "given"},
     "given": {"streets": {"type": "FeatureCollection", "features": [{"type": "Feature", "properties": {},
