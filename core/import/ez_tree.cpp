@@ -205,7 +205,7 @@ class Writer {
                    "alphaTest", "roundedNormals"});
     const std::string type = lower(reader_.word(leaves, at, "type"));
     static const std::map<std::string, std::string> shapes = {
-        {"ash", "compound"}, {"aspen", "cordate"}, {"oak", "lobed"}, {"pine", "needles"}, {"", "lobed"}};
+        {"ash", "compound"}, {"aspen", "cordate"}, {"oak", "lobed"}, {"pine", "pine_needles"}, {"", "lobed"}};
     const auto shape = shapes.find(type);
     if (shape == shapes.end()) {
       reader_.report(IssueKind::invalid_value, "/leaves/type",

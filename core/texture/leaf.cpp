@@ -18,6 +18,7 @@ using glm::vec2;
 
 // Blossoms and shoots of needles have fewer, narrow leaves more, so that all twigs have similar gaps.
 constexpr int leaves_of_a_twig = 31, blossoms_of_a_spray = 9, narrow_leaves_of_a_twig = 57;
+constexpr int shoots_of_a_spruce = 13, shoots_of_a_pine = 7;
 // Rows between two checks of the deadline.
 constexpr int rows_a_look = 32;
 // The share of the accent colour in the heart of a blossom, and where on the petals it ends.
@@ -205,7 +206,9 @@ Colors colors_of(LeafShape shape) {
     case LeafShape::palmate:
       return {{80, 122, 56}, {106, 108, 62}};
     case LeafShape::needles:
-      return {{62, 96, 62}, {104, 78, 54}};
+      return {{58, 94, 66}, {104, 78, 54}};
+    case LeafShape::pine_needles:
+      return {{72, 100, 62}, {116, 84, 56}};
     case LeafShape::palm:
       return {{98, 136, 66}, {138, 140, 84}};
     case LeafShape::petal:
@@ -223,7 +226,9 @@ constexpr bool makes_twigs(LeafShape shape) {
 }
 
 int count_of(LeafShape shape) {
-  if (shape == LeafShape::petal || shape == LeafShape::needles) return blossoms_of_a_spray;
+  if (shape == LeafShape::petal) return blossoms_of_a_spray;
+  if (shape == LeafShape::needles) return shoots_of_a_spruce;
+  if (shape == LeafShape::pine_needles) return shoots_of_a_pine;
   return shape == LeafShape::willow ? narrow_leaves_of_a_twig : leaves_of_a_twig;
 }
 
@@ -239,7 +244,7 @@ const std::vector<Kind>& kinds() {
     for (int i = 0; i < leaf_shape_count; ++i) {
       const auto shape = static_cast<LeafShape>(i);
       const std::string name(leaf_shape_names()[static_cast<std::size_t>(i)]);
-      const bool is_whole = shape == LeafShape::petal || shape == LeafShape::needles;
+      const bool is_whole = shape == LeafShape::petal || has_needles(shape);
       list.push_back({is_whole ? name : name + "_leaf", {shape, 1}});
     }
     for (int i = 0; i < leaf_shape_count; ++i) {
@@ -305,7 +310,7 @@ void let_light_through(Material& material, LeafShape shape) {
   constexpr float through_blade = 0.4F, through_needle = 0.2F, leaf_specular = 0.4F;
   // Chlorophyll takes blue light twice: the proportions of 1.25, 1.2 and 0.55, at most 1 as glTF demands.
   constexpr glm::vec3 through_green{1, 0.96F, 0.44F};
-  material.transmission = shape == LeafShape::needles ? through_needle : through_blade;
+  material.transmission = has_needles(shape) ? through_needle : through_blade;
   material.transmission_color = shape == LeafShape::petal ? glm::vec3(1) : through_green;
   material.specular = leaf_specular;
 }
@@ -333,7 +338,7 @@ Relief leaf_relief(std::string_view kind, int size, std::uint64_t seed, const Jo
   const bool is_spray = picture.shape == LeafShape::petal && picture.count > 1;
   const bool is_twig = picture.count > 1 && !is_spray;
   Painter painter(drawing, relief, rng, is_spray, is_twig, job);
-  const bool is_woody = picture.count > 1 || picture.shape == LeafShape::needles;
+  const bool is_woody = picture.count > 1 || has_needles(picture.shape);
   for (std::size_t i = 0; i < drawing.stalks.size(); ++i) {
     painter.paint_line(drawing.stalks[i], i, i < drawing.woody && is_woody ? 0.9F : 0.15F);
   }

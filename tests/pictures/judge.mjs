@@ -39,10 +39,10 @@ function serve(files) {
   return new Promise((done) => server.listen(0, '127.0.0.1', () => done(server)));
 }
 
-/** Draws views into a directory (none: no files); returns their measures by name. */
-export async function draw_views(program, wanted, directory) {
+/** Draws views into a directory (none: no files), and `more` views that views.json lacks; returns their measures by name. */
+export async function draw_views(program, wanted, directory, more = []) {
   const plan = JSON.parse(fs.readFileSync(path.join(here, 'views.json'), 'utf8'));
-  const views = plan.views.filter((view) => wanted.length === 0 || wanted.includes(view.name));
+  const views = [...plan.views.filter((view) => wanted.length === 0 || wanted.includes(view.name)), ...more];
   const folder = fs.mkdtempSync(path.join(os.tmpdir(), 'seedmesh-views-'));
   const server = await serve(models_of(program, views, folder)), browser = await launch();
   const measures = {};

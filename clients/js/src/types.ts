@@ -944,7 +944,7 @@ export interface LsystemParametersWeather {
 /** One organ. */
 export interface LsystemParametersSurfacesValue {
   /** A leaf or petal of this outline, a fruit, patches, a model of its own, or a sphere or disc with its centre at the turtle. A disc lies in the plane of heading and left. */
-  shape?: "simple" | "willow" | "birch" | "cordate" | "lobed" | "maple" | "ginkgo" | "compound" | "palmate" | "needles" | "palm" | "kite" | "petal" | "fruit" | "patches" | "model" | "sphere" | "disc";
+  shape?: "simple" | "willow" | "birch" | "cordate" | "lobed" | "maple" | "ginkgo" | "compound" | "palmate" | "needles" | "pine_needles" | "palm" | "kite" | "petal" | "fruit" | "patches" | "model" | "sphere" | "disc";
   /** The geometry of a leaf: mesh is its outline. Squares with a texture of the leaf are card (one), cross (two) and curved (a bent one). Squares with a texture of a twig are twig (a bent one) and bunch (three bent ones). */
   build?: "mesh" | "card" | "cross" | "curved" | "twig" | "bunch";
   /** Length from base to tip; the diameter of spheres and discs; for patches and models, the scale of their coordinates. */
@@ -972,7 +972,7 @@ export interface LsystemParametersSurfacesValue {
   divisions?: number;
 }
 
-export type Texture = "none" | "oak_bark" | "pine_bark" | "spruce_bark" | "willow_bark" | "birch_bark" | "beech_bark" | "cherry_bark" | "palm_bark" | "cedar_bark" | "simple_leaf" | "willow_leaf" | "birch_leaf" | "cordate_leaf" | "lobed_leaf" | "maple_leaf" | "ginkgo_leaf" | "compound_leaf" | "palmate_leaf" | "needles" | "palm_leaf" | "kite_leaf" | "petal" | "simple_twig" | "willow_twig" | "birch_twig" | "cordate_twig" | "lobed_twig" | "maple_twig" | "ginkgo_twig" | "needles_twig" | "petal_twig";
+export type Texture = "none" | "oak_bark" | "pine_bark" | "spruce_bark" | "willow_bark" | "birch_bark" | "beech_bark" | "cherry_bark" | "palm_bark" | "cedar_bark" | "simple_leaf" | "willow_leaf" | "birch_leaf" | "cordate_leaf" | "lobed_leaf" | "maple_leaf" | "ginkgo_leaf" | "compound_leaf" | "palmate_leaf" | "needles" | "pine_needles" | "palm_leaf" | "kite_leaf" | "petal" | "simple_twig" | "willow_twig" | "birch_twig" | "cordate_twig" | "lobed_twig" | "maple_twig" | "ginkgo_twig" | "needles_twig" | "pine_needles_twig" | "petal_twig";
 
 /** One material. */
 export interface LsystemParametersMaterialsItem {
@@ -1688,8 +1688,8 @@ export interface TreeParametersSeeds {
 
 /** Shape and appearance of the leaves. */
 export interface TreeParametersLeaf {
-  /** The kind of leaf: its outline and its texture. */
-  shape?: "simple" | "willow" | "birch" | "cordate" | "lobed" | "maple" | "ginkgo" | "compound" | "palmate" | "needles" | "palm" | "kite" | "petal";
+  /** The kind of leaf: its outline and its texture. needles: short ones all around the shoot, as of spruces. pine_needles: long ones in pairs. */
+  shape?: "simple" | "willow" | "birch" | "cordate" | "lobed" | "maple" | "ginkgo" | "compound" | "palmate" | "needles" | "pine_needles" | "palm" | "kite" | "petal";
   /** The mesh of a leaf. card: a square with a texture of the leaf. cross: two crossed squares. curved: a square bent like the leaf. mesh: the outline of the leaf. twig: a bent square with a texture of a twig with leaves. bunch: three twigs around the stem. Needles always have the texture of a twig. usual: bunch in the model proctree, card in the others. none: no leaves. */
   build?: "usual" | "none" | "card" | "cross" | "curved" | "mesh" | "twig" | "bunch";
   /** Whether leaves have the texture of their shape. auto: if they are made of squares. own: always. none: never. */
@@ -1704,7 +1704,7 @@ export interface TreeParametersLeaf {
   density?: number;
   /** Factor for the length and width that the model gives. */
   size?: number;
-  /** two_sided: one face that is visible from both sides; renderers invert its normal on the back side, and crowns seen from below are dark. outward: thin leaves with faces on both sides, whose normals turn out of the crown as far as they stay on the side of their faces. Such leaves have twice the triangles and no generated normal map. auto: two_sided in the profiles unreal and unity, whose foliage materials turn normals themselves, and outward otherwise. Leaves that share a mesh (output.instancing) are always two_sided. */
+  /** two_sided: one face that is visible from both sides; renderers invert its normal on the back side, and crowns seen from below are dark. outward: thin leaves with faces on both sides, which share one normal that turns to the light and out of the crown. Such leaves have twice the triangles and no generated normal map. auto: two_sided in the profiles unreal and unity, whose foliage materials turn normals themselves, and outward otherwise. Leaves that share a mesh (output.instancing) are always two_sided. */
   faces?: "auto" | "two_sided" | "outward";
   /** Largest random angle by which a leaf turns about its length. Crowns whose leaves lie at all angles are denser from the side, and lighter from below. */
   roll?: number;

@@ -24,6 +24,10 @@ static_assert(static_cast<int>(TreeBuild::bunch) - first_build == static_cast<in
 constexpr float filled_card = 0.5F;
 // The name of a random number.
 constexpr std::uint64_t roll_name = 0x526F;
+// Crossed rectangles are steep: the normals of their lower sides can then turn up without leaving their face.
+constexpr double cross_tilt = 55;
+// The least level part of the heading of a leaf that is turned upright.
+constexpr float least_level = 0.05F;
 // Between both sides of a leaf, as a share of its length: 0.2 to 2 mm.
 constexpr float thickness = 0.003F;
 
@@ -32,6 +36,16 @@ glm::quat rolled(const Organ& organ, double most) {
   const double share = 2 * static_cast<double>(fraction_of(key_at(organ.key, roll_name))) - 1;
   const math::SinCos half = math::sincos_degrees(0.5 * most * share);
   return organ.frame * glm::quat(static_cast<float>(half.cos), 0, static_cast<float>(half.sin), 0);
+}
+
+/// The frame turned about its length until its width is level and its upper side up. Vertical frames remain.
+glm::quat upright(const glm::quat& frame) {
+  const glm::mat3 axes = glm::mat3_cast(frame);
+  const glm::vec3 width{-axes[1].z, 0, axes[1].x};
+  const float size = std::sqrt(glm::dot(width, width));
+  if (size < least_level) return frame;
+  const glm::vec3 level = width / size;
+  return glm::quat_cast(glm::mat3(level, axes[1], glm::cross(level, axes[1])));
 }
 
 /// The area of all faces.
@@ -124,7 +138,7 @@ void dim(Mesh& mesh, float factor) {
 
 /// Far leaves have fewer shadows of each other than gain_of() assumes. Measured with the presets.
 float of_shadows(const TreeLevels::Plan& plan) {
-  if (plan.leaves == LeafDetail::one_card) return 0.89F;
+  if (plan.leaves == LeafDetail::one_card) return 0.81F;
   return plan.level >= 3 ? 0.96F : 1.0F;
 }
 
@@ -216,6 +230,7 @@ Mesh leaf_of(const TreeParams& params, int level, const Job& job) {
   form.coarseness = leaf.coarseness;
   form.level = level;
   form.shows_twig = shows_twig(params);
+  form.tilt = math::radians(cross_tilt);
   form.twig_leaves = texture::leaf_picture(texture::leaf_kind(form.shape, form.shows_twig)).count;
   Mesh mesh = leaf_mesh(form, job);
   order_for_cache(mesh, job);
@@ -253,6 +268,7 @@ void fit_leaves(Organs& organs, const TreeParams& params, const Mesh& leaf, cons
   for (Organ& organ : organs.organ) {
     const float width = organ.scale.x * size / across, length = organ.scale.y * size;
     organ.scale = {width, length, is_round ? width : length};
+    if (build == TreeBuild::cross) organ.frame = upright(organ.frame);
     if (params.leaf.roll > 0) organ.frame = rolled(organ, params.leaf.roll);
   }
 }

@@ -15,7 +15,7 @@ namespace {
 // texels than their main colour, so that one stays well below 255.
 constexpr double far_headroom = 1.18, highest_with_headroom = 216;
 // Share of the alpha cutoff for sparse leaves far away.
-constexpr float sparse_cutoff = 0.5F;
+constexpr float sparse_cutoff = 0.85F;
 constexpr float bark_roughness = 0.95F, leaf_roughness = 0.65F;
 constexpr Color plain_bark{107, 84, 64};
 // The colour of young leaves is mixed with this share of a light yellow green.
@@ -136,7 +136,7 @@ TreeBuild build_of(const TreeParams& params) {
 
 bool shows_twig(const TreeParams& params) {
   const TreeBuild build = build_of(params);
-  if (params.leaf.leaf_shape == TreeLeafShape::needles) return build != TreeBuild::mesh;
+  if (has_needles(static_cast<LeafShape>(params.leaf.leaf_shape))) return build != TreeBuild::mesh;
   return build == TreeBuild::twig || build == TreeBuild::bunch;
 }
 

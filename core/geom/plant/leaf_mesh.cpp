@@ -176,16 +176,23 @@ class LeafWriter {
   Triangulator triangulator_;
 };
 
-/// Adds a copy of the first `count` vertices and of all triangles so far, rotated about +y.
+/// Rotates a vector about +y.
+glm::vec3 turned(const glm::vec3& p, math::SinCos turn) {
+  const auto s = static_cast<float>(turn.sin), c = static_cast<float>(turn.cos);
+  return glm::vec3(p.x * c + p.z * s, p.y, p.z * c - p.x * s) + 0.0F;
+}
+
+void turn_all(Mesh& mesh, math::SinCos turn) {
+  for (glm::vec3& position : mesh.position) position = turned(position, turn);
+  for (glm::vec3& normal : mesh.normal) normal = turned(normal, turn);
+}
+
+/// Adds a copy of the first `vertices` vertices and `corners` corners of triangles, rotated about +y.
 void add_turned(Mesh& mesh, std::size_t vertices, std::size_t corners, math::SinCos turn) {
   const auto shift = static_cast<std::uint32_t>(mesh.position.size());
-  const auto turned = [&](const glm::vec3& p) {
-    const auto s = static_cast<float>(turn.sin), c = static_cast<float>(turn.cos);
-    return glm::vec3(p.x * c + p.z * s, p.y, p.z * c - p.x * s) + 0.0F;
-  };
   for (std::size_t i = 0; i < vertices; ++i) {
-    mesh.position.push_back(turned(mesh.position[i]));
-    mesh.normal.push_back(turned(mesh.normal[i]));
+    mesh.position.push_back(turned(mesh.position[i], turn));
+    mesh.normal.push_back(turned(mesh.normal[i], turn));
     mesh.uv[0].push_back(mesh.uv[0][i]);
   }
   for (std::size_t i = 0; i < corners; ++i) mesh.index.wide.push_back(mesh.index.wide[i] + shift);
@@ -249,7 +256,10 @@ Mesh leaf_mesh(const LeafForm& form, const Job& job) {
       break;
   }
   const std::size_t vertices = mesh.position.size(), corners = mesh.index.wide.size();
-  if (form.build == LeafBuild::cross) add_turned(mesh, vertices, corners, {1, 0});
+  if (form.build == LeafBuild::cross) {
+    if (form.tilt != 0) turn_all(mesh, math::sincos(form.tilt));
+    add_turned(mesh, vertices, corners, form.tilt == 0 ? math::SinCos{1, 0} : math::sincos(-2 * form.tilt));
+  }
   if (form.build == LeafBuild::bunch) {
     for (const double degrees : {120.0, 240.0})
       add_turned(mesh, vertices, corners, math::sincos_degrees(degrees));

@@ -30,6 +30,9 @@ struct LeafForm {
   int level = 0;
   int twig_leaves = 9;      ///< number of leaves of a twig, as in the texture
   bool shows_twig = false;  ///< all builds made of squares use the texture of a twig, not of a leaf
+  /// Of `cross`: the angle of both squares to the plane of a flat leaf, radians. 0: one is in that plane, the other at
+  /// right angles to it.
+  double tilt = 0;
 };
 
 /// Returns the mesh of a leaf. Its texture coordinates match the texture of the same shape.

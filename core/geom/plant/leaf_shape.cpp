@@ -15,8 +15,8 @@ namespace {
 using glm::dvec2;
 
 constexpr std::array<std::string_view, leaf_shape_count> names{
-    "simple",   "willow",  "birch",   "cordate", "lobed", "maple", "ginkgo",
-    "compound", "palmate", "needles", "palm",    "kite",  "petal"};
+    "simple",   "willow",  "birch",   "cordate",      "lobed", "maple", "ginkgo",
+    "compound", "palmate", "needles", "pine_needles", "palm",  "kite",  "petal"};
 
 /// A point of the right margin. At a corner the curve has two directions.
 struct Point {
@@ -87,6 +87,7 @@ Margin margin_of(LeafShape shape) {
       return {strap, 0, 0, Venation::none};
     case LeafShape::compound:
     case LeafShape::needles:
+    case LeafShape::pine_needles:
       return {leaflet, 0, 0, Venation::pinnate};
   }
   return {ovate, .12, 0, Venation::pinnate};
@@ -253,13 +254,14 @@ void draw_fingers(LeafDrawing& drawing, const LeafBlade& blade) {
   add_blade(drawing, blade, {hub, 0, lengths[3]});
 }
 
-void draw_needles(LeafDrawing& drawing) {
+/// `reach`: the length of the needles at the base of the shoot. `degrees`: their angle to the shoot.
+void draw_needles(LeafDrawing& drawing, double reach, double degrees) {
   constexpr int pairs = 22;
   drawing.stalks.push_back({{0, 0}, {0, 0.84}, 0.03, 0.012});
   for (int i = 0; i < pairs; ++i) {
     const double share = static_cast<double>(i) / (pairs - 1);
     const dvec2 at{0, 0.03 + 0.8 * share};
-    const double length = 0.26 - 0.1 * share * share, angle = 58 - 34 * share + (i % 3 - 1) * 5;
+    const double length = reach - 0.1 * share * share, angle = degrees - 34 * share + (i % 3 - 1) * 5;
     for (const double side : {1.0, -1.0}) {
       const math::SinCos turn = math::sincos_degrees(side * angle);
       drawing.stalks.push_back({at, at + dvec2{turn.sin, turn.cos} * length, 0.017, 0.004});
@@ -283,7 +285,10 @@ LeafDrawing single(LeafShape shape, const LeafDetail& detail) {
       draw_fingers(drawing, blade);
       break;
     case LeafShape::needles:
-      draw_needles(drawing);
+      draw_needles(drawing, 0.26, 58);
+      break;
+    case LeafShape::pine_needles:
+      draw_needles(drawing, 0.42, 50);
       break;
     default:
       if (margin.petiole > 0) drawing.stalks.push_back({{0, 0}, blade.base, 0.026, 0.02});
@@ -313,7 +318,8 @@ LeafDrawing spray(const LeafDetail& detail, int count) {
 }
 
 LeafDrawing twig(LeafShape shape, const LeafDetail& detail, int count) {
-  if (shape == LeafShape::needles) return needle_twig(count);
+  if (shape == LeafShape::needles) return needle_twig(NeedleKind::single, count);
+  if (shape == LeafShape::pine_needles) return needle_twig(NeedleKind::paired, count);
   if (shape == LeafShape::petal) return spray(detail, count);
   // Maples bear their leaves in pairs.
   return leafy_twig(single(shape, detail), count,

@@ -14,22 +14,26 @@ namespace seedmesh {
 
 /// The leaf shapes of requests, in the order of leaf_shape_names().
 enum class LeafShape {
-  simple,    ///< ovate, entire margin
-  willow,    ///< lanceolate
-  birch,     ///< triangular, toothed
-  cordate,   ///< heart-shaped
-  lobed,     ///< a lobed leaf, as of oaks
-  maple,     ///< palmately lobed
-  ginkgo,    ///< a fan
-  compound,  ///< pinnate: leaflets in pairs, as of ashes
-  palmate,   ///< leaflets from one point, as of chestnuts
-  needles,   ///< a shoot of needles, as of firs
-  palm,      ///< a frond
-  kite,      ///< four corners, the leaf of Kogovšek's thesis
-  petal,     ///< the petal of a flower
+  simple,        ///< ovate, entire margin
+  willow,        ///< lanceolate
+  birch,         ///< triangular, toothed
+  cordate,       ///< heart-shaped
+  lobed,         ///< a lobed leaf, as of oaks
+  maple,         ///< palmately lobed
+  ginkgo,        ///< a fan
+  compound,      ///< pinnate: leaflets in pairs, as of ashes
+  palmate,       ///< leaflets from one point, as of chestnuts
+  needles,       ///< a shoot of short needles, as of spruces
+  pine_needles,  ///< a shoot of long needles in pairs
+  palm,          ///< a frond
+  kite,          ///< four corners, the leaf of Kogovšek's thesis
+  petal,         ///< the petal of a flower
 };
-constexpr int leaf_shape_count = 13;
+constexpr int leaf_shape_count = 14;
 std::span<const std::string_view> leaf_shape_names();
+constexpr bool has_needles(LeafShape shape) {
+  return shape == LeafShape::needles || shape == LeafShape::pine_needles;
+}
 
 /// A line that becomes thinner: a stalk, a needle or a vein.
 struct LeafLine {

@@ -377,6 +377,10 @@ TEST(BuildModel, GivesNeedlesOnSquaresTheTextureOfABranchlet) {
   params.leaf.build = TreeBuild::mesh;
   params.leaf.picture = TreePicture::own;
   EXPECT_EQ(made(params).materials.back().recipe.kind, "needles");
+  params.leaf.leaf_shape = TreeLeafShape::pine_needles;
+  EXPECT_EQ(made(params).materials.back().recipe.kind, "pine_needles");
+  params.leaf.build = TreeBuild::cross;
+  EXPECT_EQ(made(params).materials.back().recipe.kind, "pine_needles_twig");
 }
 
 TEST(BuildModel, RefusesALeafImageThatCannotBeRead) {

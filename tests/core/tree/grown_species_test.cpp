@@ -84,6 +84,24 @@ TEST(GrownSpecies, HaveTheProportionsOfRealTrees) {
   }
 }
 
+TEST(GrownSpecies, AreTreesForEachAllocationWithoutOtherParameters) {
+  // Crown width by height: the 10 % quantile of all species, and the 90 % quantile of the widest one, Prunus avium.
+  constexpr Band all_species{0.44, 1.46};
+  for (const TreeAllocation allocation : {TreeAllocation::borchert_honda, TreeAllocation::priority}) {
+    for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+      TreeParams params;
+      params.model = TreeModel::grown;
+      params.grown.allocation = allocation;
+      SCOPED_TRACE(std::to_string(static_cast<int>(allocation)) + ", seed " + std::to_string(seed));
+      const Skeletons tree(params, seed);
+      const Size size = size_of(tree);
+      expect_in(size.crown / size.height, all_species, "crown by height");
+      EXPECT_LE(size.lowest, 0.5 * size.height) << "leaves at the top alone";
+      EXPECT_GE(tree.organs().organ.size(), 1000U);
+    }
+  }
+}
+
 /// Calls body(joint, parent) for the first joint of each limb on the trunk.
 template <class Body>
 void each_branch(const Limbs& limbs, const Body& body) {

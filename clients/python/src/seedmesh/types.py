@@ -597,7 +597,7 @@ class LsystemParametersWeather(TypedDict, total=False):
 
 
 class LsystemParametersSurfacesValue(TypedDict, total=False):
-    shape: Literal['simple', 'willow', 'birch', 'cordate', 'lobed', 'maple', 'ginkgo', 'compound', 'palmate', 'needles', 'palm', 'kite', 'petal', 'fruit', 'patches', 'model', 'sphere', 'disc']
+    shape: Literal['simple', 'willow', 'birch', 'cordate', 'lobed', 'maple', 'ginkgo', 'compound', 'palmate', 'needles', 'pine_needles', 'palm', 'kite', 'petal', 'fruit', 'patches', 'model', 'sphere', 'disc']
     build: Literal['mesh', 'card', 'cross', 'curved', 'twig', 'bunch']
     size: float
     width: float
@@ -613,7 +613,7 @@ class LsystemParametersSurfacesValue(TypedDict, total=False):
     divisions: int
 
 
-Texture = Literal['none', 'oak_bark', 'pine_bark', 'spruce_bark', 'willow_bark', 'birch_bark', 'beech_bark', 'cherry_bark', 'palm_bark', 'cedar_bark', 'simple_leaf', 'willow_leaf', 'birch_leaf', 'cordate_leaf', 'lobed_leaf', 'maple_leaf', 'ginkgo_leaf', 'compound_leaf', 'palmate_leaf', 'needles', 'palm_leaf', 'kite_leaf', 'petal', 'simple_twig', 'willow_twig', 'birch_twig', 'cordate_twig', 'lobed_twig', 'maple_twig', 'ginkgo_twig', 'needles_twig', 'petal_twig']
+Texture = Literal['none', 'oak_bark', 'pine_bark', 'spruce_bark', 'willow_bark', 'birch_bark', 'beech_bark', 'cherry_bark', 'palm_bark', 'cedar_bark', 'simple_leaf', 'willow_leaf', 'birch_leaf', 'cordate_leaf', 'lobed_leaf', 'maple_leaf', 'ginkgo_leaf', 'compound_leaf', 'palmate_leaf', 'needles', 'pine_needles', 'palm_leaf', 'kite_leaf', 'petal', 'simple_twig', 'willow_twig', 'birch_twig', 'cordate_twig', 'lobed_twig', 'maple_twig', 'ginkgo_twig', 'needles_twig', 'pine_needles_twig', 'petal_twig']
 
 class LsystemParametersMaterialsItem(TypedDict, total=False):
     name: str
@@ -1071,7 +1071,7 @@ class TreeParametersSeeds(TypedDict, total=False):
 
 
 class TreeParametersLeaf(TypedDict, total=False):
-    shape: Literal['simple', 'willow', 'birch', 'cordate', 'lobed', 'maple', 'ginkgo', 'compound', 'palmate', 'needles', 'palm', 'kite', 'petal']
+    shape: Literal['simple', 'willow', 'birch', 'cordate', 'lobed', 'maple', 'ginkgo', 'compound', 'palmate', 'needles', 'pine_needles', 'palm', 'kite', 'petal']
     build: Literal['usual', 'none', 'card', 'cross', 'curved', 'mesh', 'twig', 'bunch']
     picture: Literal['auto', 'own', 'none']
     fold: float

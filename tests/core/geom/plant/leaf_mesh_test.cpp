@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
+
 #include "core/base/math.h"
 #include "core/geom/plant/organs.h"
 #include "tests/support/mesh_faults.h"
@@ -69,6 +71,22 @@ TEST(LeafMesh, IsOneLongAndFlatWhereItIsNeitherFoldedNorBent) {
   EXPECT_NEAR(box.min.y, 0, 1e-6);
   EXPECT_NEAR(box.max.y, 1, 1e-6);
   EXPECT_NEAR(box.max.z, 0, 1e-6);
+}
+
+TEST(LeafMesh, TiltsBothSquaresOfACross) {
+  const Job job = job_of();
+  LeafForm form;
+  form.build = LeafBuild::cross;
+  form.tilt = math::radians(60);
+  const Mesh mesh = leaf_mesh(form, job);
+  ASSERT_EQ(mesh.normal.size(), 8U);
+  for (std::size_t i = 0; i < 8; ++i) {
+    // cos 60 degrees is 1/2, sin 60 degrees is the root of 3/4.
+    EXPECT_NEAR(mesh.normal[i].z, 0.5, 1e-6);
+    EXPECT_NEAR(mesh.normal[i].x, (i < 4 ? 1 : -1) * std::sqrt(0.75), 1e-6);
+    EXPECT_NEAR(glm::dot(mesh.normal[i], mesh.position[i]), 0, 1e-6) << "both squares contain the axis";
+  }
+  EXPECT_THAT(faults(mesh), IsEmpty());
 }
 
 TEST(LeafMesh, HasTheAreaOfItsOutline) {
