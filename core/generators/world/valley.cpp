@@ -35,6 +35,10 @@ bool is_above(double height, double land, double ruggedness, const WatersidePoin
   return side >= land + most_blend || std::min(land, side) - most_blend / 4 >= height;
 }
 
+double lowest_side(const WatersidePoint& waterside) {
+  return plain_side(waterside, slope_of_side(0)) - most_blend / 4;
+}
+
 ValleySide valley_side(double land, double ruggedness, const WatersidePoint& waterside) {
   const double away = waterside.distance;
   if (away >= valley_reach) return {land, 1, 0};
