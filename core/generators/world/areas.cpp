@@ -272,7 +272,13 @@ class AreaFinder {
       cut(around, is_coarse ? valley_reach : b.width, [&](double away) {
         return away <= wide ? b.water - bed : lowest_side({away, half, b.water});
       });
-      if (is_coarse) carve(grid_, land, reach, wide);
+      if (is_coarse) {
+        // farther away, valleys cut only land that is higher than this
+        const double least = lowest_side({wide, half, b.water});
+        bool is_high = false;
+        for_areas(around, valley_reach, [&](const Area& area) { is_high |= area.high > least; });
+        carve(grid_, land, reach, {wide, is_high ? valley_reach : wide, least});
+      }
       for_areas(around, b.width, [&](Area& area) {
         area.highest = std::max(area.highest, a.water + highest_lift);
         area.rough.valley = std::max(area.rough.valley, std::max(a.cut, b.cut) + 3);
@@ -378,6 +384,12 @@ class AreaFinder {
 };
 
 }  // namespace
+
+double spacing_of_areas(const World& world, int level) {
+  const int root = level == 0 ? 0 : (level - 1) / levels_a_block * levels_a_block;
+  const int links = std::min(root + levels_a_block, world.levels - 1);
+  return world.extent / static_cast<double>(std::int64_t{1} << links) / cells_a_link(world, root);
+}
 
 Areas areas_below(const World& world, const TileKey& root, int depth, Job& job) {
   return AreaFinder(world, root, depth, job).areas();

@@ -9,6 +9,7 @@
 #include "core/generators/world/plant_mesh.h"
 #include "core/generators/world/river_mesh.h"
 #include "core/generators/world/terrain_mesh.h"
+#include "core/generators/world/valley.h"
 #include "core/generators/world/world.h"
 
 namespace seedmesh::world {
@@ -142,6 +143,16 @@ double rounded_up(double height, const TileFrame& frame) {
   return std::ceil(height * digits_of(frame)) / digits_of(frame);
 }
 
+/// The roughness of an area as the tiles below a link have it. Their samples have the slopes of valley sides, which those
+/// of the land alone lack.
+Roughness rough_of_tiles_below(const World& world, int level, const Area& area, double spacing) {
+  Roughness rough = area.rough;
+  const bool has_valleys = spacing < coarse_spacing || spacing_of_areas(world, level + 1) >= coarse_spacing;
+  if (!has_valleys && rough.valley > 0)
+    rough.slope = std::max(rough.slope, steepest_side(rough.ruggedness, rough.valley));
+  return rough;
+}
+
 /// The box of a tile of the lowest level of a block.
 TileBounds link_bounds(const World& world, const TileKey& key, const Area& area, double spacing) {
   const TileFrame frame = frame_of(world, key);
@@ -154,7 +165,7 @@ TileBounds link_bounds(const World& world, const TileKey& key, const Area& area,
   if (!is_leaf) {
     TileFrame child = frame;
     child.spacing /= 2;
-    low -= most_skirt(world, child, area.rough);
+    low -= most_skirt(world, child, rough_of_tiles_below(world, key.level, area, spacing));
   }
   if (area.plant_height > 0) {
     const PlantExtent plants = plant_extent(area.plant_height);

@@ -220,15 +220,27 @@ TEST(WorldBounds, HoldTheDetailOfLevelGround) {
     expect_inside(world, 535, key, job);
 }
 
-/// The valley of a river inside this tile is 600 m wide at its border, and deep because the land there is high. The skirt
-/// of its border was 45 m below the box.
+/// Sides of valleys reach the farther the higher the land is. At the border of the first tile a valley is 600 m wide; in
+/// the second one it cuts high land 1 km from a river in level land; the third one has the slopes of a valley in a plateau,
+/// which the samples of the box above lack. Skirts were 45, 25 and 8 m below their boxes.
 TEST(WorldBounds, HoldSkirtsInWideValleys) {
-  const World world = world_of_text(
+  const World wide = world_of_text(
       R"({"origin":[340643,596072],"relief":{"continents":268008.41949241236,"gullies":0.55,"hills":188,)"
       R"("land":0.815,"mountains":684,"ridges":0.988},"water":{"rivers":0.0575,"width":106}})",
       505);
+  const World beside_hills = world_of_text(
+      R"({"origin":[267524,68150],"relief":{"continents":99214.58886806118,"hills":41.35,"mountains":2367,)"
+      R"("ridges":0.669},"water":{"rivers":0.7467,"width":97.26}})",
+      149);
+  const World plateau = world_of_text(
+      R"({"layers":["terrain","water","roads"],"origin":[-939,-816602],"relief":{"continents":253854.8337386376,)"
+      R"("gullies":0.893,"hills":1.225,"mountains":287.8,"ridges":0.652,"sea_level":-488.3},)"
+      R"("water":{"rivers":0.818,"width":8.66}})",
+      144);
   Job job = test_job();
-  expect_inside(world, 505, {8, 226, 246}, job);
+  expect_inside(wide, 505, {8, 226, 246}, job);
+  expect_inside(beside_hills, 149, {7, 26, 11}, job);
+  expect_inside(plateau, 144, {9, 298, 76}, job);
 }
 
 /// Samples of wide tiles are of the land alone. The skirt of this tile, on a level sea floor with gullies, was below its
