@@ -17,6 +17,7 @@ constexpr double highest_lift = 2.5;           ///< metres that rivers lie above
 constexpr double widest_measured_works = 512;  ///< metres; wider tiles allow for roads without finding them
 constexpr double works_reach = 56;             ///< metres from a road to untouched ground
 constexpr double plant_spacing = 400;          ///< metres
+constexpr double narrowest_valley = 500;       ///< metres from water
 
 /// Finds the areas of the links of a block.
 class AreaFinder {
@@ -90,16 +91,22 @@ class AreaFinder {
     }
   }
 
-  /// Notes that the ground within `reach` of a rectangle is cut down to a height.
-  void cut(const Rectangle& r, double reach, double height) {
+  /// Notes that the ground around a rectangle is cut, within `reach` of it. `height(away)`: the lowest height at a
+  /// distance.
+  template <class Height>
+  void cut(const Rectangle& r, double reach, const Height& height) {
     for_areas(r, reach, [&](Area& area) {
-      area.lowest = std::min(area.lowest, height);
       const auto place = static_cast<int>(&area - areas_.data());
       const Rectangle own = box_of(place % count_, place / count_);
+      const std::array<double, 4> beside{r.west - own.east, r.south - own.north, own.west - r.east,
+                                         own.south - r.north};
+      area.lowest =
+          std::min(area.lowest, height(std::max(0.0, *std::max_element(beside.begin(), beside.end()))));
       const std::array<double, 4> inside{r.west - own.west, r.south - own.south, own.east - r.east,
                                          own.north - r.north};
       for (std::size_t k = 0; k < 4; ++k) {
-        if (inside[k] <= reach) area.border_cuts[k] = std::min(area.border_cuts[k], height);
+        if (inside[k] <= reach)
+          area.border_cuts[k] = std::min(area.border_cuts[k], height(std::max(0.0, inside[k])));
       }
     });
   }
@@ -260,9 +267,18 @@ class AreaFinder {
                              std::max(a.north, b.north)};
       const double bed = 0.5 + 0.045 * std::max(a.width, b.width);
       // a valley that is cut deeper is wider
-      const double wide = std::clamp(60 + 5 * std::max(a.cut, b.cut), 500.0, valley_reach);
-      cut(around, is_coarse ? wide : b.width, b.water - bed);
-      if (is_coarse) carve(grid_, land, reach, wide);
+      const double wide = std::clamp(60 + 5 * std::max(a.cut, b.cut), narrowest_valley, valley_reach);
+      const double half = std::max(a.width, b.width) / 2;
+      cut(around, is_coarse ? valley_reach : b.width, [&](double away) {
+        return away <= wide ? b.water - bed : lowest_side({away, half, b.water});
+      });
+      if (is_coarse) {
+        // farther away, valleys cut only land that is higher than this
+        const double least = lowest_side({wide, half, b.water});
+        bool is_high = false;
+        for_areas(around, valley_reach, [&](const Area& area) { is_high |= area.high > least; });
+        carve(grid_, land, reach, {wide, is_high ? valley_reach : wide, least});
+      }
       for_areas(around, b.width, [&](Area& area) {
         area.highest = std::max(area.highest, a.water + highest_lift);
         area.rough.valley = std::max(area.rough.valley, std::max(a.cut, b.cut) + 3);
@@ -272,7 +288,9 @@ class AreaFinder {
     for (const Lake& lake : water.lakes()) {
       const double far = 1.3 * lake.radius;
       const Rectangle around{lake.east - far, lake.north - far, lake.east + far, lake.north + far};
-      cut(around, is_coarse ? valley_reach : 0, lake.level - lake.depth);
+      cut(around, is_coarse ? valley_reach : 0, [&](double away) {
+        return away <= narrowest_valley ? lake.level - lake.depth : lowest_side({away, 5, lake.level});
+      });
       if (is_coarse) carve(grid_, land, lake);
       for_areas(around, 0, [&](Area& area) {
         area.highest = std::max(area.highest, lake.level + 0.5);
@@ -310,7 +328,7 @@ class AreaFinder {
     for (const RoadPiece& p : ground.road_pieces()) {
       const Rectangle around{std::min(p.from_east, p.to_east), std::min(p.from_north, p.to_north),
                              std::max(p.from_east, p.to_east), std::max(p.from_north, p.to_north)};
-      cut(around, works_reach, std::min(p.from_height, p.to_height) - 0.5);
+      cut(around, works_reach, [&](double) { return std::min(p.from_height, p.to_height) - 0.5; });
       for_areas(around, works_reach, [&](Area& area) {
         area.highest = std::max({area.highest, p.from_height + 1, p.to_height + 1});
         area.rough.works = std::max(area.rough.works, 1.3 * std::max(p.from_works, p.to_works) + 0.5);
@@ -366,6 +384,12 @@ class AreaFinder {
 };
 
 }  // namespace
+
+double spacing_of_areas(const World& world, int level) {
+  const int root = level == 0 ? 0 : (level - 1) / levels_a_block * levels_a_block;
+  const int links = std::min(root + levels_a_block, world.levels - 1);
+  return world.extent / static_cast<double>(std::int64_t{1} << links) / cells_a_link(world, root);
+}
 
 Areas areas_below(const World& world, const TileKey& root, int depth, Job& job) {
   return AreaFinder(world, root, depth, job).areas();

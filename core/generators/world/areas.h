@@ -18,6 +18,9 @@ inline int cells_a_link(const World& world, int root_level) {
   return root_level == levels_a_block ? 32 : 8;
 }
 
+/// Returns the metres between the samples by which the boxes of the tiles of a level are found.
+double spacing_of_areas(const World& world, int level);
+
 /// The measurements in the tiles below a tile. Rows run from the south.
 struct Areas {
   std::vector<Area> links;  ///< the tiles of the lowest level

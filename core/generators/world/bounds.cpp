@@ -9,6 +9,7 @@
 #include "core/generators/world/plant_mesh.h"
 #include "core/generators/world/river_mesh.h"
 #include "core/generators/world/terrain_mesh.h"
+#include "core/generators/world/valley.h"
 #include "core/generators/world/world.h"
 
 namespace seedmesh::world {
@@ -107,30 +108,24 @@ double own_skirt(const World& world, const TileFrame& frame, const Area& area, d
          2 * frame.step;
 }
 
-/// How far ground can be below and above samples. Valleys and cuttings do not rise above them, and where samples are of
-/// the land alone, Area::lowest is below all valleys.
-struct Margins {
-  double below = 0, above = 0;
-};
-Margins margins(const World& world, double spacing, Roughness rough) {
+/// How far samples of a tile can be from those of its block, which are `spacing` apart. Wide blocks have samples of the
+/// land alone, which lack detail; Area::lowest is below all valleys.
+Margins at_samples(const World& world, double spacing, const Roughness& rough) {
+  return spacing < coarse_spacing ? Margins{} : detail_of(world, rough);
+}
+
+/// How far ground between the samples of a block can be from them. Valleys and cuttings do not rise above them.
+Margins between_samples(const World& world, double spacing, Roughness rough) {
+  if (spacing >= coarse_spacing) {
+    const double land = land_deviation_of(world, spacing, rough);
+    const Margins detail = detail_of(world, rough);
+    return {land + detail.below, land + detail.above};
+  }
   rough.mesh_deviation = {};
   const double all = deviation_of(world, spacing, rough);
   rough.valley = 0;
   rough.works = 0;
-  const double land = deviation_of(world, spacing, rough);
-  return {spacing >= coarse_spacing ? land : all, land};
-}
-
-/// How far the samples of a tile can be from those of the land alone, which lack detail.
-Margins detail_margins(const World& world, double spacing, Roughness rough) {
-  if (spacing < coarse_spacing) return {};
-  constexpr double known = 1;  ///< metres between samples that leave out nothing of the land
-  rough.valley = 0;
-  rough.works = 0;
-  rough.measured = 0;
-  rough.mesh_deviation = {0, spacing, known, true, false, false};
-  const double detail = deviation_of(world, spacing, rough);
-  return {detail, detail};
+  return {all, deviation_of(world, spacing, rough)};
 }
 
 /// The highest that rivers on the terrain of a tile lie.
@@ -148,11 +143,21 @@ double rounded_up(double height, const TileFrame& frame) {
   return std::ceil(height * digits_of(frame)) / digits_of(frame);
 }
 
+/// The roughness of an area as the tiles below a link have it. Their samples have the slopes of valley sides, which those
+/// of the land alone lack.
+Roughness rough_of_tiles_below(const World& world, int level, const Area& area, double spacing) {
+  Roughness rough = area.rough;
+  const bool has_valleys = spacing < coarse_spacing || spacing_of_areas(world, level + 1) >= coarse_spacing;
+  if (!has_valleys && rough.valley > 0)
+    rough.slope = std::max(rough.slope, steepest_side(rough.ruggedness, rough.valley));
+  return rough;
+}
+
 /// The box of a tile of the lowest level of a block.
 TileBounds link_bounds(const World& world, const TileKey& key, const Area& area, double spacing) {
   const TileFrame frame = frame_of(world, key);
   const bool is_leaf = key.level == world.levels - 1;
-  const auto [below, between] = margins(world, spacing, area.rough);
+  const auto [below, between] = between_samples(world, spacing, area.rough);
   const WorldRelief& relief = world.params.relief;
   double low = std::min(area.low - below, area.lowest), high = std::max(area.high + between, area.highest);
   if (has_sea(world) && low < relief.sea_level) high = std::max(high, relief.sea_level);
@@ -160,7 +165,7 @@ TileBounds link_bounds(const World& world, const TileKey& key, const Area& area,
   if (!is_leaf) {
     TileFrame child = frame;
     child.spacing /= 2;
-    low -= most_skirt(world, child, area.rough);
+    low -= most_skirt(world, child, rough_of_tiles_below(world, key.level, area, spacing));
   }
   if (area.plant_height > 0) {
     const PlantExtent plants = plant_extent(area.plant_height);
@@ -182,8 +187,8 @@ TileBounds bounds_above(const World& world, const TileKey& key, const Area& area
   const WorldRelief& relief = world.params.relief;
   TileBounds box = in_plan(world, key);
   const auto [below_samples, above_samples] = frame.spacing < spacing
-                                                  ? margins(world, spacing, area.rough)
-                                                  : detail_margins(world, spacing, area.rough);
+                                                  ? between_samples(world, spacing, area.rough)
+                                                  : at_samples(world, spacing, area.rough);
   box.low = own_skirt(world, frame, area, spacing, below_samples);
   box.high = -1e12;
   for (const TileBounds* child : below) {

@@ -57,12 +57,39 @@ void add_ranges(Sum& sum, const WorldRelief& relief, double spacing, const Rough
   sum.add(1.1 * relief.mountains * rough.ruggedness * of_noise(spacing / 32000));
 }
 
+/// The parts of the land.
+void add_land(Sum& sum, const WorldRelief& relief, double spacing, const Roughness& rough) {
+  const double coast = (rough.has_sea_floor ? sea_fall : land_rise) * 1.5 / 1.875;
+  add_octaves(sum, spacing, relief.continents, 4, coast);
+  if (rough.ruggedness > 0) add_ranges(sum, relief, spacing, rough);
+  add_octaves(sum, spacing, hill_wavelength, hill_octaves, 1.5 / 1.75 * relief.hills);
+  const double steps = spacing * rough.slope / terrace_step;
+  sum.add(relief.terraces * terrace_step * std::min(0.22, 1.45 * steps * steps));
+}
+
+/// Corrects a sum of parts. Parts saturate where samples are farther apart than their wavelengths.
+double corrected(const Sum& sum, const WorldRelief& relief, double spacing) {
+  const double far = spacing > 1024 ? 1 + 0.12 * (spacing / (spacing + 8192)) : 1;
+  return (deviation_share + terrace_share * relief.terraces) * far * sum.value();
+}
+
+/// The greatest strength of gullies where the slope is at most this.
+double strength_of_gullies(const WorldRelief& relief, double slope) {
+  return relief.gullies * smooth_step(1.15 * slope + 0.02, 0.04, 0.45);
+}
+
 /// Stripes bend where the direction of the slope changes, so they deviate by half more than straight ones.
 void add_gullies(Sum& sum, const WorldRelief& relief, double spacing, double slope) {
-  const double strength = relief.gullies * smooth_step(1.15 * slope + 0.02, 0.04, 0.45);
+  const double strength = strength_of_gullies(relief, slope);
   double wavelength = widest_gully;
   for (int n = 0; n < gully_octaves; ++n, wavelength *= gully_fall)
     sum.add(2.1 * strength * gully_depth * wavelength * of_noise(spacing / wavelength));
+}
+
+/// The amplitude of the widest octave of detail. Terraces make its slopes steeper.
+double amplitude_of_detail(const World& world, const Roughness& rough) {
+  const double terraces = world.params.relief.terraces;
+  return (1 + 0.6 * terraces) * detail_share(world, rough.ruggedness) * detail_wavelength;
 }
 
 /// Valley sides meet the land and the flat beside the water with an angle.
@@ -113,6 +140,28 @@ Roughness roughest(const World& world) {
   return rough;
 }
 
+Margins detail_of(const World& world, const Roughness& rough) {
+  const WorldRelief& relief = world.params.relief;
+  Sum below, above;
+  double amplitude = amplitude_of_detail(world, rough);
+  for (int n = 0; n < detail_octaves; ++n, amplitude *= 0.5) {
+    below.add(amplitude);
+    above.add(amplitude);
+  }
+  // gullies_at() gives -1.3 to 0.7 of their depths, which all of its octaves reach at one position
+  double depths = 0, depth = 1.4 * strength_of_gullies(relief, rough.slope) * gully_depth * widest_gully;
+  for (int n = 0; n < gully_octaves; ++n, depth *= gully_fall) depths += depth;
+  below.add(1.3 * depths);
+  above.add(0.7 * depths);
+  return {below.value(), above.value()};
+}
+
+double land_deviation_of(const World& world, double spacing, const Roughness& rough) {
+  Sum sum;
+  add_land(sum, world.params.relief, spacing, rough);
+  return corrected(sum, world.params.relief, spacing);
+}
+
 double deviation_of(const World& world, double spacing, const Roughness& rough) {
   const WorldRelief& relief = world.params.relief;
   Sum sum;
@@ -124,21 +173,13 @@ double deviation_of(const World& world, double spacing, const Roughness& rough) 
   const double of_ground =
       has_mesh_deviation && rough.mesh_deviation.has_detail ? rough.mesh_deviation.finer_spacing : spacing;
   if (has_mesh_deviation) sum.add(rough.mesh_deviation.most);
-  const double coast = (rough.has_sea_floor ? sea_fall : land_rise) * 1.5 / 1.875;
-  add_octaves(sum, of_land, relief.continents, 4, coast);
-  if (rough.ruggedness > 0) add_ranges(sum, relief, of_land, rough);
-  add_octaves(sum, of_land, hill_wavelength, hill_octaves, 1.5 / 1.75 * relief.hills);
-  const double steps = of_land * rough.slope / terrace_step;
-  sum.add(relief.terraces * terrace_step * std::min(0.22, 1.45 * steps * steps));
-  const double fine = relief.terraces > 0 ? 1 + 0.6 * relief.terraces : 1;
-  add_octaves(sum, of_ground, detail_wavelength, detail_octaves,
-              fine * detail_share(world, rough.ruggedness) * detail_wavelength);
+  add_land(sum, relief, of_land, rough);
+  add_octaves(sum, of_ground, detail_wavelength, detail_octaves, amplitude_of_detail(world, rough));
   add_gullies(sum, relief, of_ground, rough.slope);
   add_valley(sum, of_valleys, rough);
   sum.add(std::min(rough.works, 0.2 * of_ground));
-  // parts saturate where samples are farther apart than their wavelengths
-  const double far = spacing > 1024 && !has_mesh_deviation ? 1 + 0.12 * (spacing / (spacing + 8192)) : 1;
-  const double modelled = (deviation_share + terrace_share * relief.terraces) * far * sum.value();
+  // what was measured does not saturate
+  const double modelled = corrected(sum, relief, has_mesh_deviation ? 0 : spacing);
   return std::max(modelled,
                   measured_share * rough.measured * std::min(1.0, spacing / rough.measured_spacing));
 }

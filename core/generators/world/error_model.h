@@ -49,6 +49,18 @@ struct Roughness {
 /// Returns the roughest ground that a world can have.
 Roughness roughest(const World& world);
 
+/// How far the ground can be below and above other heights, in metres.
+struct Margins {
+  double below = 0, above = 0;
+};
+/// Returns how far gullies and finer wavelengths lower and raise the ground of an area. The octaves of finer wavelengths
+/// do not reach their greatest values at one position, so they are added with the same norm as deviations: 1.34 of the
+/// widest amplitude, which is what areas of 32 km have.
+Margins detail_of(const World& world, const Roughness& roughness);
+
+/// Returns the metres between the land, without valleys and detail, and triangles through samples of it.
+double land_deviation_of(const World& world, double spacing, const Roughness& roughness);
+
 /// Returns the metres between the ground and triangles through samples `spacing` apart. It rises with the spacing.
 double deviation_of(const World& world, double spacing, const Roughness& roughness);
 

@@ -125,17 +125,20 @@ double deviation_of_ground(const HeightGrid& grid, const Ground& ground, int i, 
   return deviation_over_cells(cell, 0, 0);
 }
 
-void carve(HeightGrid& grid, const UncutLand& land, const Reach& reach, double wide) {
+void carve(HeightGrid& grid, const UncutLand& land, const Reach& reach, const ValleyWidth& width) {
   const RiverPoint &a = reach.from, &b = reach.to;
   const Rectangle around{std::min(a.east, b.east), std::min(a.north, b.north), std::max(a.east, b.east),
                          std::max(a.north, b.north)};
-  for_samples(grid, around, wide, [&](std::size_t n, double east, double north) {
+  const double wide_square = width.wide * width.wide;
+  for_samples(grid, around, width.farthest, [&](std::size_t n, double east, double north) {
+    const double uncut = land.heights[n];
     const double x = east - a.east, y = north - a.north;
     const double share = std::clamp((x * reach.x + y * reach.y) * reach.by, 0.0, 1.0);
-    const double dx = x - share * reach.x, dy = y - share * reach.y;
-    const WatersidePoint waterside{std::sqrt(dx * dx + dy * dy), (a.width + share * (b.width - a.width)) / 2,
+    const double dx = x - share * reach.x, dy = y - share * reach.y, square = dx * dx + dy * dy;
+    if (uncut <= width.least && square > wide_square) return;
+    const WatersidePoint waterside{std::sqrt(square), (a.width + share * (b.width - a.width)) / 2,
                                    a.water + share * (b.water - a.water)};
-    const double uncut = land.heights[n], ruggedness = static_cast<double>(land.ruggedness[n]);
+    const double ruggedness = static_cast<double>(land.ruggedness[n]);
     if (is_above(grid.heights[n], uncut, ruggedness, waterside)) return;
     grid.heights[n] = std::min(grid.heights[n], valley_side(uncut, ruggedness, waterside).height);
   });

@@ -46,8 +46,12 @@ struct UncutLand {
   const std::vector<float>& ruggedness;
 };
 
-/// Lowers samples to the valley of a stretch of a river, up to `wide` metres from its bounding box.
-void carve(HeightGrid& grid, const UncutLand& land, const Reach& reach, double wide);
+/// The distances in metres up to which a valley is cut: `wide` into all land, `farthest` into land above `least`.
+struct ValleyWidth {
+  double wide = 0, farthest = 0, least = 0;
+};
+/// Lowers samples to the valley of a stretch of a river, up to `width.farthest` from its bounding box.
+void carve(HeightGrid& grid, const UncutLand& land, const Reach& reach, const ValleyWidth& width);
 /// Lowers samples to the valley and the bed of a lake.
 void carve(HeightGrid& grid, const UncutLand& land, const Lake& lake);
 

@@ -70,13 +70,6 @@ double usual_skirt(const World& world, const TileFrame& frame, const Roughness& 
          border_share * deviation_of(world, frame.spacing, rough) + rounding_steps * frame.step;
 }
 
-/// The metres between the samples by which the boxes of the tiles of a level are found.
-double area_spacing(const World& world, int level) {
-  const int root = level == 0 ? 0 : (level - 1) / levels_a_block * levels_a_block;
-  const int links = std::min(root + levels_a_block, world.levels - 1);
-  return world.extent / static_cast<double>(std::int64_t{1} << links) / cells_a_link(world, root);
-}
-
 double uncut(const GroundSample& sample) { return sample.land.height.value + sample.cut; }
 
 /// The greatest slope of the land without valleys at the border of a tile, between samples `stride` apart.
@@ -133,7 +126,7 @@ double skirt_depth(const World& world, int level, const TerrainGrid& grid) {
     }
   }
   // as areas_below() finds them, so that boxes contain the skirts
-  const double spacing = area_spacing(world, level);
+  const double spacing = spacing_of_areas(world, level);
   if (spacing >= coarse_spacing) {
     const int stride = std::max(1, math::to_int32(spacing / frame.spacing));
     rough.slope = slope_of_border(grid, frame.spacing, stride);

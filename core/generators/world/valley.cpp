@@ -35,6 +35,15 @@ bool is_above(double height, double land, double ruggedness, const WatersidePoin
   return side >= land + most_blend || std::min(land, side) - most_blend / 4 >= height;
 }
 
+double steepest_side(double ruggedness, double deep) {
+  constexpr double steepest_return = 1.5 / (1 - first_return);
+  return 0.02 + slope_of_side(ruggedness) + deep * steepest_return / valley_reach;
+}
+
+double lowest_side(const WatersidePoint& waterside) {
+  return plain_side(waterside, slope_of_side(0)) - most_blend / 4;
+}
+
 ValleySide valley_side(double land, double ruggedness, const WatersidePoint& waterside) {
   const double away = waterside.distance;
   if (away >= valley_reach) return {land, 1, 0};

@@ -23,6 +23,12 @@ struct ValleySide {
 /// Whether valley_side() is certainly not below `height`, which is at most `land`. Takes less time than valley_side().
 bool is_above(double height, double land, double ruggedness, const WatersidePoint& waterside);
 
+/// Returns a height below which no side of a valley is that is cut into higher land.
+double lowest_side(const WatersidePoint& waterside);
+
+/// Returns the steepest slope of the sides of valleys that are `deep` metres deep.
+double steepest_side(double ruggedness, double deep);
+
 /// Returns the side of a valley below land of the height `land`. It rises from the water, more steeply beyond the
 /// flood plain, and meets the land within valley_reach. Beside the water it is never below the water, if the land is
 /// not.

@@ -55,10 +55,39 @@ double deviation(const Terrain& coarse, double spacing, double west, double sout
   return most;
 }
 
+bool is_inside(const ContentBox& content, const TileBounds& box) {
+  return content.low[0] >= box.west && content.low[1] >= box.south && content.low[2] >= box.low &&
+         content.high[0] <= box.east && content.high[1] <= box.north && content.high[2] <= box.high;
+}
+
+/// Expects that the content of a tile is in its box.
+void expect_inside(const World& world, std::uint64_t seed, const TileKey& key, Job& job) {
+  const ContentBox content = content_of(tile_glb(world, key, job));
+  const TileBounds box = tile_bounds(world, key, job);
+  EXPECT_TRUE(is_inside(content, box))
+      << "world " << seed << " tile " << key.level << "/" << key.x << "/" << key.y << ": content from "
+      << content.low[2] << " to " << content.high[2] << ", box from " << box.low << " to " << box.high;
+}
+
 struct Found {
   int tiles = 0;
   std::vector<double> empty, ratios;  ///< shares of heights of boxes; errors by deviations
 };
+
+/// Looks at three more tiles of the level below the tileset that has a tile. The widest levels need the drainage of wide
+/// areas, and have few tiles.
+void look_beside(const World& world, std::uint64_t seed, const TileKey& key, Rng& rng, Job& job) {
+  const int above = key.level == 0 ? 0 : (key.level - 1) % 4 + 1;
+  if (above == 0 || frame_of(world, key).side > 8192) return;
+  const std::int64_t side = std::int64_t{1} << above;
+  const auto beside = [&](std::int64_t k) {
+    return k / side * side + static_cast<std::int64_t>(rng.unit() * static_cast<double>(side));
+  };
+  for (int k = 0; k < 3; ++k) {
+    const std::int64_t x = beside(key.x), y = beside(key.y);
+    expect_inside(world, seed, {key.level, x, y}, job);
+  }
+}
 
 /// `bare`: the same world without plants, whose errors are those of the ground alone.
 void walk(const World& world, const World& bare, std::uint64_t seed, Job& job, Found& found) {
@@ -74,11 +103,10 @@ void walk(const World& world, const World& bare, std::uint64_t seed, Job& job, F
     const TileBounds box = tile_bounds(world, key, job);
     const ContentBox content = content_of(glb);
     ++found.tiles;
-    const bool is_inside = content.low[0] >= box.west && content.low[1] >= box.south &&
-                           content.low[2] >= box.low && content.high[0] <= box.east &&
-                           content.high[1] <= box.north && content.high[2] <= box.high;
-    EXPECT_TRUE(is_inside) << "world " << seed << " level " << level << ": content from " << content.low[2]
-                           << " to " << content.high[2] << ", box from " << box.low << " to " << box.high;
+    EXPECT_TRUE(is_inside(content, box))
+        << "world " << seed << " level " << level << ": content from " << content.low[2] << " to "
+        << content.high[2] << ", box from " << box.low << " to " << box.high;
+    look_beside(world, seed, key, rng, job);
     found.empty.push_back(1 - (content.high[2] - content.low[2]) / (box.high - box.low));
     if (level > 0) {
       EXPECT_GE(box.low, boxes.back().low);
@@ -179,6 +207,40 @@ TEST(WorldBounds, HoldSkirtsThatAreAsDeepAsTheCoarsestNeighbourNeeds) {
   }
   EXPECT_GT(seen, 1000U);
   EXPECT_EQ(hidden, seen);
+}
+
+/// Samples of wide tiles are of the land alone, and lack detail. On the floor of the sea, detail is the greatest part of
+/// the relief: the ground was up to 2 m above these boxes.
+TEST(WorldBounds, HoldTheDetailOfLevelGround) {
+  const char* floor = R"({"extent":32768,"layers":["terrain"],"origin":[-147498,-36638],)"
+                      R"("relief":{"gullies":0.8,"hills":140,"land":0.24,"mountains":2300,"ridges":0.85}})";
+  const World world = world_of_text(floor, 535);
+  Job job = test_job();
+  for (const TileKey& key : {TileKey{2, 1, 3}, TileKey{3, 0, 7}, TileKey{4, 15, 13}, TileKey{8, 243, 217}})
+    expect_inside(world, 535, key, job);
+}
+
+/// Sides of valleys reach the farther the higher the land is. At the border of the first tile a valley is 600 m wide; in
+/// the second one it cuts high land 1 km from a river in level land; the third one has the slopes of a valley in a plateau,
+/// which the samples of the box above lack. Skirts were 45, 25 and 8 m below their boxes.
+TEST(WorldBounds, HoldSkirtsInWideValleys) {
+  const World wide = world_of_text(
+      R"({"origin":[340643,596072],"relief":{"continents":268008.41949241236,"gullies":0.55,"hills":188,)"
+      R"("land":0.815,"mountains":684,"ridges":0.988},"water":{"rivers":0.0575,"width":106}})",
+      505);
+  const World beside_hills = world_of_text(
+      R"({"origin":[267524,68150],"relief":{"continents":99214.58886806118,"hills":41.35,"mountains":2367,)"
+      R"("ridges":0.669},"water":{"rivers":0.7467,"width":97.26}})",
+      149);
+  const World plateau = world_of_text(
+      R"({"layers":["terrain","water","roads"],"origin":[-939,-816602],"relief":{"continents":253854.8337386376,)"
+      R"("gullies":0.893,"hills":1.225,"mountains":287.8,"ridges":0.652,"sea_level":-488.3},)"
+      R"("water":{"rivers":0.818,"width":8.66}})",
+      144);
+  Job job = test_job();
+  expect_inside(wide, 505, {8, 226, 246}, job);
+  expect_inside(beside_hills, 149, {7, 26, 11}, job);
+  expect_inside(plateau, 144, {9, 298, 76}, job);
 }
 
 /// Samples of wide tiles are of the land alone. The skirt of this tile, on a level sea floor with gullies, was below its
