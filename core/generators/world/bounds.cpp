@@ -99,12 +99,17 @@ double error_of(const World& world, const TileFrame& frame, const Roughness& rou
 /// Whether tiles show the sea.
 bool has_sea(const World& world) { return world.params.relief.sea && world.has(Layer::water); }
 
+/// Detail along lines, and at the tallest plants, by that of an area. The borders of 1,300 squares have at most 0.95 of
+/// it and half of them less than 0.65; where the land is lowest, it is rarely the greatest.
+constexpr double line_share = 0.85;
+
 /// The lowest that the own skirt of a tile hangs. `spacing`: of the samples of the block. `between`: how far ground can
 /// be below samples. Vertices at the border of a tile that are no samples can be rougher than those that are.
 double own_skirt(const World& world, const TileFrame& frame, const Area& area, double spacing,
                  double between) {
   const Roughness rough = frame.spacing < spacing ? area.rough : area.rough_border();
-  return std::min(area.border() - between, area.border_cut()) - most_skirt(world, frame, rough) -
+  const double below = spacing < coarse_spacing ? between : line_share * between;
+  return std::min(area.border() - below, area.border_cut()) - most_skirt(world, frame, rough) -
          2 * frame.step;
 }
 
@@ -116,11 +121,7 @@ Margins at_samples(const World& world, double spacing, const Roughness& rough) {
 
 /// How far ground between the samples of a block can be from them. Valleys and cuttings do not rise above them.
 Margins between_samples(const World& world, double spacing, Roughness rough) {
-  if (spacing >= coarse_spacing) {
-    const double land = land_deviation_of(world, spacing, rough);
-    const Margins detail = detail_of(world, rough);
-    return {land + detail.below, land + detail.above};
-  }
+  if (spacing >= coarse_spacing) return detail_of(world, rough, land_deviation_of(world, spacing, rough));
   rough.mesh_deviation = {};
   const double all = deviation_of(world, spacing, rough);
   rough.valley = 0;
@@ -162,14 +163,16 @@ TileBounds link_bounds(const World& world, const TileKey& key, const Area& area,
   double low = std::min(area.low - below, area.lowest), high = std::max(area.high + between, area.highest);
   if (has_sea(world) && low < relief.sea_level) high = std::max(high, relief.sea_level);
   high = std::max(high, draped_top(world, frame, area, between));
+  const double share = spacing < coarse_spacing ? 1 : line_share;
   if (!is_leaf) {
     TileFrame child = frame;
     child.spacing /= 2;
-    low -= most_skirt(world, child, rough_of_tiles_below(world, key.level, area, spacing));
+    low = std::min(low, std::min(area.low - share * below, area.lowest) -
+                            most_skirt(world, child, rough_of_tiles_below(world, key.level, area, spacing)));
   }
   if (area.plant_height > 0) {
     const PlantExtent plants = plant_extent(area.plant_height);
-    high = std::max(high, area.high + between + plants.up);
+    high = std::max(high, area.high + share * between + plants.up);
     low = std::min(low, area.low - below - plants.down);
   }
   low = std::min(low, own_skirt(world, frame, area, spacing, below));

@@ -140,9 +140,11 @@ Roughness roughest(const World& world) {
   return rough;
 }
 
-Margins detail_of(const World& world, const Roughness& rough) {
+Margins detail_of(const World& world, const Roughness& rough, double land) {
   const WorldRelief& relief = world.params.relief;
   Sum below, above;
+  below.add(land);
+  above.add(land);
   double amplitude = amplitude_of_detail(world, rough);
   for (int n = 0; n < detail_octaves; ++n, amplitude *= 0.5) {
     below.add(amplitude);

@@ -55,8 +55,8 @@ struct Margins {
 };
 /// Returns how far gullies and finer wavelengths lower and raise the ground of an area. The octaves of finer wavelengths
 /// do not reach their greatest values at one position, so they are added with the same norm as deviations: 1.34 of the
-/// widest amplitude, which is what areas of 32 km have.
-Margins detail_of(const World& world, const Roughness& roughness);
+/// widest amplitude, which is what areas of 32 km have. `land`: what is added to it with the same norm, in metres.
+Margins detail_of(const World& world, const Roughness& roughness, double land = 0);
 
 /// Returns the metres between the land, without valleys and detail, and triangles through samples of it.
 double land_deviation_of(const World& world, double spacing, const Roughness& roughness);

@@ -10,6 +10,8 @@ constexpr double slope_blend =
     24;  ///< metres of height over which the slope of a valley becomes that of the land
 
 constexpr double most_blend = 24;  ///< metres
+constexpr double steep_from =
+    90;  ///< metres beyond the flood plain where the slope of a side is that of its height
 
 /// Metres of height over which a valley meets the land. Small beside the water, so that the rounding never cuts the
 /// bank below the water.
@@ -37,7 +39,8 @@ bool is_above(double height, double land, double ruggedness, const WatersidePoin
 
 double steepest_side(double ruggedness, double deep) {
   constexpr double steepest_return = 1.5 / (1 - first_return);
-  return 0.02 + slope_of_side(ruggedness) + deep * steepest_return / valley_reach;
+  const double slope = slope_of_side(ruggedness);
+  return 0.02 + slope * smooth_step(deep / slope, 0, steep_from) + deep * steepest_return / valley_reach;
 }
 
 double lowest_side(const WatersidePoint& waterside) {
@@ -56,7 +59,7 @@ ValleySide valley_side(double land, double ruggedness, const WatersidePoint& wat
   const Slope back = smooth_step(Slope{away * (1 / valley_reach), 1 / valley_reach, 0}, first_return, 1);
   const double own = std::clamp((side - land) / (2 * slope_blend) + 0.5, 0.0, 1.0);
   return {low + back.value * (land - low), 1 - (1 - own) * (1 - back.value),
-          (0.02 + slope * smooth_step(beyond, 0, 90)) * (1 - back.value) + back.east * (land - low)};
+          (0.02 + slope * smooth_step(beyond, 0, steep_from)) * (1 - back.value) + back.east * (land - low)};
 }
 
 }  // namespace seedmesh::world

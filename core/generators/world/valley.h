@@ -26,7 +26,8 @@ bool is_above(double height, double land, double ruggedness, const WatersidePoin
 /// Returns a height below which no side of a valley is that is cut into higher land.
 double lowest_side(const WatersidePoint& waterside);
 
-/// Returns the steepest slope of the sides of valleys that are `deep` metres deep.
+/// Returns the steepest slope of the sides of valleys that are `deep` metres deep. Sides of shallow valleys meet the land
+/// before they are steep.
 double steepest_side(double ruggedness, double deep);
 
 /// Returns the side of a valley below land of the height `land`. It rises from the water, more steeply beyond the
