@@ -159,7 +159,7 @@ void add_copies(Estimate& estimate, const LevelInfo& info, const Estimate& own, 
   estimate.bytes += bytes_a_copy * copies.size();
 }
 
-/// Adds what a model grows by if its parts with a common mesh are merged, as extract_levels() does.
+/// Adds the bytes that a model gains when copies of its meshes are merged into one mesh, as in extract_levels().
 void grow_to_one_mesh(Estimate& own, const Model& made) {
   std::uint64_t once = 0;
   for (const MeshGroup& group : made.meshes) {

@@ -122,7 +122,7 @@ void add_street_sides(const CityPlan& plan, const Lot& lot, const std::vector<Si
   }
 }
 
-/// Adds what is open of the front of a lot on both sides of its house.
+/// Adds borders along the front of a lot, on both sides of its house.
 void add_front(const CityPlan& plan, const Lot& lot, std::vector<BorderPiece>& pieces) {
   constexpr double gap = 0.02, least = 0.2;  // m
   const dvec2 start = in_metres(lot.front_start), run = in_metres(lot.front_end) - start;

@@ -26,7 +26,7 @@ constexpr float filled_card = 0.5F;
 constexpr std::uint64_t roll_name = 0x526F;
 // Crossed rectangles are steep: the normals of their lower sides can then turn up without leaving their face.
 constexpr double cross_tilt = 55;
-// The least level part of the heading of a leaf that is turned upright.
+// Headings of leaves (unit vectors) with a shorter horizontal part count as vertical and are not turned.
 constexpr float least_level = 0.05F;
 // Between both sides of a leaf, as a share of its length: 0.2 to 2 mm.
 constexpr float thickness = 0.003F;

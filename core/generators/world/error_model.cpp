@@ -57,7 +57,7 @@ void add_ranges(Sum& sum, const WorldRelief& relief, double spacing, const Rough
   sum.add(1.1 * relief.mountains * rough.ruggedness * of_noise(spacing / 32000));
 }
 
-/// The parts of the land.
+/// Adds the deviations of the parts of the land.
 void add_land(Sum& sum, const WorldRelief& relief, double spacing, const Roughness& rough) {
   const double coast = (rough.has_sea_floor ? sea_fall : land_rise) * 1.5 / 1.875;
   add_octaves(sum, spacing, relief.continents, 4, coast);
@@ -67,13 +67,13 @@ void add_land(Sum& sum, const WorldRelief& relief, double spacing, const Roughne
   sum.add(relief.terraces * terrace_step * std::min(0.22, 1.45 * steps * steps));
 }
 
-/// Corrects a sum of parts. Parts saturate where samples are farther apart than their wavelengths.
+/// Returns the deviation of a sum of parts. A part stops growing where samples are farther apart than its wavelength.
 double corrected(const Sum& sum, const WorldRelief& relief, double spacing) {
   const double far = spacing > 1024 ? 1 + 0.12 * (spacing / (spacing + 8192)) : 1;
   return (deviation_share + terrace_share * relief.terraces) * far * sum.value();
 }
 
-/// The greatest strength of gullies where the slope is at most this.
+/// Returns the greatest strength of gullies on slopes of at most `slope`.
 double strength_of_gullies(const WorldRelief& relief, double slope) {
   return relief.gullies * smooth_step(1.15 * slope + 0.02, 0.04, 0.45);
 }

@@ -49,7 +49,7 @@ struct Roughness {
 /// Returns the roughest ground that a world can have.
 Roughness roughest(const World& world);
 
-/// How far the ground can be below and above other heights, in metres.
+/// How far the ground can be below and above the heights that it is compared with, in metres.
 struct Margins {
   double below = 0, above = 0;
 };
@@ -58,10 +58,10 @@ struct Margins {
 /// widest amplitude, which is what areas of 32 km have. `land`: what is added to it with the same norm, in metres.
 Margins detail_of(const World& world, const Roughness& roughness, double land = 0);
 
-/// Returns the metres between the land, without valleys and detail, and triangles through samples of it.
+/// Returns the metres between the land, without valleys and detail, and triangles through samples `spacing` metres apart.
 double land_deviation_of(const World& world, double spacing, const Roughness& roughness);
 
-/// Returns the metres between the ground and triangles through samples `spacing` apart. It rises with the spacing.
+/// Returns the metres between the ground and triangles through samples `spacing` metres apart. It rises with `spacing`.
 double deviation_of(const World& world, double spacing, const Roughness& roughness);
 
 }  // namespace seedmesh::world

@@ -23,7 +23,7 @@ struct ValleySide {
 /// Whether valley_side() is certainly not below `height`, which is at most `land`. Takes less time than valley_side().
 bool is_above(double height, double land, double ruggedness, const WatersidePoint& waterside);
 
-/// Returns a height below which no side of a valley is that is cut into higher land.
+/// Returns a lower bound, in metres, of the sides of valleys in land that is higher than this bound.
 double lowest_side(const WatersidePoint& waterside);
 
 /// Returns the steepest slope of the sides of valleys that are `deep` metres deep. Sides of shallow valleys meet the land
