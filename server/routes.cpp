@@ -140,7 +140,7 @@ std::string_view first_segments(std::string_view path, int count) {
 /// The message for a path without a resource, with the route that it most likely means.
 std::string no_resource(std::string_view path) {
   constexpr std::string_view version = "/v1";
-  constexpr std::size_t least = 4;  // characters of a path that can be compared
+  constexpr std::size_t least = 4;      // characters of a path that can be compared
   std::vector<std::string_view> fixed;  // the parts of patterns before {...}
   for (const Route& row : table) fixed.push_back(row.pattern.substr(0, row.pattern.find("/{")));
   std::string_view nearest;
@@ -157,9 +157,9 @@ std::string no_resource(std::string_view path) {
     if (is_same && (found == nullptr || has_name == is_longer)) found = &row;
   }
   std::string message = "There is no resource at this path";
-  message += found == nullptr ? "."
-                              : "; did you mean " + std::string(found->method) + ' ' +
-                                    std::string(found->pattern) + '?';
+  message += found == nullptr
+                 ? "."
+                 : "; did you mean " + std::string(found->method) + ' ' + std::string(found->pattern) + '?';
   return message + " /openapi.json lists all.";
 }
 

@@ -161,7 +161,7 @@ std::optional<Result<Request>> preset_in_format(const RequestContext& call, cons
   return read_preset(name, overrides, call.service.config.limits);
 }
 
-/// Adds where the picture is: who asks for .png of a model without maps most likely wants one.
+/// Adds where the picture is, which a request for .png of a model without maps most likely means.
 Error with_picture(Error error, const std::string& name, std::string_view extension) {
   if (extension != "png") return error;
   for (Issue& issue : error.issues) {
