@@ -68,7 +68,8 @@ TEST(UnusedParameters, AreTheSeedOfProctreeBesideThatOfTheRequest) {
   const auto pointers = [&](std::uint64_t seed) {
     Job job(seed, Job::Options{});
     std::vector<std::string> all;
-    for (const Warning& each : appraise(params, {job})->warnings) all.push_back(each.pointer);
+    const Result<Appraisal> appraisal = appraise(params, {job});
+    for (const Warning& each : appraisal->warnings) all.push_back(each.pointer);
     return all;
   };
   EXPECT_THAT(pointers(7), ElementsAre("/mSeed"));
