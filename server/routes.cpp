@@ -140,21 +140,27 @@ std::string_view first_segments(std::string_view path, int count) {
 /// The message for a path without a resource, with the route that it most likely means.
 std::string no_resource(std::string_view path) {
   constexpr std::string_view version = "/v1";
+  constexpr std::size_t least = 4;      // characters of a path that can be compared
   std::vector<std::string_view> fixed;  // the parts of patterns before {...}
   for (const Route& row : table) fixed.push_back(row.pattern.substr(0, row.pattern.find("/{")));
   std::string_view nearest;
   for (const std::string& meant :
        {std::string(first_segments(path, 2)), std::string(version).append(first_segments(path, 1)),
         std::string(first_segments(path.substr(path.starts_with("/v1/") ? version.size() : 0), 1))}) {
-    if (nearest.empty()) nearest = nearest_name(meant, fixed);
+    if (nearest.empty() && meant.size() > least) nearest = nearest_name(meant, fixed);
+  }
+  const Route* found = nullptr;
+  const bool is_longer = path.find('/', version.size() + 1) != std::string_view::npos;
+  for (const Route& row : table) {
+    const bool has_name = row.pattern.find("/{") != std::string_view::npos;
+    const bool is_same = row.pattern.substr(0, row.pattern.find("/{")) == nearest;
+    if (is_same && (found == nullptr || has_name == is_longer)) found = &row;
   }
   std::string message = "There is no resource at this path";
-  for (const Route& row : table) {
-    if (nearest.empty() || row.pattern.substr(0, row.pattern.find("/{")) != nearest) continue;
-    message += "; did you mean " + std::string(row.method) + ' ' + std::string(row.pattern) + '?';
-    return message + " /openapi.json lists all.";
-  }
-  return message + ". /openapi.json lists all.";
+  message += found == nullptr
+                 ? "."
+                 : "; did you mean " + std::string(found->method) + ' ' + std::string(found->pattern) + '?';
+  return message + " /openapi.json lists all.";
 }
 
 }  // namespace

@@ -170,6 +170,7 @@ Result<Appraisal> appraise_child(const Child& child, const std::string& pointer,
                                  const GenerateContext& around) {
   Call call(child, pointer, stream, around);
   const Demand demand{.two_sided_leaves = around.demand.two_sided_leaves,
+                      .wind = around.demand.wind,
                       .textures = around.demand.textures,
                       .tangents = around.demand.tangents};
   Result<Appraisal> appraisal =

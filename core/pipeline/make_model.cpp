@@ -23,21 +23,6 @@ static_assert(static_cast<int>(OutputCollision::godot) == static_cast<int>(Colli
 
 constexpr int linked_texture_size = 512;
 
-texture::ImageForm image_form_of(const OutputParams& output) {
-  switch (output.image_format) {
-    case OutputImageFormat::png:
-      return texture::ImageForm::png;
-    case OutputImageFormat::webp:
-      return texture::ImageForm::webp;
-    case OutputImageFormat::both:
-      return texture::ImageForm::both;
-    case OutputImageFormat::auto_:
-      break;
-  }
-  return has_links(output) || !profile_of(output.profile).prefers_webp ? texture::ImageForm::png
-                                                                       : texture::ImageForm::webp;
-}
-
 texture::ImageStyle style_of(const OutputParams& output) {
   return {image_form_of(output), has_links(output), "/v1/textures/" + std::string(engine_version()) + "."};
 }
@@ -158,6 +143,21 @@ std::optional<Error> make_levels(Model& model, const Request& request, Job& job)
 }
 
 }  // namespace
+
+texture::ImageForm image_form_of(const OutputParams& output) {
+  switch (output.image_format) {
+    case OutputImageFormat::png:
+      return texture::ImageForm::png;
+    case OutputImageFormat::webp:
+      return texture::ImageForm::webp;
+    case OutputImageFormat::both:
+      return texture::ImageForm::both;
+    case OutputImageFormat::auto_:
+      break;
+  }
+  return has_links(output) || !profile_of(output.profile).prefers_webp ? texture::ImageForm::png
+                                                                       : texture::ImageForm::webp;
+}
 
 bool has_links(const OutputParams& output) {
   const auto* choice = std::get_if<OutputTextures>(&output.textures);

@@ -4,6 +4,7 @@
 #include "core/model/demand.h"
 #include "core/pipeline/body.h"
 #include "core/schema/json.h"
+#include "core/texture/paint.h"
 
 namespace seedmesh {
 
@@ -12,6 +13,9 @@ constexpr std::uint64_t most_parts = 400;
 
 /// Whether the output refers to generated textures by URLs instead of containing them.
 bool has_links(const OutputParams& output);
+
+/// Returns the form of generated images, with `auto` resolved.
+texture::ImageForm image_form_of(const OutputParams& output);
 
 /// Returns the texels of a side of a texture; 0: no textures.
 int texture_size(const OutputParams& output);

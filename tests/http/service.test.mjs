@@ -100,6 +100,18 @@ test('health, readiness, version and metrics respond', async () => {
   assert.ok(Math.abs((await server.metric('process_start_time_seconds')) - Date.now() / 1000) < 3600);
 });
 
+test('an unknown path or schema names the nearest one', async () => {
+  const detail = async (target) => {
+    const answer = await server.get(target);
+    is_problem(answer, 404, 'not-found');
+    return answer.json.detail;
+  };
+  for (const [target, meant] of [['/v1/preset/oak.glb', 'GET /v1/presets/{name}'], ['/presets', 'GET /v1/presets'], ['/v1/schemas', 'GET /v1/schemas/{name}'], ['/v1/docs', 'GET /docs'], ['/v1/vocabulary/tree', 'GET /v1/vocabulary']])
+    assert.ok((await detail(target)).includes(`did you mean ${meant}?`), `${target}: ${await detail(target)}`);
+  for (const target of ['/v1/', '/wp-login.php', '/x']) assert.doesNotMatch(await detail(target), /did you mean/);
+  assert.match(await detail('/v1/schemas/trees'), /"tree"/);
+});
+
 test('unknown paths return 404, and known ones with another method return 405 with Allow', async () => {
   for (const target of ['/nothing', '/v1', '/v1/', '/v1/nowhere', '/v1/generate/', '/v1/models', '/v1/models/', '/v1/models/a/b.glb', '/v1/presets/', '/v1/import/x', '/healthz/x', '/index.htm', '//']) {
     is_problem(await server.get(target), 404, 'not-found');

@@ -6,6 +6,7 @@
 /// With `blocked`, the work begins with this number of milliseconds without a look at stop and deadline.
 /// `end` is product, limit, internal or throw; it reports `progress` steps in between. With `bits`, each byte has
 /// this number of random bits, so that compression saves (8 - bits) / 8 of the answer.
+#include <algorithm>
 #include <cstring>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
@@ -229,7 +230,10 @@ const std::vector<PresetInfo>& presets() {
 }
 std::string no_preset(std::string_view) { return "There is no preset of this name."; }
 std::string no_schema(std::string_view) { return "There is no schema of this name."; }
-std::string_view nearest_name(std::string_view, std::span<const std::string_view>) { return {}; }
+std::string_view nearest_name(std::string_view name, std::span<const std::string_view> names) {
+  const auto same = std::find(names.begin(), names.end(), name);
+  return same == names.end() ? std::string_view() : *same;
+}
 
 std::optional<std::string> preset_json(std::string_view name) {
   if (name != "small") return std::nullopt;

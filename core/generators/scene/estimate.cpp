@@ -120,6 +120,14 @@ std::optional<std::vector<Estimate>> layer_estimates(const VariantTable::Layer& 
   return all;
 }
 
+/// Adds the bytes of merged copies beyond the first of each model.
+void add_copies_of(Estimate& sum, const std::vector<Estimate>& models, double placements) {
+  double bytes = 0;
+  for (const Estimate& each : models) bytes += static_cast<double>(each.bytes - image_bytes(each));
+  const auto count = static_cast<double>(models.size());
+  if (placements > count) sum.bytes += whole(bytes / count * (placements - count));
+}
+
 /// Expected placements under the rules that depend on the ground, whose field is computed at most once.
 class Sampler {
  public:
@@ -183,6 +191,7 @@ std::optional<Estimate> estimate_of(const SceneParams& params, const VariantTabl
   bool exact = ground->exact && params.paths.empty() && !params.camera;
   const Extent extent = square_of(known_width(params));
   Estimate sum = *std::move(ground);
+  const bool merges = context.demand.copies == CopyForm::merge;
   double triangles = static_cast<double>(sum.triangles);
   std::uint64_t copies = 0;
   Sampler sampler(params, context.job);
@@ -203,6 +212,7 @@ std::optional<Estimate> estimate_of(const SceneParams& params, const VariantTabl
       exact = exact && each.triangles == models->front().triangles;
     }
     const double placements = sampler.placements(i, extent);
+    if (merges) add_copies_of(sum, *models, placements);
     exact = exact && params.layers[i].place.method == SceneMethod::positions;
     triangles += own + mean * (placements - static_cast<double>(models->size() - variants.count));
     sum.bytes += whole(placements) * bytes_a_node;

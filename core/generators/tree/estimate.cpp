@@ -9,9 +9,10 @@
 namespace seedmesh::tree {
 namespace {
 
-// Bytes in a GLB: a vertex with position, normal and texture coordinates; the tangent of a vertex with a
+// Bytes in a GLB: a vertex with position, normal and texture coordinates; wind weights; the tangent of a vertex with a
 // texture; the colour of a vertex of a leaf; JSON.
-constexpr std::uint64_t vertex_bytes = 32, tangent_bytes = 16, color_bytes = 4, file_bytes = 4600;
+constexpr std::uint64_t plain_bytes = 32, wind_bytes = 16, tangent_bytes = 16, color_bytes = 4,
+                        file_bytes = 4600;
 // Vertices of bark per triangle, measured.
 constexpr double vertices_a_triangle = 0.71;
 
@@ -28,6 +29,7 @@ Estimate estimate_of(Skeleton skeleton, const TreeParams& params, const Generate
   const auto vertices =
       static_cast<std::uint64_t>(math::to_int64(vertices_a_triangle * static_cast<double>(bark)));
   const std::uint64_t tangent = context.demand.textures > 0 && context.demand.tangents ? tangent_bytes : 0;
+  const std::uint64_t vertex_bytes = plain_bytes + (context.demand.wind ? wind_bytes : 0);
   Model model;  // of materials alone
   add_bark_material(model, params, job);
   estimate.triangles = bark;

@@ -204,6 +204,7 @@ Result<Appraisal> appraise(const TreeParams& params, const GenerateContext& cont
   Job own = job.for_estimate();
   const GenerateContext sketch{own,
                                {.two_sided_leaves = context.demand.two_sided_leaves,
+                                .wind = context.demand.wind,
                                 .textures = context.demand.textures,
                                 .tangents = context.demand.tangents},
                                context.generators};

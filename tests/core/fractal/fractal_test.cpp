@@ -360,6 +360,8 @@ TEST(UnusedParameters, MayDependOnOtherParameters) {
   EXPECT_THAT(unused(R"({"columns": 2, "stages": [1, 2]})"), IsEmpty());
   EXPECT_THAT(unused(R"({"text": "NO"})"), testing::ElementsAre("/text"));
   EXPECT_THAT(unused(R"({"text": "NO", "instructions": "word_test"})"), IsEmpty());
+  EXPECT_THAT(unused(R"({"element": "rainbow_cube", "color": "#000000"})"), testing::ElementsAre("/color"));
+  EXPECT_THAT(unused(R"({"element": "pyramid", "color": "#000000"})"), IsEmpty());
   EXPECT_THAT(unused(R"({"surface": "merged", "element": "sphere"})"), testing::ElementsAre("/surface"));
   EXPECT_THAT(unused(R"({"surface": "merged"})"), IsEmpty());
   EXPECT_THAT(unused(R"({"instructions": [{"scale": 0.5}, {"scale": 0.5, "probability": 2}]})"),

@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 #include <string>
+#include <utility>
 
 #include "core/pipeline.h"
 
@@ -41,6 +42,21 @@ TEST(SizeEstimate, OfGrowingScenesContainsTheirBones) {
     const auto made = static_cast<double>(product->payload.size());
     EXPECT_LT(estimated_bytes(*request), 1.25 * made) << preset;
     EXPECT_GT(estimated_bytes(*request), 0.75 * made) << preset;
+  }
+}
+
+TEST(SizeEstimate, FollowsOptionsOfTheOutput) {
+  for (const auto& [preset, output] :
+       {std::pair{"hutsko_garden", R"({"instancing":"merge","textures":256})"},
+        std::pair{"oak", R"({"wind":"weights"})"}, std::pair{"oak", R"({"image_format":"webp"})"},
+        std::pair{"oak", R"({"image_format":"both"})"}}) {
+    const Result<Request> request = request_of(preset, output);
+    ASSERT_TRUE(request) << output;
+    const Result<Product> product = produce(*request, {});
+    ASSERT_TRUE(product) << output;
+    const auto made = static_cast<double>(product->payload.size());
+    EXPECT_LT(estimated_bytes(*request), 1.25 * made) << output;
+    EXPECT_GT(estimated_bytes(*request), 0.75 * made) << output;
   }
 }
 

@@ -53,6 +53,25 @@ TEST(Terrain, IsSoundByEveryAlgorithm) {
   }
 }
 
+TEST(Terrain, ReportsParametersWithoutEffect) {
+  TerrainParams params;
+  params.algorithm = TerrainAlgorithm::fracture;
+  params.shape = TerrainShape::sphere;
+  params.resolution = 17;
+  params.fracture.emplace();
+  params.fracture->tilt = 30;
+  const auto warned = [&] {
+    std::string all_pointers;
+    for (const Warning& each : model_of(params).warnings) all_pointers += each.pointer;
+    return all_pointers;
+  };
+  EXPECT_EQ(warned(), "/fracture/tilt");
+  params.fracture->strata = 0.05;
+  EXPECT_EQ(warned(), "");
+  params.heightmap.flip = true;
+  EXPECT_EQ(warned(), "/heightmap");
+}
+
 TEST(Terrain, IsTheSameWithAnyNumberOfThreads) {
   for (const TerrainAlgorithm algorithm : all) {
     TerrainParams params = small(algorithm);

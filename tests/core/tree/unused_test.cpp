@@ -50,6 +50,34 @@ TEST(UnusedParameters, OfOtherModelsAreReported) {
   EXPECT_THAT(unused(params), ElementsAre("/sides", "/Ratio", "/sway"));
 }
 
+TEST(UnusedParameters, AreTheFoldOfLeavesThatAreTooCoarse) {
+  TreeParams params;
+  params.leaf.build = TreeBuild::twig;
+  params.leaf.fold = 40;
+  params.leaf.coarseness = 2;
+  EXPECT_THAT(unused(params), IsEmpty());
+  params.leaf.coarseness = 3;
+  EXPECT_THAT(unused(params), ElementsAre("/leaf/fold"));
+  params.leaf.build = TreeBuild::mesh;
+  EXPECT_THAT(unused(params), IsEmpty());
+}
+
+TEST(UnusedParameters, AreTheSeedOfProctreeBesideThatOfTheRequest) {
+  TreeParams params = of(TreeModel::proctree);
+  params.mSeed = 5;
+  const auto pointers = [&](std::uint64_t seed) {
+    Job job(seed, Job::Options{});
+    std::vector<std::string> all;
+    const Result<Appraisal> appraisal = appraise(params, {job});
+    for (const Warning& each : appraisal->warnings) all.push_back(each.pointer);
+    return all;
+  };
+  EXPECT_THAT(pointers(7), ElementsAre("/mSeed"));
+  EXPECT_THAT(pointers(0), IsEmpty());
+  params.sequence = TreeSequence::original;
+  EXPECT_THAT(pointers(7), IsEmpty());
+}
+
 TEST(UnusedParameters, AreTheMatureAgeOfATreeWithoutAge) {
   TreeParams params;
   params.mature_age = 60;
