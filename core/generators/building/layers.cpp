@@ -70,9 +70,10 @@ class KeyMaker {
   }
 
   /// The keys of a flat face by its ring, or of a flat solid by all its rings.
-  std::vector<std::uint64_t>& of_face(const Shape& shape, const std::vector<glm::dvec3>& ring) {
+  std::vector<std::uint64_t>& of_face(const Shape& shape, std::vector<glm::dvec3>& ring) {
     keys_.clear();
     corners_.clear();
+    restore_corners(shape, ring);
     for (const glm::dvec3& point : ring) corners_.push_back(corner_at(point));
     if (!ring.empty()) {
       add_ring(corners_.size(), [](std::size_t k) { return k; });
@@ -98,6 +99,21 @@ class KeyMaker {
   }
   glm::dvec3 place(const Shape& shape, const glm::dvec3& unit) const {
     return shape.origin + shapes_.axes[shape.axes] * (unit * shape.size);
+  }
+  /// Sets the corners of a ring that CoplanarRectangles moved to those of the shape. The cells of bodies beside it, which
+  /// have the same corners, could differ otherwise.
+  void restore_corners(const Shape& shape, std::vector<glm::dvec3>& ring) const {
+    constexpr double moved = 0.2;  // cells
+    for (glm::dvec3& point : ring) {
+      for (unsigned corner = 0; corner < 8; ++corner) {
+        const glm::dvec3 at = place(shape, glm::dvec3(corner & 1U, corner >> 1U & 1U, corner >> 2U));
+        const glm::dvec3 off = (at - point) * by_cell_;
+        if (glm::dot(off, off) < moved * moved) {
+          point = at;
+          break;
+        }
+      }
+    }
   }
   void add_edge(std::uint64_t from, std::uint64_t to) { keys_.push_back(mix(mix(from) + to) | 1U); }
   template <class Place>

@@ -264,5 +264,28 @@ TEST(GeoJsonOfCities, DoesNotWarnOfStreetsThatAreBuilt) {
   EXPECT_TRUE(warnings_for(streets, "growth").empty());
 }
 
+TEST(GeoJsonOfCities, BuildsABridgeOnceThatIsGivenTwice) {
+  const Json streets = Json::parse(R"({"type":"FeatureCollection","features":[
+    {"type":"Feature","properties":{},"geometry":{"type":"LineString","coordinates":[[-90,0],[90,0]]}},
+    {"type":"Feature","properties":{},"geometry":{"type":"LineString","coordinates":[[-50,0],[-50,60],[-50,90]]}},
+    {"type":"Feature","properties":{},"geometry":{"type":"LineString","coordinates":[[50,0],[50,60]]}},
+    {"type":"Feature","properties":{"level":1},"geometry":{"type":"LineString","coordinates":[[-50,60],[50,60]]}},
+    {"type":"Feature","properties":{"level":1},"geometry":{"type":"LineString","coordinates":[[50,60],[-50,60]]}},
+    {"type":"Feature","properties":{},"geometry":{"type":"LineString","coordinates":[[90,0],[-90,0]]}}]})");
+  const Json water =
+      Json::parse(R"({"type":"Polygon","coordinates":[[[-9,-20],[9,-20],[9,20],[-9,20],[-9,-20]]]})");
+  IssueList errors;
+  const CityParams params = read_city({{"area", {{"size", {200, 200}}}},
+                                       {"streets", {{"method", "given"}}},
+                                       {"given", {{"streets", streets}, {"water", water}}}},
+                                      "", errors);
+  ASSERT_TRUE(errors.empty());
+  Job job(1, Job::Options{});
+  const Result<CityPlan> plan = plan_of(params, job);
+  ASSERT_TRUE(plan);
+  EXPECT_EQ(plan->graph.bridges.size(), 2U) << "one over the street at 0, 60, one over the water";
+  EXPECT_TRUE(plan_warnings(params, *plan).empty());
+}
+
 }  // namespace
 }  // namespace seedmesh::city

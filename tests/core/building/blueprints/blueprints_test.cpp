@@ -9,6 +9,7 @@
 #include <regex>
 #include <set>
 
+#include "core/base/math.h"
 #include "core/generators/building/building.h"
 #include "core/generators/child.h"
 #include "core/geom/mesh/finish.h"
@@ -206,6 +207,29 @@ TEST(Blueprints, HouseHasItsDoorAnywhereInTheFrontAndWindowsAtRandom) {
   }
   EXPECT_THAT(doors, SizeIs(3));
   EXPECT_GT(windows.size(), 4U);
+}
+
+TEST(Blueprints, HaveDoorsAndWindowsInSidesOfTwoMetres) {
+  Json ring = Json::array();
+  for (int i = 0; i < 24; ++i) {
+    const math::SinCos turn = math::sincos_degrees(15.0 * i);
+    ring.push_back({8 * turn.cos, 8 * turn.sin});
+  }
+  struct Openings {
+    const char *blueprint, *door, *window;
+    int least;  ///< of windows
+  };
+  for (const Openings& each : {Openings{"house", "Door", "Window", 24},
+                               {"parisian_block", "Portal", "Window", 96},
+                               {"warehouse", "OfficeDoor", "Light", 20},
+                               {"office_tower", "EntranceDoor", "Window", 12},
+                               {"church", "Portal", "TallWindow", 3},
+                               {"skyscraper", "EntranceDoor", "ShopWindow", 12}}) {
+    const Json shapes = shapes_of({{"blueprint", each.blueprint}, {"footprint", Json::array({ring})}}, 1);
+    EXPECT_GE(count(shapes, each.door), 1) << each.blueprint;
+    EXPECT_GE(count(shapes, each.window), each.least) << each.blueprint;
+    expect_sound({{"blueprint", each.blueprint}, {"footprint", Json::array({ring})}}, 1, each.blueprint);
+  }
 }
 
 TEST(Blueprints, ChurchHasItsDoorInTheTowerOrASide) {
