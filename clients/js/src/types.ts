@@ -692,7 +692,7 @@ export interface CityParametersYards {
   models?: Child[];
   /** What stands along the borders between lots, outside of the buildings. */
   border?: "none" | "hedge" | "fence" | "wall";
-  /** Whether the border also closes the front of a lot on both sides of its building, as in streets with closed fronts. */
+  /** Whether the border also closes the lot against streets. It stands on both sides of the building and, behind that line, along the other streets of the lot. */
   front?: boolean;
   /** The height of hedges, fences and walls. */
   height?: number;
