@@ -307,7 +307,7 @@ std::string_view leaf_kind(LeafShape shape, bool is_twig) {
 }
 
 void let_light_through(Material& material, LeafShape shape) {
-  constexpr float through_blade = 0.4F, through_needle = 0.2F, leaf_specular = 0.4F;
+  constexpr float through_blade = 0.4F, through_needle = 0.25F, leaf_specular = 0.4F;
   // Chlorophyll takes blue light twice: the proportions of 1.25, 1.2 and 0.55, at most 1 as glTF demands.
   constexpr glm::vec3 through_green{1, 0.96F, 0.44F};
   material.transmission = has_needles(shape) ? through_needle : through_blade;

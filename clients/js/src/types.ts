@@ -692,7 +692,7 @@ export interface CityParametersYards {
   models?: Child[];
   /** What stands along the borders between lots, outside of the buildings. */
   border?: "none" | "hedge" | "fence" | "wall";
-  /** Whether the border also closes the front of a lot on both sides of its building, as in streets with closed fronts. */
+  /** Whether the border also closes the lot against streets. It stands on both sides of the building and, behind that line, along the other streets of the lot. */
   front?: boolean;
   /** The height of hedges, fences and walls. */
   height?: number;
@@ -1704,7 +1704,7 @@ export interface TreeParametersLeaf {
   density?: number;
   /** Factor for the length and width that the model gives. */
   size?: number;
-  /** two_sided: one face that is visible from both sides; renderers invert its normal on the back side, and crowns seen from below are dark. outward: thin leaves with faces on both sides, which share one normal that turns to the light and out of the crown. Such leaves have twice the triangles and no generated normal map. auto: two_sided in the profiles unreal and unity, whose foliage materials turn normals themselves, and outward otherwise. Leaves that share a mesh (output.instancing) are always two_sided. */
+  /** two_sided: one face that is visible from both sides; renderers invert its normal on the back side, and crowns seen from below are dark. outward: thin leaves with faces on both sides, whose normals turn out of the crown as far as they stay on the side of their faces. Such leaves have twice the triangles and no generated normal map. auto: two_sided in the profiles unreal and unity, whose foliage materials turn normals themselves, and outward otherwise. Leaves that share a mesh (output.instancing) are always two_sided. */
   faces?: "auto" | "two_sided" | "outward";
   /** Largest random angle by which a leaf turns about its length. Crowns whose leaves lie at all angles are denser from the side, and lighter from below. */
   roll?: number;
@@ -1960,7 +1960,7 @@ export interface TreeParametersGrown {
   lambda_old?: number;
   /** Apical control falls, or rises, from `lambda` to `lambda_old` between these two years. */
   lambda_years?: [number, number];
-  /** Weight of the branches of the lowest rank against the branch of the first rank: w_min by w_max in the paper. */
+  /** Weight of the branches of the lowest rank against the branch of the first rank: w_min by w_max in the paper, which uses 0.006 with unlimited shoots. Low values leave bare stems. */
   priority_least?: number;
   /** Share of the branches of an axis, in the order of their ranks, over which weights fall to `priority_least`: κ in the paper. */
   priority_share?: number;
