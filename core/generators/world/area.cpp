@@ -83,6 +83,7 @@ Area joined(const Area& sw, const Area& se, const Area& nw, const Area& ne) {
     all.lowest = std::min(all.lowest, area->lowest);
     all.rough.add(area->rough);
     all.plant_height = std::max(all.plant_height, area->plant_height);
+    all.plant_top = std::max(all.plant_top, area->plant_top);
   }
   const std::array<std::array<const Area*, 2>, 4> beside{{{&sw, &nw}, {&sw, &se}, {&se, &ne}, {&nw, &ne}}};
   for (std::size_t k = 0; k < 4; ++k) {

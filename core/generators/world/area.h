@@ -19,6 +19,7 @@ struct Area {
   std::array<Roughness, 4> border_rough;
   bool has_valleys = true;  ///< false where samples are of the land alone
   double plant_height = 0;  ///< height of the tallest class that may grow here
+  double plant_top = 0;     ///< bound of the height of plants above the ground
 
   /// Adds a sample. `is_border`: the borders that it is on.
   void add(const GroundSample& sample, const std::array<bool, 4>& is_border);

@@ -7,6 +7,7 @@
 #include "core/generators/world/houses.h"
 #include "core/generators/world/land_rows.h"
 #include "core/generators/world/lanes.h"
+#include "core/generators/world/plant_mesh.h"
 #include "core/generators/world/plants.h"
 #include "core/generators/world/tile_frame.h"
 
@@ -229,6 +230,7 @@ class AreaFinder {
 
   /// Of the classes that may grow by climate, others exclude heights, and small tiles often have no plant of rare ones.
   void leave_out_absent_plants() {
+    const std::vector<double> tops = plant_tops(world_);
     for (int k = 0; k < count_ * count_; ++k) {
       job_.check();
       const int row = k / count_, column = k % count_;
@@ -237,7 +239,9 @@ class AreaFinder {
       const Growth growth{std::min(area.low, area.lowest) - spacing_,
                           std::max(area.high, area.highest) + spacing_, area.plant_height,
                           spacing_ >= coarse_spacing && area.rough.river > 0};
-      area.plant_height = tallest_present(world_, growth, box_of(column, row));
+      const PresentPlants present = plants_present(world_, growth, tops, box_of(column, row));
+      area.plant_height = present.height;
+      area.plant_top = present.top;
     }
   }
 

@@ -109,8 +109,9 @@ double own_skirt(const World& world, const TileFrame& frame, const Area& area, d
                  double between) {
   const Roughness rough = frame.spacing < spacing ? area.rough : area.rough_border();
   const double below = spacing < coarse_spacing ? between : line_share * between;
+  // heights are rounded to steps, depths of skirts up to whole steps
   return std::min(area.border() - below, area.border_cut()) - most_skirt(world, frame, rough) -
-         2 * frame.step;
+         1.5 * frame.step;
 }
 
 /// How far samples of a tile can be from those of its block, which are `spacing` apart. Wide blocks have samples of the
@@ -136,7 +137,7 @@ double draped_top(const World& world, const TileFrame& frame, const Area& area, 
 }
 
 /// Heights of boxes have few digits; those of small tiles, which are low, are finer.
-double digits_of(const TileFrame& frame) { return frame.side > 1024 ? 4 : 16; }
+double digits_of(const TileFrame& frame) { return frame.side > 8192 ? 4 : 16; }
 double rounded_down(double height, const TileFrame& frame) {
   return std::floor(height * digits_of(frame)) / digits_of(frame);
 }
@@ -165,20 +166,19 @@ TileBounds link_bounds(const World& world, const TileKey& key, const Area& area,
   high = std::max(high, draped_top(world, frame, area, between));
   const double share = spacing < coarse_spacing ? 1 : line_share;
   if (!is_leaf) {
-    TileFrame child = frame;
-    child.spacing /= 2;
+    const TileFrame child = frame_of(world, {key.level + 1, 2 * key.x, 2 * key.y});
     low = std::min(low, std::min(area.low - share * below, area.lowest) -
                             most_skirt(world, child, rough_of_tiles_below(world, key.level, area, spacing)));
   }
   if (area.plant_height > 0) {
     const PlantExtent plants = plant_extent(area.plant_height);
-    high = std::max(high, area.high + share * between + plants.up);
+    high = std::max(high, area.high + share * between + area.plant_top);
     low = std::min(low, area.low - below - plants.down);
   }
-  low = std::min(low, own_skirt(world, frame, area, spacing, below));
+  low = std::min(low - frame.step, own_skirt(world, frame, area, spacing, below));
   TileBounds box = in_plan(world, key);
-  box.low = rounded_down(low - 2 * frame.step, frame);
-  box.high = rounded_up(high + 2 * frame.step, frame);
+  box.low = rounded_down(low, frame);
+  box.high = rounded_up(high + frame.step, frame);
   box.geometric_error = is_leaf ? 0 : error_of(world, frame, area.rough, area.plant_height);
   return box;
 }

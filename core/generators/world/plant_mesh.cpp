@@ -288,7 +288,21 @@ double crown_width(const WorldClass& plant) {
 
 PlantExtent plant_extent(double height) {
   const double tallest = height * greatest_size;
-  return {widest_plant * tallest, 1.05 * tallest, plant_depth + deepest_root * tallest};
+  return {widest_plant * tallest, plant_depth + deepest_root * tallest};
+}
+
+std::vector<double> plant_tops(const World& world) {
+  std::vector<double> tops;
+  for (const WorldClass& plant : world.params.plants) {
+    double top = plant.height;  // a model has the height of its class
+    if (!plant.model || !world.make_asset) {
+      const int number = static_cast<int>(tops.size());
+      for (const PlantForm form : {PlantForm::whole, PlantForm::simple})
+        top = std::max(top, static_cast<double>(plant_file(world, number, form).high[1]));
+    }
+    tops.push_back(greatest_size * top - plant_depth);
+  }
+  return tops;
 }
 
 PlantExtent plant_extent(const World& world) {

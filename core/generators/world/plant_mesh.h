@@ -1,6 +1,7 @@
 #pragma once
 /// The mesh of a class of plants, in a file that all tiles share.
 #include <string>
+#include <vector>
 
 #include "core/generators/world/world.h"
 
@@ -32,15 +33,18 @@ constexpr double deepest_root = 0.06;  ///< greatest reach of a plant below its 
 /// Greatest reach of a plant from its foot in plan, as a share of its height.
 constexpr double widest_plant = 0.8;
 
-/// Upper bounds of the distance of any part of a plant from its foot: in plan, upwards, and below the ground, in
-/// metres.
+/// Upper bounds of the distance of any part of a plant from its foot in plan, and below the ground, in metres.
 struct PlantExtent {
-  double across = 0, up = 0, down = 0;
+  double across = 0, down = 0;
 };
 /// Returns the bounds for all plants of a world; 0 without plants. `across` is rounded up to whole metres.
 PlantExtent plant_extent(const World& world);
 
 /// Returns the bounds for classes of at most this height, in metres.
 PlantExtent plant_extent(double height);
+
+/// Returns for each class how far its tallest plants reach above the ground, in metres. Makes the meshes of classes
+/// without a model.
+std::vector<double> plant_tops(const World& world);
 
 }  // namespace seedmesh::world

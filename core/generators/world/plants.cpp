@@ -303,9 +303,11 @@ double tallest_growing(const World& world, const GroundSample& sample, double ea
   return tallest;
 }
 
-double tallest_present(const World& world, const Growth& growth, const Rectangle& box) {
+PresentPlants plants_present(const World& world, const Growth& growth, std::span<const double> tops,
+                             const Rectangle& box) {
   constexpr double widest_counted = 256;  ///< metres; side of squares in which candidates are searched
-  if (!world.has(Layer::plants)) return 0;
+  PresentPlants present;
+  if (!world.has(Layer::plants)) return present;
   double most = growth.tallest;
   if (growth.has_river) {
     GroundSample bank;
@@ -314,17 +316,19 @@ double tallest_present(const World& world, const Growth& growth, const Rectangle
     const double east = (box.west + box.east) / 2, north = (box.south + box.north) / 2;
     most = std::max(most, tallest_growing(world, bank, east, north, box.east - box.west));
   }
-  double tallest = 0;
   for (std::size_t k = 0; k < world.params.plants.size(); ++k) {
     const WorldClass& plant = world.params.plants[k];
     const double zero = world.params.relief.sea_level;
-    const bool may_be = plant.height > tallest && plant.height <= most &&
-                        growth.high - zero >= plant.heights[0] && growth.low - zero <= plant.heights[1];
+    const bool is_higher = plant.height > present.height || tops[k] > present.top;
+    const bool may_be = is_higher && plant.height <= most && growth.high - zero >= plant.heights[0] &&
+                        growth.low - zero <= plant.heights[1];
     if (!may_be) continue;
-    if (box.east - box.west > widest_counted || has_candidate(world, static_cast<int>(k), box))
-      tallest = plant.height;
+    if (box.east - box.west > widest_counted || has_candidate(world, static_cast<int>(k), box)) {
+      present.height = std::max(present.height, plant.height);
+      present.top = std::max(present.top, tops[k]);
+    }
   }
-  return tallest;
+  return present;
 }
 
 }  // namespace seedmesh::world

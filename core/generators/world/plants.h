@@ -7,6 +7,7 @@
 ///
 /// A finite form of the dependent thinning of Matérn 1960 ("Spatial variation").
 #include <glm/vec2.hpp>
+#include <span>
 #include <vector>
 
 #include "core/generators/world/ground.h"
@@ -49,8 +50,14 @@ struct Growth {
   double low = 0, high = 0, tallest = 0;
   bool has_river = false;  ///< a river beside which `tallest` does not include the moist ground
 };
-/// Returns the height of the tallest class that grows here, among those of at most `growth.tallest` metres; 0 without one.
-/// In squares of up to 256 m, the class must also have a candidate in [west, east) x [south, north).
-double tallest_present(const World& world, const Growth& growth, const Rectangle& box);
+/// Bounds of the plants in a square, in metres; 0 without plants.
+struct PresentPlants {
+  double height = 0;  ///< height of the tallest class
+  double top = 0;     ///< height of the tallest plant above the ground
+};
+/// Returns the bounds of the classes that grow here, among those of at most `growth.tallest` metres. `tops`: from
+/// plant_tops(). In squares of up to 256 m, a class must also have a candidate in [west, east) x [south, north).
+PresentPlants plants_present(const World& world, const Growth& growth, std::span<const double> tops,
+                             const Rectangle& box);
 
 }  // namespace seedmesh::world
