@@ -75,11 +75,22 @@ function cut_out(program: WebGLProgramParametersWithUniforms, cut: Cut): void {
     '  diffuseColor.rgb = texture2D(squares, vMapUv).rgb;');
 }
 
+// The mean opacity of needles is below their cutoff. In the last levels of a mipmap, which are a few texels wide, they would
+// therefore vanish, and conifers far away would be bare. The opacity of the last three levels rises, up to twice as high.
+const far_body = `
+#ifdef USE_MAP
+  vec2 size_of_map = vec2(textureSize(map, 0)), along_x = dFdx(vMapUv) * size_of_map, along_y = dFdy(vMapUv) * size_of_map;
+  float level_of_map = 0.5 * log2(max(max(dot(along_x, along_x), dot(along_y, along_y)), 1e-9));
+  diffuseColor.a *= 1.0 + clamp(level_of_map - log2(max(size_of_map.x, size_of_map.y)) + 3.0, 0.0, 3.0) / 3.0;
+#endif
+`;
+
 const patched = new WeakMap<Material, { key: string; fade: Fade | null }>();
 
 /** Patches a material once with the requested features. */
 export function patch(material: Material, sways: boolean, fade: Fade | null, cut: Cut | null = null): void {
-  const key = `${sways ? 'sways' : ''} ${fade ? 'fades' : ''}${cut ? ` cut ${cut === 'normals' ? cut : 'squares'}` : ''}`;
+  const is_cut_out = cut === null && material.alphaTest > 0;
+  const key = `${sways ? 'sways' : ''} ${fade ? 'fades' : ''}${is_cut_out ? ' far' : ''}${cut ? ` cut ${cut === 'normals' ? cut : 'squares'}` : ''}`;
   const known = patched.get(material);
   if (key === ' ' || (known?.key === key && known.fade === fade)) return;
   patched.set(material, { key, fade });
@@ -89,6 +100,7 @@ export function patch(material: Material, sways: boolean, fade: Fade | null, cut
       program.vertexShader = inserted(program.vertexShader, sway_head, '#include <project_vertex>', '  transformed += sway(transformed);');
     }
     if (cut) cut_out(program, cut);
+    if (is_cut_out) program.fragmentShader = inserted(program.fragmentShader, '', '#include <alphatest_fragment>', far_body);
     if (fade) {
       program.uniforms['fade'] = fade;
       program.fragmentShader = inserted(program.fragmentShader, fade_head, '#include <clipping_planes_fragment>', fade_body);
