@@ -76,12 +76,12 @@ function cut_out(program: WebGLProgramParametersWithUniforms, cut: Cut): void {
 }
 
 // The mean opacity of needles is below their cutoff. In the last levels of a mipmap, which are a few texels wide, they would
-// therefore vanish, and conifers far away would be bare. The opacity of the last three levels rises, up to twice as high.
+// therefore vanish, and conifers far away would be bare. The opacity of the last two levels rises, up to twice as high.
 const far_body = `
 #ifdef USE_MAP
   vec2 size_of_map = vec2(textureSize(map, 0)), along_x = dFdx(vMapUv) * size_of_map, along_y = dFdy(vMapUv) * size_of_map;
   float level_of_map = 0.5 * log2(max(max(dot(along_x, along_x), dot(along_y, along_y)), 1e-9));
-  diffuseColor.a *= 1.0 + clamp(level_of_map - log2(max(size_of_map.x, size_of_map.y)) + 3.0, 0.0, 3.0) / 3.0;
+  diffuseColor.a *= 1.0 + clamp(level_of_map - log2(max(size_of_map.x, size_of_map.y)) + 2.0, 0.0, 2.0) / 2.0;
 #endif
 `;
 
