@@ -76,8 +76,8 @@ std::optional<http::Response> refuse_query(const Route& row, const RequestContex
   std::vector<Issue> issues;
   for (const auto& [key, value] : std::get<Overrides>(query)) {
     if (issues.size() == most_issues) break;
-    issues.push_back({IssueKind::unknown_key, pointer_token(key.substr(0, longest_key)),
-                      std::string(row.pattern) + " takes no query."});
+    issues.emplace_back(IssueKind::unknown_key, pointer_token(key.substr(0, longest_key)),
+                        std::string(row.pattern) + " takes no query.");
   }
   if (issues.empty()) return std::nullopt;  // `?` or `?&` alone
   return refuse(call, problem_of({Code::invalid, std::move(issues)}));

@@ -35,7 +35,7 @@ std::vector<Side> street_sides(const CityPlan& plan, const Job& job) {
     if (part.is_wall || (!is_street_space(part) && part.kind != PartKind::verge)) continue;
     for (const CmRing& ring : part.rings) {
       for (std::size_t k = 0; k < ring.size(); ++k)
-        sides.push_back(std::minmax(ring[k], ring[(k + 1) % ring.size()]));
+        sides.emplace_back(std::minmax(ring[k], ring[(k + 1) % ring.size()]));
     }
   }
   std::sort(sides.begin(), sides.end());
