@@ -47,9 +47,10 @@ Solid torus(double radius, double tube, std::uint32_t sides, std::uint32_t tube_
 
 std::uint32_t sides_at(Derivation& d, const Step& step, std::uint32_t i, double least) {
   const double sides = std::trunc(number_or(d, step, i, 0));
-  if (!(sides >= least && sides <= most_sides))
+  if (!(sides >= least && sides <= most_sides)) {
     reject(d, step.offset,
            "found " + text_of_number(sides) + ", expected " + text_of_number(least) + " to 256");
+  }
   return math::to_uint32(sides);
 }
 
