@@ -3,7 +3,6 @@
 
 #include <nlohmann/json.hpp>
 #include <string>
-#include <utility>
 
 #include "core/pipeline.h"
 
@@ -18,46 +17,35 @@ double estimated_bytes(const Request& request) {
   return nlohmann::json::parse(*validate(request, {}))["estimate"]["bytes"].get<double>();
 }
 
+void expect_within_a_quarter(const std::string& preset, const std::string& output) {
+  SCOPED_TRACE(preset + " " + output);
+  const Result<Request> request = request_of(preset, output);
+  ASSERT_TRUE(request);
+  const Result<Product> product = produce(*request, {});
+  ASSERT_TRUE(product);
+  const auto made = static_cast<double>(product->payload.size());
+  EXPECT_LT(estimated_bytes(*request), 1.25 * made);
+  EXPECT_GT(estimated_bytes(*request), 0.75 * made);
+}
+
 /// Models of one file share their images, so an estimate that counts images with each model is far too high.
 TEST(SizeEstimate, OfScenesCitiesAndHousesIsWithinAQuarter) {
   for (const char* preset : {"kogovsek_4_5", "hutsko_garden", "forest_interior", "orchard", "alpine_meadow",
                              "given_quarter", "hillside_harbour", "roman_quarter", "garden_village",
-                             "factory", "church", "terraced_house", "office_tower", "temple"}) {
-    const Result<Request> request = request_of(preset, R"({"textures":256})");
-    ASSERT_TRUE(request) << preset;
-    const Result<Product> product = produce(*request, {});
-    ASSERT_TRUE(product) << preset;
-    const auto made = static_cast<double>(product->payload.size());
-    EXPECT_LT(estimated_bytes(*request), 1.25 * made) << preset;
-    EXPECT_GT(estimated_bytes(*request), 0.75 * made) << preset;
-  }
+                             "factory", "church", "terraced_house", "office_tower", "temple"})
+    expect_within_a_quarter(preset, R"({"textures":256})");
 }
 
 TEST(SizeEstimate, OfGrowingScenesContainsTheirBones) {
-  for (const char* preset : {"growing_garden", "fallow_field"}) {
-    const Result<Request> request = request_of(preset, R"({"animation":"growth"})");
-    ASSERT_TRUE(request) << preset;
-    const Result<Product> product = produce(*request, {});
-    ASSERT_TRUE(product) << preset;
-    const auto made = static_cast<double>(product->payload.size());
-    EXPECT_LT(estimated_bytes(*request), 1.25 * made) << preset;
-    EXPECT_GT(estimated_bytes(*request), 0.75 * made) << preset;
-  }
+  for (const char* preset : {"growing_garden", "fallow_field"})
+    expect_within_a_quarter(preset, R"({"animation":"growth"})");
 }
 
 TEST(SizeEstimate, FollowsOptionsOfTheOutput) {
-  for (const auto& [preset, output] :
-       {std::pair{"hutsko_garden", R"({"instancing":"merge","textures":256})"},
-        std::pair{"oak", R"({"wind":"weights"})"}, std::pair{"oak", R"({"image_format":"webp"})"},
-        std::pair{"oak", R"({"image_format":"both"})"}}) {
-    const Result<Request> request = request_of(preset, output);
-    ASSERT_TRUE(request) << output;
-    const Result<Product> product = produce(*request, {});
-    ASSERT_TRUE(product) << output;
-    const auto made = static_cast<double>(product->payload.size());
-    EXPECT_LT(estimated_bytes(*request), 1.25 * made) << output;
-    EXPECT_GT(estimated_bytes(*request), 0.75 * made) << output;
-  }
+  expect_within_a_quarter("hutsko_garden", R"({"instancing":"merge","textures":256})");
+  expect_within_a_quarter("oak", R"({"wind":"weights"})");
+  expect_within_a_quarter("oak", R"({"image_format":"webp"})");
+  expect_within_a_quarter("oak", R"({"image_format":"both"})");
 }
 
 TEST(SizeEstimate, HasNoImagesWhereTheFileHasLinks) {
