@@ -233,15 +233,13 @@ class AreaFinder {
     const std::vector<double> tops = plant_tops(world_);
     for (int k = 0; k < count_ * count_; ++k) {
       job_.check();
-      const int row = k / count_, column = k % count_;
-      Area& area = at(column, row);
+      Area& area = at(k % count_, k / count_);
       // between samples, the ground differs by less than their distance
       const Growth growth{std::min(area.low, area.lowest) - spacing_,
                           std::max(area.high, area.highest) + spacing_, area.plant_height,
                           spacing_ >= coarse_spacing && area.rough.river > 0};
-      const PresentPlants present = plants_present(world_, growth, tops, box_of(column, row));
-      area.plant_height = present.height;
-      area.plant_top = present.top;
+      const auto [height, top] = plants_present(world_, growth, tops, box_of(k % count_, k / count_));
+      area.plant_height = height, area.plant_top = top;
     }
   }
 
