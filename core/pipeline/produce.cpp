@@ -196,7 +196,7 @@ Result<std::string> derive(const Request& request, const Job::Options& options) 
     if (const auto warnings = answer->find("warnings"); warnings != answer->end()) {
       for (Json& each : *warnings) each["pointer"] = in_request(each["pointer"].get<std::string>());
     }
-    return canonical_text(*answer);
+    return canonical_text(*answer, [&] { job.check(); });
   });
 }
 

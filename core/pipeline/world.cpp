@@ -197,7 +197,8 @@ Result<std::string> world_map(const OpenWorld& world, const WorldBox& box, World
                               const Job::Options& options) {
   return made<std::string>(world, options, [&](const world::World& own, Job& job) -> Result<std::string> {
     const auto wanted = heights == WorldHeights::grid ? world::MapHeights::grid : world::MapHeights::none;
-    return canonical_text(world::map_json(own, {box.west, box.south, box.east, box.north}, wanted, job));
+    return canonical_text(world::map_json(own, {box.west, box.south, box.east, box.north}, wanted, job),
+                          [&] { job.check(); });
   });
 }
 

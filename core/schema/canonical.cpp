@@ -47,50 +47,74 @@ void append_string(std::string& out, std::string_view text) {
   out += '"';
 }
 
-void append(std::string& out, const Json& value) {
-  switch (value.type()) {
-    case Json::value_t::boolean:
-      out += value.get<bool>() ? "true" : "false";
-      break;
-    case Json::value_t::number_integer:
-      out += std::to_string(value.get<std::int64_t>());
-      break;
-    case Json::value_t::number_unsigned:
-      out += std::to_string(value.get<std::uint64_t>());
-      break;
-    case Json::value_t::number_float: {
-      const auto number = value.get<double>();
-      out += std::isfinite(number) ? number_text(number) : "null";  // JSON cannot express it
-      break;
-    }
-    case Json::value_t::string:
-      append_string(out, value.get_ref<const std::string&>());
-      break;
-    case Json::value_t::array: {
-      out += '[';
-      for (std::size_t i = 0; i < value.size(); ++i) {
-        if (i > 0) out += ',';
-        append(out, value[i]);
-      }
-      out += ']';
-      break;
-    }
-    case Json::value_t::object: {
-      out += '{';
-      bool first = true;
-      for (const auto& [key, member] : value.get_ref<const Json::object_t&>()) {
-        if (!std::exchange(first, false)) out += ',';
-        append_string(out, key);
-        out += ':';
-        append(out, member);
-      }
-      out += '}';
-      break;
-    }
-    default:
-      out += "null";
+/// Writes values to one text.
+class CanonicalWriter {
+ public:
+  explicit CanonicalWriter(const std::function<void()>& check) : check_(check) {}
+
+  std::string write(const Json& value) {
+    append(value);
+    return std::move(out_);
   }
-}
+
+ private:
+  void append(const Json& value) {
+    constexpr std::uint64_t values_between_checks = 4096;
+    if (++values_ % values_between_checks == 0 && check_) check_();
+    switch (value.type()) {
+      case Json::value_t::boolean:
+        out_ += value.get<bool>() ? "true" : "false";
+        break;
+      case Json::value_t::number_integer:
+        out_ += std::to_string(value.get<std::int64_t>());
+        break;
+      case Json::value_t::number_unsigned:
+        out_ += std::to_string(value.get<std::uint64_t>());
+        break;
+      case Json::value_t::number_float: {
+        const auto number = value.get<double>();
+        out_ += std::isfinite(number) ? number_text(number) : "null";  // JSON cannot express it
+        break;
+      }
+      case Json::value_t::string:
+        append_string(out_, value.get_ref<const std::string&>());
+        break;
+      case Json::value_t::array:
+        append_list(value);
+        break;
+      case Json::value_t::object:
+        append_object(value.get_ref<const Json::object_t&>());
+        break;
+      default:
+        out_ += "null";
+    }
+  }
+
+  void append_list(const Json& list) {
+    out_ += '[';
+    for (std::size_t i = 0; i < list.size(); ++i) {
+      if (i > 0) out_ += ',';
+      append(list[i]);
+    }
+    out_ += ']';
+  }
+
+  void append_object(const Json::object_t& object) {
+    out_ += '{';
+    bool first = true;
+    for (const auto& [key, member] : object) {
+      if (!std::exchange(first, false)) out_ += ',';
+      append_string(out_, key);
+      out_ += ':';
+      append(member);
+    }
+    out_ += '}';
+  }
+
+  const std::function<void()>& check_;
+  std::string out_;
+  std::uint64_t values_ = 0;
+};
 
 }  // namespace
 
@@ -125,10 +149,8 @@ std::string number_text(double number) {
   return out.append(digits, 0, whole).append(1, '.').append(digits, whole);
 }
 
-std::string canonical_text(const Json& value) {
-  std::string out;
-  append(out, value);
-  return out;
+std::string canonical_text(const Json& value, const std::function<void()>& check) {
+  return CanonicalWriter(check).write(value);
 }
 
 void merge_patch(Json& target, const Json& patch) {

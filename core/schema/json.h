@@ -1,6 +1,7 @@
 #pragma once
 /// JSON of the service: one strict parser, and one canonical text.
 #include <cstddef>
+#include <functional>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <string_view>
@@ -32,8 +33,9 @@ struct JsonLimits {
 Result<Json> parse_json(std::string_view text, const JsonLimits& limits = {});
 
 /// Returns the canonical text: no spaces, sorted members, numbers as ECMAScript prints them (7.0 is 7), and escapes
-/// only where JSON requires them. Equal values give equal texts. All numbers have to be finite.
-std::string canonical_text(const Json& value);
+/// only where JSON requires them. Equal values give equal texts. All numbers have to be finite. `check`, which
+/// may be empty, is called with every 4,096 values, and may throw to end the work. Cost: linear.
+std::string canonical_text(const Json& value, const std::function<void()>& check = {});
 
 /// Applies a JSON Merge Patch (RFC 7396): objects are merged member by member, null removes a member, and any
 /// other value replaces the old one. Recurses as deep as the patch, whose depth parse_json bounds.

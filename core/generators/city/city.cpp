@@ -343,7 +343,7 @@ Result<Payload> encode(const CityParams& params, const WantedFormat&, const Gene
   if (!plan) return plan.error();
   context.job.progress("encode", 0);
   Payload payload;
-  payload.add(canonical_text(plan_json(*plan, params, context.job)));
+  payload.add(canonical_text(plan_json(*plan, params, context.job), [&] { context.job.check(); }));
   return payload;
 }
 

@@ -40,12 +40,13 @@ Json feature(Json geometry, Json properties) {
 
 class Writer {
  public:
-  Writer(const CityPlan& plan, const CityParams& params, Job& job) : plan_(plan), requests_(params) {
+  Writer(const CityPlan& plan, const CityParams& params, Job& job)
+      : plan_(plan), job_(job), requests_(params) {
     if (!plan.heights.is_level()) surface_.emplace(plan, kerb_height, job);
   }
 
   Json write() {
-    features_.push_back(feature(polygon(plan_.area), {{"kind", "area"}}));
+    add_feature(polygon(plan_.area), {{"kind", "area"}});
     add_nodes();
     add_streets();
     for (const Block& block : plan_.blocks) add_block(block);
@@ -70,15 +71,22 @@ class Writer {
     return degree == 1 ? "dead_end" : degree == 2 ? "bend" : "junction";
   }
 
+  /// Adds a feature. Checks the job with every 64 of them, because a feature of a terrain costs some microseconds.
+  void add_feature(Json geometry, Json properties) {
+    constexpr std::size_t features_between_checks = 64;
+    if (features_.size() % features_between_checks == 0) job_.check();
+    features_.push_back(feature(std::move(geometry), std::move(properties)));
+  }
+
   void add_nodes() {
     for (std::uint32_t node = 0; node < plan_.graph.nodes.size(); ++node) {
       const std::uint32_t degree = plan_.graph.street_ends(node);
       if (degree == 0) continue;
       const CmPoint& at = plan_.graph.nodes[node];
       Json coordinates = surface_ ? position(at, plan_.heights.node[node]) : position(at);
-      features_.push_back(feature(
+      add_feature(
           {{"type", "Point"}, {"coordinates", std::move(coordinates)}},
-          {{"kind", "node"}, {"id", node_id(node)}, {"degree", degree}, {"type", type_of(node, degree)}}));
+          {{"kind", "node"}, {"id", node_id(node)}, {"degree", degree}, {"type", type_of(node, degree)}});
     }
   }
 
@@ -107,30 +115,30 @@ class Writer {
       for (const CmPoint& p : street.line) coordinates.push_back(position(p));
       if (street.line.empty()) coordinates = {position(profile.front().at), position(profile.back().at)};
     }
-    features_.push_back(feature({{"type", "LineString"}, {"coordinates", std::move(coordinates)}},
-                                {{"kind", "street"},
-                                 {"id", id_of(street.key)},
-                                 {"from", node_id(street.from)},
-                                 {"to", node_id(street.to)},
-                                 {"class", section.name},
-                                 {"width", section.width},
-                                 {"lanes", section.lanes},
-                                 {"sidewalk", {section.sidewalk[0], section.sidewalk[1]}},
-                                 {"level", street.level},
-                                 {"bridge", street.level > 0},
-                                 {"tunnel", street.level < 0},
-                                 {"grade", grade},
-                                 {"grade_limit", section.grade_limit},
-                                 {"given", street.tag >= first_given && !section.has_wall}}));
+    add_feature({{"type", "LineString"}, {"coordinates", std::move(coordinates)}},
+                {{"kind", "street"},
+                 {"id", id_of(street.key)},
+                 {"from", node_id(street.from)},
+                 {"to", node_id(street.to)},
+                 {"class", section.name},
+                 {"width", section.width},
+                 {"lanes", section.lanes},
+                 {"sidewalk", {section.sidewalk[0], section.sidewalk[1]}},
+                 {"level", street.level},
+                 {"bridge", street.level > 0},
+                 {"tunnel", street.level < 0},
+                 {"grade", grade},
+                 {"grade_limit", section.grade_limit},
+                 {"given", street.tag >= first_given && !section.has_wall}});
   }
 
   void add_block(const Block& block) {
     Json streets = Json::array();
     for (const std::uint32_t edge : block.streets) streets.push_back(street_id(edge));
-    features_.push_back(feature(polygon(block.rings), {{"kind", "block"},
-                                                       {"id", id_of(block.key)},
-                                                       {"area", area_of(block.rings)},
-                                                       {"streets", std::move(streets)}}));
+    add_feature(polygon(block.rings), {{"kind", "block"},
+                                       {"id", id_of(block.key)},
+                                       {"area", area_of(block.rings)},
+                                       {"streets", std::move(streets)}});
   }
 
   /// The outline of a part, on a terrain with the heights of its surface.
@@ -154,7 +162,7 @@ class Writer {
     if (part.node != no_index) properties["node"] = node_id(part.node);
     if (part.block != no_index) properties["block"] = id_of(plan_.blocks[part.block].key);
     if (lot != no_index) add_lot(plan_.lots[lot], properties);
-    features_.push_back(feature(outline(number), std::move(properties)));
+    add_feature(outline(number), std::move(properties));
   }
 
   void add_lot(const Lot& lot, Json& properties) const {
@@ -191,6 +199,7 @@ class Writer {
   }
 
   const CityPlan& plan_;
+  Job& job_;
   HouseRequests requests_;
   std::optional<Surface> surface_;  ///< empty on level ground
   Json features_ = Json::array();

@@ -4,6 +4,8 @@
 #include <cstring>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <vector>
 
 #include "core/base/rng.h"
 #include "core/schema/json.h"
@@ -98,6 +100,20 @@ TEST(MergePatch, DoesWhatTheRfcShows) {
     merge_patch(value, Json::parse(patch));
     EXPECT_EQ(value, Json::parse(result)) << target << " + " << patch;
   }
+}
+
+TEST(CanonicalText, LetsTheCallerEndTheWork) {
+  // 20,000 numbers are more than four times 4,096 values.
+  const Json numbers = Json(std::vector<int>(20'000, 7));
+  int calls = 0;
+  EXPECT_EQ(canonical_text(numbers, [&] { ++calls; }), canonical_text(numbers));
+  EXPECT_EQ(calls, 4);
+  calls = 0;
+  const auto end_at_second = [&] {
+    if (++calls == 2) throw std::runtime_error("stopped");
+  };
+  EXPECT_THROW(canonical_text(numbers, end_at_second), std::runtime_error);
+  EXPECT_EQ(calls, 2);
 }
 
 TEST(PointerToken, EscapesTildeAndSlash) {
