@@ -63,12 +63,24 @@ int Glb::add_material(std::string_view name, double roughness, bool two_sided) {
 }
 
 int Glb::add_material(std::string_view name, double roughness, const std::string& image) {
-  const int source = append(json_["images"], {{"uri", image}});
-  const int texture = append(json_["textures"], {{"source", source}});
   const int material = add_material(name, roughness);
   json_["materials"][static_cast<std::size_t>(material)]["pbrMetallicRoughness"]["baseColorTexture"] = {
-      {"index", texture}};
+      {"index", texture_of(image)}};
   return material;
+}
+
+int Glb::add_leaf_material(std::string_view name, const std::string& image) {
+  const int material = add_material(name, 1, image);
+  json_["materials"][static_cast<std::size_t>(material)].update(
+      Json{{"alphaMode", "MASK"}, {"alphaCutoff", 0.5}});
+  return material;
+}
+
+int Glb::texture_of(const std::string& image) {
+  const auto known = textures_.find(image);
+  if (known != textures_.end()) return known->second;
+  const int source = append(json_["images"], {{"uri", image}});
+  return textures_[image] = append(json_["textures"], {{"source", source}});
 }
 
 int Glb::add_shared_buffer(const std::string& file, std::size_t bytes) {

@@ -46,6 +46,9 @@ class Glb {
   int add_material(std::string_view name, double roughness, bool two_sided = false);
   /// Adds a material with a colour texture from a file that tiles share, and returns its index.
   int add_material(std::string_view name, double roughness, const std::string& image);
+  /// Adds a material of leaves, with a colour texture with alpha from a file that tiles
+  /// share, and returns its index. Materials with the same image share their texture.
+  int add_leaf_material(std::string_view name, const std::string& image);
   /// Adds a node with one mesh of quantized vertices: metres = height * up + step * position. `coordinates`: of
   /// the texture, two for each vertex, or none.
   void add_mesh(std::string_view name, const TileMesh& mesh, int material, double step, double height,
@@ -80,7 +83,10 @@ class Glb {
  private:
   Json json_;
   std::string bytes_;
+  int texture_of(const std::string& image);
+
   std::map<std::string, std::vector<int>> assets_;  ///< meshes by hash
+  std::map<std::string, int> textures_;             ///< by the path of their image
 };
 
 }  // namespace seedmesh::world

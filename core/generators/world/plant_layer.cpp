@@ -5,6 +5,7 @@
 #include "core/base/math.h"
 #include "core/generators/world/canopy.h"
 #include "core/generators/world/instances.h"
+#include "core/generators/world/leaf_texture.h"
 #include "core/generators/world/plant_mesh.h"
 #include "core/generators/world/plants.h"
 
@@ -33,7 +34,7 @@ constexpr double widest_open = 1.3;     ///< the most that classes whose crowns 
 constexpr double least_far_height = 3;  ///< metres; lower classes are not seen from afar
 constexpr int first_far_level = 3;      ///< number of the level above the leaves
 
-int add_plant_mesh(Glb& glb, const PlantFile& file, const std::string& name) {
+int add_plant_mesh(Glb& glb, const PlantFile& file, const std::string& name, const std::string& image) {
   const int buffer = glb.add_shared_buffer(file.hash + ".bin", file.bytes.size());
   const std::size_t size = file.vertices * plant_vertex_bytes;
   const int vertices = glb.add_view(buffer, 0, size, plant_vertex_bytes, array_buffer);
@@ -57,11 +58,17 @@ int add_plant_mesh(Glb& glb, const PlantFile& file, const std::string& name) {
                                             {"normalized", true},
                                             {"count", file.vertices},
                                             {"type", "VEC4"}});
+  attributes["TEXCOORD_0"] = glb.add_accessor({{"bufferView", vertices},
+                                               {"byteOffset", 20},
+                                               {"componentType", type_unsigned_short},
+                                               {"normalized", true},
+                                               {"count", file.vertices},
+                                               {"type", "VEC2"}});
   const int indices = glb.add_accessor({{"bufferView", order},
                                         {"componentType", type_unsigned_short},
                                         {"count", file.indices},
                                         {"type", "SCALAR"}});
-  const int material = glb.add_material(name, 1);
+  const int material = glb.add_leaf_material(name, image);
   return glb.add_gltf_mesh(
       {{"name", name},
        {"primitives",
@@ -125,7 +132,8 @@ void add_places(Glb& glb, const World& world, int above_leaves, const TileFrame&
     } else {
       const PlantFile file = plant_file(world, number, is_far ? PlantForm::simple : PlantForm::whole);
       job.spend(Resource::triangles, copies.count() * file.indices / 3);
-      copies.add_to(glb, name, {add_plant_mesh(glb, file, name)});
+      const std::string image = shared_files + leaf_texture(world, job)->hash + ".png";
+      copies.add_to(glb, name, {add_plant_mesh(glb, file, name, image)});
     }
   }
 }

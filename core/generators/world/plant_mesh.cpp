@@ -1,242 +1,158 @@
 #include "core/generators/world/plant_mesh.h"
 
 #include <algorithm>
-#include <cmath>
-#include <cstring>
 #include <glm/glm.hpp>
+#include <utility>
 #include <vector>
 
 #include "core/base/math.h"
 #include "core/generators/world/asset.h"
 #include "core/generators/world/palette.h"
+#include "core/generators/world/plant_builder.h"
 
 namespace seedmesh::world {
 namespace {
 
-using Rgba = std::array<std::uint8_t, 4>;
 constexpr double greatest_size = 1.3;
 
-struct Ring {
-  double radius = 0, height = 0;
+/// The colour of leaves, which a texture darkens.
+Rgba leaf_color(const WorldClass& plant, double light = 1) {
+  Rgba color = linear_color(plant.color);
+  for (std::size_t k = 0; k < 3; ++k)
+    color[k] =
+        static_cast<std::uint8_t>(math::to_int32(std::min(255.0, light * color[k] / leaf_texture_mean)));
+  return color;
+}
+
+/// A crown of several parts: dark bodies of leaves, and clusters of leaves around them.
+struct Crown {
+  std::vector<CrownPart> parts;
+  double heart = 0;  ///< height of its middle
+  double half = 0;   ///< half of the side of a cluster
 };
 
-/// Surfaces of revolution and blades, with one colour for each part.
-class Builder {
- public:
-  explicit Builder(std::uint64_t key) : rng_(key) {}
+void add_crown(PlantBuilder& builder, const Crown& crown, const std::vector<int>& clusters,
+               const Rgba& color) {
+  constexpr double body = 0.86;  // of the radius
+  for (std::size_t k = 0; k < crown.parts.size(); ++k) {
+    const CrownPart& part = crown.parts[k];
+    builder.lobe({part.middle, body * part.radius}, crown.heart, k == 0 ? 4 : 3, k == 0 ? 7 : 6, color);
+  }
+  for (std::size_t k = 0; k < crown.parts.size(); ++k) {
+    std::vector<CrownPart> parts = crown.parts;  // the own one last
+    std::swap(parts[k], parts.back());
+    builder.leaves(parts, crown.heart, clusters[k], crown.half, color);
+  }
+}
 
-  /// Rings from low to high about an axis; `uneven` displaces the vertices of closed crowns.
-  void revolve(const std::vector<Ring>& rings, int sides, const Rgba& color, double uneven = 0,
-               const glm::dvec2& at = {0, 0}) {
-    const auto first = static_cast<std::uint32_t>(positions_.size());
-    for (std::size_t k = 0; k < rings.size(); ++k) {
-      const Ring& low = rings[k == 0 ? 0 : k - 1];
-      const Ring& high = rings[k + 1 == rings.size() ? k : k + 1];
-      const glm::dvec2 out = normal_of(low, high);
-      const double shade = 0.72 + 0.28 * static_cast<double>(k) / static_cast<double>(rings.size());
-      for (int side = 0; side < sides; ++side) {
-        const math::SinCos turn =
-            math::sincos_degrees(360.0 * (side + 0.5 * static_cast<double>(k % 2)) / sides);
-        const double radius = rings[k].radius * (1 + uneven * (rng_.unit() - 0.5));
-        add({at.x + radius * turn.cos, rings[k].height * (1 + 0.3 * uneven * (rng_.unit() - 0.5)),
-             at.y + radius * turn.sin},
-            {out.x * turn.cos, out.y, out.x * turn.sin}, shaded(color, shade));
-      }
+void add_conifer(PlantBuilder& builder, double h, const Rgba& leaf, const Rgba& stem) {
+  constexpr int tiers = 11, branches = 6;
+  builder.revolve({{0.022 * h, -0.02 * h}, {0.016 * h, 0.3 * h}}, 5, stem, plain_surface);
+  builder.revolve({{0.02 * h, 0.12 * h}, {0.09 * h, 0.16 * h}, {0.055 * h, 0.5 * h}, {0.004 * h, 0.99 * h}},
+                  5, leaf, dense_leaves, 0.1);
+  for (int tier = 0; tier < tiers; ++tier) {
+    const double t = static_cast<double>(tier) / tiers;
+    const double reach = (0.045 + 0.19 * (1 - t)) * h;
+    for (int k = 0; k < branches; ++k) {
+      const double longer = (k + tier) % 2 == 0 ? 1.0 : 0.86;
+      builder.branch((0.17 + 0.78 * t + 0.012 * (k % 3)) * h,
+                     360.0 * (k + 0.5 * (tier % 2) + 0.13 * tier) / branches, longer * reach,
+                     (0.75 - 0.35 * t) * reach, leaf);
     }
-    add_bands(first, static_cast<int>(rings.size()), sides);
   }
+}
 
-  /// A part of a crown: an uneven ellipsoid, darker below. Normals turn out of the crown, whose middle is at the height
-  /// `heart`, so that its parts are shaded as one body.
-  void lobe(const glm::dvec3& middle, const glm::dvec3& radius, double heart, int rings, int sides,
-            const Rgba& color) {
-    const auto first = static_cast<std::uint32_t>(positions_.size());
-    for (int k = 0; k < rings; ++k) {
-      const double t = (k + 0.06) / (rings - 0.88);
-      const math::SinCos rise = math::sincos_degrees(180 * t - 90);
-      for (int side = 0; side < sides; ++side) {
-        const math::SinCos turn = math::sincos_degrees(360.0 * (side + 0.5 * (k % 2)) / sides);
-        const glm::dvec3 way(rise.cos * turn.cos, rise.sin, rise.cos * turn.sin);
-        const glm::dvec3 p = middle + way * radius * rng_.uniform(0.82, 1.1);
-        const glm::dvec3 out = math::unit(p - glm::dvec3(0, heart, 0), {0, 1, 0});
-        const double shade = (0.5 + 0.42 * t) * rng_.uniform(0.86, 1.08);
-        add(p, math::unit(way + out * 0.8, {0, 1, 0}), shaded(color, shade));
-      }
-    }
-    add_bands(first, rings, sides);
-  }
-
-  /// A bent leaf from `base`, outwards by `reach` and down by `drop`, seen from both sides.
-  void blade(double base, double turn, double reach, double drop, double width, const Rgba& color) {
-    const math::SinCos way = math::sincos_degrees(turn);
-    const glm::dvec3 out(way.cos, 0, way.sin), side(-way.sin, 0, way.cos);
-    const auto first = static_cast<std::uint32_t>(positions_.size());
-    for (int k = 0; k < 4; ++k) {
-      const double t = k / 3.0, half = width * (k == 0 ? 0.4 : k == 3 ? 0.1 : 1) / 2;
-      const glm::dvec3 middle = out * (reach * t) + glm::dvec3(0, base + drop * (0.6 * t - 1.6 * t * t), 0);
-      const glm::dvec3 up = glm::dvec3(0, 1, 0) + out * (t * 0.8);
-      for (const double s : {-1.0, 1.0}) add(middle + side * (s * half), up, shaded(color, 0.8 + 0.2 * t));
-    }
-    for (std::uint32_t k = 0; k < 3; ++k) {
-      const std::uint32_t a = first + 2 * k;
-      for (const std::uint32_t corner : {a, a + 1, a + 2, a + 1, a + 3, a + 2}) indices_.push_back(corner);
-      for (const std::uint32_t corner : {a, a + 2, a + 1, a + 1, a + 2, a + 3}) indices_.push_back(corner);
-    }
-  }
-
-  PlantFile file() const {
-    PlantFile file;
-    file.vertices = static_cast<std::uint32_t>(positions_.size());
-    file.indices = static_cast<std::uint32_t>(indices_.size());
-    for (int k = 0; k < 3; ++k) {
-      file.low[k] = file.high[k] = positions_[0][k];
-      for (const glm::vec3& p : positions_) {
-        file.low[k] = std::min(file.low[k], p[k]);
-        file.high[k] = std::max(file.high[k], p[k]);
-      }
-    }
-    for (std::size_t k = 0; k < positions_.size(); ++k) {
-      char vertex[plant_vertex_bytes];
-      std::memcpy(vertex, &positions_[k], 12);
-      for (int axis = 0; axis < 3; ++axis) {
-        vertex[12 + axis] = static_cast<char>(math::to_int32(std::floor(normals_[k][axis] * 127 + 0.5)));
-      }
-      vertex[15] = 0;
-      std::memcpy(vertex + 16, colors_[k].data(), 4);
-      file.bytes.append(vertex, sizeof vertex);
-    }
-    for (const std::uint32_t index : indices_) {
-      file.bytes += static_cast<char>(index & 255U);
-      file.bytes += static_cast<char>(index >> 8U);
-    }
-    file.bytes.resize((file.bytes.size() + 3) & ~std::size_t{3});
-    return file;
-  }
-
- private:
-  /// Triangles between rings of vertices from low to high.
-  void add_bands(std::uint32_t first, int rings, int sides) {
-    const auto count = static_cast<std::uint32_t>(sides);
-    for (std::uint32_t k = 0; k + 1 < static_cast<std::uint32_t>(rings); ++k) {
-      for (std::uint32_t side = 0; side < count; ++side) {
-        const std::uint32_t next = (side + 1) % count, a = first + k * count + side,
-                            b = first + k * count + next;
-        for (const std::uint32_t corner : {a, a + count, b, b, a + count, b + count})
-          indices_.push_back(corner);
-      }
-    }
-  }
-  static glm::dvec2 normal_of(const Ring& low, const Ring& high) {
-    const double rise = high.height - low.height, narrowing = low.radius - high.radius;
-    const double length = std::sqrt(rise * rise + narrowing * narrowing);
-    return length > 0 ? glm::dvec2(rise, narrowing) / length : glm::dvec2(0, 1);
-  }
-  static Rgba shaded(const Rgba& color, double by) {
-    Rgba out = color;
-    for (std::size_t k = 0; k < 3; ++k) out[k] = static_cast<std::uint8_t>(math::to_int32(color[k] * by));
-    return out;
-  }
-  void add(const glm::dvec3& position, const glm::dvec3& normal, const Rgba& color) {
-    // + 0 turns -0 into 0
-    positions_.push_back(glm::vec3(position) + 0.0F);
-    normals_.push_back(math::unit(glm::dvec3(normal), {0, 1, 0}));
-    colors_.push_back(color);
-  }
-
-  Rng rng_;
-  std::vector<glm::vec3> positions_;
-  std::vector<glm::dvec3> normals_;
-  std::vector<Rgba> colors_;
-  std::vector<std::uint32_t> indices_;
-};
-
-void add_form(Builder& builder, const WorldClass& plant) {
+void add_form(PlantBuilder& builder, const WorldClass& plant) {
   const double h = plant.height;
-  const Rgba leaf = linear_color(plant.color), stem = linear_color(plant.stem);
+  const Rgba leaf = leaf_color(plant), stem = linear_color(plant.stem);
   switch (plant.form) {
     case WorldForm::conifer:
-      builder.revolve({{0.022 * h, -0.02 * h}, {0.016 * h, 0.3 * h}}, 5, stem);
-      for (int k = 0; k < 6; ++k) {
-        const double low = (0.1 + 0.135 * k) * h, r = (0.2 - 0.029 * k) * h;
-        builder.revolve({{0.25 * r, low + 0.05 * h}, {r, low}, {0.01 * h, low + (k < 5 ? 0.2 : 0.215) * h}},
-                        7, leaf, 0.35);
-      }
+      add_conifer(builder, h, leaf, stem);
       return;
-    case WorldForm::broadleaf:
-      builder.revolve({{0.03 * h, -0.02 * h}, {0.02 * h, 0.25 * h}, {0.018 * h, 0.45 * h}}, 6, stem);
-      builder.lobe({0, 0.69 * h, 0}, {0.29 * h, 0.28 * h, 0.29 * h}, 0.5 * h, 5, 7, leaf);
+    case WorldForm::broadleaf: {
+      builder.revolve({{0.03 * h, -0.02 * h}, {0.02 * h, 0.25 * h}, {0.018 * h, 0.45 * h}}, 6, stem,
+                      plain_surface);
+      Crown crown{{{{0, 0.69 * h, 0}, {0.28 * h, 0.27 * h, 0.28 * h}}}, 0.5 * h, 0.09 * h};
       for (int k = 0; k < 3; ++k) {
         const math::SinCos turn = math::sincos_degrees(120.0 * k + 20);
-        builder.lobe({0.2 * h * turn.cos, (0.49 + 0.05 * k) * h, 0.2 * h * turn.sin},
-                     {0.22 * h, 0.19 * h, 0.22 * h}, 0.5 * h, 4, 6, leaf);
+        crown.parts.push_back({{0.2 * h * turn.cos, (0.49 + 0.05 * k) * h, 0.2 * h * turn.sin},
+                               {0.21 * h, 0.18 * h, 0.21 * h}});
       }
+      add_crown(builder, crown, {40, 26, 26, 26}, leaf);
       return;
+    }
     case WorldForm::palm:
-      builder.revolve({{0.03 * h, -0.02 * h}, {0.018 * h, 0.5 * h}, {0.016 * h, 0.88 * h}}, 6, stem);
-      for (int k = 0; k < 11; ++k) {
-        builder.blade(0.87 * h, 360.0 * k / 11, (0.3 + 0.06 * (k % 3)) * h, (0.22 - 0.1 * (k % 3)) * h,
-                      0.09 * h, leaf);
+      builder.revolve({{0.03 * h, -0.02 * h}, {0.018 * h, 0.5 * h}, {0.016 * h, 0.88 * h}}, 6, stem,
+                      plain_surface);
+      for (int k = 0; k < 15; ++k) {
+        builder.blade(0.87 * h, 360.0 * k / 15, (0.3 + 0.06 * (k % 3)) * h, (0.22 - 0.1 * (k % 3)) * h,
+                      0.15 * h, leaf);
       }
       return;
-    case WorldForm::shrub:
-      builder.lobe({0, 0.45 * h, 0}, {0.42 * h, 0.44 * h, 0.42 * h}, 0.2 * h, 4, 7, leaf);
-      for (int k = 0; k < 2; ++k) {
-        const double side = k == 0 ? 0.3 : -0.28;
-        builder.lobe({side * h, 0.3 * h, 0.12 * h * (k - 0.5)}, {0.28 * h, 0.3 * h, 0.28 * h}, 0.2 * h, 4, 6,
-                     leaf);
-      }
+    case WorldForm::shrub: {
+      const Crown crown{{{{0, 0.43 * h, 0}, {0.36 * h, 0.42 * h, 0.36 * h}},
+                         {{0.24 * h, 0.26 * h, -0.06 * h}, {0.24 * h, 0.28 * h, 0.24 * h}},
+                         {{-0.22 * h, 0.26 * h, 0.06 * h}, {0.24 * h, 0.28 * h, 0.24 * h}}},
+                        0.2 * h,
+                        0.13 * h};
+      add_crown(builder, crown, {26, 14, 14}, leaf);
       return;
+    }
     case WorldForm::cactus:
       builder.revolve({{0.07 * h, -0.02 * h}, {0.085 * h, 0.5 * h}, {0.06 * h, 0.93 * h}, {0.005 * h, h}}, 8,
-                      leaf, 0.06);
+                      linear_color(plant.color), plain_surface, 0.06);
       for (int k = 0; k < 2; ++k) {
         const double low = (0.3 + 0.15 * k) * h;
         builder.revolve({{0.02 * h, low},
                          {0.05 * h, low + 0.06 * h},
                          {0.045 * h, low + 0.3 * h},
                          {0.004 * h, low + 0.36 * h}},
-                        6, leaf, 0.06, {(k == 0 ? 0.14 : -0.13) * h, 0.03 * h});
+                        6, linear_color(plant.color), plain_surface, 0.06,
+                        {(k == 0 ? 0.14 : -0.13) * h, 0.03 * h});
       }
       return;
     case WorldForm::fungus:
-      builder.revolve({{0.09 * h, -0.02 * h}, {0.06 * h, 0.5 * h}, {0.05 * h, 0.8 * h}}, 7, stem, 0.08);
+      builder.revolve({{0.09 * h, -0.02 * h}, {0.06 * h, 0.5 * h}, {0.05 * h, 0.8 * h}}, 7, stem,
+                      plain_surface, 0.08);
       builder.revolve({{0.04 * h, 0.74 * h},
                        {0.4 * h, 0.66 * h},
                        {0.36 * h, 0.8 * h},
                        {0.2 * h, 0.94 * h},
                        {0.005 * h, h}},
-                      12, leaf, 0.08);
+                      12, linear_color(plant.color), plain_surface, 0.08);
       return;
   }
 }
 
 /// The outline of a plant in few triangles.
-void add_simple_form(Builder& builder, const WorldClass& plant) {
+void add_simple_form(PlantBuilder& builder, const WorldClass& plant) {
   const double h = plant.height;
-  const Rgba leaf = linear_color(plant.color), stem = linear_color(plant.stem);
+  constexpr double light = 1.2;  // crowns without clusters of leaves are darker
+  const Rgba leaf = leaf_color(plant, light), stem = linear_color(plant.stem);
   switch (plant.form) {
     case WorldForm::conifer:
-      builder.revolve({{0.02 * h, -0.02 * h}, {0.018 * h, 0.2 * h}}, 3, stem);
-      builder.revolve({{0.05 * h, 0.1 * h}, {0.19 * h, 0.16 * h}, {0.01 * h, h}}, 5, leaf, 0.2);
+      builder.revolve({{0.02 * h, -0.02 * h}, {0.018 * h, 0.2 * h}}, 3, stem, plain_surface);
+      builder.revolve({{0.05 * h, 0.1 * h}, {0.18 * h, 0.16 * h}, {0.01 * h, h}}, 5, leaf, dense_leaves, 0.2);
       return;
     case WorldForm::broadleaf:
-      builder.revolve({{0.03 * h, -0.02 * h}, {0.02 * h, 0.4 * h}}, 3, stem);
-      builder.lobe({0, 0.6 * h, 0}, {0.37 * h, 0.36 * h, 0.37 * h}, 0.5 * h, 4, 6, leaf);
+      builder.revolve({{0.03 * h, -0.02 * h}, {0.02 * h, 0.4 * h}}, 3, stem, plain_surface);
+      builder.lobe({{0, 0.6 * h, 0}, {0.37 * h, 0.36 * h, 0.37 * h}}, 0.5 * h, 4, 6, leaf);
       return;
     case WorldForm::palm:
-      builder.revolve({{0.03 * h, -0.02 * h}, {0.016 * h, 0.88 * h}}, 3, stem);
-      builder.revolve({{0.3 * h, 0.8 * h}, {0.2 * h, 0.93 * h}, {0.01 * h, h}}, 5, leaf, 0.4);
+      builder.revolve({{0.03 * h, -0.02 * h}, {0.016 * h, 0.88 * h}}, 3, stem, plain_surface);
+      builder.revolve({{0.3 * h, 0.8 * h}, {0.2 * h, 0.93 * h}, {0.01 * h, h}}, 5, leaf, dense_leaves, 0.4);
       return;
     case WorldForm::shrub:
-      builder.lobe({0, 0.45 * h, 0}, {0.48 * h, 0.44 * h, 0.48 * h}, 0.2 * h, 3, 6, leaf);
+      builder.lobe({{0, 0.45 * h, 0}, {0.45 * h, 0.44 * h, 0.45 * h}}, 0.2 * h, 3, 6, leaf);
       return;
     case WorldForm::cactus:
-      builder.revolve({{0.07 * h, -0.02 * h}, {0.08 * h, 0.6 * h}, {0.005 * h, h}}, 4, leaf);
+      builder.revolve({{0.07 * h, -0.02 * h}, {0.08 * h, 0.6 * h}, {0.005 * h, h}}, 4,
+                      linear_color(plant.color), plain_surface);
       return;
     case WorldForm::fungus:
-      builder.revolve({{0.09 * h, -0.02 * h}, {0.05 * h, 0.8 * h}}, 4, stem);
+      builder.revolve({{0.09 * h, -0.02 * h}, {0.05 * h, 0.8 * h}}, 4, stem, plain_surface);
       builder.revolve({{0.05 * h, 0.7 * h}, {0.4 * h, 0.68 * h}, {0.2 * h, 0.94 * h}, {0.005 * h, h}}, 6,
-                      leaf);
+                      linear_color(plant.color), plain_surface);
       return;
   }
 }
@@ -253,8 +169,8 @@ std::string hash_of(const std::string& bytes) {
 
 PlantFile plant_file(const World& world, int plant_class, PlantForm form) {
   const WorldClass& plant = world.params.plants[static_cast<std::size_t>(plant_class)];
-  Builder builder(key_at(key_at(0x464F524DU, static_cast<std::uint64_t>(plant.form)),
-                         static_cast<std::uint64_t>(plant_class)));
+  PlantBuilder builder(key_at(key_at(0x464F524DU, static_cast<std::uint64_t>(plant.form)),
+                              static_cast<std::uint64_t>(plant_class)));
   switch (form) {
     case PlantForm::whole:
       add_form(builder, plant);

@@ -9,20 +9,20 @@ namespace seedmesh::world {
 
 struct PlantFile {
   std::string hash;  ///< 16 hexadecimal digits of the content
-  /// Vertices of 20 bytes (position as floats, normal as signed bytes, linear colour as RGBA bytes), then indices,
-  /// padded to a multiple of 4 bytes.
+  /// Vertices of 24 bytes (position as floats, normal as signed bytes, linear colour as RGBA bytes, coordinates in
+  /// leaf_texture() as 16-bit integers), then indices, padded to a multiple of 4 bytes.
   std::string bytes;
   std::uint32_t vertices = 0, indices = 0;  ///< indices have 16 bits
   float low[3] = {0, 0, 0}, high[3] = {0, 0, 0};
   std::uint64_t bytes_of_store() const { return bytes.size() + sizeof(PlantFile); }
 };
 
-constexpr std::size_t plant_vertex_bytes = 20;
+constexpr std::size_t plant_vertex_bytes = 24;
 
 /// `whole` is for leaf tiles of the quadtree and the level above them, `simple` for tiles of 256 m and more.
 enum class PlantForm { whole, simple };
 
-/// Makes the plant at its mean height, with its foot at the origin and +Y up. It has fewer than 200 triangles.
+/// Makes the plant at its mean height, with its foot at the origin and +Y up. It has fewer than 330 triangles.
 PlantFile plant_file(const World& world, int plant_class, PlantForm form = PlantForm::whole);
 
 /// Returns the width of the crown of a plant of mean height, in metres.

@@ -7,6 +7,7 @@
 #include "core/generators/world/ground_texture.h"
 #include "core/generators/world/houses.h"
 #include "core/generators/world/lanes.h"
+#include "core/generators/world/leaf_texture.h"
 #include "core/generators/world/palette.h"
 #include "core/generators/world/plant_layer.h"
 #include "core/generators/world/plant_mesh.h"
@@ -151,6 +152,8 @@ std::optional<SharedFile> shared_file(const World& world, std::string_view hash,
   if (world.has(Layer::plants) && !world.params.plants.empty()) {
     const auto canopy = canopy_texture(world, job);
     if (canopy->hash == hash) return SharedFile{canopy->file, "image/png", "png"};
+    const auto leaves = leaf_texture(world, job);
+    if (leaves->hash == hash) return SharedFile{leaves->file, "image/png", "png"};
   }
   for (std::size_t k = 0; world.has(Layer::plants) && k < world.params.plants.size(); ++k) {
     for (const AssetForm form : {AssetForm::near, AssetForm::far}) {

@@ -1,0 +1,39 @@
+#pragma once
+/// The texture of the plain forms of plants: leaves, branches and bark in grey, which vertex colours tint, with alpha.
+#include <array>
+#include <memory>
+#include <string>
+
+#include "core/generators/world/world.h"
+
+namespace seedmesh::world {
+
+/// A rectangle of texture coordinates: u to the right, v down.
+struct TextureCell {
+  double left = 0, top = 0, right = 1, bottom = 1;
+};
+
+/// Leaves without gaps; for the insides of crowns.
+inline constexpr TextureCell dense_leaves{0.01, 0.01, 0.49, 0.49};
+/// Leaves in a disc with gaps, transparent around it.
+inline constexpr TextureCell leaf_cluster{0.5, 0, 1, 0.5};
+/// The branch of a conifer, from its base at the left to its tip at the right.
+inline constexpr TextureCell conifer_branch{0, 0.5, 0.5, 1};
+/// The leaf of a palm, from its base at the left to its tip at the right.
+inline constexpr TextureCell palm_leaf{0.5, 0.5, 1, 0.9};
+/// An opaque white area, for stems.
+inline constexpr TextureCell plain_surface{0.55, 0.965, 0.95, 0.97};
+
+/// Mean light of the opaque texels of leaves; vertex colours are divided by it.
+constexpr double leaf_texture_mean = 0.55;
+
+/// A PNG file of grey with alpha.
+struct LeafTexture {
+  std::string hash, file;
+  std::uint64_t bytes() const { return sizeof(LeafTexture) + file.size(); }
+};
+
+/// Returns the texture from the store; makes it if the store has none. All worlds have the same.
+std::shared_ptr<const LeafTexture> leaf_texture(const World& world, const Job& job);
+
+}  // namespace seedmesh::world
