@@ -110,7 +110,7 @@ std::optional<Error> output_error_of_tiles(const Request& request) {
   for (const auto& [name, value] : options.items()) {
     error.issues.emplace_back(IssueKind::not_available, "/output/" + name,
                               "found " + value.dump() +
-                                  "; the tiles of a world have a form of their own and no such option; "
+                                  "; the format of tiles is fixed, so they do not have this option; "
                                   "`seedmesh generate` makes a model of the root tile, which has it");
   }
   if (error.issues.empty()) return std::nullopt;

@@ -12,7 +12,7 @@ export interface Output {
   provenance?: "full" | "none";
   /** none adds no animation. growth adds a skin and an animation in which the plant grows from a seed to its full size. */
   animation?: "none" | "growth";
-  /** The width and height of generated textures in texels, a power of two. Images of leaves have half this size. An image of occlusion and roughness has half the size of the other images of its material. none leaves out all textures, including those of the request. links names generated textures of 512 texels by URLs of this service, which are immutable and shared by all models; the formats are glb and gltf, without an impostor. */
+  /** The width and height of generated textures in texels, a power of two. Images of leaves, and of dirt on facades, have half this size. An image of occlusion and roughness has half the size of the other images of its material. none leaves out all textures, including those of the request. links names generated textures of 512 texels by URLs of this service, which are immutable and shared by all models; the formats are glb and gltf, without an impostor. */
   textures?: number | "none" | "links";
   /** The file format of generated images. png: every reader. webp: about a tenth of the size, for readers of EXT_texture_webp, which the file then requires. both: WebP, and PNG for readers without it. auto: webp in the profile web, else png. Images of the request keep their format. */
   image_format?: "auto" | "png" | "webp" | "both";
@@ -38,7 +38,7 @@ export interface Output {
 export interface ProblemErrorsItem {
   /** JSON Pointer (RFC 6901) into the request body; a missing property points at the object that lacks it, the empty pointer is the whole body. */
   pointer: string;
-  /** The kind of error, for programs. syntax: a text cannot be read. duplicate_key: a key or a name is given twice. unknown_key: the object has no such member. unknown_name: a name refers to nothing. missing: something required is absent. wrong_type: another type is expected. out_of_range: a number, a length or a count is outside its range. invalid_value: the value cannot be used. conflict: values exclude each other, or one needs another. not_available: the generator, format or profile does not offer it. evaluation: an expression or a rule has no usable result. limit: a limit is exceeded, see resource. truncated_list: see unlisted. deadline: the time limit has passed. */
+  /** The kind of error, for programs. syntax: a text cannot be read. duplicate_key: a key or a name is given twice. unknown_key: the object has no such member. unknown_name: a name refers to nothing. missing: something required is absent. wrong_type: another type is expected. out_of_range: a number, a length or a count is outside its range. invalid_value: the value cannot be used. conflict: values exclude each other, or one needs another. not_available: the generator, format or profile does not offer it. evaluation: an expression or a rule has no usable result. limit: a limit is exceeded, see resource. truncated_list: see unlisted. deadline: the time limit has passed. cancelled: the client has disconnected. internal: the service has an error; only its log shows the cause. */
   code: "syntax" | "duplicate_key" | "unknown_key" | "unknown_name" | "missing" | "wrong_type" | "out_of_range" | "invalid_value" | "conflict" | "not_available" | "evaluation" | "limit" | "truncated_list" | "deadline" | "cancelled" | "internal";
   /** What was found and what was expected, for people. The words may change; programs read the code. */
   message: string;
@@ -100,7 +100,7 @@ export interface PictureMarkersItem {
 export interface PictureShapesItem {
   /** The name of the family. */
   shape: string;
-  /** Values for the parameters of the family: numbers, or expressions over the parameters of this picture. */
+  /** Values for the parameters of the family: numbers, or expressions over the parameters of this figure. */
   values?: { [key: string]: number | string };
   /** The position of its origin. */
   at?: (number | string)[];
@@ -112,9 +112,9 @@ export interface PictureShapesItem {
   mirror?: boolean;
 }
 
-/** A picture of lines, solids, markers and members of families. */
+/** A figure: lines, solids, markers and members of families. */
 export interface Picture {
-  /** Named numbers for the coordinates of this picture. They make a picture of `shapes` a family: each use can give them other values. */
+  /** Named numbers for the coordinates of this figure. They make a figure of `shapes` a family: each use can give them other values. */
   parameters?: { [key: string]: number };
   /** Polylines, each as a row of points. Lines that overlap or continue each other become one line. */
   lines?: (((number | string)[])[])[];
@@ -122,7 +122,7 @@ export interface Picture {
   solids?: PictureSolidsItem[];
   /** Labelled points that rules match: the nonterminal shapes. A marker of two or three points is an arrow or a corner, which also has a direction and a size. */
   markers?: PictureMarkersItem[];
-  /** Members of families of shapes that are part of this picture. */
+  /** Members of families of shapes that are part of this figure. */
   shapes?: PictureShapesItem[];
 }
 
@@ -150,7 +150,7 @@ export interface BuildingParametersShapeGrammarRulesItem {
   pair: [Picture, Picture];
 }
 
-/** A general shape grammar after Stiny and Gips (1972) instead of rules: pairs of labelled shapes in two or three dimensions. The left shape of a pair matches if it is part of the picture after a translation, rotation, scaling or reflection. Lines also match within longer lines; solids and markers match as a whole. The right shape replaces it. iterations, derivation.mode and restrict apply to it. */
+/** A general shape grammar after Stiny and Gips (1972) instead of rules: pairs of labelled shapes in two or three dimensions. The left shape of a pair matches if it is part of the current figure after a translation, rotation, scaling or reflection. Lines also match within longer lines; solids and markers match as a whole. The right shape replaces it. iterations, derivation.mode and restrict apply to it. */
 export interface BuildingParametersShapeGrammar {
   /** 2: points are x and y, seen from above; 3: x, y (up) and z. */
   dimensions?: number;
@@ -158,7 +158,7 @@ export interface BuildingParametersShapeGrammar {
   shapes?: { [key: string]: Picture };
   /** The pairs. */
   rules: BuildingParametersShapeGrammarRulesItem[];
-  /** The initial picture, as the sum of these pictures. */
+  /** The initial figure, as the union of these figures. */
   initial: Picture[];
   /** Whether left shapes also match mirrored. */
   mirror?: boolean;
@@ -253,13 +253,13 @@ export interface BuildingParameters {
   tables?: { [key: string]: string };
   /** Built-in rules instead of your own. Their attributes change the building. */
   blueprint?: "church" | "factory" | "house" | "office_tower" | "parisian_block" | "skyscraper" | "temple" | "terraced_house" | "villa" | "warehouse";
-  /** A general shape grammar after Stiny and Gips (1972) instead of rules: pairs of labelled shapes in two or three dimensions. The left shape of a pair matches if it is part of the picture after a translation, rotation, scaling or reflection. Lines also match within longer lines; solids and markers match as a whole. The right shape replaces it. iterations, derivation.mode and restrict apply to it. */
+  /** A general shape grammar after Stiny and Gips (1972) instead of rules: pairs of labelled shapes in two or three dimensions. The left shape of a pair matches if it is part of the current figure after a translation, rotation, scaling or reflection. Lines also match within longer lines; solids and markers match as a whole. The right shape replaces it. iterations, derivation.mode and restrict apply to it. */
   shape_grammar?: BuildingParametersShapeGrammar;
   /** The symbol of the first shape. Default: that of the rule after @StartRule, or of the first rule. */
   start?: string;
   /** The size of the first shape in x, y (up) and z. It is a box on the ground, centred on the origin, or a flat lot if the height is 0. */
   size?: [number, number, number];
-  /** A polygon on the ground instead of the size, as GeoJSON rings of points [x, z]: the outer ring first, then holes. Rings can have either direction, and can repeat their first point at the end. All rings together have at most 5000 points; more are refused as a limit. */
+  /** A polygon on the ground instead of the size, as GeoJSON rings of points [x, z]: the outer ring first, then holes. Rings can have either direction, and can repeat their first point at the end. All rings together have at most 5000 points; a request with more exceeds a limit. */
   footprint?: (([number, number])[])[];
   /** Values for the attributes that the rules declare with attr. They replace the values in the rules. */
   attributes?: { [key: string]: number | string | boolean };
@@ -277,11 +277,11 @@ export interface BuildingParameters {
   restrict?: "none" | "non_erasing" | "unimarker" | "split";
   /** The materials that rules name. They replace built-in materials of the same name. */
   materials?: { [key: string]: BuildingParametersMaterialsValue };
-  /** A picture for the walls, whatever their style: a PNG or JPEG file as a data URI. It repeats over all upright faces whose material is a wall (brick, plaster, wall, facade, building, stone, concrete, wood, cladding). */
+  /** An image for the walls, in place of those of their style: a PNG or JPEG file as a data URI. It repeats over all upright faces whose material is a wall (brick, plaster, wall, facade, building, stone, concrete, wood, cladding). */
   facade_image?: string;
-  /** The width and height of one copy of the facade picture. */
+  /** The width and height of one copy of `facade_image` on the wall. */
   facade_tile?: [number, number];
-  /** Whether materials with certain names get generated textures (brick, plaster, wall, facade, building, stone, concrete, wood, roof, roof_tile, slate, cladding, chimney). auto: only in blueprints. made: in your own rules, too. none: only materials with images have textures. Built-in parts, such as windows, have none. */
+  /** Whether materials with certain names get generated textures (brick, plaster, wall, facade, building, stone, concrete, wood, roof, roof_tile, slate, cladding, chimney). auto: only in blueprints. made: in your own rules, too. none: only materials with images have textures. Built-in parts, such as doors, have textures in blueprints only; with made, panes of glass have one, too. */
   textures?: "auto" | "made" | "none";
   /** Models that rules insert by name, as in i("statue"): a nested request, or a GLB file as data URI. */
   assets?: { [key: string]: BuildingParametersAssetsValue };
@@ -309,7 +309,7 @@ export interface CityParametersMaps {
   density?: string | { [key: string]: unknown };
   /** Where there is water: an expression, an image or polygons. There is water where the value is at least 0.5. Water is part of the partition. Streets end before it or cross it on bridges. */
   water?: string | { [key: string]: unknown };
-  /** Where no street may grow: an expression, an image or polygons. The value is at least 0.5 there. Nothing is built on lots there. */
+  /** Where no street may grow and nothing is built: an expression, an image or polygons. An obstacle is where the value is at least 0.5. */
   obstacles?: string | { [key: string]: unknown };
   /** The share of streets.second_pattern in the pattern of the streets, from 0 to 1, as an expression, an image or polygons with the value 1. At values between 0 and 1, directions follow from the weighted mean of the tensors of both patterns. Only for the method growth. */
   pattern?: string | { [key: string]: unknown };
@@ -419,13 +419,13 @@ export interface CityParametersStreetsTensorFieldsItem {
 export interface CityParametersStreetsTensor {
   /** Base fields, which are added by weight. A weak grid at the angle of the streets lies below them. */
   fields?: CityParametersStreetsTensorFieldsItem[];
-  /** About the share of the crossings of major streets that lose one arm. */
+  /** The approximate share of the crossings of major streets that become T-junctions: one of their four streets is left out. */
   t_junctions?: number;
 }
 
 /** The wards of a medieval town about the centre. */
 export interface CityParametersStreetsWards {
-  /** The number of wards, square and citadel included. Wards without space between the border and the water are left out. */
+  /** The greatest number of wards, square and citadel included. There are fewer if the border or water leaves no space for more. */
   count?: number;
   /** The square root of the mean area of a ward. */
   size?: number;
@@ -503,7 +503,7 @@ export interface CityParametersStreets {
 
 /** The division of the blocks. */
 export interface CityParametersLots {
-  /** recursive: blocks are halved until the pieces are small enough, and no cut takes the street access of a piece. offset: the same along the streets, around inner lots without access. skeleton: strips along the streets by the straight skeleton, cut at right angles to them. burgage: the same with narrow, deep lots, between two and three times the least width. none: each block is one lot. */
+  /** recursive: blocks are halved until the pieces are small enough, and no cut takes the street access of a piece. offset: the same along the streets, around inner lots without access. skeleton: strips along the streets by the straight skeleton, cut at right angles to them. burgage: the same with narrow, deep lots; those wider than 2.1 to 2.6 times the least width are cut again. none: each block is one lot. */
   method?: "recursive" | "offset" | "skeleton" | "burgage" | "none";
   /** The least and the greatest area of a lot. A piece that cannot be cut without breaking another rule stays larger. */
   area?: [number, number];
@@ -917,7 +917,7 @@ export interface LsystemParametersEnvironmentCompanionsItem {
 export interface LsystemParametersEnvironment {
   /** Guides, which growth cannot leave; obstacles, which it cannot enter; and hosts, which are obstacles that are part of the model. */
   solids?: LsystemParametersEnvironmentSolidsItem[];
-  /** When a segment counts as outside. centre: its centre is outside. whole: a part of it is outside. clipped: it is cut at the surface. */
+  /** When a segment counts as outside. centre: its centre is outside. whole: any part of it is outside. clipped: it is cut at the surface. */
   membership?: "centre" | "whole" | "clipped";
   /** A step is free only if its distance from other limbs exceeds both radii and this value. */
   clearance?: number;
@@ -935,7 +935,7 @@ export interface LsystemParametersWeather {
   direction?: number;
   /** Water on bark and leaves as a film of this thickness: 0.2 is a wet leaf. */
   rain?: number;
-  /** Snow on each square metre seen from above. */
+  /** Mass of the snow on each square metre, seen from above. */
   snow?: number;
   /** Young's modulus of the wood: green wood has 5 to 15, herbs have less than 1. */
   stiffness?: number;
@@ -1002,7 +1002,7 @@ export interface LsystemParameters {
   productions?: string[];
   /** The number of times that every module is rewritten. 0 draws the axiom. The size of the model grows quickly with it, mostly exponentially. */
   iterations?: number;
-  /** The age of the plant in iterations, fractions included: what the last iteration writes has that fraction of its length and turn. Default: all iterations. */
+  /** The age of the plant in iterations, fractions included. If the last iteration is incomplete, what it writes has only that fraction of its length and turn. Default: all iterations. */
   age?: number;
   /** Productions, interpretation and constants can use the name age for the age of the plant, and all iterations are derived. A module stores the time of its birth, and its growth function is explicit, as in F(t) -> F(min(1, age - t)). */
   timed?: boolean;
@@ -1086,7 +1086,7 @@ export interface LsystemParameters {
   levels?: "outline" | "slices";
   /** Whether thinner limbs have fewer sides and shorter segments fewer stacks. Coarser levels of detail always do. */
   adapt?: boolean;
-  /** Joins the limbs of brackets to one surface, as for trees: limbs of similar thickness in a fork, thin limbs in a collar. Limbs where no joint fits, and limbs with a contour, stay closed tubes that begin inside their parent. Thin welded limbs have fewer sides, and rings where they bend, whatever stacks and adapt say. */
+  /** Joins the limbs of brackets to one surface, as for trees: limbs of similar thickness in a fork, thin limbs in a collar. Limbs where no joint fits, and limbs with a contour, stay closed tubes that begin inside their parent. Thin welded limbs have fewer sides, and rings where they bend; stacks and adapt have no effect on them. */
   weld?: boolean;
   /** The materials that the turtle's colour index selects, counted from 0. An empty list gives a built-in palette that starts with bark and leaf. */
   materials?: LsystemParametersMaterialsItem[];
@@ -1457,9 +1457,9 @@ export interface TerrainParametersImage {
 
 /** One piece of a larger world. The size is that of one tile. Tiles with a common border have the same heights along it, to the bit. */
 export interface TerrainParametersTile {
-  /** Counted eastwards; may be negative. */
+  /** The column of the tile, counted eastwards. It may be negative without `across`. */
   x?: number;
-  /** Counted southwards; may be negative. */
+  /** The row of the tile, counted southwards. It may be negative without `across`. */
   z?: number;
   /** The number of tiles along a side of the world. Faults cross this world (fault_formation and poisson_faulting; default 1), and x and z are then below this number. An island covers this world, with sea beyond. With hydraulic erosion it is required: water runs over this world, of at most 4,097 samples a side, and each tile is cut out of it. */
   across?: number;
@@ -1497,7 +1497,7 @@ export interface TerrainParametersTerraces {
   sharpness?: number;
 }
 
-/** Material on slopes steeper than loose rock slides down. */
+/** Material on slopes that are steeper than `talus` slides down. */
 export interface TerrainParametersThermal {
   /** Rounds; rock moves one sample in each round. */
   iterations?: number;
@@ -1622,7 +1622,7 @@ export interface TerrainParameters {
   image?: TerrainParametersImage;
   /** One piece of a larger world. The size is that of one tile. Tiles with a common border have the same heights along it, to the bit. */
   tile?: TerrainParametersTile;
-  /** Strength of the low-pass filter that HeightMap Generator calls erosion: 0 changes nothing, 100 flattens the field. */
+  /** Strength of the low-pass filter that Kogovšek's thesis calls erosion: 0 changes nothing, 100 gives all samples one height. */
   smooth?: number;
   /** Stretches the heights to a range. */
   normalise?: TerrainParametersNormalise;
@@ -1630,7 +1630,7 @@ export interface TerrainParameters {
   island?: TerrainParametersIsland;
   /** Steps of equal height. */
   terraces?: TerrainParametersTerraces;
-  /** Material on slopes steeper than loose rock slides down. */
+  /** Material on slopes that are steeper than `talus` slides down. */
   thermal?: TerrainParametersThermal;
   /** Water removes ground and deposits it. */
   hydraulic?: TerrainParametersHydraulic;
@@ -1700,7 +1700,7 @@ export interface TreeParametersLeaf {
   droop?: number;
   /** Each step removes points from the margin of a leaf and rows from a bent square. Coarser levels of detail add to it. */
   coarseness?: number;
-  /** Share of the leaves that are made. They are larger, so that the total area stays the same. */
+  /** Share of the leaves that are made, chosen at random. They keep their size. */
   density?: number;
   /** Factor for the length and width that the model gives. */
   size?: number;
@@ -2026,7 +2026,7 @@ export interface TreeParameters {
   seeds?: TreeParametersSeeds;
   /** Shape and appearance of the leaves. */
   leaf?: TreeParametersLeaf;
-  /** The generated texture of trunk and limbs. It repeats a whole number of times around every limb. none: a plain colour, with texture coordinates in metres. */
+  /** The generated texture of trunk and limbs. It has no visible seam around a limb; thin limbs show a strip of it, with 1/2 to 1/64 of its width. none: a plain colour, with texture coordinates in metres. */
   bark?: "none" | "oak_bark" | "pine_bark" | "spruce_bark" | "willow_bark" | "birch_bark" | "beech_bark" | "cherry_bark" | "palm_bark" | "cedar_bark";
   /** The main colour of the bark. If left out, the texture has its own colour, and plain bark is brown. */
   bark_color?: string;
@@ -2118,7 +2118,7 @@ export interface TreeParameters {
   "0CurveBack"?: number;
   /** Largest sum of random bends along the axis. If negative, the axis is a helix that leans by this angle. */
   "0CurveV"?: number;
-  /** Angle of limbs of level 1 off their parent. */
+  /** Angle between limbs of level 1 and their parent. */
   "1DownAngle"?: number;
   /** Largest random difference of the down angle. If negative, the angle changes with the height: limbs are steeper toward the top of the crown. */
   "1DownAngleV"?: number;
@@ -2154,7 +2154,7 @@ export interface TreeParameters {
   "1CurveBack"?: number;
   /** Largest sum of random bends along the axis. If negative, the axis is a helix that leans by this angle. */
   "1CurveV"?: number;
-  /** Angle of limbs of level 2 off their parent. */
+  /** Angle between limbs of level 2 and their parent. */
   "2DownAngle"?: number;
   /** Largest random difference of the down angle. If negative, the angle changes with the height: limbs are steeper toward the top of the crown. */
   "2DownAngleV"?: number;
@@ -2190,7 +2190,7 @@ export interface TreeParameters {
   "2CurveBack"?: number;
   /** Largest sum of random bends along the axis. If negative, the axis is a helix that leans by this angle. */
   "2CurveV"?: number;
-  /** Angle of limbs of level 3 and beyond off their parent. */
+  /** Angle between limbs of level 3 and beyond and their parent. */
   "3DownAngle"?: number;
   /** Largest random difference of the down angle. If negative, the angle changes with the height: limbs are steeper toward the top of the crown. */
   "3DownAngleV"?: number;
@@ -2360,7 +2360,7 @@ export interface WorldParametersSettlementsHousesItem {
 
 /** Villages and farms on level ground near water, outside of cold and dry regions. */
 export interface WorldParametersSettlements {
-  /** The share of suitable locations that have a village. There is at most one in 6 km. */
+  /** The share of suitable locations that have a village. Each square with sides of about 6 km has at most one location. */
   density?: number;
   /** The radius of the widest village. */
   radius?: number;
