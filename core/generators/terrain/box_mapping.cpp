@@ -54,44 +54,61 @@ BoxMappedMesh::BoxMappedMesh(const Mesh& from, const VertexOverrides& overrides,
     : from_(from),
       overrides_(overrides),
       lighter_(lighter),
-      set_(from.uv[0].empty() ? 0 : 1),
-      index_(job, mapped_side_count * from.position.size(), unplaced) {
-  mesh.position = Array<glm::vec3>(job);
-  mesh.normal = Array<glm::vec3>(job);
-  mesh.tangent = Array<glm::vec4>(job);
-  for (std::size_t set = 0; set <= set_; ++set) mesh.uv[set] = Array<glm::vec2>(job);
-  mesh.color = Array<glm::u8vec4>(job);
-  mesh.index.wide = Array<std::uint32_t>(job);
+      place_(job, mapped_side_count * from.position.size(), unplaced),
+      source_(job),
+      index_(job),
+      job_(job) {}
+
+void BoxMappedMesh::reserve(std::size_t triangles) {
+  index_.reserve(3 * triangles);
+  // A vertex of a regular mesh has six triangles; borders have more vertices.
+  source_.reserve(triangles / 2 + triangles / 8);
 }
 
 void BoxMappedMesh::add(const std::array<std::uint32_t, 3>& corners) {
   const glm::vec3& a = from_.position[corners[0]];
   const MappedSide side = side_of(glm::cross(from_.position[corners[1]] - a, from_.position[corners[2]] - a));
   for (const std::uint32_t corner : corners) {
-    std::uint32_t& place = index_[mapped_side_count * corner + side];
+    std::uint32_t& place = place_[mapped_side_count * corner + side];
     if (place == unplaced) {
-      place = static_cast<std::uint32_t>(mesh.position.size());
-      add_vertex(corner, side);
+      place = static_cast<std::uint32_t>(source_.size());
+      source_.push_back({corner, side});
     }
-    mesh.index.wide.push_back(place);
+    index_.push_back(place);
   }
 }
 
-void BoxMappedMesh::add_vertex(std::uint32_t v, MappedSide side) {
-  mesh.position.push_back(from_.position[v]);
-  const glm::vec3 normal = overrides_.normals.empty() ? from_.normal[v] : overrides_.normals[v];
-  mesh.normal.push_back(normal);
-  mesh.tangent.push_back(tangent_of(normal, side));
-  if (set_ > 0) mesh.uv[0].push_back(from_.uv[0][v]);
-  mesh.uv[set_].push_back(mapped(from_.position[v], side) + 0.0F);
-  if (from_.color.empty()) return;
+Mesh BoxMappedMesh::take() {
+  place_ = Array<std::uint32_t>(job_);
+  const std::size_t count = source_.size();
+  Mesh mesh;
+  mesh.position = Array<glm::vec3>(job_, count);
+  mesh.normal = Array<glm::vec3>(job_, count);
+  mesh.tangent = Array<glm::vec4>(job_, count);
+  const std::size_t set = from_.uv[0].empty() ? 0 : 1;
+  for (std::size_t i = 0; i <= set; ++i) mesh.uv[i] = Array<glm::vec2>(job_, count);
+  mesh.color = Array<glm::u8vec4>(job_, from_.color.empty() ? 0 : count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto [v, side] = source_[i];
+    mesh.position[i] = from_.position[v];
+    mesh.normal[i] = overrides_.normals.empty() ? from_.normal[v] : overrides_.normals[v];
+    mesh.tangent[i] = tangent_of(mesh.normal[i], side);
+    if (set > 0) mesh.uv[0][i] = from_.uv[0][v];
+    mesh.uv[set][i] = mapped(from_.position[v], side) + 0.0F;
+    if (!from_.color.empty()) mesh.color[i] = color_of(v);
+  }
+  mesh.index.wide = std::move(index_);
+  return mesh;
+}
+
+glm::u8vec4 BoxMappedMesh::color_of(std::uint32_t v) const {
   glm::u8vec4 color = from_.color[v];
   for (int i = 0; i < 3; ++i) {
     const float factor = overrides_.factors.empty() ? 1 : overrides_.factors[v][i];
     const float lit = static_cast<float>(color[i]) * factor * lighter_ + 0.5F;
     color[i] = static_cast<std::uint8_t>(std::min(lit, 255.0F));
   }
-  mesh.color.push_back(color);
+  return color;
 }
 
 }  // namespace seedmesh::terrain

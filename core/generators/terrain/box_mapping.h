@@ -25,18 +25,27 @@ class BoxMappedMesh {
   /// set 0, these are kept, and the new ones are in set 1. Otherwise the new ones are in set 0.
   BoxMappedMesh(const Mesh& from, const VertexOverrides& overrides, float lighter, const Job& job);
 
+  /// Reserves memory for this many triangles.
+  void reserve(std::size_t triangles);
   void add(const std::array<std::uint32_t, 3>& corners);
-
-  Mesh mesh;
+  /// Returns the mesh of all added triangles. To be called once, at the end.
+  Mesh take();
 
  private:
-  void add_vertex(std::uint32_t v, MappedSide side);
+  /// A vertex of the mesh, and the side from which the faces at it are mapped.
+  struct Source {
+    std::uint32_t vertex;
+    MappedSide side;
+  };
+  glm::u8vec4 color_of(std::uint32_t v) const;
 
   const Mesh& from_;
   VertexOverrides overrides_;
   float lighter_;
-  std::size_t set_;
-  Array<std::uint32_t> index_;  ///< index in `mesh` of each vertex and side
+  Array<std::uint32_t> place_;  ///< number of the new vertex of each vertex and side
+  Array<Source> source_;        ///< of each new vertex
+  Array<std::uint32_t> index_;
+  const Job& job_;
 };
 
 }  // namespace seedmesh::terrain

@@ -59,11 +59,12 @@ class PlanetModelBuilder {
     Mesh mesh = planet_mesh(planet, colors, upward, job_.rng().at("terrain"), job_);
     if (!has_detail()) return mesh;
     BoxMappedMesh mapped(mesh, {}, 1 / texture::grey_of(rock_kind), job_);
+    mapped.reserve(mesh.index.size() / 3);
     for (std::size_t i = 0; i < mesh.index.size(); i += 3) {
       if (i % 12'288 == 0) job_.check();
       mapped.add({mesh.index.at(i), mesh.index.at(i + 1), mesh.index.at(i + 2)});
     }
-    return std::move(mapped.mesh);
+    return mapped.take();
   }
 
   void add_ground(Model& model, Planet planet, const GroundColors& ground_colors) {

@@ -43,11 +43,16 @@ glm::vec3 shrubs(double noise, float grass) {
   return glm::vec3(1) + (shrub_color - 1.0F) * share;
 }
 
+std::array<std::uint32_t, 3> corners_of(const Mesh& mesh, std::size_t triangle) {
+  const std::size_t i = 3 * triangle;
+  return {mesh.index.at(i), mesh.index.at(i + 1), mesh.index.at(i + 2)};
+}
+
 /// Gives vertices the normals of the mesh again where others are behind one of their faces.
 void restore_turned_off(const Mesh& mesh, Array<glm::vec3>& normals, const Job& job) {
-  for (std::size_t i = 0; i < mesh.index.size(); i += 3) {
-    if (i % 12'288 == 0) job.check();
-    const std::array<std::uint32_t, 3> at{mesh.index.at(i), mesh.index.at(i + 1), mesh.index.at(i + 2)};
+  for (std::size_t t = 0; t < mesh.index.size() / 3; ++t) {
+    if (t % 4096 == 0) job.check();
+    const std::array<std::uint32_t, 3> at = corners_of(mesh, t);
     const glm::vec3& a = mesh.position[at[0]];
     const glm::vec3 across = glm::cross(mesh.position[at[1]] - a, mesh.position[at[2]] - a);
     for (const std::uint32_t v : at) {
@@ -182,24 +187,37 @@ std::vector<Primitive> GroundClasses::divided(const Mesh& mesh, const SpotOf& sp
     }
   });
   restore_turned_off(mesh, normals, job);
-  std::vector<BoxMappedMesh> parts;
-  for (const Used& used : used_)
-    parts.emplace_back(mesh, VertexOverrides{factors.span(), normals.span()}, used.lighter, job);
-  for (std::size_t i = 0; i < mesh.index.size(); i += 3) {
-    if (i % 12'288 == 0) job.check();
-    const std::array<std::uint32_t, 3> at{mesh.index.at(i), mesh.index.at(i + 1), mesh.index.at(i + 2)};
-    GroundShares sum;
-    for (int k = 0; k < GroundShares::kind_count; ++k)
-      sum.of[k] = own[at[0]].of[k] + own[at[1]].of[k] + own[at[2]].of[k];
-    parts[use_of(sum)].add(at);
-  }
+  const std::vector<std::uint8_t> uses = uses_of(mesh, own, job);
   std::vector<Primitive> primitives;
-  for (std::size_t k = 0; k < parts.size(); ++k) {
-    if (parts[k].mesh.position.empty()) continue;
-    parts[k].mesh.cache_ordered = mesh.cache_ordered;
-    primitives.push_back({std::move(parts[k].mesh), used_[k].material, {}});
+  for (std::size_t k = 0; k < used_.size(); ++k) {
+    const auto triangles = static_cast<std::size_t>(std::ranges::count(uses, k));
+    if (triangles == 0) continue;
+    BoxMappedMesh part(mesh, VertexOverrides{factors.span(), normals.span()}, used_[k].lighter, job);
+    part.reserve(triangles);
+    for (std::size_t t = 0; t < uses.size(); ++t) {
+      if (t % 4096 == 0) job.check();
+      if (uses[t] == k) part.add(corners_of(mesh, t));
+    }
+    primitives.push_back({part.take(), used_[k].material, {}});
+    primitives.back().mesh.cache_ordered = mesh.cache_ordered;
   }
   return primitives;
+}
+
+/// The number of the class of each triangle.
+std::vector<std::uint8_t> GroundClasses::uses_of(const Mesh& mesh, const Array<GroundShares>& own,
+                                                 const Job& job) const {
+  std::vector<std::uint8_t> uses;
+  uses.reserve(mesh.index.size() / 3);
+  for (std::size_t t = 0; t < mesh.index.size() / 3; ++t) {
+    if (t % 4096 == 0) job.check();
+    const auto [a, b, c] = corners_of(mesh, t);
+    GroundShares sum;
+    for (int k = 0; k < GroundShares::kind_count; ++k)
+      sum.of[k] = own[a].of[k] + own[b].of[k] + own[c].of[k];
+    uses.push_back(static_cast<std::uint8_t>(use_of(sum)));
+  }
+  return uses;
 }
 
 std::vector<Primitive> GroundClasses::divide(const Mesh& mesh, const Sites& sites, const Job& job) const {

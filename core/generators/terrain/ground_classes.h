@@ -44,6 +44,7 @@ class GroundClasses {
   };
   GroundShares shares(const Site& site) const { return ground_shares(colors_, site); }
   std::size_t use_of(const GroundShares& shares) const;
+  std::vector<std::uint8_t> uses_of(const Mesh& mesh, const Array<GroundShares>& own, const Job& job) const;
   float own_number(std::int32_t x, std::int32_t z) const;
   Spot spot_of_sample(const Sites& sites, const glm::vec3& position) const;
   Spot spot_between(const VertexSite& site, const glm::vec3& position) const;
