@@ -315,8 +315,12 @@ void let_light_through(Material& material, LeafShape shape) {
   material.specular = leaf_specular;
 }
 
-// Mip levels are means of alpha. Below this, dense textures of fine parts close in the distance.
-float leaf_cutoff(std::string_view kind) { return leaf_picture(kind).count > 1 ? 0.5F : 0.45F; }
+// Mip levels are means of alpha. With a lower cutoff, dense textures of fine parts close in the distance. With a higher
+// one, twigs of spruces vanish at the sixth level: their needles are thin, and their mean alpha is 0.29.
+float leaf_cutoff(std::string_view kind) {
+  const LeafPicture picture = leaf_picture(kind);
+  return picture.count > 1 && picture.shape != LeafShape::needles ? 0.5F : 0.45F;
+}
 
 Finish leaf_finish(std::string_view kind, const Tint& tint) {
   const Colors colors = colors_of(leaf_picture(kind).shape);

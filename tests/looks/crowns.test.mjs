@@ -6,7 +6,7 @@ import test from 'node:test';
 import { program } from '../http/support.mjs';
 import { draw_views } from '../pictures/judge.mjs';
 
-const near_black = { oak_far: 0.095, aspen_far: 0.07, pine_far: 0.19, spruce_far: 0.13, maple_far: 0.075 };
+const near_black = { oak_far: 0.095, aspen_far: 0.07, pine_far: 0.19, spruce_far: 0.1, maple_far: 0.075 };
 /** Crowns that are not among the fixed views. */
 const more = [
   { name: 'spruce_far', preset: 'spruce', seed: 3, at: [0, 1.7, 32], to: [0, 6.6, 0], fov: 36, crown: true },

@@ -4,7 +4,7 @@
 import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
 import { program, serve } from '../http/support.mjs';
-import { area_of, box_of, coverage_by_level, each_triangle, hue_deviation, primitives_of, slopes_of, texel_densities } from './measure.mjs';
+import { area_of, box_of, coverage_by_level, each_triangle, filtered_coverage, hue_deviation, primitives_of, slopes_of, texel_densities } from './measure.mjs';
 
 let server;
 before(async () => { server = await serve(program); });
@@ -87,6 +87,14 @@ for (const name of ['spruce', 'pine']) {
     const [needles] = await leaves_of(name);
     const [first, ...others] = coverage_by_level(needles.color, needles.cutoff, 6);
     for (const [i, each] of others.entries()) assert.ok(Math.abs(each / first - 1) <= 0.12, `mip ${i + 1}: ${each.toFixed(3)}, mip 0: ${first.toFixed(3)}`);
+  });
+
+  test(`${name}: needles do not vanish where plain mip levels are a few texels wide`, async () => {
+    const [needles] = await leaves_of(name), first = filtered_coverage(needles.color, needles.cutoff, 0);
+    for (const [level, least, most] of [[4, 0.85, 1.15], [5, 0.85, 1.15], [6, 0.85, 1.15], [7, 0.55, 1.15]]) {
+      const share = filtered_coverage(needles.color, needles.cutoff, level) / first;
+      assert.ok(share >= least && share <= most, `mip ${level}: ${share.toFixed(2)} of the coverage of mip 0`);
+    }
   });
 }
 

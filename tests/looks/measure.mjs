@@ -73,6 +73,37 @@ export function coverage_by_level(picture, cutoff, levels) {
   return shares;
 }
 
+/** The mip level of alpha that is `level` steps smaller: means of two by two texels. */
+function alpha_at(picture, level) {
+  let { width } = picture, alpha = Array.from({ length: width * width }, (_, i) => picture.data[4 * i + 3] / 255);
+  for (let step = 0; step < level; ++step) {
+    const half = width / 2, before = alpha, row = width;
+    alpha = Array.from({ length: half * half }, (_, i) => {
+      const at = 2 * (i % half) + 2 * Math.floor(i / half) * row;
+      return (before[at] + before[at + 1] + before[at + row] + before[at + row + 1]) / 4;
+    });
+    width = half;
+  }
+  return { width, alpha };
+}
+
+/**
+ * The share of a square texture that the alpha test keeps where a renderer mixes the four nearest texels of a mip level. In
+ * small levels, this is less than the share of the texels, because single texels do not reach the cutoff between others.
+ */
+export function filtered_coverage(picture, cutoff, level) {
+  const { width, alpha } = alpha_at(picture, level), samples = 256;
+  const at = (x, y) => alpha[Math.min(width - 1, Math.max(0, y)) * width + Math.min(width - 1, Math.max(0, x))];
+  let kept = 0;
+  for (let i = 0; i < samples * samples; ++i) {
+    const x = (((i % samples) + 0.5) * width) / samples - 0.5, y = ((Math.floor(i / samples) + 0.5) * width) / samples - 0.5;
+    const left = Math.floor(x), top = Math.floor(y), u = x - left, v = y - top;
+    const mixed = (at(left, top) * (1 - u) + at(left + 1, top) * u) * (1 - v) + (at(left, top + 1) * (1 - u) + at(left + 1, top + 1) * u) * v;
+    if (mixed >= cutoff) ++kept;
+  }
+  return kept / (samples * samples);
+}
+
 /** Mean and 95 % quantile of the slopes of a normal map, in degrees. */
 export function slopes_of(picture) {
   const slopes = [];
