@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/generators/city/near_streets.h"
 #include "core/generators/city/plan.h"
 
 namespace seedmesh::city {
@@ -121,6 +122,26 @@ class PrunedGraph {
     drop_sharp_at_bridges(cos_least);
   }
 
+  /// Removes streets that grew if another street without a common node is nearer than half of both widths. Both stay if
+  /// they are as far apart as arms of a junction at the same way from it. `widths` are those of the carriageways in
+  /// centimetres, by tag. Cost: n log n.
+  void drop_near(const std::vector<double>& widths, const Job& job) {
+    constexpr double way_between_arms = 5.13;  // over their distance, of arms at 22.5 degrees
+    PlanarArms arms;
+    for (const NearPair& pair : near_pairs(nodes_, edges_, widths, job)) {
+      PlanarEdge &first = edges_[pair.first], &second = edges_[pair.second];
+      if (first.is_removed() || second.is_removed() || (is_given(first) && is_given(second))) continue;
+      if (arms.first.empty()) arms = arms_of(nodes_, edges_);
+      if (are_linked(first, second, arms, way_between_arms * pair.distance)) continue;
+      const auto order = [&](const PlanarEdge& edge) {
+        const bool is_dead_end = is_loose(edge.from) || is_loose(edge.to);
+        return 2 * rank_of(edge) + (is_dead_end ? 1 : 0);
+      };
+      remove(order(first) <= order(second) ? second : first);
+    }
+    compact();
+  }
+
   /// Keeps the network of streets with the greatest length, and those with given streets.
   void keep_largest() { keep_large(2); }
 
@@ -201,6 +222,28 @@ class PrunedGraph {
   }
 
  private:
+  /// Whether a way of at most `most` centimetres leads from an end of one street to an end of another.
+  bool are_linked(const PlanarEdge& from, const PlanarEdge& to, const PlanarArms& arms, double most) const {
+    struct Visit {
+      std::uint32_t node;
+      double way;
+    };
+    std::vector<Visit> visits = {{from.from, 0}, {from.to, 0}};
+    for (std::size_t i = 0; i < visits.size(); ++i) {
+      const Visit at = visits[i];
+      if (at.node == to.from || at.node == to.to) return true;
+      for (const std::uint32_t half : arms.of(at.node)) {
+        const PlanarEdge& edge = edges_[half / 2];
+        if (edge.is_removed() || !is_street(edge)) continue;
+        const std::uint32_t next = edge.from == at.node ? edge.to : edge.from;
+        const double way = at.way + distance(nodes_[at.node], nodes_[next]);
+        const auto is_known = [&](const Visit& visit) { return visit.node == next && visit.way <= way; };
+        if (way <= most && std::none_of(visits.begin(), visits.end(), is_known))
+          visits.push_back({next, way});
+      }
+    }
+    return false;
+  }
   /// Removes bridges without a street at one of their ends.
   void drop_loose_bridges() {
     std::erase_if(bridges_, [&](const Bridge& each) {

@@ -275,13 +275,14 @@ class StreetSpace {
     BlockOutline block;
     for (const Outline& outline : layout.outlines) {
       CmRing ring;
+      std::vector<std::uint32_t> walks;  // parts, by half-edge of the outline
       for (const std::uint32_t half : outline.half_edges) {
-        const std::uint32_t part =
-            graph_.is_street(half / 2) ? static_cast<std::uint32_t>(plan_.parts.size()) : no_index;
-        if (part != no_index) add_sidewalk(half);
-        if (!outline.is_outer) continue;
-        add_block_edges(block, half, part);
+        walks.push_back(graph_.is_street(half / 2) ? static_cast<std::uint32_t>(plan_.parts.size())
+                                                   : no_index);
+        if (walks.back() != no_index) add_sidewalk(half);
       }
+      for (std::size_t i = 0; i < walks.size() && outline.is_outer; ++i)
+        add_block_edges(block, outline.half_edges[i], walks[i], walks[(i + walks.size() - 1) % walks.size()]);
       if (outline.is_outer) continue;
       for (const std::uint32_t half : outline.half_edges) {
         for (const CmPoint& p : sides_[half].outer_corner) append_new(ring, p);
@@ -320,17 +321,31 @@ class StreetSpace {
     plan_.parts.push_back(std::move(part));
   }
 
-  /// The edges of a block along one half-edge. The edges of a corner belong to the sidewalk that has them.
-  void add_block_edges(BlockOutline& block, std::uint32_t half, std::uint32_t part) const {
+  /// The edges of a block along one half-edge. The edges of a corner belong to the sidewalk that has them. `walk` and
+  /// `walk_before` are the sidewalks of this half-edge and of the one before it.
+  void add_block_edges(BlockOutline& block, std::uint32_t half, std::uint32_t walk,
+                       std::uint32_t walk_before) const {
+    constexpr double near = 1.5;  // cm
     const KerbSide& side = sides_[half];
     const std::uint32_t street = graph_.is_street(half / 2) ? half / 2 : no_index;
-    // Where a street ends at a shore at an acute angle, the block lies along the end of its carriageway.
+    const auto add = [&block](const CmPoint& p, const BlockEdge& edge) {
+      block.ring.push_back(p);
+      block.edges.push_back(edge);
+    };
+    // Where a street ends at a shore at an acute angle, the block lies along the ends of its sidewalk and carriageway.
     const std::uint32_t before = side.before / 2;
     const bool is_end = street == no_index && graph_.is_street(before);
     for (std::size_t i = 0; i < side.outer_corner.size(); ++i) {
-      const bool is_at_end = is_end && i + 1 < side.outer_corner.size();
-      block.ring.push_back(side.outer_corner[i]);
-      block.edges.push_back(is_at_end ? BlockEdge{before, carriageways_[before]} : BlockEdge{street, part});
+      const CmPoint& p = side.outer_corner[i];
+      if (!is_end || i + 1 == side.outer_corner.size()) {
+        add(p, {street, walk});
+        continue;
+      }
+      const CmPoint &kerb = side.corner.front(), &next = side.outer_corner[i + 1];
+      const bool has_kerb = i == 0 && kerb != p && kerb != next &&
+                            distance_to_segment(in_cm(kerb), in_cm(p), in_cm(next)) < near;
+      if (has_kerb) add(p, {before, walk_before});
+      add(has_kerb ? kerb : p, {before, carriageways_[before]});
     }
   }
 

@@ -50,6 +50,7 @@ Majors majors_of(const GrowthInput& input, const Route& route, Job& job) {
   pruned.drop_outside(input.region);
   pruned.drop_short(least_street);
   pruned.drop_sharp(math::cos(math::radians(input.streets.minimal_angle)));
+  pruned.drop_near(widths_of(input.sections), job);
   pruned.drop_loose_majors();
   pruned.keep_large(share_of_a_network);
   pruned.drop_loose_majors();
@@ -132,6 +133,7 @@ StreetGraph finished_graph(const GrowthInput& input, const Route& route, double 
   PrunedGraph pruned(graph_of(input.region, route, job), route.bridges);
   pruned.drop_short(least_street);
   pruned.drop_sharp(math::cos(math::radians(22.6)));
+  pruned.drop_near(widths_of(input.sections), job);
   pruned.join_short_given(least_street);
   pruned.keep_large(least_share);
   return pruned.finished();
@@ -161,9 +163,11 @@ StreetGraph grow_all(const GrowthInput& input, std::vector<CmPoint>& ring_nodes,
     pruned.keep_largest();
     return pruned.finished();
   }
-  append(route, input.wards    ? input.wards->route
-                : input.tensor ? trace_majors(input, *input.tensor, job)
-                               : grow_majors(input, job));
+  Route majors_route = input.wards    ? input.wards->route
+                       : input.tensor ? trace_majors(input, *input.tensor, job)
+                                      : grow_majors(input, job);
+  if (!input.wards) join_near_bends(input, majors_route.pieces, job);
+  append(route, majors_route);
   Majors majors = majors_of(input, route, job);
   const bool has_streets = std::any_of(majors.graph.edges.begin(), majors.graph.edges.end(), is_street);
   if (!has_streets) {

@@ -2,10 +2,15 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdlib>
+#include <nlohmann/json.hpp>
 
 #include "core/generators/city/city.h"
 #include "core/generators/city/shape.h"
+#include "core/pipeline.h"
+#include "core/schema/json.h"
 #include "generated/params/city.h"
 
 namespace seedmesh::city {
@@ -71,6 +76,50 @@ TEST(Ribbons, StayInsideTheAreaAroundARasterThatReachesItsBorder) {
     }
   }
   EXPECT_NEAR(sum, 731 * 854, 1e-3);
+}
+
+/// The first street ends at the border, where its kerb ends between the corners of its sidewalk and its carriageway.
+TEST(Ribbons, KeepBlocksOffTheKerbOfAStreetThatEndsAtTheBorder) {
+  const Result<Request> request = read_request(
+      R"({"generator": "city", "parameters": {"area": {"size": [501.57, 450.44]}, "streets": {"method": "given"},
+        "lots": {"method": "none"}, "maps": {"water": "abs(x - 0.3 * y - 40) < 12"}, "given": {"streets": {
+          "type": "FeatureCollection", "features": [
+          {"type": "Feature", "properties": {"highway": "residential"}, "geometry": {"type": "LineString", "coordinates":
+            [[-116.25, -224.39], [-123.62, -198.3], [-125.9, -171.76], [-123.08, -144.79], [-106.11, -49.46]]}},
+          {"type": "Feature", "properties": {}, "geometry": {"type": "LineString", "coordinates":
+            [[-116.25, -224.39], [-77.57, -225.89], [-38.92, -225.38], [-0.29, -222.86]]}},
+          {"type": "Feature", "properties": {}, "geometry": {"type": "LineString", "coordinates":
+            [[-123.08, -144.79], [-61.79, -149.37], [-0.48, -145.08]]}}]}}}})",
+      Limits{});
+  ASSERT_TRUE(request);
+  const Result<std::string> text = derive(*request, {});
+  ASSERT_TRUE(text);
+  const Json answer = Json::parse(*text);
+  std::vector<CmRing> blocks;
+  CmRing kerbs;
+  for (const Json& each : answer["plan"]["features"]) {
+    const std::string kind = each["properties"]["kind"];
+    if (kind != "block" && kind != "carriageway" && kind != "sidewalk") continue;
+    CmRing ring;
+    for (const Json& p : each["geometry"]["coordinates"][0])
+      ring.push_back(rounded_cm({p[0].get<double>() * 100, p[1].get<double>() * 100}));
+    ring.pop_back();
+    if (kind == "block") {
+      blocks.push_back(ring);
+    } else {
+      kerbs.insert(kerbs.end(), ring.begin(), ring.end());
+    }
+  }
+  ASSERT_FALSE(blocks.empty());
+  for (const CmRing& block : blocks) {
+    for (const CmPoint& p : kerbs) {
+      double least = 1e9;
+      for (std::size_t i = 0; i < block.size(); ++i)
+        least = std::min(
+            least, distance_to_segment(in_cm(p), in_cm(block[i]), in_cm(block[(i + 1) % block.size()])));
+      EXPECT_TRUE(least < 0.01 || !is_inside(block, in_cm(p))) << p.x << ", " << p.y << ": " << least;
+    }
+  }
 }
 
 }  // namespace
