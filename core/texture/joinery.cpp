@@ -34,10 +34,24 @@ struct Surface {
   float height, tone;
 };
 
+/// The panels that a row of texels crosses.
+class CrossedPanels {
+ public:
+  CrossedPanels(std::span<const Panel> panels, float y) {
+    for (const Panel& panel : panels) {
+      if (y > panel.y0 && y < panel.y1) panels_[count_++] = panel;
+    }
+  }
+  std::span<const Panel> span() const { return {panels_.data(), count_}; }
+
+ private:
+  std::array<Panel, 6> panels_{};
+  std::size_t count_ = 0;
+};
+
 /// A raised field behind a groove; the frame outside.
-Surface panelled(std::span<const Panel> panels, float x, float y) {
-  for (const Panel& panel : panels) {
-    if (y <= panel.y0 || y >= panel.y1) continue;  // most panels, and the same ones in all of a row
+Surface panelled(const CrossedPanels& panels, float x, float y) {
+  for (const Panel& panel : panels.span()) {
     const float inside = std::min(std::min(x - panel.x0, panel.x1 - x) * leaf_width,
                                   std::min(y - panel.y0, panel.y1 - y) * leaf_height);
     if (inside <= 0) continue;
@@ -67,16 +81,40 @@ Surface louvred(float x, float y) {
   return {0.75F - 0.6F * within, within > 0.72F ? 0.04F : 0.56F - 0.3F * within};
 }
 
-Surface surface_of(Joinery kind, float x, float y) {
+/// A row of texels of a leaf. `up`: from 0 at its foot to 1; `brush`: noise of the paint.
+struct LeafRow {
+  float up;
+  int cell;
+  const float* brush;
+  ReliefRow out;
+};
+
+template <class SurfaceAt>
+void paint_row(const LeafRow& row, const SurfaceAt& surface_at) {
+  // Rain and hands wear the foot of a leaf.
+  const float worn = 0.12F * (1 - step_between(0, 0.14F, row.up));
+  for (int x = 0; x < row.cell; ++x) {
+    const float across = (static_cast<float>(x) + 0.5F) / static_cast<float>(row.cell);
+    const Surface surface = surface_at(across, row.up);
+    row.out.height[x] = clamp_share(surface.height + 0.06F * row.brush[x]);
+    row.out.tone[x] = clamp_share(surface.tone + 0.1F * row.brush[x] - worn);
+  }
+}
+
+void paint_row(Joinery kind, const LeafRow& row) {
+  const auto with_panels = [&](std::span<const Panel> all) {
+    const CrossedPanels panels(all, row.up);
+    paint_row(row, [&](float x, float y) { return panelled(panels, x, y); });
+  };
   switch (kind) {
     case Joinery::six_panels:
-      return panelled(six, x, y);
+      return with_panels(six);
     case Joinery::four_panels:
-      return panelled(four, x, y);
+      return with_panels(four);
     case Joinery::planks:
-      return planked(x, y);
+      return paint_row(row, planked);
     default:
-      return louvred(x, y);
+      return paint_row(row, louvred);
   }
 }
 
@@ -91,14 +129,10 @@ Relief joinery(int size, Rng rng, const Job& job) {
       const float* brush = brush_rows.row(y);
       const ReliefRow out = row_at(y);
       const float up = 1 - (static_cast<float>(y % cell) + 0.5F) / static_cast<float>(cell);
-      for (int x = 0; x < size; ++x) {
-        const float across = (static_cast<float>(x % cell) + 0.5F) / static_cast<float>(cell);
-        const auto kind = static_cast<Joinery>(y / cell * joinery_across + x / cell);
-        const Surface surface = surface_of(kind, across, up);
-        // Rain and hands wear the foot of a leaf.
-        const float worn = 0.12F * (1 - step_between(0, 0.14F, up));
-        out.height[x] = clamp_share(surface.height + 0.06F * brush[x]);
-        out.tone[x] = clamp_share(surface.tone + 0.1F * brush[x] - worn);
+      for (int i = 0; i < joinery_across; ++i) {
+        const int first = i * cell;
+        paint_row(static_cast<Joinery>(y / cell * joinery_across + i),
+                  {up, cell, brush + first, {out.height + first, out.tone + first, nullptr}});
       }
     }
   });

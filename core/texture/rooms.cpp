@@ -87,27 +87,75 @@ struct Seen {
   float tone, accent;
 };
 
-Seen cloth(const Room& room, float at, float shade) {
-  const math::SinCos fold = math::quick_sincos(2 * math::pi * static_cast<double>(at * room.pleats));
-  return {clamp_share((cloth_tone + 0.16F * static_cast<float>(fold.sin)) * shade), 0.5F * room.warm};
+/// What is the same in all rows of a room: the tones of cloth at each texel of a row.
+struct Drapery {
+  std::vector<float> long_cloth, short_cloth;
+};
+
+Drapery drapery_of(const Room& room, int cell) {
+  Drapery made;
+  for (int x = 0; x < cell; ++x) {
+    const float across = (static_cast<float>(x) + 0.5F) / static_cast<float>(cell);
+    const math::SinCos fold =
+        math::quick_sincos(2 * math::pi * static_cast<double>(across * room.pleats));
+    const float tone = cloth_tone + 0.16F * static_cast<float>(fold.sin);
+    made.long_cloth.push_back(clamp_share(tone));
+    made.short_cloth.push_back(clamp_share(tone * 0.95F));
+  }
+  return made;
 }
 
-Seen seen_at(const Room& room, const glm::vec2& p) {
-  if (room.kind == RoomKind::curtains && (p.x < room.left || p.x > room.right)) return cloth(room, p.x, 1);
-  if (room.kind == RoomKind::short_curtain && p.y < room.drop) return cloth(room, p.x, 0.95F);
-  if (room.kind == RoomKind::blind && p.y > room.drop) {
-    const float slat = p.y * 28 - std::floor(p.y * 28);
-    return {slat < 0.25F ? 0.5F * blind_tone : blind_tone - 0.14F * slat, 0.4F * room.warm};
-  }
-  float tone = box_tone(room, p);
+/// The things that a row of texels crosses, in their order.
+struct Crossed {
+  std::array<Thing, 4> things{};
+  std::size_t count = 0;
+};
+
+Crossed crossed(const Room& room, float up) {
+  Crossed found;
   for (const Thing& thing : room.things) {
-    if (p.x >= thing.x0 && p.x < thing.x1 && p.y >= thing.y0 && p.y < thing.y1) tone = thing.tone * 0.8F;
+    if (up >= thing.y0 && up < thing.y1) found.things[found.count++] = thing;
   }
+  return found;
+}
+
+Seen seen_in(const Room& room, const Crossed& crossed, const glm::vec2& p) {
+  float tone = box_tone(room, p);
+  for (std::size_t i = 0; i < crossed.count; ++i) {
+    const Thing& thing = crossed.things[i];
+    if (p.x >= thing.x0 && p.x < thing.x1) tone = thing.tone * 0.8F;
+  }
+  if (room.lamp_size <= 0) return {clamp_share(tone * room.brightness), 0};
   const glm::vec2 off = p - room.lamp;
   const float apart = std::sqrt(off.x * off.x + off.y * off.y);
   const float glow = room.warm / (1 + 60 * apart * apart);
-  if (room.lamp_size > 0 && apart < room.lamp_size) return {0.95F, 1};
+  if (apart < room.lamp_size) return {0.95F, 1};
   return {clamp_share((tone + 0.5F * glow) * room.brightness), 0};
+}
+
+/// Writes the texels of a row that show one room. `up`: position in the room, from 0 at its floor to 1.
+void paint_row(const Room& room, const Drapery& drapery, float up, int cell, const ReliefRow& out) {
+  const Crossed things = crossed(room, up);
+  const bool is_short_cloth = room.kind == RoomKind::short_curtain && up < room.drop;
+  const bool is_blind = room.kind == RoomKind::blind && up > room.drop;
+  const float slat = up * 28 - std::floor(up * 28);
+  for (int x = 0; x < cell; ++x) {
+    const auto column = static_cast<std::size_t>(x);
+    const float across = (static_cast<float>(x) + 0.5F) / static_cast<float>(cell);
+    Seen seen{};
+    if (room.kind == RoomKind::curtains && (across < room.left || across > room.right)) {
+      seen = {drapery.long_cloth[column], 0.5F * room.warm};
+    } else if (is_short_cloth) {
+      seen = {drapery.short_cloth[column], 0.5F * room.warm};
+    } else if (is_blind) {
+      seen = {slat < 0.25F ? 0.5F * blind_tone : blind_tone - 0.14F * slat, 0.4F * room.warm};
+    } else {
+      seen = seen_in(room, things, {across, up});
+    }
+    out.height[x] = 0.5F;
+    out.tone[x] = seen.tone;
+    out.accent[x] = seen.accent;
+  }
 }
 
 }  // namespace
@@ -122,20 +170,22 @@ RoomKind room_kind(int room) {
 }
 
 Relief rooms(int size, Rng rng, const Job& job) {
-  std::vector<Room> all;
-  for (int i = 0; i < room_count; ++i) all.push_back(room_of(i, rng.at(static_cast<std::uint64_t>(i))));
   const int cell = size / rooms_across;
+  std::vector<Room> all;
+  std::vector<Drapery> draperies;
+  for (int i = 0; i < room_count; ++i) {
+    all.push_back(room_of(i, rng.at(static_cast<std::uint64_t>(i))));
+    draperies.push_back(drapery_of(all.back(), cell));
+  }
   return paint_rows(size, Accent::painted, job, [&](int begin, int end, const auto& row_at) {
     for (int y = begin; y < end; ++y) {
       const ReliefRow out = row_at(y);
-      const auto row = static_cast<std::size_t>(y / cell);
       const float up = 1 - (static_cast<float>(y % cell) + 0.5F) / static_cast<float>(cell);
-      for (int x = 0; x < size; ++x) {
-        const float across = (static_cast<float>(x % cell) + 0.5F) / static_cast<float>(cell);
-        const Seen seen = seen_at(all[row * rooms_across + static_cast<std::size_t>(x / cell)], {across, up});
-        out.height[x] = 0.5F;
-        out.tone[x] = seen.tone;
-        out.accent[x] = seen.accent;
+      for (int i = 0; i < rooms_across; ++i) {
+        const auto number = static_cast<std::size_t>(y / cell * rooms_across + i);
+        const int first = i * cell;
+        paint_row(all[number], draperies[number], up, cell,
+                  {out.height + first, out.tone + first, out.accent + first});
       }
     }
   });

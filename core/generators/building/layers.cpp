@@ -34,6 +34,10 @@ class LayerTable {
       if (each.key != 0) layers(each.key) = each.layers;
     }
   }
+  /// Begins to fetch the place of a key.
+  void fetch(std::uint64_t key) const {
+    __builtin_prefetch(slots_.data() + (mix(key) & (slots_.size() - 1)), 1);
+  }
   std::uint64_t& layers(std::uint64_t key) {
     const std::size_t mask = slots_.size() - 1;
     for (std::size_t i = mix(key) & mask;; i = (i + 1) & mask) {
@@ -180,6 +184,7 @@ std::vector<std::uint8_t> layers_of(const Shapes& shapes, std::span<const std::u
     const std::vector<std::uint64_t>& keys =
         is_flat(shape) ? maker.of_face(shape, ring) : maker.of_body(shape);
     table.expect(keys.size());
+    for (const std::uint64_t key : keys) table.fetch(key);
     std::uint64_t taken = 0;
     masks.clear();
     for (const std::uint64_t key : keys) {

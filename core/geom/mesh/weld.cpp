@@ -84,8 +84,17 @@ std::size_t number_by_hash(const std::vector<Stream>& streams, std::span<std::ui
   Array<Slot> slots(job, mask + 1, Slot{0, 0});
   Array<std::uint32_t> first(job);  // of equal vertices, by new number
   first.reserve(place.size());
+  // The slots of some vertices are fetched together, because each alone would be waited for.
+  std::array<std::uint64_t, 32> hashes{};
   for (std::uint32_t i = 0; i < place.size(); ++i) {
-    const std::uint64_t hash = hash_of(streams, i);
+    if (i % hashes.size() == 0) {
+      const std::size_t count = std::min(hashes.size(), place.size() - i);
+      for (std::size_t k = 0; k < count; ++k) {
+        hashes[k] = hash_of(streams, i + k);
+        __builtin_prefetch(slots.data() + (hashes[k] >> (64 - bits)), 1);
+      }
+    }
+    const std::uint64_t hash = hashes[i % hashes.size()];
     const auto tag = static_cast<std::uint32_t>(hash);
     std::size_t at = hash >> (64 - bits);
     while (slots[at].number != 0 &&
