@@ -102,6 +102,7 @@ struct Service {
   StaticTexts texts;
   const Pages pages;
   std::atomic<std::int64_t> in_flight{0};
+  /// Number of responses that were sent; MemoryTrimmer compares it with its last value.
   std::atomic<std::uint64_t> answered{0};
   std::atomic<bool> draining{false};
 };

@@ -13,6 +13,7 @@ class Atlas {
   /// Texels with less alpha are empty.
   static constexpr float cutoff = 0.5F;
 
+  /// Makes an empty atlas of size x size texels, whose memory is charged to the job.
   Atlas(std::uint32_t size, const Job& job);
 
   std::uint32_t size() const { return size_; }

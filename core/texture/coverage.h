@@ -16,7 +16,8 @@ struct Window {
 };
 
 /// The exact coverage of texels by a polygon: every edge adds, in each row, the signed area to its right, and
-/// a running sum along the row gives the coverage.
+/// a running sum along the row gives the coverage. The outline is closed and may turn in either direction; its corners
+/// are in texels. Parts of the polygon outside of the window do not count.
 class Coverage {
  public:
   Coverage(const std::vector<glm::dvec2>& outline, const Window& window) : window_(window) {
@@ -25,7 +26,7 @@ class Coverage {
     for (std::size_t i = 0; i < outline.size(); ++i) add(outline[i], outline[(i + 1) % outline.size()]);
   }
 
-  /// Writes the coverage of one row to `out`, from the left of the window.
+  /// Writes the coverage of the row y, 0 to 1, to `out`, which has an element for each texel of the window.
   void read(int y, std::vector<float>& out) const {
     double sum = 0;
     const double* change = change_.data() + row(y);

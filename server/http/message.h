@@ -1,5 +1,5 @@
 #pragma once
-/// Requests and responses as routes see them.
+/// The requests that routes receive, and the responses that they return.
 #include <chrono>
 #include <cstdint>
 #include <functional>

@@ -26,7 +26,7 @@ class BodySource {
       : shapes_(shapes), materials_(materials), assets_(assets), job_(job) {}
 
   const Shape& shape_of(const DrawnBody& body) const { return shapes_.shapes[body.shape]; }
-  /// Assets of the request, which keep their form.
+  /// Whether a shape is an asset of the request. Its form does not depend on the size, unlike that of a built-in part.
   bool is_own(const Shape& shape) const { return is_asset(shape) && !is_part(shape); }
   bool is_asset(const Shape& shape) const { return (shape.geometry & asset_bit) != 0; }
   bool is_part(const Shape& shape) const {
@@ -36,6 +36,7 @@ class BodySource {
   Asset& asset_of(const Shape& shape);
   /// Fills the surface of a body that is no asset, in the frame of its scope.
   void fill(const Shape& shape, BodySurface& surface);
+  /// Returns the numbers of triangles, vertices and primitives of a body.
   BodyCost cost_of(const Shape& shape);
 
  private:

@@ -11,7 +11,7 @@ constexpr double flat_share = 1e-9;                 ///< a smaller share of the 
 
 }  // namespace
 
-Derivation::Derivation(const Task& given, const Context* first, Job& own_job)
+Derivation::Derivation(const Task& given, const FirstPassIndex* first, Job& own_job)
     : task(given),
       grammar(*given.grammar),
       first_pass(first),

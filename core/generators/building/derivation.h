@@ -36,11 +36,11 @@ struct StepError {
 struct Component;
 
 struct Derivation {
-  Derivation(const Task& task, const Context* first_pass, Job& job);
+  Derivation(const Task& task, const FirstPassIndex* first_pass, Job& job);
 
   const Task& task;
   const Grammar& grammar;
-  const Context* first_pass;  ///< result of the first pass; null during that pass
+  const FirstPassIndex* first_pass;  ///< result of the first pass; null during that pass
   Job& job;
   ShapeMeter meter;
   Shapes out;

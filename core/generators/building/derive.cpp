@@ -146,8 +146,8 @@ Shapes derive_shapes(const Task& task, Job& job) {
   }
   Derivation first(task, nullptr, job);
   Shapes shapes = run(first);
-  const Context context(std::move(shapes), std::move(first.snap_planes), grammar);
-  Derivation second(task, &context, job);
+  const FirstPassIndex first_pass(std::move(shapes), std::move(first.snap_planes), grammar);
+  Derivation second(task, &first_pass, job);
   return run(second);
 }
 

@@ -4,9 +4,8 @@
 /// Shapes are replaced one by one, the newest first. The result does not depend on the order, because every
 /// random number is a function of the position of its shape in the tree:
 ///   key(child) = H(key(parent), number of the operation in the successor, number of the piece)
-/// Queries to other shapes (occlusion, snap lines) need two passes. In the first, all answers are "none" and
-/// there are no snap lines. In the second, the queries are answered with the shapes of the first (CGA
-/// reference, context queries).
+/// Queries to other shapes (occlusion, snap lines) need two passes. In the first, the result of every query is "none" and
+/// there are no snap lines. In the second, queries test the shapes of the first (CGA reference, context queries).
 ///
 /// Out:    shapes, parents before children.
 /// Errors: a number that is not finite, a text where a number is expected, rules without an end (1,000 nested
@@ -30,11 +29,12 @@ struct AssetBox {
   glm::dvec3 low{0}, size{1};
 };
 
+/// The input of a derivation. Pointers and views are not owned; what they refer to has to outlive derive_shapes().
 struct Task {
   const Grammar* grammar = nullptr;
   const Texts* texts = nullptr;                         ///< those of the grammar, and those of given values
   const RuleText* text = nullptr;                       ///< the rules, for line and column
-  bool is_blueprint = false;                            ///< they are part of the program
+  bool is_blueprint = false;                            ///< whether the rules are part of the program
   glm::dvec3 size{0};                                   ///< size of the first shape
   const Solid* footprint = nullptr;                     ///< null: a box
   glm::dvec3 origin{0};                                 ///< origin of the first scope

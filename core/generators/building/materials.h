@@ -20,7 +20,8 @@ namespace seedmesh::building {
 /// Adds materials to the model when they are first used. The material of a shape is the first of these that exists:
 /// its material by name, its colour, the material with the name of its symbol (Wall, Roof, Window, ...), plain
 /// plaster. If `textures` of the request selects it, materials with names such as brick get textures made by seed
-/// (core/texture/wall.h) in the current colour; built-in parts have none.
+/// (core/texture/wall.h) in the current colour. Built-in parts have textures in blueprints only, except glass, which also
+/// has one with `textures: made`.
 class MaterialTable {
  public:
   MaterialTable(Model& model, const BuildingParams& params, const Shapes& shapes,

@@ -64,11 +64,11 @@ void box_around(const Scope& scope, glm::dvec3& low, glm::dvec3& high) {
 
 }  // namespace
 
-std::uint32_t Context::cell_of(const glm::ivec3& at) const {
+std::uint32_t FirstPassIndex::cell_of(const glm::ivec3& at) const {
   return static_cast<std::uint32_t>((at.z * cells_.y + at.y) * cells_.x + at.x);
 }
 
-Context::Context(Shapes shapes, std::vector<SnapPlane> snaps, const Grammar& grammar)
+FirstPassIndex::FirstPassIndex(Shapes shapes, std::vector<SnapPlane> snaps, const Grammar& grammar)
     : shapes_(std::move(shapes)), snaps_(std::move(snaps)), grammar_(&grammar) {
   const auto count = static_cast<std::uint32_t>(shapes_.shapes.size());
   // A depth-first walk gives each shape a rank, and its descendants the ranks behind it.
@@ -125,7 +125,7 @@ Context::Context(Shapes shapes, std::vector<SnapPlane> snaps, const Grammar& gra
     visit(candidates_[i], [&](std::uint32_t cell) { members_[at[cell]++] = i; });
 }
 
-bool Context::counts(const Query& query, std::uint32_t index) const {
+bool FirstPassIndex::counts(const Query& query, std::uint32_t index) const {
   const Shape& shape = shapes_.shapes[index];
   if (query.kind != Query::Kind::occlusion && !shape.is_active && query.target == "all") return false;
   if (query.target == "all" || query.target == "noparent" || query.target.empty()) return true;
@@ -136,25 +136,25 @@ bool Context::counts(const Query& query, std::uint32_t index) const {
   return grammar_->symbols[shape.symbol].name == query.target;
 }
 
-bool Context::is_family(std::uint32_t self, std::uint32_t other) const {
+bool FirstPassIndex::is_family(std::uint32_t self, std::uint32_t other) const {
   if (self == none) return false;
   const bool is_below = rank_[other] >= rank_[self] && rank_[other] < last_[self];
   const bool is_above = rank_[self] >= rank_[other] && rank_[self] < last_[other];
   return is_below || is_above;
 }
 
-Scope Context::scope_of(std::uint32_t index) const {
+Scope FirstPassIndex::scope_of(std::uint32_t index) const {
   const Shape& shape = shapes_.shapes[index];
   return {shape.origin, shape.size, shapes_.axes[shape.axes]};
 }
 
-const Solid* Context::solid_of(std::uint32_t index) const {
+const Solid* FirstPassIndex::solid_of(std::uint32_t index) const {
   const std::uint32_t geometry = shapes_.shapes[index].geometry;
   return geometry == box_geometry || (geometry & asset_bit) != 0 ? nullptr : &shapes_.solid_of(geometry);
 }
 
 template <class Body>
-void Context::near(const glm::dvec3& low, const glm::dvec3& high, Job& job, Body&& body) const {
+void FirstPassIndex::near(const glm::dvec3& low, const glm::dvec3& high, Job& job, Body&& body) const {
   const glm::dvec3 last(static_cast<double>(cells_.x), static_cast<double>(cells_.y),
                         static_cast<double>(cells_.z));
   const glm::ivec3 a(glm::clamp((low - low_) / cell_ - 1e-3, glm::dvec3(0), last - 1.0));
@@ -174,7 +174,7 @@ void Context::near(const glm::dvec3& low, const glm::dvec3& high, Job& job, Body
 }
 
 /// Tests the line of sight in pieces as long as a cell, so that only candidates near to it are tested.
-bool Context::is_visible(const Query& query, const Scope& scope, std::uint32_t self, Job& job) const {
+bool FirstPassIndex::is_visible(const Query& query, const Scope& scope, std::uint32_t self, Job& job) const {
   const glm::dvec3 from = center_of(scope);
   double least = 1e300;
   std::uint32_t target = none;
@@ -205,7 +205,7 @@ bool Context::is_visible(const Query& query, const Scope& scope, std::uint32_t s
   return is_free;
 }
 
-double Context::measure(const Query& query, const Scope& scope, std::uint32_t self, Job& job) const {
+double FirstPassIndex::measure(const Query& query, const Scope& scope, std::uint32_t self, Job& job) const {
   double count = 0, least = 1e6;
   for (std::uint32_t i = 0; i < shapes_.shapes.size(); ++i) {
     if ((i & 1023U) == 1023U) job.check();
@@ -220,8 +220,8 @@ double Context::measure(const Query& query, const Scope& scope, std::uint32_t se
   return query.kind == Query::Kind::count ? count : least;
 }
 
-double Context::answer(const Query& query, const Scope& scope, std::span<const std::uint64_t> lineage,
-                       Job& job) const {
+double FirstPassIndex::answer(const Query& query, const Scope& scope, std::span<const std::uint64_t> lineage,
+                              Job& job) const {
   // The querying shape in the first pass: itself, or its nearest ancestor that existed there.
   std::uint32_t self = none;
   for (const std::uint64_t key : lineage) {

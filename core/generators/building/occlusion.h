@@ -1,7 +1,6 @@
 #pragma once
-/// Queries that a shape makes about other shapes: occlusion, containment, contact, visibility, and snap lines. Answers
-/// come from the shapes of the first pass of the derivation (derive.h), so that they do not depend on any
-/// order.
+/// Queries that a shape makes about other shapes: occlusion, containment, contact, visibility, and snap lines. They test
+/// the shapes of the first pass of the derivation (derive.h), so that results do not depend on any order.
 ///
 /// Only closed shapes with a volume can occlude. Shapes that rules have replaced occlude only if the target of the
 /// query is "all", "noparent" or a name. Ancestors and descendants of the querying shape never count. Boxes are
@@ -25,9 +24,9 @@ struct SnapPlane {
 enum class Cover : std::uint8_t { free, part, full };
 
 /// The shapes of the first pass, and an index that answers queries about them. Immutable.
-class Context {
+class FirstPassIndex {
  public:
-  Context(Shapes shapes, std::vector<SnapPlane> snaps, const Grammar& grammar);
+  FirstPassIndex(Shapes shapes, std::vector<SnapPlane> snaps, const Grammar& grammar);
 
   /// Returns the answer for a shape of the second pass: 0 or 1, or a Cover. `lineage` has the keys of the shape and
   /// its ancestors, its own first.

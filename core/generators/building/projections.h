@@ -6,8 +6,9 @@
 
 namespace seedmesh::building {
 
-/// Returns the projection of a set that was applied (projectUV) or set up. Without either, and for shapes that are
-/// flat, it is the scope in metres: u along x, v along y (of a lot along -z), from the origin of the scope.
+/// Returns the projection of a set that was applied (projectUV), or else the one that was set up. If the set has
+/// neither, u and v are metres along the scope from one of its corners: u along x, and v along y. On a lot, v is along
+/// -z. On a face without extent along x, u is along -z.
 Projection projection_of(const Derivation& d, const ShapeState& state, int set);
 /// Whether a set has a projection, so that it means the same for all faces of a solid.
 bool has_projection(const Derivation& d, const ShapeState& state, int set);
@@ -20,7 +21,7 @@ void set_projection_id(Derivation& d, ShapeState& state, int set, bool is_applie
 /// Stores a projection and returns its number.
 std::uint32_t add_projection(Derivation& d, const Projection& projection);
 
-/// The range of u and v over a shape, and how many metres along the surface are 1 of them.
+/// The range of u and v over a shape, and the metres along the surface for a change of u or v by 1.
 struct UvRange {
   std::array<double, 2> low{}, high{}, metres{1, 1};
 };

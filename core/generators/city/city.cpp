@@ -13,6 +13,7 @@
 #include "core/generators/city/footprints.h"
 #include "core/generators/city/given.h"
 #include "core/generators/city/growth.h"
+#include "core/generators/city/house_placement.h"
 #include "core/generators/city/landmarks.h"
 #include "core/generators/city/lots.h"
 #include "core/generators/city/plan_json.h"
@@ -21,7 +22,6 @@
 #include "core/generators/city/surface.h"
 #include "core/generators/city/tensor.h"
 #include "core/generators/city/wards.h"
-#include "core/generators/city/zoning.h"
 #include "core/schema/warning_list.h"
 #include "generated/params/city.h"
 

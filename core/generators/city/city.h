@@ -35,13 +35,14 @@ Result<Model> generate(const CityParams& params, const GenerateContext& context)
 /// Returns the object {statistics, plan, warnings}; see plan_json() and statistics_of().
 Result<Json> derive(const CityParams& params, const GenerateContext& context);
 
-/// Computes the plan, and generates one sample building for each rule and number of floors.
+/// Computes the plan, and generates one sample building for each rule, number of floors and class of widths of 2 m.
+/// Triangles and bytes of the other buildings are estimated from these samples.
 Result<Appraisal> appraise(const CityParams& params, const GenerateContext& context);
 
 /// Returns the plan alone, in the format "geojson".
 Result<Payload> encode(const CityParams& params, const WantedFormat& format, const GenerateContext& context);
 
-/// Returns the modules of street productions.
+/// Returns an empty object: the words of street productions are those of the generator lsystem.
 Json vocabulary();
 
 }  // namespace seedmesh::city

@@ -4,7 +4,7 @@
 #include <tuple>
 
 #include "core/generators/child.h"
-#include "core/generators/city/zoning.h"
+#include "core/generators/city/house_placement.h"
 #include "core/schema/json.h"
 #include "generated/params/city.h"
 

@@ -26,7 +26,7 @@ class Landform {
   static Result<Landform> make(const CityParams& params, const glm::dvec2& low, const glm::dvec2& high,
                                Job& job);
 
-  /// Ground that another generator made, with its centre at the origin. It has no margin.
+  /// Ground that another generator made, with its centre at the origin. Field::margin has to be 0.
   explicit Landform(terrain::Field field) : field_(std::move(field)) {}
 
   bool is_level() const { return !heights_ && field_.width == 0; }

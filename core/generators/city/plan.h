@@ -41,14 +41,14 @@ struct StreetPiece {
   std::uint32_t kind = 0;
 };
 
-/// A street above or below the others, before its ends have become nodes.
+/// A bridge (`level` above 0) or a tunnel (below 0), before its ends have become nodes.
 struct BridgeLine {
   CmRing line;
   std::uint32_t kind = 0;
   int level = 1;
 };
 
-/// A street on another level. It is no part of the planar graph.
+/// A street on another level: a bridge (`level` above 0) or a tunnel (below 0). It is no part of the planar graph.
 struct Bridge {
   std::uint32_t from = 0, to = 0;  ///< nodes
   std::uint32_t tag = 0;

@@ -5,9 +5,9 @@
 #include <string>
 
 #include "core/generators/city/geojson.h"
+#include "core/generators/city/house_placement.h"
 #include "core/generators/city/landmarks.h"
 #include "core/generators/city/missing_streets.h"
-#include "core/generators/city/zoning.h"
 #include "core/generators/unused.h"
 #include "generated/params/city.h"
 #include "generated/params/city_unused.h"

@@ -328,12 +328,12 @@ std::vector<Issue> format_errors(const TerrainParams& params, const WantedFormat
   if (is_picture(given.map) && form.format != "png8") {
     add_issue(conflict_with({"output/format"}), "/heightmap/map",
               std::string(text_of(given.map)) +
-                  " is a picture in colours, which the format png8 holds; found " + std::string(form.format));
+                  " is an image in colours, which requires the format png8; found " + std::string(form.format));
   }
   if (is_picture(given.map) && given.flip) {
     add_issue(conflict_with({"map"}), "/heightmap/flip",
               "found true with the map " + std::string(text_of(given.map)) +
-                  ", a picture for texture coordinates, which begin in the north-west");
+                  ", an image for texture coordinates, which begin in the north-west");
   }
   if (given.map == TerrainMap::water && !params.water_level)
     add_issue(conflict_with({"water_level"}), "/heightmap/map", "there is no water; give a water_level");

@@ -7,7 +7,7 @@
 ///   on a grid of at most 16 cells along each axis.
 /// - Hue: a rotation of the colour about the grey axis. Its variance has three parts in the ratio 9 : 9 : 4. They
 ///   belong to the limb that leaves the trunk, to the limb that bears the leaf, and to the leaf.
-/// - One leaf in fifty is withered where hues differ.
+/// - If Options::hue is above 0, one leaf in fifty has the colour of a withered leaf.
 #include <cstdint>
 
 #include "core/geom/plant/limbs.h"

@@ -356,7 +356,7 @@ class PictureRun {
       meter_.spend(made.lines.size() + made.markers.size() + made.solids.size());
       if (!(reach_of(made) <= farthest)) {
         job_.refuse({IssueKind::evaluation, "/shape_grammar/rules/" + std::to_string(match.pair),
-                     "this rule makes the picture larger than 1,000 km"});
+                     "this rule makes the figure larger than 1,000 km"});
       }
       add(picture, made, near_);
       if ((++added_ & 15U) == 0) job_.check();

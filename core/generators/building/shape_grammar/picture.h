@@ -1,5 +1,6 @@
 #pragma once
-/// Pictures of a shape grammar: lines, labelled points and solids in two or three dimensions.
+/// Pictures of a shape grammar, which requests and documentation call figures: lines, labelled points and solids in two
+/// or three dimensions.
 ///
 /// Lines are maximal: no line lies in another, and no line continues another in the same direction. So a
 /// shape is part of another exactly if each of its lines lies in one line of the other (Stiny, "Introduction

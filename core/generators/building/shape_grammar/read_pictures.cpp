@@ -130,7 +130,7 @@ class PictureReader {
         solid.kind == SolidKind::cylinder || solid.kind == SolidKind::cone || solid.kind == SolidKind::sphere;
     if (is_flat_ && solid.kind != SolidKind::box && solid.kind != SolidKind::cylinder) {
       add_error(IssueKind::not_available, pointer + "/solid",
-                "found another kind of solid, expected box or cylinder in a picture of two dimensions");
+                "found another kind of solid, expected box or cylinder in a figure of two dimensions");
     }
     if (is_round && solid.size.x != solid.size.z) {
       add_error(IssueKind::invalid_value, pointer + "/size",

@@ -1,4 +1,4 @@
-#include "core/generators/city/zoning.h"
+#include "core/generators/city/house_placement.h"
 
 #include <algorithm>
 #include <array>
