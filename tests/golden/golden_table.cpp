@@ -1,7 +1,8 @@
 /// Prints one line for each request of the golden table: its name, the XXH3-128 of the bytes that it makes,
 /// and their number. The requests are every preset (with its own seed and with seed 3) and those of the given
 /// files, each a JSON object of named requests; {"import": {"format", "text"}} is a foreign file, and {"picture": {"size",
-/// "view", "ground"}, "of": REQUEST} the picture of a model. The promise
+/// "view", "ground"}, "of": REQUEST} the picture of a model, {"tile": [level, x, y], "of": REQUEST} a tile of a world, and
+/// {"tileset": [level, x, y], "of": REQUEST} the boxes below a tile. The promise
 /// behind `seed` is that this table is the same from every compiler, at every level of optimisation, on every
 /// CPU and with any number of threads. tests/golden/golden.mjs compares the tables.
 ///
@@ -25,6 +26,7 @@
 #include <vector>
 
 #include "core/pipeline.h"
+#include "core/pipeline/world.h"
 #include "tests/golden/glb_summary.h"
 
 namespace {
@@ -44,6 +46,8 @@ struct Row {
   std::function<Result<Request>()> read;
   bool is_summarised = false;
   std::optional<PictureOptions> picture = {};  ///< the picture of the model instead of the model
+  std::optional<TileAddress> tile = {};        ///< a tile of the world, or
+  std::optional<TileAddress> tileset = {};     ///< the tileset of what is below a tile
 };
 
 std::string hash_of(std::string_view bytes) {
@@ -79,7 +83,7 @@ Result<Request> imported(const Json& file) {
 
 Row row_of(const std::string& name, const Json& request) {
   if (request.contains("import")) return {name, [file = request["import"]] { return imported(file); }};
-  const Json& of = request.contains("picture") ? request["of"] : request;
+  const Json& of = request.contains("of") ? request["of"] : request;
   Row row{name, [text = of.dump()] { return read_request(text, Limits{}); }};
   if (request.contains("picture")) {
     Overrides query;
@@ -87,6 +91,13 @@ Row row_of(const std::string& name, const Json& request) {
       query.emplace_back(key, value.get<std::string>());
     row.picture = *read_picture_options(query);
   }
+  const auto address = [&](const char* member) -> std::optional<TileAddress> {
+    if (!request.contains(member)) return std::nullopt;
+    const Json& list = request[member];
+    return TileAddress{list.at(0).get<int>(), list.at(1).get<std::int64_t>(), list.at(2).get<std::int64_t>()};
+  };
+  row.tile = address("tile");
+  row.tileset = address("tileset");
   return row;
 }
 
@@ -132,11 +143,31 @@ bool points_into(const Request& request, const Row& row, const std::vector<Warni
   return is_good;
 }
 
+/// The bytes of a row that is a part of a world.
+Result<std::string> part_of_world(const Request& request, const Row& row, const Job::Options& job) {
+  const Result<OpenWorld> world = open_world(request, nullptr);
+  if (!world) return world.error();
+  return row.tile ? world_tile(*world, *row.tile, job)
+                  : world_tileset(*world, *row.tileset, "../../../", job);
+}
+
+/// Prints the line of a row.
+void print_line(const Row& row, const Options& options, std::string bytes) {
+  rename_engine(bytes, options.engine);
+  std::printf("%s %s %zu\n", row.name.c_str(), hash_of(bytes).c_str(), bytes.size());
+}
+
 /// False, after a line on stderr, when the request is refused or a warning points nowhere.
 bool print(const Row& row, const Options& options, std::ofstream& summaries) {
   const Result<Request> request = row.read();
   if (!request) return complain(row, request.error());
   const Job::Options job = {.threads = options.threads};
+  if (row.tile || row.tileset) {
+    const Result<std::string> bytes = part_of_world(*request, row, job);
+    if (!bytes) return complain(row, bytes.error());
+    print_line(row, options, *bytes);
+    return true;
+  }
   const Result<Product> product =
       row.picture ? draw_picture(*request, *row.picture, job) : produce(*request, job);
   if (!product) return complain(row, product.error());
@@ -147,8 +178,7 @@ bool print(const Row& row, const Options& options, std::ofstream& summaries) {
       summaries << "  warning " << warning.pointer << ": " << warning.message << "\n";
   }
   if (!points_into(*request, row, product->warnings)) return false;
-  rename_engine(bytes, options.engine);
-  std::printf("%s %s %zu\n", row.name.c_str(), hash_of(bytes).c_str(), bytes.size());
+  print_line(row, options, std::move(bytes));
   return true;
 }
 
