@@ -328,7 +328,8 @@ std::vector<Issue> format_errors(const TerrainParams& params, const WantedFormat
   if (is_picture(given.map) && form.format != "png8") {
     add_issue(conflict_with({"output/format"}), "/heightmap/map",
               std::string(text_of(given.map)) +
-                  " is an image in colours, which requires the format png8; found " + std::string(form.format));
+                  " is an image in colours, which requires the format png8; found " +
+                  std::string(form.format));
   }
   if (is_picture(given.map) && given.flip) {
     add_issue(conflict_with({"map"}), "/heightmap/flip",
