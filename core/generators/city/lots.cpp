@@ -55,6 +55,25 @@ std::uint64_t block_key(const CityPlan& plan, const BlockOutline& outline) {
   return key_at(key, side_key(plan, outline));
 }
 
+/// The keys of all blocks. Blocks between the same streets, on the same side of one, also have the key of their lowest
+/// corner.
+std::vector<std::uint64_t> keys_of(const CityPlan& plan, const std::vector<BlockOutline>& outlines) {
+  std::vector<std::uint64_t> keys;
+  keys.reserve(outlines.size());
+  for (const BlockOutline& each : outlines) keys.push_back(block_key(plan, each));
+  std::vector<std::uint64_t> sorted = keys;
+  std::sort(sorted.begin(), sorted.end());
+  if (std::adjacent_find(sorted.begin(), sorted.end()) == sorted.end()) return keys;
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    const auto same = std::equal_range(sorted.begin(), sorted.end(), keys[i]);
+    if (same.second - same.first < 2) continue;
+    const CmPoint& lowest = *std::min_element(outlines[i].ring.begin(), outlines[i].ring.end());
+    keys[i] =
+        key_at(key_at(keys[i], static_cast<std::uint32_t>(lowest.x)), static_cast<std::uint32_t>(lowest.y));
+  }
+  return keys;
+}
+
 /// Whether a block is the middle of a roundabout.
 bool is_island(const StreetGraph& graph, const BlockOutline& outline) {
   return !graph.ring_nodes.empty() &&
@@ -235,8 +254,10 @@ void divide_blocks(CityPlan& plan, std::vector<BlockOutline> outlines, const Cit
   CityLots whole = lots;  // of a citadel
   whole.division = CityDivision::none;
   const Rng rng = job.rng().at("lots");
-  const auto divide = [&](const BlockOutline& outline) {
-    const std::uint64_t key = block_key(plan, outline);
+  const std::vector<std::uint64_t> keys = keys_of(plan, outlines);
+  const auto divide = [&](std::size_t number) {
+    const BlockOutline& outline = outlines[number];
+    const std::uint64_t key = keys[number];
     Divided each;
     const Ward* ward = ward_at(plan.wards, position_in(outline.ring));
     if (ward) each.zone = ward->zone;
@@ -262,7 +283,7 @@ void divide_blocks(CityPlan& plan, std::vector<BlockOutline> outlines, const Cit
     parallel_for(job, count, blocks_a_chunk, [&](std::size_t begin, std::size_t end, std::size_t) {
       for (std::size_t i = begin; i < end; ++i) {
         job.check();
-        divided[i].emplace(divide(outlines[first + i]));
+        divided[i].emplace(divide(first + i));
       }
     });
     for (std::size_t i = 0; i < count; ++i) {

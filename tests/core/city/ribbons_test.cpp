@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
+#include <set>
+#include <string>
 
 #include "core/generators/city/city.h"
 #include "core/generators/city/shape.h"
@@ -120,6 +122,35 @@ TEST(Ribbons, KeepBlocksOffTheKerbOfAStreetThatEndsAtTheBorder) {
       EXPECT_TRUE(least < 0.01 || !is_inside(block, in_cm(p))) << p.x << ", " << p.y << ": " << least;
     }
   }
+}
+
+/// A shore with bays divides the land on one side of two streets into blocks between the same nodes.
+TEST(Blocks, HaveDifferentIdsOnTheSameSideOfTheSameStreets) {
+  const Result<Request> request = read_request(
+      R"({"generator": "city", "seed": 1, "parameters": {
+        "area": {"polygon": [[[334.48, -167.81], [-242.64, 238.07], [-34.56, -340.63]]]}, "streets": {"method": "given"},
+        "terrain": {"generator": "terrain", "seed": 868, "parameters": {"algorithm": "fbm", "size": 1400, "amplitude": 21,
+          "wavelength": 460, "water_level": -4}}, "maps": {"water": "y < 30 * sin(x) - 100"},
+        "lots": {"method": "none"}, "buildings": {"rules": []},
+        "given": {"streets": {"type": "FeatureCollection", "features": [
+          {"type": "Feature", "properties": {"class": "lane"}, "geometry": {"type": "LineString", "coordinates":
+            [[154, -117.2], [231, -111.6]]}},
+          {"type": "Feature", "properties": {}, "geometry": {"type": "LineString", "coordinates":
+            [[154, -236.7], [231, -111.6]]}}]}}}})",
+      Limits{});
+  ASSERT_TRUE(request);
+  const Result<std::string> text = derive(*request, {});
+  ASSERT_TRUE(text);
+  const Json answer = Json::parse(*text);
+  std::set<std::string> ids;
+  std::size_t blocks = 0;
+  for (const Json& each : answer["plan"]["features"]) {
+    if (each["properties"]["kind"] != "block") continue;
+    ++blocks;
+    ids.insert(each["properties"]["id"]);
+  }
+  EXPECT_GE(blocks, 2U);
+  EXPECT_EQ(ids.size(), blocks);
 }
 
 }  // namespace
