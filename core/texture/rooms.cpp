@@ -96,8 +96,7 @@ Drapery drapery_of(const Room& room, int cell) {
   Drapery made;
   for (int x = 0; x < cell; ++x) {
     const float across = (static_cast<float>(x) + 0.5F) / static_cast<float>(cell);
-    const math::SinCos fold =
-        math::quick_sincos(2 * math::pi * static_cast<double>(across * room.pleats));
+    const math::SinCos fold = math::quick_sincos(2 * math::pi * static_cast<double>(across * room.pleats));
     const float tone = cloth_tone + 0.16F * static_cast<float>(fold.sin);
     made.long_cloth.push_back(clamp_share(tone));
     made.short_cloth.push_back(clamp_share(tone * 0.95F));

@@ -213,8 +213,7 @@ std::vector<std::uint8_t> GroundClasses::uses_of(const Mesh& mesh, const Array<G
     if (t % 4096 == 0) job.check();
     const auto [a, b, c] = corners_of(mesh, t);
     GroundShares sum;
-    for (int k = 0; k < GroundShares::kind_count; ++k)
-      sum.of[k] = own[a].of[k] + own[b].of[k] + own[c].of[k];
+    for (int k = 0; k < GroundShares::kind_count; ++k) sum.of[k] = own[a].of[k] + own[b].of[k] + own[c].of[k];
     uses.push_back(static_cast<std::uint8_t>(use_of(sum)));
   }
   return uses;
