@@ -120,6 +120,14 @@ std::string hint(std::string_view word, std::span<const std::string_view> words)
   return nearest.empty() ? "" : "; did you mean \"" + std::string(nearest) + "\"?";
 }
 
+/// A hint at a similar word, or else at the preset of this name.
+std::string hint_or_preset(const std::string& word, std::span<const std::string_view> words) {
+  std::string help = hint(word, words);
+  if (help.empty() && preset_requests().contains(word))
+    help = "; there is a preset of this name, as in {\"preset\": \"" + word + "\"}";
+  return help;
+}
+
 std::string listed(std::span<const std::string_view> words) {
   std::string text;
   for (const std::string_view word : words) text.append(text.empty() ? "" : ", ").append(word);
@@ -291,7 +299,7 @@ std::optional<std::size_t> read_word(const Location& location, std::span<const s
   const auto& text = location.value().get_ref<const std::string&>();
   const auto word = std::ranges::find(words, std::string_view(text));
   if (word == words.end()) {
-    location.expected(what + hint(text, words), IssueKind::invalid_value);
+    location.expected(what + hint_or_preset(text, words), IssueKind::invalid_value);
     return std::nullopt;
   }
   return static_cast<std::size_t>(word - words.begin());
@@ -301,6 +309,12 @@ bool check_members(const Location& location, std::span<const std::string_view> k
                    std::initializer_list<std::string_view> required) {
   if (location.kind() != JsonKind::object) {
     location.expected("an object");
+    return false;
+  }
+  const bool has_type = std::ranges::find(known, std::string_view("type")) != known.end();
+  if (const std::string_view type = geojson_type(location.value()); !type.empty() && !has_type) {
+    location.report(IssueKind::wrong_type, "found GeoJSON (" + std::string(type) +
+                                               "), expected an object with members of " + listed(known));
     return false;
   }
   for (const std::string_view name : required) {

@@ -14,6 +14,7 @@
 #include "core/generators/building/picture_shapes.h"
 #include "core/generators/building/shapes_json.h"
 #include "core/generators/building/split_mesh.h"
+#include "core/generators/building/unused.h"
 #include "core/generators/child.h"
 #include "core/geom/mesh/flatten.h"
 #include "core/gltf/read/read.h"
@@ -138,6 +139,7 @@ Shapes shapes_of(Work& work, const BuildingParams& params, const GenerateContext
   plan.keeps_choices = options.is_listed;
   plan.keeps_masses = context.demand.collision != CollisionNames::none;
   if (params.iterations) plan.iterations = *params.iterations;
+  plan.has_strict_weights = params.weights == BuildingWeights::strict;
   plan.stays_inside = params.restrict == BuildingRestrict::split;
   plan.is_sequential = params.derivation.mode == BuildingMode::sequential;
   plan.is_depth_first = params.derivation.order == BuildingOrder::depth;
@@ -238,6 +240,11 @@ void append(std::vector<Warning>& to, const std::vector<Warning>& from) {
   to.insert(to.end(), from.begin(), from.end());
 }
 
+/// Null for a shape grammar, whose derivation sets a grammar with names alone.
+const Grammar* grammar_of(const BuildingParams& params, const Work& work) {
+  return params.shape_grammar || !work.rules ? nullptr : &work.rules->grammar;
+}
+
 /// Moves warnings of built-in rules, whose text the request does not have, to /blueprint.
 void point_at_blueprint(const BuildingParams& params, std::vector<Warning>& warnings) {
   for (Warning& warning : warnings) {
@@ -271,6 +278,7 @@ Result<Model> generate(const BuildingParams& params, const GenerateContext& cont
   job.progress("mesh", 0);
   Model model = std::move(work.model);
   model.name = "building";
+  append(model.warnings, unused_settings(params, grammar_of(params, work)));
   append(model.warnings, work.rules->grammar.warnings);
   append(model.warnings, shapes.warnings);
   append(model.warnings, missing_edits(params, shapes));
@@ -299,6 +307,7 @@ Result<Json> derive(const BuildingParams& params, const GenerateContext& context
   const Shapes shapes = shapes_of(work, params, context, {.lod = std::nullopt, .is_listed = true});
   Json list = json_of(shapes, work.rules->grammar, work.rules->text, most_listed, job);
   std::vector<Warning> warnings = work.model.warnings;
+  append(warnings, unused_settings(params, grammar_of(params, work)));
   append(warnings, work.rules->grammar.warnings);
   append(warnings, shapes.warnings);
   append(warnings, missing_edits(params, shapes));
@@ -341,7 +350,8 @@ Result<Appraisal> appraise(const BuildingParams& params, const GenerateContext& 
   Work work = work_of(params, context);
   std::vector<Issue> issues = check_all(params, {job.limits(), &job}, work.rules, work.pictures);
   if (!issues.empty()) return Error{Code::invalid, std::move(issues)};
-  if (work.rules) appraisal.warnings = work.rules->grammar.warnings;
+  appraisal.warnings = unused_settings(params, grammar_of(params, work));
+  if (work.rules) append(appraisal.warnings, work.rules->grammar.warnings);
   // Requests with assets or with very many shapes have no estimate.
   if (!params.assets.empty()) return appraisal;
   Job own = job.for_estimate();

@@ -232,6 +232,8 @@ void check_alone(const BuildingParams& params, std::vector<Issue>& issues) {
   refuse(!params.edits.empty(), "edits");
   refuse(params.repeat.has_value(), "repeat");
   refuse(!params.assets.empty(), "assets");
+  refuse(params.weights != plain.weights, "weights");
+  refuse(!params.tables.empty(), "tables");
   refuse(params.derivation.order != plain.derivation.order, "derivation/order");
   if (params.restrict == BuildingRestrict::split) {
     issues.emplace_back(

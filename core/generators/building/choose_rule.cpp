@@ -1,6 +1,7 @@
 #include "core/generators/building/choose_rule.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/generators/building/evaluate.h"
 
@@ -9,6 +10,13 @@ namespace seedmesh::building {
 double weight_of(Derivation& d, const Choice& choice, double before) {
   if (!choice.weight.is_given) return std::max(0.0, 1 - before);
   return std::max(0.0, number_of(d, choice.weight) * (choice.is_percentage ? 0.01 : 1));
+}
+
+void check_sum_of_weights(const Derivation& d, double sum, std::uint32_t offset) {
+  if (!d.task.has_strict_weights || std::abs(sum - 1) <= 1e-9) return;
+  d.job.refuse(issue_in_rules(
+      d.task, IssueKind::evaluation, offset,
+      "the weights sum to " + text_of_number(sum) + " for a shape, expected 1 because `weights` is strict"));
 }
 
 namespace {
@@ -60,6 +68,7 @@ const Choice* choose_in(Derivation& d, std::span<const std::uint32_t> rules, std
     }
   }
   if (open.empty()) return nullptr;
+  check_sum_of_weights(d, sum, d.grammar.rules[rules.front()].offset);
   if (open.size() == 1) return open[0].first;
   double at = Rng(key_at(key, step_of_choice)).unit() * sum;
   for (const auto& [choice, weight] : open) {

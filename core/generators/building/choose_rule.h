@@ -12,6 +12,10 @@ constexpr std::uint64_t step_of_conditions = 0xFFFF'FFFF'0001U, step_of_choice =
 /// `before`, where `before` is the sum of the earlier weights.
 double weight_of(Derivation& d, const Choice& choice, double before);
 
+/// Refuses a sum of weights other than 1 at a byte of the rules if the task has strict weights. Sums of constants are
+/// found before the derivation; this finds those that depend on conditions, attributes or random numbers.
+void check_sum_of_weights(const Derivation& d, double sum, std::uint32_t offset);
+
 /// Returns the choice that replaces shape `index`. The random number follows from the key of the shape.
 /// Returns null if no rule has a true condition.
 const Choice* choose(Derivation& d, std::uint32_t index);

@@ -46,10 +46,11 @@ struct Task {
   std::span<const AssetBox> assets;
   std::size_t own_assets = 0;  ///< the first of `assets` are those of the request
   const std::map<std::string, std::string>* tables = nullptr;
-  std::vector<std::string> files;  ///< names of assets, materials and tables of the request, sorted
-  bool keeps_masses = false;       ///< whether masses are kept, for collision bodies
-  bool stays_inside = false;       ///< a shape that leaves the scope of its predecessor is an error
-  bool keeps_choices = false;      ///< whether choices are kept, for lists of shapes
+  std::vector<std::string> files;   ///< names of assets, materials and tables of the request, sorted
+  bool keeps_masses = false;        ///< whether masses are kept, for collision bodies
+  bool has_strict_weights = false;  ///< probabilities of a choice that do not sum to 1 are an error
+  bool stays_inside = false;        ///< a shape that leaves the scope of its predecessor is an error
+  bool keeps_choices = false;       ///< whether choices are kept, for lists of shapes
   std::uint64_t most_shapes = ~std::uint64_t{0};  ///< the derivation stops when there are more
   RoofStore* roofs = nullptr;
 };

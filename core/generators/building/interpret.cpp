@@ -339,6 +339,7 @@ void run_body(Derivation& d, std::uint32_t index, const ShapeState& state, const
     double sum = 0;
     for (std::uint32_t c = 0; c < branch.choice_count; ++c)
       sum += weight_of(d, d.grammar.choices[branch.first_choice + c], sum);
+    check_sum_of_weights(d, sum, d.grammar.choices[branch.first_choice].weight.offset);
     double at = Rng(key_at(frame.key, step_of_choice)).unit() * sum, before = 0;
     for (std::uint32_t c = 0; c < branch.choice_count; ++c) {
       const Choice& choice = d.grammar.choices[branch.first_choice + c];

@@ -4,9 +4,8 @@
 
 #include "core/generators/lsystem/compilation.h"
 #include "core/generators/lsystem/constants.h"
-#include "core/generators/unused.h"
+#include "core/generators/lsystem/unused.h"
 #include "core/schema/json.h"
-#include "generated/params/lsystem_unused.h"
 
 namespace seedmesh::lsystem {
 namespace {
@@ -371,7 +370,7 @@ Grammar compile(const LsystemParams& params, std::uint64_t seed, const Limits& l
   Compilation compilation(params, limits, issues, job);
   Grammar grammar = compile_all(compilation, seed);
   check_between_steps(params, grammar, issues);
-  const std::vector<Warning> unused = warnings_of(unused_parameters(params));
+  const std::vector<Warning> unused = unused_settings(params, grammar);
   grammar.warnings.insert(grammar.warnings.end(), unused.begin(), unused.end());
   return grammar;
 }

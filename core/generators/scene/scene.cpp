@@ -63,6 +63,17 @@ std::vector<Warning> without_effect(const SceneParams& params) {
   return warnings;
 }
 
+/// Warns of `words` where the answer has no words: in a model, or without a model that is an L-system.
+void warn_of_words(const SceneParams& params, bool is_derivation, std::vector<Warning>& warnings) {
+  if (!params.words) return;
+  const auto is_lsystem = [](const std::string& generator) { return generator == "lsystem"; };
+  if (!is_derivation) {
+    warnings.push_back({"/words", "has an effect on the response of derive only"});
+  } else if (!any_model(params, is_lsystem)) {
+    warnings.push_back({"/words", "has no effect: no model is an L-system"});
+  }
+}
+
 /// Finds conflicts between the requested output and the parameters.
 std::vector<Issue> conflicts(const SceneParams& params, const GenerateContext& context) {
   const Demand& demand = context.demand;
@@ -149,6 +160,7 @@ Result<Model> generate(const SceneParams& params, const GenerateContext& context
   if (made && !*made) return std::move(*made);
   Planting planting = plant(params, *ground, job);
   for (Warning& each : without_effect(params)) planting.warnings.push_back(std::move(each));
+  warn_of_words(params, false, planting.warnings);
   job.progress("mesh", 0);
   Pieces pieces;
   Demand demand;
@@ -185,6 +197,7 @@ Result<Json> derive(const SceneParams& params, const GenerateContext& context) {
   if (!ground) return std::move(ground).error();
   Planting planting = plant(params, *ground, job);
   warn_of_outlines(params, planting);
+  warn_of_words(params, true, planting.warnings);
   const VariantTable variant_table = variant_table_of(params, job);
   Json answer = placements_json(params, *ground, planting, variant_table, job);
   if (!params.words) return answer;
@@ -202,6 +215,7 @@ Result<Appraisal> appraise(const SceneParams& params, const GenerateContext& con
   refuse_patterns(params, job);
   Appraisal appraisal;
   appraisal.warnings = without_effect(params);
+  warn_of_words(params, true, appraisal.warnings);
   const VariantTable variant_table = variant_table_of(params, job);
   const Forecast forecast(params, variant_table, context);
   forecast.refuse(job);
@@ -237,6 +251,7 @@ Result<Payload> encode(const SceneParams& params, const WantedFormat&, const Gen
   if (!ground) return std::move(ground).error();
   Planting planting = plant(params, *ground, job);
   warn_of_outlines(params, planting);
+  warn_of_words(params, false, planting.warnings);
   job.progress("encode", 0);
   return placement_list(params, *ground, planting, forecast, context);
 }

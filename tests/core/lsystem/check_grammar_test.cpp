@@ -165,6 +165,25 @@ TEST(Depths, OfMissingRulesAreReported) {
               "/interpretation_depth 0:0 `interpretation_depth` has no effect unless `interpretation` is")));
 }
 
+TEST(UnusedSettings, AreReportedWithTheirReason) {
+  LsystemParams params = grammar_of("F", {"F->FF"});
+  params.ring = true;
+  params.rule_order = LsystemRuleOrder::listed;
+  params.weights = LsystemWeights::strict;
+  params.strict_predecessors = true;
+  params.crown_normals = 0.5;
+  EXPECT_THAT(warnings_of(params),
+              ElementsAre("/ring 0:0 has no effect: no production has a context",
+                          "/rule_order 0:0 has no effect: no production has a context",
+                          "/weights 0:0 has no effect: no production has a probability",
+                          "/strict_predecessors 0:0 has no effect: no predecessor has several modules",
+                          "/crown_normals 0:0 has no effect: the plant has no organs"));
+  params.surfaces["leaf"];
+  params.productions = {"F<F->F~leaf", "FF->G", "G: 1 ->F"};
+  params.productions.back() = "G->F : 1";
+  EXPECT_THAT(warnings_of(params), testing::Not(testing::Contains(HasSubstr("has no effect"))));
+}
+
 TEST(Weather, ReportsADirectionWithoutWind) {
   LsystemParams params = grammar_of("F", {"F->FF"});
   params.weather.emplace();

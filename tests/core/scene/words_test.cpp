@@ -48,6 +48,38 @@ TEST(SceneWords, AreLeftOutWithoutTheRequest) {
   EXPECT_FALSE(derived_scene(plain, 3).contains("words"));
 }
 
+/// The pointers of warnings about `words`: of a model, of its appraisal, and of derive.
+std::vector<std::string> warned_of(const Json& json) {
+  const Generator::Params params = read_scene_params(json);
+  Job job = job_of(3);
+  std::vector<std::string> out;
+  const auto add = [&out](const char* where, const std::string& pointer) {
+    if (pointer == "/words") out.emplace_back(where);
+  };
+  const Result<Model> model = scene::generate(own(params), {job, {}, generators()});
+  EXPECT_TRUE(model);
+  if (model) {
+    for (const Warning& each : model->warnings) add("model", each.pointer);
+  }
+  const Result<Appraisal> appraisal = scene::appraise(own(params), {job, {}, generators()});
+  EXPECT_TRUE(appraisal);
+  if (appraisal) {
+    for (const Warning& each : appraisal->warnings) add("appraisal", each.pointer);
+  }
+  const Json answer = derived_scene(json, 3);
+  for (const Json& each : answer["warnings"]) add("derive", each["pointer"]);
+  return out;
+}
+
+TEST(SceneWords, AreReportedWhereAnAnswerHasNone) {
+  EXPECT_EQ(warned_of(garden), std::vector<std::string>{"model"});
+  Json bare = garden;
+  bare["layers"].erase(0);
+  EXPECT_EQ(warned_of(bare), (std::vector<std::string>{"model", "appraisal", "derive"}));
+  bare.erase("words");
+  EXPECT_EQ(warned_of(bare), std::vector<std::string>{});
+}
+
 TEST(SceneWords, AreCutAt64KiB) {
   Json large = garden;
   large["layers"][0]["model"]["parameters"]["iterations"] = 8;

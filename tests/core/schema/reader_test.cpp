@@ -49,6 +49,27 @@ TEST(Reader, StatesWhatItFoundAndWhatItExpected) {
   EXPECT_EQ(message("[]"), "found an empty list, expected an object");
 }
 
+TEST(Reader, RecognizesGeojsonInPlaceOfAnObjectOfParameters) {
+  const auto read = reading<read_lsystem>(
+      R"({"axiom":"F","weather":{"type":"Polygon","coordinates":[]},"angle":{"type":"Feature","geometry":null}})");
+  EXPECT_THAT(read.pointers(), testing::UnorderedElementsAre("/weather", "/angle"));
+  for (const Issue& issue : read.issues) {
+    EXPECT_EQ(issue.kind, IssueKind::wrong_type);
+    EXPECT_THAT(issue.message,
+                testing::ContainsRegex("found GeoJSON .(Polygon|Feature)., expected an object with "
+                                       "members of (wind|yaw)"));
+  }
+}
+
+TEST(Reader, NamesThePresetThatIsGivenAsAChoice) {
+  const auto message = [](const char* text) { return reading<read_lsystem>(text).issues.front().message; };
+  EXPECT_EQ(message(R"({"axiom":"F","style":"oak"})"),
+            "found the text \"oak\", expected one of tubes, lines; there is a preset of this name, as in "
+            "{\"preset\": \"oak\"}");
+  EXPECT_EQ(message(R"({"axiom":"F","style":"velvet"})"),
+            "found the text \"velvet\", expected one of tubes, lines");
+}
+
 TEST(Reader, GivesEachErrorItsKind) {
   const auto kind = [](const char* text) { return reading<read_lsystem>(text).issues.front().kind; };
   EXPECT_EQ(kind(R"({"axiom":"F","iterations":-1})"), IssueKind::out_of_range);
