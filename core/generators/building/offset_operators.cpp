@@ -37,6 +37,11 @@ void offset(Derivation& d, const Step& step, ShapeState& state, const StepContex
     if (word == "border") continue;
     for (const DerivedPlan& each : moved) add_plan(solid, each.plan, plane, face_is_inside);
   }
+  if (solid.faces.empty() && word == "inside" && d.grammar.is_cityengine) {
+    // As in CityEngine since 2022.1.
+    warn(d, step.offset, "the offset leaves nothing inside; the face stays as it was");
+    return;
+  }
   if (solid.faces.empty()) {
     state.size = glm::dvec3(0);
     state.geometry = box_geometry;

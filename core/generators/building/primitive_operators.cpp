@@ -63,10 +63,17 @@ void fill_scope(ShapeState& state, bool is_flat) {
   if (is_flat) state.size.y = 0;
 }
 
+/// Moves a solid of a given size to the middle of the scope in x and z; it stands on y = 0.
+void center_on(Derivation& d, ShapeState& state, const glm::dvec3& scope) {
+  const glm::dmat3& axes = d.out.axes[state.axes];
+  for (const int axis : {0, 2}) state.origin += axes[axis] * (0.5 * (scope[axis] - state.size[axis]));
+}
+
 }  // namespace
 
 void primitive(Derivation& d, const Step& step, ShapeState& state, const StepContext&) {
   const std::uint32_t count = step.argument_count;
+  const glm::dvec3 scope = state.size;
   state.roof_up = no_roof;
   const auto radius_and_height = [&](std::uint32_t at) {
     const double r = length_at(d, step, at), h = length_at(d, step, at + 1);
@@ -122,7 +129,10 @@ void primitive(Derivation& d, const Step& step, ShapeState& state, const StepCon
       if (has_size) radius_and_height(1);
     }
   }
-  if (!has_size) fill_scope(state, is_flat);
+  if (has_size)
+    center_on(d, state, scope);
+  else
+    fill_scope(state, is_flat);
 }
 
 /// insertAlongUV(set, name, height): a copy in every tile of the texture coordinates that lies inside the shape. x of the copy

@@ -126,6 +126,52 @@ TEST(CgaScopes, AlignToTheLowestFace) {
   EXPECT_THAT(vector_of(mass, "size"), near(10, 10, 3));
 }
 
+/// The reference: a primitive with sizes is "positioned in the xz-center of the scope lying on y=0".
+TEST(CgaPrimitives, OfAGivenSizeStandInTheMiddleOfTheScope) {
+  const struct {
+    const char* steps;
+    std::array<double, 3> size;
+  } cases[] = {{"primitiveQuad(4, 6)", {4, 0, 6}},         {"primitiveDisk(4, 3)", {6, 0, 6}},
+               {"primitiveCube(2, 3, 14)", {2, 3, 14}},    {"primitiveSphere(16, 8, 1)", {2, 2, 2}},
+               {"primitiveCylinder(16, 2, 5)", {4, 5, 4}}, {"primitiveCone(16, 1, 5)", {2, 5, 2}}};
+  for (const auto& each : cases) {
+    SCOPED_TRACE(each.steps);
+    const std::string place = "t(1, 2, 3) r(0, 90, 0) s(10, 4, 10)";
+    const std::string rules = "Lot --> [ " + place + " Box. ] " + place + " " + each.steps + " Solid.";
+    const Json answer = derived(on_lot(rules));
+    const Json box = shapes_of(answer, "Box")[0], solid = shapes_of(answer, "Solid")[0];
+    EXPECT_THAT(vector_of(solid, "size"), near(each.size[0], each.size[1], each.size[2]));
+    const std::vector<double> from = vector_of(box, "origin"), at = vector_of(solid, "origin");
+    // After the turn, x points to -z and z to x.
+    EXPECT_THAT(at, near(from[0] + (10 - each.size[2]) / 2, from[1], from[2] - (10 - each.size[0]) / 2));
+  }
+}
+
+/// The first edge is that along the x axis of the lot, so that the roof rises across it.
+TEST(CgaScopes, OfLotsHaveTheirFirstEdgeAtTheFront) {
+  for (const char* header : headers) {
+    const BuildingParams params = with(std::string(header) +
+                                           "Lot --> [ roofShed(45) Roof. ] comp(e){ 0: Front. | 1: Right. | "
+                                           "2: Back. | 3: Left. }",
+                                       {20, 0, 8});
+    const Json answer = derived(params);
+    EXPECT_NEAR(vector_of(shapes_of(answer, "Roof")[0], "size")[1], 8, 1e-9);
+    const std::vector<double> front = vector_of(shapes_of(answer, "Front")[0], "origin"),
+                              back = vector_of(shapes_of(answer, "Back")[0], "origin");
+    EXPECT_NEAR(vector_of(shapes_of(answer, "Front")[0], "size")[0], 20, 1e-9);
+    EXPECT_NEAR(vector_of(shapes_of(answer, "Right")[0], "size")[0], 8, 1e-9);
+    EXPECT_NEAR(front[2] - back[2], 8, 1e-9);
+  }
+}
+
+/// CityEngine 2022.1: "the original geometry is retained".
+TEST(CgaOffset, KeepsAFaceThatIsTooSmall) {
+  const Json answer = derived(on_lot("version \"2022.1\"\nLot --> offset(-6, inside) extrude(3) Mass."));
+  EXPECT_THAT(vector_of(shapes_of(answer, "Mass")[0], "size"), near(10, 3, 10));
+  ASSERT_EQ(answer["warnings"].size(), 1U);
+  EXPECT_THAT(answer["warnings"][0]["message"].get<std::string>(), HasSubstr("nothing inside"));
+}
+
 TEST(CgaColors, CanBeNamesOfCss) {
   const auto red_of = [](const std::string& value) {
     const Json answer =
