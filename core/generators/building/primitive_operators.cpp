@@ -1,6 +1,7 @@
 /// Built-in solids with a number of sides, and parts placed along texture coordinates.
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "core/base/math.h"
 #include "core/generators/building/containment.h"
@@ -47,12 +48,35 @@ std::uint32_t stored(Derivation& d, const std::string& name, Solid (*make)(std::
   return made;
 }
 
-/// Sizes of 0 become those of the unit solid in proportion to the others, as for i().
-void fill_scope(ShapeState& state, bool is_flat) {
+/// The normal of a quad or a disk: y, or in files of CityEngine the axis along which a face has no size.
+int flat_primitive_axis(const Derivation& d, const glm::dvec3& scope) {
+  return d.grammar.is_cityengine && dimension(scope) == 2 ? flat_axis(scope) : 1;
+}
+
+/// The sizes of a quad or a disk of this normal: the first one is along x, or along y if that is the normal's.
+glm::dvec3 flat_size(int normal, double width, double length) {
+  glm::dvec3 size(0);
+  size[normal == 0 ? 1 : 0] = width;
+  size[normal == 2 ? 1 : 2] = length;
+  return size;
+}
+
+Solid disk_across(std::uint32_t sides, std::uint32_t normal) {
+  Solid disk = disk_of({.sides = sides});
+  for (glm::dvec3& p : disk.points) {
+    const glm::dvec3 level = p;
+    for (std::uint32_t k = 0; k < 3; ++k)
+      p[static_cast<int>((normal + k) % 3)] = level[static_cast<int>((1 + k) % 3)];
+  }
+  return disk;
+}
+
+/// Sizes of 0 become those of the unit solid in proportion to the others, as for i(); a flat solid has a normal.
+void fill_scope(ShapeState& state, std::optional<int> normal) {
   double sum = 0;
   int given = 0;
   for (int axis = 0; axis < 3; ++axis) {
-    if (is_flat && axis == 1) continue;
+    if (axis == normal) continue;
     sum += state.size[axis];
     given += state.size[axis] != 0;
   }
@@ -60,13 +84,15 @@ void fill_scope(ShapeState& state, bool is_flat) {
   for (int axis = 0; axis < 3; ++axis) {
     if (state.size[axis] == 0) state.size[axis] = other;
   }
-  if (is_flat) state.size.y = 0;
+  if (normal) state.size[*normal] = 0;
 }
 
-/// Moves a solid of a given size to the middle of the scope in x and z; it stands on y = 0.
-void center_on(Derivation& d, ShapeState& state, const glm::dvec3& scope) {
+/// Moves a solid of a given size to the middle of the scope, except along the axis `up`, where it begins at 0.
+void center_on(Derivation& d, ShapeState& state, const glm::dvec3& scope, int up) {
   const glm::dmat3& axes = d.out.axes[state.axes];
-  for (const int axis : {0, 2}) state.origin += axes[axis] * (0.5 * (scope[axis] - state.size[axis]));
+  for (int axis = 0; axis < 3; ++axis) {
+    if (axis != up) state.origin += axes[axis] * (0.5 * (scope[axis] - state.size[axis]));
+  }
 }
 
 }  // namespace
@@ -79,13 +105,14 @@ void primitive(Derivation& d, const Step& step, ShapeState& state, const StepCon
     const double r = length_at(d, step, at), h = length_at(d, step, at + 1);
     state.size = {2 * r, h, 2 * r};
   };
-  const bool is_flat = step.op == Op::primitive_quad || step.op == Op::primitive_disk;
+  std::optional<int> normal;
+  if (step.op == Op::primitive_quad || step.op == Op::primitive_disk) normal = flat_primitive_axis(d, scope);
   bool has_size = false;
   switch (step.op) {
     case Op::primitive_quad:
       has_size = count == 2;
       if (count == 1) reject(d, step.offset, "primitiveQuad takes a width and a length");
-      if (has_size) state.size = {length_at(d, step, 0), 0, length_at(d, step, 1)};
+      if (has_size) state.size = flat_size(*normal, length_at(d, step, 0), length_at(d, step, 1));
       state.geometry = box_geometry;
       break;
     case Op::primitive_cube:
@@ -97,10 +124,10 @@ void primitive(Derivation& d, const Step& step, ShapeState& state, const StepCon
       break;
     case Op::primitive_disk:
       state.geometry = stored(
-          d, "disk", [](std::uint32_t a, std::uint32_t) { return disk_of({.sides = a}); },
-          sides_at(d, step, 0, 32), 0);
+          d, "disk", [](std::uint32_t a, std::uint32_t b) { return disk_across(a, b); },
+          sides_at(d, step, 0, 32), static_cast<std::uint32_t>(*normal));
       has_size = count == 2;
-      if (has_size) state.size = glm::dvec3(2 * length_at(d, step, 1), 0, 2 * length_at(d, step, 1));
+      if (has_size) state.size = flat_size(*normal, 2 * length_at(d, step, 1), 2 * length_at(d, step, 1));
       break;
     case Op::primitive_sphere: {
       const std::uint32_t rows = count > 1 ? sides_at(d, step, 1, 16) : 16;
@@ -130,9 +157,9 @@ void primitive(Derivation& d, const Step& step, ShapeState& state, const StepCon
     }
   }
   if (has_size)
-    center_on(d, state, scope);
+    center_on(d, state, scope, normal.value_or(1));
   else
-    fill_scope(state, is_flat);
+    fill_scope(state, normal);
 }
 
 /// insertAlongUV(set, name, height): a copy in every tile of the texture coordinates that lies inside the shape. x of the copy

@@ -147,6 +147,30 @@ TEST(CgaPrimitives, OfAGivenSizeStandInTheMiddleOfTheScope) {
   }
 }
 
+/// The reference: a quad or disk lies "with respect to the plane defined by the valued scope sizes".
+TEST(CgaPrimitives, OfFlatShapesLieInTheFace) {
+  const struct {
+    const char* steps;
+    std::array<double, 3> low, size;
+  } cases[] = {{"primitiveQuad()", {0, 0, 0}, {20, 6, 0}},
+               {"primitiveDisk(4)", {0, 0, 0}, {20, 6, 0}},
+               {"primitiveQuad(2, 3)", {9, 1.5, 0}, {2, 3, 0}},
+               {"primitiveDisk(4, 1)", {9, 2, 0}, {2, 2, 0}}};
+  for (const auto& each : cases) {
+    SCOPED_TRACE(each.steps);
+    const std::string rules = "version \"2022.0\"\nLot --> extrude(6) comp(f){ front: [ Face. ] " +
+                              std::string(each.steps) + " report(\"area\", geometry.area) Flat. | all: NIL }";
+    const Json answer = derived(with(rules, {20, 0, 8}));
+    const std::vector<double> face = vector_of(shapes_of(answer, "Face")[0], "origin");
+    const Json flat = shapes_of(answer, "Flat")[0];
+    EXPECT_THAT(vector_of(flat, "origin"),
+                near(face[0] + each.low[0], face[1] + each.low[1], face[2] + each.low[2]));
+    EXPECT_THAT(vector_of(flat, "size"), near(each.size[0], each.size[1], each.size[2]));
+    const double share = std::string(each.steps).find("Disk") != std::string::npos ? 0.5 : 1;
+    EXPECT_NEAR(answer["reports"]["area"]["sum"].get<double>(), share * each.size[0] * each.size[1], 1e-9);
+  }
+}
+
 /// The first edge is that along the x axis of the lot, so that the roof rises across it.
 TEST(CgaScopes, OfLotsHaveTheirFirstEdgeAtTheFront) {
   for (const char* header : headers) {
