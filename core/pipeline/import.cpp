@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "core/import/lparser.h"
 #include "core/pipeline/body.h"
 #include "core/pipeline/guarded.h"
 #include "core/schema/nearest.h"
@@ -185,6 +186,11 @@ static Result<ImportedRequest> import_within(const ImportInput& asked, const Job
   if (bad != std::string_view::npos) {
     return Error{Code::malformed,
                  {issue_at(IssueKind::syntax, "", input.text, bad, "found a byte that is not UTF-8")}};
+  }
+  if (const auto start = start_of_lparser(input.text); start && input.format.empty()) {
+    return Error{Code::invalid,
+                 {issue_at(IssueKind::not_available, "", input.text, *start,
+                           "this file is written in the language of Lparser, which is not supported")}};
   }
   if (!format) return unknown_format(input.format);
   Result<Imported> imported = format->read(input.text, {std::string(input.entry), input.files, &job});

@@ -36,6 +36,16 @@ TEST(Import, ReportsTheErrorOfTheLikeliestFormat) {
   EXPECT_THAT(read_as("{"), StartsWith("found no keywords of a known format"));
 }
 
+TEST(Import, NamesLparserWhoseRulesResembleThoseOfOtherFormats) {
+  using testing::AllOf, testing::ElementsAre, testing::HasSubstr;
+  const std::string older = "# a twig\n12 # recursion\n22.5\n40\n#\n%A # axiom\nA=F[+A]-A\n@\n";
+  EXPECT_THAT(reports(imported("", older)), ElementsAre(AllOf(StartsWith("2:1 "), HasSubstr("Lparser"))));
+  const std::string newer = "# a twig\n\n angle 20\nrecursion 8\nthickness 60\naxiom FA\nrule A = F'!A\n";
+  EXPECT_THAT(reports(imported("", newer)), ElementsAre(AllOf(StartsWith("3:2 "), HasSubstr("Lparser"))));
+  EXPECT_EQ(read_as("# a twig\nPremise: A\nA=FA\n"), "houdini");
+  EXPECT_EQ(read_as("Recursion {\n angle 6\n axiom F\n}\n"), "fractint");
+}
+
 TEST(Import, AcceptsAnyEncodingOfComments) {
   EXPECT_TRUE(imported("fractint", "{ by Gr\x8Fnbaum }\nE { ; \x8F\n angle 4\n axiom F\n}\n"));
   EXPECT_TRUE(imported("", "/* v\xE9g\xE9tal */\nLsystem: 1\nderivation length: 1\nAxiom: F // \xE9\n"));
