@@ -26,7 +26,8 @@ Derivation::Derivation(const Task& given, const FirstPassIndex* first, Job& own_
   part_option_ids.emplace(PartOptions{}, 0);
   out.texts = *task.texts;
   // The first edge of a lot in CityEngine runs along x at its front, as that of the top of a mass does here.
-  if (grammar.is_cityengine) std::ranges::rotate(squares[1].corners, squares[1].corners.begin() + 1);
+  auto& corners = squares[1].corners;
+  if (grammar.is_cityengine) std::rotate(corners.begin(), corners.begin() + 1, corners.end());
 }
 
 std::string text_of_number(double number) {

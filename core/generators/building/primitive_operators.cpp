@@ -156,10 +156,11 @@ void primitive(Derivation& d, const Step& step, ShapeState& state, const StepCon
       if (has_size) radius_and_height(1);
     }
   }
-  if (has_size)
+  if (has_size) {
     center_on(d, state, scope, normal.value_or(1));
-  else
+  } else {
     fill_scope(state, normal);
+  }
 }
 
 /// insertAlongUV(set, name, height): a copy in every tile of the texture coordinates that lies inside the shape. x of the copy

@@ -41,7 +41,7 @@ std::vector<std::string> texts_for_names(const BuildingParams& params, const Gra
   // A cell of a table can be the name of a material or of an asset.
   for (const auto& entry : params.tables) add(entry.second);
   std::ranges::sort(texts);
-  texts.erase(std::ranges::unique(texts).begin(), texts.end());
+  texts.erase(std::unique(texts.begin(), texts.end()), texts.end());
   return texts;
 }
 

@@ -103,10 +103,11 @@ void check_house_requests(const CityParams& params, const CheckContext& context,
         const std::string name(after(issue.pointer, "/attributes/"));
         if (name.empty()) continue;
         issue.pointer = pointer;
-        if (rule.floors_as == name)
+        if (rule.floors_as == name) {
           issue.pointer += "/floors_as";
-        else
+        } else {
           issue.pointer.append("/attributes/").append(name);
+        }
         issues.push_back(std::move(issue));
       }
       if (!issues.empty()) break;
