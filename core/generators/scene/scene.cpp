@@ -84,9 +84,10 @@ std::vector<Issue> conflicts(const SceneParams& params, const GenerateContext& c
   const std::string levels = "found " + std::to_string(demand.lods) + " levels of detail";
   if (params.camera && demand.lods > 1)
     add("/output/lods", "parameters/camera", levels + " and a camera, which chooses one for each placement");
-  if (params.camera && demand.impostor)
+  if (params.camera && demand.impostor) {
     add("/output/impostor", "parameters/camera",
         "found a level of detail and a camera, which chooses one for each placement");
+  }
   if (demand.copies == CopyForm::merge && wants_impostors(params, demand))
     add("/output/instancing", "output/impostor", "found merge; a merged mesh cannot use impostors");
   if (demand.impostor && !any_model(params, HasTrait{context.generators, &Generator::has_impostor}))
@@ -98,9 +99,10 @@ std::vector<Issue> conflicts(const SceneParams& params, const GenerateContext& c
     add("/output/lods", "output/animation", levels + "; growing plants of a scene have one level");
   if (params.camera)
     add("/camera", "output/animation", "a camera chooses levels of detail; growing plants have one level");
-  if (demand.copies == CopyForm::gpu)
+  if (demand.copies == CopyForm::gpu) {
     add("/output/instancing", "output/animation",
         "found gpu; instanced copies have no bones and cannot grow");
+  }
   return issues;
 }
 
@@ -239,9 +241,10 @@ Json vocabulary() { return Json::object(); }
 Result<Payload> encode(const SceneParams& params, const WantedFormat&, const GenerateContext& context) {
   Job& job = context.job;
   if (auto refused = refusal(params, context)) return std::move(*refused);
-  if (params.camera)
+  if (params.camera) {
     return Error{Code::invalid,
                  {{conflict_with({"output/format"}), "/camera", "has no effect on a list of placements"}}};
+  }
   refuse_patterns(params, job);
   job.progress("derive", 0);
   const VariantTable variant_table = variant_table_of(params, job);

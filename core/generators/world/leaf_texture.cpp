@@ -76,9 +76,10 @@ class Painting {
   void paint(const Leaf& leaf) {
     for (int row = index(leaf.middle.y - leaf.length); row <= index(leaf.middle.y + leaf.length); ++row) {
       for (int column = index(leaf.middle.x - leaf.length); column <= index(leaf.middle.x + leaf.length);
-           ++column)
+           ++column) {
         cover(leaf, glm::dvec2(column + 0.5, row + 0.5) / static_cast<double>(side),
               texels_[static_cast<std::size_t>(row * side + column)]);
+      }
     }
   }
 
@@ -122,8 +123,9 @@ void fill(std::vector<std::byte>& bytes, int left, int top, const Job& job, cons
       Texel sum{0, 0};
       double opaque = 0, all = 0;
       for (int k = 0; k < samples * samples; ++k) {
+        const int down = k / samples;
         const double x = (column + (k % samples + 0.5) / samples) / half,
-                     y = (row + (k / samples + 0.5) / samples) / half;
+                     y = (row + (down + 0.5) / samples) / half;
         const Texel texel = fill_at(glm::dvec2(x, y));
         sum.alpha += texel.alpha / (samples * samples);
         opaque += texel.alpha * texel.light;

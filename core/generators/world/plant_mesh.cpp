@@ -18,9 +18,10 @@ constexpr double greatest_size = 1.3;
 /// The colour of leaves, which a texture darkens.
 Rgba leaf_color(const WorldClass& plant, double light = 1) {
   Rgba color = linear_color(plant.color);
-  for (std::size_t k = 0; k < 3; ++k)
-    color[k] =
-        static_cast<std::uint8_t>(math::to_int32(std::min(255.0, light * color[k] / leaf_texture_mean)));
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double brighter = std::min(255.0, light * color[k] / leaf_texture_mean);
+    color[k] = static_cast<std::uint8_t>(math::to_int32(brighter));
+  }
   return color;
 }
 
