@@ -112,10 +112,10 @@ std::vector<Row> all_rows(const Options& options) {
   }
   for (const std::string& path : options.files) {
     const std::string file = path.substr(path.rfind('/') + 1);
-    const std::string group = file.substr(0, file.find('.'));
+    const std::string group = file.substr(0, file.find('.')) + "/";
     std::ifstream stream(path);
     const Json requests = Json::parse(stream);
-    for (const auto& [name, request] : requests.items()) rows.push_back(row_of(group + "/" + name, request));
+    for (const auto& [name, request] : requests.items()) rows.push_back(row_of(group + name, request));
   }
   std::erase_if(rows, [&](const Row& row) {
     return (!options.only.empty() && row.name != options.only) ||

@@ -27,8 +27,8 @@ ShadowGrid::Cell ShadowGrid::cell_of(const glm::dvec3& point) const {
   // The floor of a number in this range, without a call; 0 if it is no number.
   const auto along = [&](double x) {
     const double at = std::clamp(x / cell_, -farthest, farthest);
-    const std::int32_t whole = at == at ? static_cast<std::int32_t>(at) : 0;
-    return whole - (at < whole ? 1 : 0);
+    const std::int32_t towards_zero = at == at ? static_cast<std::int32_t>(at) : 0;
+    return towards_zero - (at < towards_zero ? 1 : 0);
   };
   return {along(point.x), along(point.y), along(point.z)};
 }

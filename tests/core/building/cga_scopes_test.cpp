@@ -137,7 +137,8 @@ TEST(CgaPrimitives, OfAGivenSizeStandInTheMiddleOfTheScope) {
   for (const auto& each : cases) {
     SCOPED_TRACE(each.steps);
     const std::string place = "t(1, 2, 3) r(0, 90, 0) s(10, 4, 10)";
-    const std::string rules = "Lot --> [ " + place + " Box. ] " + place + " " + each.steps + " Solid.";
+    std::string rules = "Lot --> [ ";
+    rules.append(place).append(" Box. ] ").append(place).append(" ").append(each.steps).append(" Solid.");
     const Json answer = derived(on_lot(rules));
     const Json box = shapes_of(answer, "Box")[0], solid = shapes_of(answer, "Solid")[0];
     EXPECT_THAT(vector_of(solid, "size"), near(each.size[0], each.size[1], each.size[2]));

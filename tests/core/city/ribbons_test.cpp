@@ -116,9 +116,10 @@ TEST(Ribbons, KeepBlocksOffTheKerbOfAStreetThatEndsAtTheBorder) {
   for (const CmRing& block : blocks) {
     for (const CmPoint& p : kerbs) {
       double least = 1e9;
-      for (std::size_t i = 0; i < block.size(); ++i)
-        least = std::min(
-            least, distance_to_segment(in_cm(p), in_cm(block[i]), in_cm(block[(i + 1) % block.size()])));
+      for (std::size_t i = 0; i < block.size(); ++i) {
+        const CmPoint& next = block[(i + 1) % block.size()];
+        least = std::min(least, distance_to_segment(in_cm(p), in_cm(block[i]), in_cm(next)));
+      }
       EXPECT_TRUE(least < 0.01 || !is_inside(block, in_cm(p))) << p.x << ", " << p.y << ": " << least;
     }
   }

@@ -33,7 +33,8 @@ TEST(BlueprintSupports, OfficeTowerHasItsPlantOnTheRoof) {
     plants += shape["symbol"] == "Plant" && !shape["active"].get<bool>() ? 1 : 0;
     units += shape["symbol"] == "Unit" && !shape["active"].get<bool>() ? 1 : 0;
     const Json &scope = shape["scope"], &axes = scope["axes"];
-    for (const auto& [along, across] : {std::pair{0, 0}, {0, 1}, {1, 0}, {1, 1}}) {
+    for (int corner = 0; corner < 4; ++corner) {
+      const int along = corner / 2, across = corner % 2;
       const auto at = [&](int axis) {
         return scope["origin"][axis].get<double>() +
                along * scope["size"][0].get<double>() * axes[0][axis].get<double>() +
