@@ -40,7 +40,7 @@ class Extract {
   Extract(const Glb& from, world::AssetForm form) : from_(from), form_(form) {}
 
   void add_mesh(int mesh) {
-    Json made = from_.json["meshes"][mesh];
+    Json made = from_.json["meshes"][static_cast<std::size_t>(mesh)];
     for (Json& primitive : made["primitives"]) {
       for (auto& [name, accessor] : primitive["attributes"].items())
         accessor = add("accessors", accessor.get<int>());
@@ -67,7 +67,7 @@ class Extract {
   int add(const std::string& list, int number) {
     const auto known = numbers_.find({list, number});
     if (known != numbers_.end()) return known->second;
-    Json part = from_.json[list][number];
+    Json part = from_.json[list][static_cast<std::size_t>(number)];
     part.erase("extras");
     part.erase("name");
     if (list == "bufferViews") return keep(list, number, copied(part));
@@ -95,7 +95,7 @@ class Extract {
         {"SCALAR", 1}, {"VEC2", 2}, {"VEC3", 3}, {"VEC4", 4}};
     static const std::map<int, std::size_t> sizes = {{5120, 1}, {5121, 1}, {5122, 2},
                                                      {5123, 2}, {5125, 4}, {5126, 4}};
-    Json view = from_.json["bufferViews"][accessor["bufferView"].get<int>()];
+    Json view = from_.json["bufferViews"][accessor["bufferView"].get<std::size_t>()];
     const std::size_t element =
         widths.at(accessor["type"].get<std::string>()) * sizes.at(accessor["componentType"].get<int>());
     const std::size_t stride = view.value("byteStride", element),
@@ -142,7 +142,7 @@ class Extract {
   }
 
   void count(const Json& primitive) {
-    const Json& positions = asset_.parts["accessors"][primitive["attributes"]["POSITION"].get<int>()];
+    const Json& positions = asset_.parts["accessors"][primitive["attributes"]["POSITION"].get<std::size_t>()];
     const bool is_first = asset_.triangles == 0;
     for (std::size_t k = 0; k < 3; ++k) {
       const double low = positions["min"][k], high = positions["max"][k];
@@ -150,7 +150,7 @@ class Extract {
       asset_.high[k] = is_first ? high : std::max(asset_.high[k], high);
     }
     const Json& corners = primitive.contains("indices")
-                              ? asset_.parts["accessors"][primitive["indices"].get<int>()]
+                              ? asset_.parts["accessors"][primitive["indices"].get<std::size_t>()]
                               : positions;
     asset_.triangles += corners["count"].get<std::uint64_t>() / 3;
   }

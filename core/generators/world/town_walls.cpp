@@ -17,7 +17,6 @@ constexpr double foot = 1.2;         ///< metres that a wall reaches into the gr
 constexpr double gate = 2.5;         ///< metres between a wall and a road
 constexpr double least_shore = 4;    ///< metres between a wall and water
 constexpr double steepest = 0.5;     ///< rise over run of the ground along a piece
-constexpr double least_town = 0.75;  ///< share of the radius that a wall encloses on average, at least
 
 using Point = std::array<double, 2>;
 

@@ -41,8 +41,7 @@ std::vector<Sheets::Frame> frames_of(const Sheets& sheets, const Job& job) {
 /// The numbers of stalks by the cells of a grid.
 class StalkGrid {
  public:
-  explicit StalkGrid(const std::vector<Sheets::Frame>& frames)
-      : frames_(frames), grid_(box_of(frames), mean_length(frames)) {
+  explicit StalkGrid(const std::vector<Sheets::Frame>& frames) : grid_(box_of(frames), mean_length(frames)) {
     for (std::size_t i = 0; i < frames.size(); ++i)
       cells_.emplace_back(grid_.key(frames[i].stalk), static_cast<std::uint32_t>(i));
     std::sort(cells_.begin(), cells_.end());
@@ -73,7 +72,6 @@ class StalkGrid {
         {sum / static_cast<float>(frames.size()), least_share * glm::distance(box.min, box.max), 1e-9F});
   }
 
-  const std::vector<Sheets::Frame>& frames_;
   PointGrid grid_;
   std::vector<std::pair<std::uint64_t, std::uint32_t>> cells_;
 };
