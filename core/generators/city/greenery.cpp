@@ -51,8 +51,8 @@ void plant_park(const CityPlan& plan, std::uint32_t number, double spacing, Rng 
     for (int column = cell(low.x); column <= cell(high.x); ++column) {
       Rng draw = rng.at(static_cast<std::uint64_t>(static_cast<std::uint32_t>(row)))
                      .at(static_cast<std::uint64_t>(static_cast<std::uint32_t>(column)));
-      const dvec2 p((column + 0.5 + draw.uniform(-jitter, jitter)) * spacing,
-                    (row + 0.5 + draw.uniform(-jitter, jitter)) * spacing);
+      const double north = draw.uniform(-jitter, jitter), east = draw.uniform(-jitter, jitter);
+      const dvec2 p((column + 0.5 + east) * spacing, (row + 0.5 + north) * spacing);
       if (!is_in(part.rings, p * 100.0) || !is_far_from(part.rings, p, park_margin)) continue;
       const bool is_kept =
           std::any_of(plan.landmarks.begin(), plan.landmarks.end(),
@@ -76,7 +76,8 @@ void plant_yard(const CityPlan& plan, const Lot& lot, double mean, Rng rng, Obje
   std::vector<dvec2> placed;
   for (int i = 0; i < count; ++i) {
     for (int n = 0; n < tries; ++n) {
-      const dvec2 p(draw.uniform(low.x, high.x), draw.uniform(low.y, high.y));
+      const double north = draw.uniform(low.y, high.y), east = draw.uniform(low.x, high.x);
+      const dvec2 p(east, north);
       const bool is_near_tree = std::any_of(placed.begin(), placed.end(),
                                             [&p](const dvec2& each) { return glm::length(each - p) < 4; });
       if (is_near_tree || house.contains(p, house_margin) || !is_in(rings, p * 100.0) ||

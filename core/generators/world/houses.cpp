@@ -150,7 +150,8 @@ class Planner {
     for (House* each : {&house, &barn, &shed}) style(*each, rng);
     put(4, 15, house, false, rng.uniform(3.2, 5.2));
     put(6, -15, barn, false, rng.uniform(3.8, 5));
-    put(24, rng.uniform(-3, 3), shed, true, rng.uniform(2.4, 3.2));
+    const double walls = rng.uniform(2.4, 3.2), aside = rng.uniform(-3, 3);
+    put(24, aside, shed, true, walls);
   }
 
   /// The houses of the lots of a town, and its church.

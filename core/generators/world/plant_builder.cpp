@@ -93,7 +93,8 @@ void PlantBuilder::leaves(const std::vector<CrownPart>& crown, double heart, int
     const math::SinCos turn = math::sincos_degrees(golden_angle * k);
     const glm::dvec3 way(level * turn.cos, height, level * turn.sin);
     const glm::dvec3 middle = own.middle + way * own.radius * rng_.uniform(0.86, 1.0);
-    const glm::dvec3 aside(rng_.uniform(-tilt, tilt), rng_.uniform(-tilt, tilt), rng_.uniform(-tilt, tilt));
+    glm::dvec3 aside(0);
+    for (const int axis : {2, 1, 0}) aside[axis] = rng_.uniform(-tilt, tilt);
     const double size = half * rng_.uniform(0.8, 1.15), roll = 360 * rng_.unit();
     const double light = rng_.uniform(0.86, 1.1);
     const bool is_hidden = std::any_of(crown.begin(), crown.end() - 1,
