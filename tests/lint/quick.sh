@@ -7,6 +7,7 @@ status=0
 "$here/messages.mjs" . || status=1
 "$here/web_cycles.mjs" . || status=1
 "$here/functions.mjs" . || status=1
+"$here/draws.mjs" . || status=1
 "$here/glossary.mjs" . || status=1
 "$here/sentences.mjs" . || status=1
 "$here/generator_page.mjs" . || status=1
