@@ -13,10 +13,10 @@ constexpr double outside = 9;      ///< metres from the outline of the town to t
 constexpr double piece = 7;        ///< metres of a straight piece
 constexpr double tower_every = 6;  ///< pieces
 constexpr double wall_height = 5.5, tower_height = 8, half_wall = 0.7, half_tower = 2;
-constexpr double foot = 1.2;         ///< metres that a wall reaches into the ground
-constexpr double gate = 2.5;         ///< metres between a wall and a road
-constexpr double least_shore = 4;    ///< metres between a wall and water
-constexpr double steepest = 0.5;     ///< rise over run of the ground along a piece
+constexpr double foot = 1.2;       ///< metres that a wall reaches into the ground
+constexpr double gate = 2.5;       ///< metres between a wall and a road
+constexpr double least_shore = 4;  ///< metres between a wall and water
+constexpr double steepest = 0.5;   ///< rise over run of the ground along a piece
 
 using Point = std::array<double, 2>;
 
