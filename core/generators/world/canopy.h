@@ -4,6 +4,7 @@
 #include <array>
 
 #include "core/generators/world/glb.h"
+#include "core/generators/world/shared_image.h"
 #include "core/generators/world/terrain_grid.h"
 
 namespace seedmesh::world {
@@ -27,12 +28,7 @@ constexpr double wood_edge = 0.45;  ///< cover above which a position belongs to
 /// Adds the surface of woods of a tile.
 void add_canopy(Glb& glb, const World& world, const TileFrame& frame, const TileGround& ground, Job& job);
 
-/// A square of crowns from above in grey, which repeats, as a PNG file.
-struct CanopyTexture {
-  std::string hash, file;
-  std::uint64_t bytes() const { return sizeof(CanopyTexture) + file.size(); }
-};
-/// Returns the texture of a world from the store; makes it if the store has none.
-std::shared_ptr<const CanopyTexture> canopy_texture(const World& world, Job& job);
+/// Returns a square of crowns from above in grey, which repeats, from the store; makes it if the store has none.
+std::shared_ptr<const SharedImage> canopy_texture(const World& world, Job& job);
 
 }  // namespace seedmesh::world

@@ -5,7 +5,6 @@
 
 #include "core/base/math.h"
 #include "core/generators/world/canopy.h"
-#include "core/texture/png.h"
 
 namespace seedmesh::world {
 namespace {
@@ -43,7 +42,7 @@ double light_at(const std::array<Crown, 9>& crowns, double x, double y) {
   return light;
 }
 
-CanopyTexture make(Job& job) {
+SharedImage make(Job& job) {
   std::vector<std::byte> grey(static_cast<std::size_t>(texels) * texels);
   std::vector<Crown> crowns;  // with those beyond the borders
   crowns.reserve(static_cast<std::size_t>(cells + 2) * (cells + 2));
@@ -67,19 +66,14 @@ CanopyTexture make(Job& job) {
           static_cast<std::byte>(math::to_int32(255 * std::sqrt(light) + 0.5));
     }
   }
-  const texture::PictureView view{texels, texels, 1, 8, grey};
-  const Array<std::uint8_t> png = texture::encode_png(view, texture::PngEffort::small, job);
-  CanopyTexture made;
-  made.file.assign(png.begin(), png.end());
-  made.hash = hash_of(made.file);
-  return made;
+  return shared_image({texels, texels, 1, 8, grey}, job);
 }
 
 }  // namespace
 
-std::shared_ptr<const CanopyTexture> canopy_texture(const World& world, Job& job) {
-  return world.store->get<CanopyTexture>({world.id, Store::Layer::file, 0, 3, 0}, job,
-                                         [&] { return std::make_shared<const CanopyTexture>(make(job)); });
+std::shared_ptr<const SharedImage> canopy_texture(const World& world, Job& job) {
+  return world.store->get<SharedImage>({world.id, Store::Layer::file, 0, 3, 0}, job,
+                                       [&] { return std::make_shared<const SharedImage>(make(job)); });
 }
 
 }  // namespace seedmesh::world

@@ -5,9 +5,7 @@
 #include <cmath>
 
 #include "core/base/math.h"
-#include "core/generators/world/asset.h"
 #include "core/generators/world/noise.h"
-#include "core/texture/png.h"
 
 namespace seedmesh::world {
 namespace {
@@ -46,7 +44,7 @@ double light_at(int column, int row) {
   return light + rng.uniform(-0.05, 0.05);
 }
 
-std::string image_of(const Job& job) {
+SharedImage image_of(const Job& job) {
   constexpr int steps = 64;  ///< steps of grey; few keep the file small
   std::vector<std::byte> grey(static_cast<std::size_t>(texels) * texels);
   for (int row = 0; row < texels; ++row) {
@@ -59,20 +57,14 @@ std::string image_of(const Job& job) {
           static_cast<std::byte>(math::to_int32(255 * stepped + 0.5));
     }
   }
-  const texture::PictureView view{texels, texels, 1, 8, grey};
-  const Array<std::uint8_t> png = texture::encode_png(view, texture::PngEffort::small, job);
-  return {png.begin(), png.end()};
+  return shared_image({texels, texels, 1, 8, grey}, job);
 }
 
 }  // namespace
 
-std::shared_ptr<const GroundTexture> ground_texture(const World& world, const Job& job) {
-  return world.store->get<GroundTexture>({0, Store::Layer::file, -1, 1, 0}, job, [&job] {
-    GroundTexture made;
-    made.image = image_of(job);
-    made.hash = hash_of(made.image);
-    return std::make_shared<const GroundTexture>(std::move(made));
-  });
+std::shared_ptr<const SharedImage> ground_texture(const World& world, const Job& job) {
+  return world.store->get<SharedImage>({0, Store::Layer::file, -1, 1, 0}, job,
+                                       [&job] { return std::make_shared<const SharedImage>(image_of(job)); });
 }
 
 }  // namespace seedmesh::world

@@ -2,9 +2,9 @@
 /// The texture of the ground of tiles of up to 2 km: a grey square that repeats. It is a file that tiles share;
 /// terrain_file() has the coordinates of the vertices in it.
 #include <memory>
-#include <string>
 
 #include "core/base/job.h"
+#include "core/generators/world/shared_image.h"
 #include "core/generators/world/world_parameters.h"
 
 namespace seedmesh::world {
@@ -14,12 +14,7 @@ constexpr double ground_texture_mean = 0.84;    ///< linear; vertex colours are 
 
 constexpr float texture_repeats = 8;  ///< along the side of a tile
 
-struct GroundTexture {
-  std::string hash, image;  ///< 16 hexadecimal digits of the image, and a PNG file
-  std::uint64_t bytes() const { return sizeof(GroundTexture) + image.size(); }
-};
-
 /// Returns the texture, which is the same for all worlds, from the store; makes it if the store has none.
-std::shared_ptr<const GroundTexture> ground_texture(const World& world, const Job& job);
+std::shared_ptr<const SharedImage> ground_texture(const World& world, const Job& job);
 
 }  // namespace seedmesh::world

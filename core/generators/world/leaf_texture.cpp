@@ -7,10 +7,8 @@
 
 #include "core/base/math.h"
 #include "core/base/rng.h"
-#include "core/generators/world/asset.h"
 #include "core/generators/world/noise.h"
 #include "core/generators/world/store.h"
-#include "core/texture/png.h"
 
 namespace seedmesh::world {
 namespace {
@@ -142,7 +140,7 @@ void fill(std::vector<std::byte>& bytes, int left, int top, const Job& job, cons
   }
 }
 
-LeafTexture make(const Job& job) {
+SharedImage make(const Job& job) {
   std::vector<std::byte> bytes(2 * static_cast<std::size_t>(texels) * texels);
   const Painting dense(leaves_of(key + 2, 560, 0.06, 0), 1), cluster(leaves_of(key + 3, 190, 0.068, 0.42), 0);
   fill(bytes, 0, 0, job, [&](const glm::dvec2& at) { return dense.at(at); });
@@ -153,19 +151,14 @@ LeafTexture make(const Job& job) {
     if (at.y > plain_begin) return Texel{1, 1};
     return at.y < palm_end ? palm_at({at.x, 2 * at.y / palm_end - 1}) : Texel{0.6, 0};
   });
-  const texture::PictureView view{texels, texels, 2, 8, bytes};
-  const Array<std::uint8_t> png = texture::encode_png(view, texture::PngEffort::small, job);
-  LeafTexture made;
-  made.file.assign(png.begin(), png.end());
-  made.hash = hash_of(made.file);
-  return made;
+  return shared_image({texels, texels, 2, 8, bytes}, job);
 }
 
 }  // namespace
 
-std::shared_ptr<const LeafTexture> leaf_texture(const World& world, const Job& job) {
-  return world.store->get<LeafTexture>({0, Store::Layer::file, -1, 2, 0}, job,
-                                       [&job] { return std::make_shared<const LeafTexture>(make(job)); });
+std::shared_ptr<const SharedImage> leaf_texture(const World& world, const Job& job) {
+  return world.store->get<SharedImage>({0, Store::Layer::file, -1, 2, 0}, job,
+                                       [&job] { return std::make_shared<const SharedImage>(make(job)); });
 }
 
 }  // namespace seedmesh::world

@@ -1,9 +1,8 @@
 #pragma once
 /// The texture of the plain forms of plants: leaves, branches and bark in grey, which vertex colours tint, with alpha.
-#include <array>
 #include <memory>
-#include <string>
 
+#include "core/generators/world/shared_image.h"
 #include "core/generators/world/world.h"
 
 namespace seedmesh::world {
@@ -27,13 +26,7 @@ inline constexpr TextureCell plain_surface{0.55, 0.965, 0.95, 0.97};
 /// Mean light of the opaque texels of leaves; vertex colours are divided by it.
 constexpr double leaf_texture_mean = 0.55;
 
-/// A PNG file of grey with alpha.
-struct LeafTexture {
-  std::string hash, file;
-  std::uint64_t bytes() const { return sizeof(LeafTexture) + file.size(); }
-};
-
-/// Returns the texture from the store; makes it if the store has none. All worlds have the same.
-std::shared_ptr<const LeafTexture> leaf_texture(const World& world, const Job& job);
+/// Returns the texture, grey with alpha, from the store; makes it if the store has none. All worlds have the same.
+std::shared_ptr<const SharedImage> leaf_texture(const World& world, const Job& job);
 
 }  // namespace seedmesh::world

@@ -140,7 +140,7 @@ std::optional<SharedFile> shared_file(const World& world, std::string_view hash,
     const auto terrain = terrain_file(world, job);
     if (terrain->hash == hash) return binary(terrain->file);
     const auto texture = ground_texture(world, job);
-    if (texture->hash == hash) return SharedFile{texture->image, "image/png", "png"};
+    if (texture->hash == hash) return SharedFile{texture->file, "image/png", "png"};
   }
   for (std::size_t k = 0; world.has(Layer::plants) && k < world.params.plants.size(); ++k) {
     const int number = static_cast<int>(k);

@@ -8,20 +8,11 @@
 #include "core/generators/building/building.h"
 #include "core/registry/registry.h"
 #include "generated/params/building.h"
+#include "tests/core/building/blueprints/blueprint_shapes.h"
 #include "tests/support/context.h"
 
 namespace seedmesh::building {
 namespace {
-
-Json shapes_of(const Json& json, std::uint64_t seed) {
-  IssueList faults;
-  const BuildingParams params = read_building(json, "", faults);
-  EXPECT_TRUE(faults.empty());
-  Job job(seed, Job::Options{});
-  Result<Json> derived = derive(params, context_of(job));
-  EXPECT_TRUE(derived);
-  return (*derived)["shapes"];
-}
 
 /// Their boxes fill the roof of a triangle whose scope is twice as large as it.
 TEST(BlueprintSupports, OfficeTowerHasItsPlantOnTheRoof) {

@@ -15,6 +15,7 @@
 #include "core/geom/mesh/finish.h"
 #include "core/registry/registry.h"
 #include "generated/params/building.h"
+#include "tests/core/building/blueprints/blueprint_shapes.h"
 #include "tests/support/context.h"
 #include "tests/support/mesh_faults.h"
 
@@ -51,16 +52,6 @@ Result<Model> model_of(const Json& json, std::uint64_t seed) {
   } catch (const Stop& stop) {
     return Error{stop.code(), {stop.issue()}};
   }
-}
-
-Json shapes_of(const Json& json, std::uint64_t seed) {
-  IssueList faults;
-  const BuildingParams params = read_building(json, "", faults);
-  EXPECT_TRUE(faults.empty());
-  Job job(seed, Job::Options{});
-  Result<Json> derived = derive(params, context_of(job));
-  EXPECT_TRUE(derived);
-  return (*derived)["shapes"];
 }
 
 /// Of shapes that were replaced: what a rule's brackets leave has the rule's name too.
