@@ -172,6 +172,21 @@ TEST_F(LeafTextureTest, KeepsItsCoverageOverFiveMipLevels) {
   }
 }
 
+/// A filter reads texels up to half a texel of its mip level beyond a cell.
+TEST_F(LeafTextureTest, HasCellsApartFromOpaqueNeighbours) {
+  constexpr double widest_filter = 4;  // texels: level 3
+  for (const TextureCell& cell : {leaf_cluster, conifer_branch, palm_leaf}) {
+    const double by = widest_filter / static_cast<double>(side_);
+    for (const auto& [u, v] :
+         {std::pair{cell.left - by, cell.top - by}, {cell.right + by, cell.bottom + by}}) {
+      EXPECT_GE(u, cell.left < 0.5 ? 0 : 0.5);
+      EXPECT_LE(u, cell.left < 0.5 ? 0.5 : 1);
+      EXPECT_GE(v, cell.top < 0.5 ? 0 : 0.5);
+      EXPECT_LE(v, cell.top < 0.5 ? 0.5 : 1);
+    }
+  }
+}
+
 TEST_F(LeafTextureTest, HasTheStatedMean) {
   double light = 0, opaque = 0;
   for (std::size_t k = 0; k < grey_.size(); ++k) {
