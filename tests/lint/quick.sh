@@ -12,4 +12,5 @@ status=0
 "$here/sentences.mjs" . || status=1
 "$here/generator_page.mjs" . || status=1
 "$here/symbols.sh" "$1" || status=1
+python3 "$here/../../clients/generate_types.py" --check || status=1
 exit $status

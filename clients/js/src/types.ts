@@ -271,9 +271,9 @@ export interface BuildingParameters {
   derivation?: BuildingParametersDerivation;
   /** The number of copies of a repeat whose cells can stretch. nearest: the number that stretches them least (CityEngine). ceil: the least number for which no copy is larger than its size (2006). Default: ceil for Repeat(…), nearest for split { … }*. */
   repeat?: "nearest" | "ceil";
-  /** normalize: probabilities that do not sum to 1 count as shares of their sum, with a warning. strict: they are an error. */
+  /** normalize: probabilities that do not sum to 1 count as shares of their sum, with a warning. strict: they are an error, also where conditions, attributes or random numbers decide on them. */
   weights?: "normalize" | "strict";
-  /** A restricted kind of shape grammar. non_erasing: no rule removes a shape (NIL). unimarker: in addition, each successor has at most one symbol with a rule, the marker. split: every shape of a successor stays within the scope of its predecessor. */
+  /** A restricted kind of shape grammar. non_erasing: no rule removes a shape (NIL). unimarker: in addition, each successor has at most one symbol with a rule, the marker. split: every shape of a successor stays within the scope of its predecessor. Rules that satisfy the restriction make the same model as without it. */
   restrict?: "none" | "non_erasing" | "unimarker" | "split";
   /** The materials that rules name. They replace built-in materials of the same name. */
   materials?: { [key: string]: BuildingParametersMaterialsValue };
