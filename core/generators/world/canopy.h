@@ -28,7 +28,8 @@ constexpr double wood_edge = 0.45;  ///< cover above which a position belongs to
 /// Adds the surface of woods of a tile.
 void add_canopy(Glb& glb, const World& world, const TileFrame& frame, const TileGround& ground, Job& job);
 
-/// Returns a square of crowns from above in grey, which repeats, from the store; makes it if the store has none.
+/// Returns a square of crowns from above in grey, which repeats, from the store; makes it if the store has none. All worlds have
+/// the same.
 std::shared_ptr<const SharedImage> canopy_texture(const World& world, Job& job);
 
 }  // namespace seedmesh::world

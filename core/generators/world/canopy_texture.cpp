@@ -72,7 +72,7 @@ SharedImage make(Job& job) {
 }  // namespace
 
 std::shared_ptr<const SharedImage> canopy_texture(const World& world, Job& job) {
-  return world.store->get<SharedImage>({world.id, Store::Layer::file, 0, 3, 0}, job,
+  return world.store->get<SharedImage>({0, Store::Layer::file, -1, 3, 0}, job,
                                        [&] { return std::make_shared<const SharedImage>(make(job)); });
 }
 

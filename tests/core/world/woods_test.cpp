@@ -6,7 +6,10 @@
 
 #include "core/base/math.h"
 #include "core/generators/world/canopy.h"
+#include "core/generators/world/ground_texture.h"
+#include "core/generators/world/leaf_texture.h"
 #include "core/generators/world/plants.h"
+#include "core/generators/world/store.h"
 #include "tests/core/world/world_support.h"
 
 namespace seedmesh::world {
@@ -36,6 +39,22 @@ TEST(WorldWoods, OfALowerShareAreAPartOfThoseOfAHigherOne) {
   ASSERT_GT(all, 2000U);
   EXPECT_NEAR(static_cast<double>(most) / static_cast<double>(all), 0.7, 0.12);
   EXPECT_NEAR(static_cast<double>(few) / static_cast<double>(all), 0.4, 0.1);
+}
+
+/// The images of plants and of the ground depend on nothing of a request.
+TEST(WorldWoods, HaveImagesThatAllWorldsOfAStoreShare) {
+  const auto store = std::make_shared<Store>();
+  const Result<World> seven = read_world(mountains_with_woods(), 7, store),
+                      eight = read_world(mountains_with_woods(), 8, store);
+  ASSERT_TRUE(seven && eight);
+  Job job = test_job();
+  for (const auto image : {canopy_texture, +[](const World& w, Job& j) { return leaf_texture(w, j); },
+                           +[](const World& w, Job& j) { return ground_texture(w, j); }}) {
+    const auto first = image(*seven, job);
+    const std::uint64_t bytes = store->bytes();
+    EXPECT_EQ(image(*eight, job), first);
+    EXPECT_EQ(store->bytes(), bytes);
+  }
 }
 
 struct Surface {
