@@ -4,7 +4,7 @@
  * #temperate_land.7@east,north,height,heading,pitch in metres and degrees, and ",walk" on foot.
  */
 import './style/world.css';
-import { MathUtils, Mesh, type Object3D, PerspectiveCamera, Raycaster, Scene, Vector3, WebGLRenderer } from 'three';
+import { MathUtils, Mesh, MeshLambertMaterial, MeshStandardMaterial, type Object3D, PerspectiveCamera, Raycaster, Scene, Vector3, WebGLRenderer } from 'three';
 import { TilesRenderer } from '3d-tiles-renderer';
 import { get_preset, get_presets, get_schema, type Request } from './api';
 import { fragment_of, unpack } from './link';
@@ -42,14 +42,28 @@ function read_address(): { name: string; pose: Pose } | null {
   return { name: world, pose: has_pose ? { east: east!, north: north!, height: height!, heading: heading!, pitch: pitch!, walks } : { ...start } };
 }
 
+/** A rough surface without highlights: towards the sun those of leaves, bark and ground would be pale. Water keeps its own material. */
+function make_matte(part: Mesh): void {
+  const { material } = part;
+  if (!(material instanceof MeshStandardMaterial) || material.roughness < 0.8) return;
+  const { color, map, vertexColors, side, alphaTest, transparent } = material;
+  part.material = new MeshLambertMaterial({ color, map, vertexColors, side, alphaTest, transparent });
+}
+
 /** Feet stand on the ground, on roads and on water, and not on plants and roofs, which cast shadows. */
 function prepare(model: Object3D): void {
   model.traverse((part) => {
     if (!(part instanceof Mesh)) return;
     part.receiveShadow = true;
+    make_matte(part);
     for (let above: Object3D | null = part; above; above = above.parent)
       if (/^(plants|buildings)/.test(above.name)) { part.raycast = () => undefined; part.castShadow = true; return; }
   });
+}
+
+/** The renderer of tiles releases only what came with a file. */
+function release(model: Object3D): void {
+  model.traverse((part) => { if (part instanceof Mesh && part.material instanceof MeshLambertMaterial) part.material.dispose(); });
 }
 
 /** Errors of tiles are of heights. Woods, fields and villages need finer tiles where the ground is flat. */
@@ -98,6 +112,7 @@ function show(world: string): void {
   tiles.group.rotation.x = -Math.PI / 2; // z up becomes y up
   tiles.addEventListener('load-error', ({ error }: { error: Error }) => state(`A file of the world cannot be loaded: ${error.message}`, 'failed'));
   tiles.addEventListener('load-model', ({ scene: model }) => { prepare(model); ground_age = Infinity; });
+  tiles.addEventListener('dispose-model', ({ scene: model }) => { release(model); });
   scene.add(tiles.group);
   const [preset = '', number = ''] = world.split('.');
   presets.value = number ? preset : '';
@@ -131,12 +146,13 @@ function move(seconds: number): void {
 }
 
 /**
- * A near plane that grows with the height keeps water and land apart in the depth buffer. Errors of tiles are of heights;
- * from far above, coasts are seen instead, and they need finer tiles.
+ * A near plane that grows with the height keeps water and land apart in the depth buffer. It stays before the ground, also where
+ * that is high. Errors of tiles are of heights; from far above, coasts are seen instead, and they need finer tiles.
  */
-function set_view(): void {
+function set_view(below: number): void {
   if (tiles) tiles.errorTarget = pose.walks ? 14 : 12 / (1 + Math.abs(pose.height) / 6000);
-  const near = pose.walks ? 0.3 : MathUtils.clamp(Math.abs(pose.height) / 100, 1, 1000);
+  const most = Math.max(0.3, (pose.height - below) / 6);
+  const near = pose.walks ? 0.3 : Math.min(most, MathUtils.clamp(Math.abs(pose.height) / 100, 1, 1000));
   if (Math.abs(near / camera.near - 1) < 0.1) return;
   camera.near = near;
   camera.far = Math.max(400_000, 20 * Math.abs(pose.height));
@@ -154,12 +170,13 @@ function ground_near(): number {
 function draw(now: number): void {
   move(Math.min(0.1, (now - last) / 1000));
   last = now;
-  set_view();
+  const below = ground_near();
+  set_view(below);
   camera.position.set(pose.east, pose.height, -pose.north);
   camera.rotation.set(MathUtils.degToRad(pose.pitch), MathUtils.degToRad(-pose.heading), 0, 'YXZ');
   camera.updateMatrixWorld();
   tiles?.update();
-  light.follow(camera, ground_near());
+  light.follow(camera, below);
   renderer.render(scene, camera);
   const share = tiles?.root ? tiles.loadProgress : 0;
   calm = share === 1 ? calm + 1 : 0;

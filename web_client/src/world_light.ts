@@ -24,7 +24,7 @@ function sky_texture(): CanvasTexture {
 }
 
 export class Daylight {
-  private readonly sun = new DirectionalLight('#fff1dc', 4.6);
+  private readonly sun = new DirectionalLight('#fff1dc', 4.4);
   private readonly fog = new FogExp2(haze, 0);
   private readonly ahead = new Vector3();
 
@@ -39,7 +39,7 @@ export class Daylight {
     this.sun.shadow.mapSize.set(texels, texels);
     this.sun.shadow.camera.near = 1;
     this.sun.shadow.camera.far = 8000;
-    scene.add(this.sun, this.sun.target, new HemisphereLight('#cfe2f6', '#6f6a58', 1.1));
+    scene.add(this.sun, this.sun.target, new HemisphereLight('#cfe2f6', '#7a7560', 1.6));
   }
 
   /** Shadows lie around what the camera sees nearest; haze thins with the height. */
