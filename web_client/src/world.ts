@@ -4,7 +4,7 @@
  * #temperate_land.7@east,north,height,heading,pitch in metres and degrees, and ",walk" on foot.
  */
 import './style/world.css';
-import { MathUtils, Mesh, MeshLambertMaterial, MeshStandardMaterial, type Object3D, PerspectiveCamera, Raycaster, Scene, Vector3, WebGLRenderer } from 'three';
+import { MathUtils, Mesh, MeshStandardMaterial, type Object3D, PerspectiveCamera, Raycaster, Scene, Vector3, WebGLRenderer } from 'three';
 import { TilesRenderer } from '3d-tiles-renderer';
 import { get_preset, get_presets, get_schema, type Request } from './api';
 import { fragment_of, unpack } from './link';
@@ -42,12 +42,15 @@ function read_address(): { name: string; pose: Pose } | null {
   return { name: world, pose: has_pose ? { east: east!, north: north!, height: height!, heading: heading!, pitch: pitch!, walks } : { ...start } };
 }
 
-/** A rough surface without highlights: towards the sun those of leaves, bark and ground would be pale. Water keeps its own material. */
+/** A rough surface without highlights: towards the sun those of leaves, bark and ground would be pale. Water keeps its own. */
 function make_matte(part: Mesh): void {
   const { material } = part;
   if (!(material instanceof MeshStandardMaterial) || material.roughness < 0.8) return;
-  const { color, map, vertexColors, side, alphaTest, transparent } = material;
-  part.material = new MeshLambertMaterial({ color, map, vertexColors, side, alphaTest, transparent });
+  material.onBeforeCompile = matte;
+}
+function matte(shader: { fragmentShader: string }): void {
+  const lights = '#include <lights_physical_fragment>';
+  shader.fragmentShader = shader.fragmentShader.replace(lights, `${lights}\nmaterial.specularColor = vec3(0.0);\nmaterial.specularColorBlended = vec3(0.0);\nmaterial.specularF90 = 0.0;`);
 }
 
 /** Feet stand on the ground, on roads and on water, and not on plants and roofs, which cast shadows. */
@@ -59,11 +62,6 @@ function prepare(model: Object3D): void {
     for (let above: Object3D | null = part; above; above = above.parent)
       if (/^(plants|buildings)/.test(above.name)) { part.raycast = () => undefined; part.castShadow = true; return; }
   });
-}
-
-/** The renderer of tiles releases only what came with a file. */
-function release(model: Object3D): void {
-  model.traverse((part) => { if (part instanceof Mesh && part.material instanceof MeshLambertMaterial) part.material.dispose(); });
 }
 
 /** Errors of tiles are of heights. Woods, fields and villages need finer tiles where the ground is flat. */
@@ -112,7 +110,6 @@ function show(world: string): void {
   tiles.group.rotation.x = -Math.PI / 2; // z up becomes y up
   tiles.addEventListener('load-error', ({ error }: { error: Error }) => state(`A file of the world cannot be loaded: ${error.message}`, 'failed'));
   tiles.addEventListener('load-model', ({ scene: model }) => { prepare(model); ground_age = Infinity; });
-  tiles.addEventListener('dispose-model', ({ scene: model }) => { release(model); });
   scene.add(tiles.group);
   const [preset = '', number = ''] = world.split('.');
   presets.value = number ? preset : '';
