@@ -4,6 +4,7 @@
 #include <cstddef>
 
 #include "core/base/quick_float.h"
+#include "core/base/wide.h"
 
 namespace seedmesh::world {
 namespace {
@@ -64,7 +65,7 @@ float stripes(std::uint64_t key, double east, double north, float x, float y) {
 
 }  // namespace
 
-double gullies_at(const std::array<std::uint64_t, gully_octaves>& keys, const Slope& slope, double east,
+SEEDMESH_WIDE double gullies_at(const std::array<std::uint64_t, gully_octaves>& keys, const Slope& slope, double east,
                   double north) {
   const double steepness = std::sqrt(slope.east * slope.east + slope.north * slope.north);
   const double strength = smooth_step(steepness, 0.04, 0.45);

@@ -135,7 +135,7 @@ void carve(HeightGrid& grid, const UncutLand& land, const Reach& reach, const Va
     const double x = east - a.east, y = north - a.north;
     const double share = std::clamp((x * reach.x + y * reach.y) * reach.by, 0.0, 1.0);
     const double dx = x - share * reach.x, dy = y - share * reach.y, square = dx * dx + dy * dy;
-    if (uncut <= width.least && square > wide_square) return;
+    if (square >= valley_reach * valley_reach || (uncut <= width.least && square > wide_square)) return;
     const WatersidePoint waterside{std::sqrt(square), (a.width + share * (b.width - a.width)) / 2,
                                    a.water + share * (b.water - a.water)};
     const double ruggedness = static_cast<double>(land.ruggedness[n]);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/wide.h"
 #include "core/generators/world/gullies.h"
 #include "core/generators/world/octaves.h"
 
@@ -98,7 +99,7 @@ NoiseKeys noise_keys(std::uint64_t key) {
   return keys;
 }
 
-Land land_at(const World& world, double east, double north) {
+SEEDMESH_WIDE Land land_at(const World& world, double east, double north) {
   const WorldRelief& relief = world.params.relief;
   Octaves<8> wide;
   add(wide, world.noise.coast, east, north, 1 / relief.continents);
@@ -140,7 +141,7 @@ double detail_share(const World& world, double ruggedness) {
                          0.3 * std::min(1.0, relief.hills / 150));
 }
 
-double detail_at(const World& world, const Land& land, double east, double north) {
+SEEDMESH_WIDE double detail_at(const World& world, const Land& land, double east, double north) {
   const WorldRelief& relief = world.params.relief;
   const double strength = detail_share(world, land.ruggedness);
   Octaves<8> octaves;
@@ -166,7 +167,7 @@ Biome biome_of(const Climate& climate) {
   return moisture < 0.25 ? Biome::desert : moisture < 0.6 ? Biome::savanna : Biome::rainforest;
 }
 
-Climate climate_at(const World& world, double east, double north, double height) {
+SEEDMESH_WIDE Climate climate_at(const World& world, double east, double north, double height) {
   const WorldClimate& climate = world.params.climate;
   Octaves<4> octaves;
   add(octaves, world.noise.moisture, east, north, 1.0 / 31000);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/base/math.h"
+#include "core/base/wide.h"
 #include "core/generators/world/land.h"
 
 namespace seedmesh::world {
@@ -158,7 +159,7 @@ void add_ranges(const World& world, const RowOfPositions& row, LandRow& land) {
 
 }  // namespace
 
-void land_of_row(const World& world, const RowOfPositions& row, LandRow& land) {
+SEEDMESH_WIDE void land_of_row(const World& world, const RowOfPositions& row, LandRow& land) {
   const WorldRelief& relief = world.params.relief;
   Row on_land(row.count), hills;
   set_sum(row, world.noise.coast, 1 / relief.continents, land.coast);
