@@ -103,6 +103,12 @@ bool has_sea(const World& world) { return world.params.relief.sea && world.has(L
 /// it and half of them less than 0.65; where the land is lowest, it is rarely the greatest.
 constexpr double line_share = 0.85;
 
+/// The roughness on which the skirts of tiles depend. `range`: of the heights of the land around them.
+Roughness of_skirts(const TileFrame& frame, Roughness rough, double range) {
+  if (frame.side > widest_known_rivers) rough.valley = std::min(rough.valley, valley_of_skirts(range));
+  return rough;
+}
+
 /// The lowest that the own skirt of a tile hangs. `spacing`: of the samples of the block. `between`: how far ground can
 /// be below samples. Vertices at the border of a tile that are no samples can be rougher than those that are.
 double own_skirt(const World& world, const TileFrame& frame, const Area& area, double spacing,
@@ -110,8 +116,8 @@ double own_skirt(const World& world, const TileFrame& frame, const Area& area, d
   const Roughness rough = frame.spacing < spacing ? area.rough : area.rough_border();
   const double below = spacing < coarse_spacing ? between : line_share * between;
   // heights are rounded to steps, depths of skirts up to whole steps
-  return std::min(area.border() - below, area.border_cut()) - most_skirt(world, frame, rough) -
-         1.5 * frame.step;
+  const double skirt = most_skirt(world, frame, of_skirts(frame, rough, area.high - area.low));
+  return std::min(area.border() - below, area.border_cut()) - skirt - 1.5 * frame.step;
 }
 
 /// How far samples of a tile can be from those of its block, which are `spacing` apart. Wide blocks have samples of the
@@ -167,15 +173,18 @@ TileBounds link_bounds(const World& world, const TileKey& key, const Area& area,
   const double share = spacing < coarse_spacing ? 1 : line_share;
   if (!is_leaf) {
     const TileFrame child = frame_of(world, {key.level + 1, 2 * key.x, 2 * key.y});
-    low = std::min(low, std::min(area.low - share * below, area.lowest) -
-                            most_skirt(world, child, rough_of_tiles_below(world, key.level, area, spacing)));
+    const Roughness rough = of_skirts(child, rough_of_tiles_below(world, key.level, area, spacing),
+                                      area.high + between - area.low + below);
+    low = std::min(low, std::min(area.low - share * below, area.lowest) - most_skirt(world, child, rough));
   }
   if (area.plant_height > 0) {
     const PlantExtent plants = plant_extent(area.plant_height);
     high = std::max(high, area.high + share * between + area.plant_top);
     low = std::min(low, area.low - below - plants.down);
   }
-  low = std::min(low - frame.step, own_skirt(world, frame, area, spacing, below));
+  const double own_below =
+      frame.spacing < spacing ? below : at_samples(world, spacing, area.rough).below;
+  low = std::min(low - frame.step, own_skirt(world, frame, area, spacing, own_below));
   TileBounds box = in_plan(world, key);
   box.low = rounded_down(low, frame);
   box.high = rounded_up(high + frame.step, frame);

@@ -17,6 +17,10 @@ constexpr double widest_known_rivers = 8192;
 /// Returns an estimate, in metres, of the depth of valleys in land whose heights differ by `range` metres.
 constexpr double guessed_valley(double range) { return 20 + 0.4 * range; }
 
+/// Returns the greatest depth of valleys, in metres, for which skirts of tiles wider than `widest_known_rivers` allow. `range`: of
+/// the heights of the land. Half of the borders of 640 such tiles have valleys less than a quarter as deep as guessed.
+constexpr double valley_of_skirts(double range) { return guessed_valley(range) / 3; }
+
 /// The measured distance of samples from the triangles of a tile.
 struct MeshDeviation {
   double most = 0;           ///< metres

@@ -14,6 +14,7 @@ namespace {
 constexpr double border_share = 0.9;     ///< the greatest deviation along a line, by that of an area
 constexpr double far_share = 0.9;        ///< the same for the coarsest tiles beside it
 constexpr double unusual = 1.15;         ///< share of the usual skirt: the deepest that boxes include
+constexpr double wide_unusual = 1.05;    ///< the same for tiles wider than `widest_known_rivers`
 constexpr double widest_fine_rise = 64;  ///< metres
 constexpr double fine_share = 0.7;       ///< share of normals that follow the slope of finer levels
 constexpr double rounding_steps = 9;  ///< steps by which heights of the coarsest tiles beside it are rounded
@@ -68,6 +69,10 @@ TileVertex vertex_of(const World& world, const GroundColors& colors, const TileF
 double usual_skirt(const World& world, const TileFrame& frame, const Roughness& rough) {
   return far_share * deviation_of(world, far_spacing(world, frame.side), rough) +
          border_share * deviation_of(world, frame.spacing, rough) + rounding_steps * frame.step;
+}
+
+double unusual_share(const TileFrame& frame) {
+  return frame.side > widest_known_rivers ? wide_unusual : unusual;
 }
 
 double uncut(const GroundSample& sample) { return sample.land.height.value + sample.cut; }
@@ -132,15 +137,15 @@ double skirt_depth(const World& world, int level, const TerrainGrid& grid) {
     rough.slope = slope_of_border(grid, frame.spacing, stride);
   }
   if (frame.side > widest_known_rivers)
-    rough.valley = std::min(rough.valley, guessed_valley(highest_land - lowest_land));
+    rough.valley = std::min(rough.valley, valley_of_skirts(highest_land - lowest_land));
   const double usual = usual_skirt(world, frame, rough);
-  return std::clamp(most + rounding_steps * frame.step, usual, unusual * usual);
+  return std::clamp(most + rounding_steps * frame.step, usual, unusual_share(frame) * usual);
 }
 
 double most_skirt(const World& world, const TileFrame& frame, Roughness rough) {
   if (!world.has(Layer::terrain)) return 0;
   rough.mesh_deviation = {};  // no tile depends on it, and skirts cover the gaps to neighbours
-  return unusual * usual_skirt(world, frame, rough);
+  return unusual_share(frame) * usual_skirt(world, frame, rough);
 }
 
 std::int16_t steps_of(double height, double base, double step) {
