@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/wide.h"
+
 namespace seedmesh::world {
 namespace {
 
@@ -121,7 +123,7 @@ Ground::Ground(const World& world, const Rectangle& box, Job& job, double reach)
   }
 }
 
-GroundSample Ground::at(double east, double north) const {
+SEEDMESH_WIDE GroundSample Ground::at(double east, double north) const {
   GroundSample sample;
   Land& land = sample.land;
   land = land_at(*world_, east, north);

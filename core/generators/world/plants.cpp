@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "core/base/math.h"
+#include "core/base/wide.h"
 #include "core/generators/world/plant_mesh.h"
 #include "core/generators/world/resolved.h"
 
@@ -35,7 +36,8 @@ constexpr double lone_share = 0.012;  ///< share of candidates outside of woods
 constexpr double edge_low = -0.1, edge_high = 0.16;
 
 /// The share of candidates near a position that may compete. Stops when the finer octaves cannot change it.
-double cover_at(std::uint64_t key, double density, double east, double north, double spacing = 0) {
+SEEDMESH_WIDE double cover_at(std::uint64_t key, double density, double east, double north,
+                              double spacing = 0) {
   if (density <= 0) return 0;
   // fitted so that woods cover this share of wide areas
   const double more = density - 0.5;
