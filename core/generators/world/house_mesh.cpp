@@ -6,6 +6,7 @@
 #include "core/base/math.h"
 #include "core/generators/world/houses.h"
 #include "core/generators/world/instances.h"
+#include "core/generators/world/openings.h"
 #include "core/generators/world/palette.h"
 #include "core/generators/world/terrain_mesh.h"
 
@@ -25,10 +26,13 @@ using Paint = std::array<std::uint8_t, 4>;
 enum class Finish { walls_and_roof, with_openings };
 
 constexpr double overhang = 0.45;  ///< metres that a roof reaches beyond the walls
-constexpr double proud = 0.05;     ///< metres that openings stand before a wall
 constexpr double storey = 2.7;     ///< metres between rows of windows
-constexpr double window_spacing = 3.3, lot_window_spacing = 3.8;                      ///< metres
-constexpr Paint glass{9, 12, 16, 255}, door{22, 13, 8, 255}, brick{86, 44, 34, 255};  ///< linear
+constexpr double window_spacing = 3.3, lot_window_spacing = 3.8;  ///< metres
+constexpr double least_gable = 2.6;  ///< metres; half of the depth of houses with windows in their gables
+
+/// What the colour of walls is multiplied by: lime, ochre, brick, stone and green. Half of the walls keep it.
+constexpr std::array<double, 3> plasters[] = {
+    {1.1, 1.1, 1.08}, {1.02, 0.85, 0.6}, {0.95, 0.66, 0.54}, {0.7, 0.69, 0.66}, {0.82, 0.92, 0.84}};
 
 /// A colour made lighter, or darker, and warmer.
 Paint tinted(const Paint& color, double light, double warmth) {
@@ -45,10 +49,24 @@ class HouseMesh {
   HouseMesh(const World& world, const TileFrame& frame, double base)
       : frame_(frame),
         base_(base),
+        openings_(frame),
         wall_(linear_color(world.params.settlements.wall)),
         roof_(linear_color(world.params.settlements.roof)) {}
 
-  Paint wall_of(const House& h) const { return tinted(wall_, h.wall_light, h.warmth); }
+  /// The plaster follows from the place, so that all tiles show the same.
+  Paint wall_of(const House& h) const {
+    Paint wall = wall_;
+    if (h.kind == House::dwelling) {
+      Rng rng(cell_key(0x57414C4CU, math::to_int64(std::floor(h.east * 16)),
+                       math::to_int64(std::floor(h.north * 16))));
+      const auto number = static_cast<std::size_t>(rng.unit() * 2 * std::size(plasters));
+      if (number < std::size(plasters)) {
+        for (std::size_t k = 0; k < 3; ++k)
+          wall[k] = static_cast<std::uint8_t>(math::to_int32(std::min(255.0, wall[k] * plasters[number][k])));
+      }
+    }
+    return tinted(wall, h.wall_light, h.warmth);
+  }
   Paint roof_of(const House& h) const { return tinted(roof_, h.roof_light, 0.4 * h.warmth); }
   const Paint& roof() const { return roof_; }
   const TileFrame& frame() const { return frame_; }
@@ -73,11 +91,11 @@ class HouseMesh {
     }
     if (h.kind == House::church) add_tower(h);
     if (finish != Finish::with_openings) return;
-    if (h.kind == House::dwelling && (!h.is_on_lot || h.roof_light < 0.9F))
-      add_block(h, {0.45, 0.18, 0.55 / h.length, 0.4 / h.depth}, h.eaves, h.ridge + 0.7, brick, brick);
+    if (h.kind == House::dwelling && (!h.is_on_lot || h.roof_light < 0.9F)) add_chimney(h);
     add_openings(h);
   }
 
+  const Openings& openings() const { return openings_; }
   TileMesh take() { return std::move(mesh_); }
 
  private:
@@ -121,35 +139,62 @@ class HouseMesh {
     }
   }
 
-  /// Windows in rows on both long walls, and a door to the road.
+  /// Windows in rows on the walls, and a door to the road.
   void add_openings(const House& h) {
-    const Point across(-h.y, h.x, 0);
     const double foot = std::max(h.floor, h.low + 0.6);
-    const auto add_opening = [&](double side, double middle, double half, double low, double top,
-                                 const Paint& paint) {
-      const double v = side * (1 + proud / h.depth);
-      const auto at = [&](double x, double z) { return position(h, (middle + x) / h.length, v, z); };
-      add_face({at(-half, low), at(half, low), at(half, top), at(-half, top)}, across * side, paint);
-    };
-    const int columns = std::max(
-        1, static_cast<int>(2 * (h.length - 0.9) / (h.is_on_lot ? lot_window_spacing : window_spacing)));
-    const bool is_barn = h.kind == House::barn;
+    const bool is_barn = h.kind == House::barn, is_church = h.kind == House::church;
     for (const double side : {-1.0, 1.0}) {
-      const double way = is_barn ? 1.5 : 0.5;
       const bool is_rear = side * h.front < 0;  // with fewer windows, which few see
       if (!is_rear)
-        add_opening(side, 0, way, foot, std::min(h.eaves - 0.3, foot + (is_barn ? 2.9 : 2.1)), door);
+        openings_.add_door(on_wall(h, side, 0, foot, {is_barn ? 3.0 : 1.0, door_top(h, foot) - foot}));
       if (is_barn) continue;
-      for (double sill = foot + 0.9; sill + 1.3 < h.eaves; sill += storey) {
-        for (int k = 0; k < columns; ++k) {
-          const double middle = (k + 0.5 - 0.5 * columns) * window_spacing;
-          if (sill < foot + 1 && std::abs(middle) < 1.1 && !is_rear) continue;
-          if (is_rear && k % 2 != 0) continue;
-          add_opening(side, middle, 0.45, sill,
-                      std::min(sill + (h.kind == House::church ? 3.2 : 1.25), h.eaves - 0.3), glass);
-        }
-      }
+      for (double sill = foot + 0.9; sill + 1.3 < h.eaves; sill += storey)
+        add_windows(h, side, sill, sill < foot + 1 && !is_rear, is_rear);
+      if (!is_church) add_gable_windows(h, side, foot);
     }
+  }
+
+  void add_chimney(const House& h) {
+    const Point p = position(h, 0.45, 0.18, h.eaves);
+    openings_.add_chimney({p.x, p.y, h.eaves, -h.y, h.x, 1, h.ridge + 0.7 - h.eaves});
+  }
+
+  static double door_top(const House& h, double foot) {
+    return std::min(h.eaves - 0.3, foot + (h.kind == House::barn ? 2.9 : 2.1));
+  }
+
+  /// A row of windows on a long wall. `has_door`: leaves out the window at the door.
+  void add_windows(const House& h, double side, double sill, bool has_door, bool is_rear) {
+    const double high = std::min(h.kind == House::church ? 3.2 : 1.25, h.eaves - 0.3 - sill);
+    const int columns = std::max(
+        1, static_cast<int>(2 * (h.length - 0.9) / (h.is_on_lot ? lot_window_spacing : window_spacing)));
+    for (int k = 0; k < columns; ++k) {
+      const double middle = (k + 0.5 - 0.5 * columns) * window_spacing;
+      if ((has_door && std::abs(middle) < 1.1) || (is_rear && k % 2 != 0)) continue;
+      openings_.add_window(on_wall(h, side, middle, sill, {0.9, high}));
+    }
+  }
+
+  /// One window for each storey of a gable, and one below the ridge.
+  void add_gable_windows(const House& h, double side, double foot) {
+    if (h.depth < least_gable) return;
+    for (double sill = foot + 0.9; sill + 1.3 < h.eaves; sill += storey)
+      openings_.add_window(on_gable(h, side, 0.4 * side * h.depth, sill, {0.9, 1.25}));
+    if (h.ridge - h.eaves > 2.4) openings_.add_window(on_gable(h, side, 0, h.eaves + 0.35, {0.75, 1}));
+  }
+
+  struct Size {
+    double width = 1, height = 1;
+  };
+  /// An opening in a long wall, `along` metres from its middle.
+  static Opening on_wall(const House& h, double side, double along, double foot, const Size& size) {
+    const Point p = position(h, along / h.length, side, foot);
+    return {p.x, p.y, foot, -h.y * side, h.x * side, size.width, size.height};
+  }
+  /// An opening in a gable, `across` metres from its middle.
+  static Opening on_gable(const House& h, double side, double across, double foot, const Size& size) {
+    const Point p = position(h, side, across / h.depth, foot);
+    return {p.x, p.y, foot, h.x * side, h.y * side, size.width, size.height};
   }
 
   /// A polygon that faces along `normal`; its corners are turned if they run the other way.
@@ -181,6 +226,7 @@ class HouseMesh {
 
   const TileFrame& frame_;
   double base_;
+  Openings openings_;
   Paint wall_, roof_;
   TileMesh mesh_;
 };
@@ -215,6 +261,7 @@ void add_prisms(HouseMesh& mesh, const std::vector<House>& houses, double prism_
   }
   for (const auto& [cell, block] : blocks) {
     House all;
+    all.kind = House::wall;  // without a plaster of its own
     all.east = (block.west + block.east) / 2;
     all.north = (block.south + block.north) / 2;
     all.length = (block.east - block.west) / 2;
@@ -276,6 +323,7 @@ void add_houses(Glb& glb, const World& world, const TileFrame& frame, double bas
     }
     if (frame.side <= widest_models) add_models(glb, world, houses, mesh, job);
   }
+  mesh.openings().add_to(glb, world, job);
   const TileMesh made = mesh.take();
   job.spend(Resource::triangles, made.indices.size() / 3);
   glb.add_mesh("buildings", made, glb.add_material("buildings", 0.9), frame.step, base);

@@ -11,7 +11,7 @@ namespace seedmesh::world {
 namespace {
 
 constexpr double lot = 17;                             ///< metres along a road for a house
-constexpr double plain_reach = 14, plain_height = 23;  ///< metres, for houses without a model
+constexpr double plain_reach = 15, plain_height = 23;  ///< metres, for houses without a model
 constexpr double model_reach = 20, model_height = 30;
 constexpr double most_uneven = 3;   ///< metres that the ground below a house may rise
 constexpr double least_gap = 1.8;   ///< metres between houses

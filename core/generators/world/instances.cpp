@@ -1,10 +1,13 @@
 #include "core/generators/world/instances.h"
 
 #include <algorithm>
+#include <cmath>
+
+#include "core/base/math.h"
 
 namespace seedmesh::world {
 namespace {
-constexpr int type_float = 5126, type_unsigned_byte = 5121;
+constexpr int type_float = 5126, type_unsigned_byte = 5121, type_short = 5122;
 }
 
 void Instances::add(const std::array<double, 3>& at, const std::array<float, 3>& scale) {
@@ -21,7 +24,10 @@ void Instances::add(const std::array<double, 3>& at, const std::array<float, 3>&
 void Instances::add(const std::array<double, 3>& at, const std::array<float, 3>& scale,
                     const std::array<float, 2>& turn) {
   add(at, scale);
-  turns_.insert(turns_.end(), {0.0F, turn[0], 0.0F, turn[1]});
+  const auto part = [](float v) {
+    return static_cast<std::int16_t>(math::to_int32(std::floor(static_cast<double>(v) * 32767 + 0.5)));
+  };
+  turns_.insert(turns_.end(), {0, part(turn[0]), 0, part(turn[1])});
 }
 
 void Instances::add_to(Glb& glb, const std::string& name, const std::vector<int>& meshes) const {
@@ -35,7 +41,14 @@ void Instances::add_to(Glb& glb, const std::string& name, const std::vector<int>
   translation["max"] = high_;
   Json attributes = {{"TRANSLATION", glb.add_accessor(std::move(translation))},
                      {"SCALE", glb.add_accessor(values(scales_, "VEC3"))}};
-  if (!turns_.empty()) attributes["ROTATION"] = glb.add_accessor(values(turns_, "VEC4"));
+  if (!turns_.empty()) {
+    attributes["ROTATION"] =
+        glb.add_accessor({{"bufferView", glb.add_bytes(turns_.data(), turns_.size() * 2, 0, 0)},
+                          {"componentType", type_short},
+                          {"normalized", true},
+                          {"count", count()},
+                          {"type", "VEC4"}});
+  }
   if (!tints_.empty()) {
     attributes["_COLOR_0"] =
         glb.add_accessor({{"bufferView", glb.add_bytes(tints_.data(), tints_.size(), 0, 0)},

@@ -26,7 +26,8 @@ class Instances {
   void add_to(Glb& glb, const std::string& name, const std::vector<int>& meshes) const;
 
  private:
-  std::vector<float> translations_, scales_, turns_;
+  std::vector<float> translations_, scales_;
+  std::vector<std::int16_t> turns_;  ///< parts of quaternions by 32767
   std::vector<std::uint8_t> tints_;
   std::array<float, 3> low_{}, high_{};
 };

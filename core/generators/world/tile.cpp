@@ -8,6 +8,7 @@
 #include "core/generators/world/houses.h"
 #include "core/generators/world/lanes.h"
 #include "core/generators/world/leaf_texture.h"
+#include "core/generators/world/openings.h"
 #include "core/generators/world/palette.h"
 #include "core/generators/world/plant_layer.h"
 #include "core/generators/world/plant_mesh.h"
@@ -160,6 +161,10 @@ std::optional<SharedFile> shared_file(const World& world, std::string_view hash,
       const auto asset = plant_asset(world, static_cast<int>(k), form, job);
       if (asset && asset->hash == hash) return binary(asset->file);
     }
+  }
+  if (world.has(Layer::buildings) && world.params.settlements.density > 0) {
+    const auto openings = opening_asset(world, job);
+    if (openings->hash == hash) return binary(openings->file);
   }
   for (std::size_t k = 0; world.has(Layer::buildings) && k < world.params.settlements.houses.size(); ++k) {
     const auto asset = house_asset(world, static_cast<int>(k), job);

@@ -5,6 +5,7 @@
 
 #include "core/generators/world/houses.h"
 #include "core/generators/world/lanes.h"
+#include "core/generators/world/openings.h"
 #include "tests/core/world/world_support.h"
 
 namespace seedmesh::world {
@@ -89,6 +90,66 @@ TEST(WorldVillages, HaveLanesThatLeaveRoadsAndFollowTheGround) {
   }
   EXPECT_GT(lanes, 100U);
   EXPECT_GT(farms, 20U);
+}
+
+/// The places of the copies of a node, absolute: east, north, up.
+std::vector<std::array<double, 3>> copies_of(const std::string& glb, const std::string& name,
+                                             const TileFrame& frame) {
+  const GlbParts parts = parts_of(glb);
+  std::vector<std::array<double, 3>> places;
+  for (const Json& node : parts.json["nodes"]) {
+    if (node["name"] != name) continue;
+    const Json& copies = node["extensions"]["EXT_mesh_gpu_instancing"]["attributes"];
+    const Json& accessor = parts.json["accessors"][copies["TRANSLATION"].get<int>()];
+    const Json& view = parts.json["bufferViews"][accessor["bufferView"].get<int>()];
+    for (int k = 0; k < accessor["count"].get<int>(); ++k) {
+      float at[3];
+      std::memcpy(at, parts.bytes.data() + view.value("byteOffset", 0) + 12 * k, 12);
+      places.push_back({frame.middle_east + at[0], frame.middle_north - at[2], at[1]});
+    }
+  }
+  return places;
+}
+
+/// Distance from the nearest wall of a house.
+double from_wall(const House& h, double east, double north) {
+  const double x = east - h.east, y = north - h.north;
+  const double u = std::abs(x * h.x + y * h.y), v = std::abs(y * h.x - x * h.y);
+  if (u > h.length + 0.01 || v > h.depth + 0.01) return 1e12;
+  return std::min(h.length - u, h.depth - v);
+}
+
+TEST(WorldVillages, HaveWindowsAndDoorsInTheWallsOfHouses) {
+  const World world = world_of(settled_land());
+  Job job = test_job();
+  int windows = 0, doors = 0, houses = 0;
+  for (const auto& site : sites_of(world, job)) {
+    const std::int64_t x = static_cast<std::int64_t>(site->east + world.extent / 2) / 64,
+                       y = static_cast<std::int64_t>(site->north + world.extent / 2) / 64;
+    const TileKey key{world.levels - 1, x, y};
+    const TileFrame frame = frame_of(world, key);
+    const std::string glb = tile_glb(world, key, job);
+    EXPECT_LE(glb.size(), 40U << 10U);
+    const std::vector<House> near =
+        houses_near(world, {frame.west, frame.south, frame.west + 64, frame.south + 64}, 0, job);
+    houses += static_cast<int>(near.size());
+    for (const char* name : {"buildings_windows", "buildings_doors"}) {
+      for (const auto& [east, north, up] : copies_of(glb, name, frame)) {
+        (name == std::string("buildings_doors") ? doors : windows) += 1;
+        double least = 1e12;
+        for (const House& house : near) {
+          if (up > house.low && up < house.ridge) least = std::min(least, from_wall(house, east, north));
+        }
+        EXPECT_NEAR(least, 0, 0.01);
+      }
+    }
+  }
+  ASSERT_GT(houses, 40);
+  EXPECT_GE(doors, houses);
+  EXPECT_GT(windows, 4 * houses);
+  const std::string hash = opening_asset(world, job)->hash;
+  EXPECT_TRUE(shared_file(world, hash, job));
+  EXPECT_EQ(opening_asset(world_of(settled_land(), 8), job)->hash, hash);
 }
 
 }  // namespace
