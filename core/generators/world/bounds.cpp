@@ -182,8 +182,7 @@ TileBounds link_bounds(const World& world, const TileKey& key, const Area& area,
     high = std::max(high, area.high + share * between + area.plant_top);
     low = std::min(low, area.low - below - plants.down);
   }
-  const double own_below =
-      frame.spacing < spacing ? below : at_samples(world, spacing, area.rough).below;
+  const double own_below = frame.spacing < spacing ? below : at_samples(world, spacing, area.rough).below;
   low = std::min(low - frame.step, own_skirt(world, frame, area, spacing, own_below));
   TileBounds box = in_plan(world, key);
   box.low = rounded_down(low, frame);

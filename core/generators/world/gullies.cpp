@@ -65,8 +65,8 @@ float stripes(std::uint64_t key, double east, double north, float x, float y) {
 
 }  // namespace
 
-SEEDMESH_WIDE double gullies_at(const std::array<std::uint64_t, gully_octaves>& keys, const Slope& slope, double east,
-                  double north) {
+SEEDMESH_WIDE double gullies_at(const std::array<std::uint64_t, gully_octaves>& keys, const Slope& slope,
+                                double east, double north) {
   const double steepness = std::sqrt(slope.east * slope.east + slope.north * slope.north);
   const double strength = smooth_step(steepness, 0.04, 0.45);
   if (strength <= 0) return 0;
