@@ -38,7 +38,6 @@ export class Daylight {
     this.sun.castShadow = true;
     this.sun.shadow.mapSize.set(texels, texels);
     this.sun.shadow.camera.near = 1;
-    this.sun.shadow.camera.far = 8000;
     scene.add(this.sun, this.sun.target, new HemisphereLight('#cfe2f6', '#7a7560', 1.6));
   }
 
@@ -50,15 +49,16 @@ export class Daylight {
     sun.castShadow = above < highest_shadows;
     camera.getWorldDirection(this.ahead).setY(0);
     if (this.ahead.lengthSq() > 1e-6) this.ahead.normalize();
-    const step = 8 * 2 * reach / texels, snap = (value: number): number => Math.round(value / step) * step;
+    const texel = 2 * reach / texels, step = 8 * texel, snap = (value: number): number => Math.round(value / step) * step;
     sun.target.position.set(snap(camera.position.x + 0.85 * reach * this.ahead.x), ground, snap(camera.position.z + 0.85 * reach * this.ahead.z));
-    sun.position.copy(sun.target.position).addScaledVector(to_sun, 4000);
+    const away = Math.max(1500, 3 * reach);
+    sun.position.copy(sun.target.position).addScaledVector(to_sun, away);
     sun.target.updateMatrixWorld();
     if (Math.abs(shadow.camera.right / reach - 1) > 0.02) {
-      Object.assign(shadow.camera, { left: -reach, right: reach, top: reach, bottom: -reach });
+      Object.assign(shadow.camera, { left: -reach, right: reach, top: reach, bottom: -reach, far: 2 * away });
       shadow.camera.updateProjectionMatrix();
-      shadow.normalBias = 1.5 * 2 * reach / texels;
-      shadow.bias = -0.0004;
+      shadow.normalBias = 1.5 * texel;
+      shadow.bias = -texel / (2 * away); // a texel before the surface, so that shadows begin at the walls
     }
   }
 }
