@@ -137,7 +137,9 @@ void add_simple_form(PlantBuilder& builder, const WorldClass& plant) {
       return;
     case WorldForm::broadleaf:
       builder.revolve({{0.03 * h, -0.02 * h}, {0.02 * h, 0.4 * h}}, 3, stem, plain_surface);
-      builder.lobe({{0, 0.6 * h, 0}, {0.37 * h, 0.36 * h, 0.37 * h}}, 0.5 * h, 4, 6, leaf);
+      // two parts, since wide tiles widen one ellipsoid to a disc
+      builder.lobe({{-0.02 * h, 0.5 * h, 0}, {0.34 * h, 0.26 * h, 0.34 * h}}, 0.5 * h, 4, 5, leaf);
+      builder.lobe({{0.07 * h, 0.73 * h, 0.04 * h}, {0.25 * h, 0.24 * h, 0.25 * h}}, 0.5 * h, 3, 5, leaf);
       return;
     case WorldForm::palm:
       builder.revolve({{0.03 * h, -0.02 * h}, {0.016 * h, 0.88 * h}}, 3, stem, plain_surface);
