@@ -42,7 +42,7 @@ struct PairPalette {
   std::array<std::uint8_t, pair_count> of{};  ///< the colour of each pair that occurs
 };
 
-/// Returns the palette of an image in which each pair occurs so many times. Up to 256 pairs are exact. Of more, those in
+/// Returns the palette of an image in which pairs occur as often as `counts` says. Up to 256 pairs are exact. Of more, those in
 /// a square of a quadtree are replaced by their mean, least squared error first (after Gervautz and Purgathofer, A simple
 /// method for color quantization: octree quantization, 1988). Cost: less than 0.1 ms.
 PairPalette pair_palette(const std::array<std::uint32_t, pair_count>& counts);
