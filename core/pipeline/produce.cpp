@@ -251,6 +251,9 @@ static Estimate estimate_of_file(const Estimate& model, const OutputParams& outp
   const auto variants = static_cast<std::uint64_t>(output.variants);
   Estimate file{model.triangles * variants, (model.bytes - image_bytes(model)) * variants,
                 model.exact && variants == 1 && leaves_meshes(output)};
+  // The positions of the next level have 12 bytes a vertex, about a seventh of what a vertex and its indices have.
+  const bool has_next = profile_of(output.profile).morphs && level_count(output) > 1;
+  if (has_next) file.bytes = file.bytes * 8 / 7;
   if (profile_of(output.profile).compressed) file.bytes /= compression;
   const auto most = static_cast<std::uint64_t>(output.max_triangles.value_or(0));
   if (most > 0 && file.triangles > most) file = {most, file.bytes / file.triangles * most, false};

@@ -1,12 +1,14 @@
 #include "core/texture/relief.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <vector>
 
 #include "core/base/parallel.h"
 #include "core/base/wide.h"
+#include "core/texture/pair_palette.h"
 #include "core/texture/png_image.h"
 
 namespace seedmesh::texture {
@@ -83,20 +85,23 @@ struct HeightRows {
   const float *above, *here, *below;
 };
 
-/// `steep` is half the height of the relief in texels. The third channel follows from the bytes of the other two.
-SEEDMESH_WIDE void pack_normals(const HeightRows& rows, float steep, bool is_small, int size,
+// The numbers of pairs of levels.
+
+/// Rounds a number from 0 to 1 to the levels that are multiples of `step`, and to the last one.
+inline std::uint32_t level_of(float share, std::uint32_t step) {
+  const auto steps = static_cast<float>(static_cast<std::int32_t>(pair_levels / step)) * (255 / 256.0F);
+  const auto level = static_cast<std::uint32_t>(static_cast<std::int32_t>(share * steps + 0.5F)) * step;
+  return level < pair_levels ? level : pair_levels - 1;
+}
+
+/// `steep` is half the height of the relief in texels.
+SEEDMESH_WIDE void pack_normals(const HeightRows& rows, float steep, int size,
                                 std::uint32_t* __restrict out) {
   const float* __restrict above = rows.above, * __restrict here = rows.here, * __restrict below = rows.below;
-  const Levels levels(is_small ? 4 : 1), last(is_small ? 2 : 1);
   for (int x = 0; x < size; ++x) {
     const float dx = (here[x] - here[x + 2]) * steep, dy = (below[x] - above[x]) * steep;
     const float by_length = 0.5F / std::sqrt(dx * dx + dy * dy + 1);
-    const std::uint32_t first = byte_of(0.5F + dx * by_length, levels);
-    const std::uint32_t second = byte_of(0.5F + dy * by_length, levels);
-    const float u = static_cast<float>(static_cast<std::int32_t>(first)) * (1 / 127.5F) - 1;
-    const float v = static_cast<float>(static_cast<std::int32_t>(second)) * (1 / 127.5F) - 1;
-    const float rest = 1 - u * u - v * v;
-    out[x] = first | second << 8U | byte_of(0.5F + 0.5F * std::sqrt(rest < 0 ? 0 : rest), last) << 16U;
+    out[x] = level_of(0.5F + dx * by_length, 1) + pair_levels * level_of(0.5F + dy * by_length, 1);
   }
 }
 
@@ -108,14 +113,20 @@ SEEDMESH_WIDE void write_means(const float* __restrict upper, const float* __res
 }
 
 SEEDMESH_WIDE void pack_surface(const float* __restrict height, const float* __restrict accent,
-                                const Finish& finish, const Levels& levels, int size,
-                                std::uint32_t* __restrict out) {
+                                const Finish& finish, int size, std::uint32_t* __restrict out) {
+  const std::uint32_t step = finish.is_small ? 2 : 1;
   for (int x = 0; x < size; ++x) {
     const float deep = 1 - height[x];
     const float rough = finish.rough_low + (finish.rough_high - finish.rough_low) * height[x];
-    out[x] = byte_of(1 - finish.shade * deep * deep, levels) |
-             byte_of(rough + (finish.rough_accent - rough) * accent[x], levels) << 8U;
+    const float open = clamp_share(1 - finish.shade * deep * deep);
+    const float own = clamp_share(rough + (finish.rough_accent - rough) * accent[x]);
+    out[x] = level_of(open, step) + pair_levels * level_of(own, step);
   }
+}
+
+SEEDMESH_WIDE void write_bytes(const std::uint32_t* __restrict row, std::size_t size,
+                               std::uint8_t* __restrict out) {
+  for (std::size_t x = 0; x < size; ++x) out[x] = static_cast<std::uint8_t>(row[x]);
 }
 
 /// Writes the lowest bytes of each pixel. Whole words are written, the last ones of which the next pixel replaces.
@@ -131,7 +142,7 @@ void write_pixels(const std::vector<std::uint32_t>& row, std::uint8_t* out) {
 }
 
 void write_channels(const std::vector<std::uint32_t>& row, std::size_t channels, std::uint8_t* out) {
-  if (channels == 1) return write_pixels<1>(row, out);
+  if (channels == 1) return write_bytes(row.data(), row.size(), out);
   if (channels == 3) return write_pixels<3>(row, out);
   write_pixels<4>(row, out);
 }
@@ -151,6 +162,14 @@ struct Format {
   std::vector<glm::u8vec3> palette = {};
 };
 
+std::shared_ptr<const Image> image_of(const Format& format, std::string name,
+                                      const Array<std::uint8_t>& pixels, const Job& job) {
+  const auto extent = static_cast<std::uint32_t>(format.size);
+  return png_image(std::move(name),
+                   {extent, extent, format.channels, 8, std::as_bytes(pixels.span()), format.palette},
+                   PngEffort::quick, job);
+}
+
 /// A PNG file. `fill(row, y)` writes the pixels of a row.
 template <class Fill>
 std::shared_ptr<const Image> picture(const Format& format, std::string name, const Job& job, Fill&& fill) {
@@ -162,11 +181,7 @@ std::shared_ptr<const Image> picture(const Format& format, std::string name, con
     fill(row, y);
     write_channels(row, pixel, pixels.data() + static_cast<std::size_t>(y) * side * pixel);
   }
-  const auto extent = static_cast<std::uint32_t>(format.size);
-  return png_image(
-      std::move(name),
-      {extent, extent, format.channels, 8, std::as_bytes(std::as_const(pixels).span()), format.palette},
-      PngEffort::quick, job);
+  return image_of(format, std::move(name), pixels, job);
 }
 
 std::vector<glm::u8vec3> colors_of(const Palette& palette, const Ramp& ramp) {
@@ -233,32 +248,61 @@ std::shared_ptr<const Image> color_image(const Source& source) {
                  });
 }
 
+/// A PNG file with a palette. `fill(row, y)` writes the numbers of the pairs of a row, and `color` returns the colour of
+/// a pair of bytes.
+template <class Fill, class Color>
+std::shared_ptr<const Image> picture_of_pairs(int size, std::string name, const Job& job, Fill&& fill,
+                                              Color&& color) {
+  const auto side = static_cast<std::size_t>(size);
+  Array<std::uint16_t> pairs(job, side * side);
+  std::vector<std::uint32_t> row(side);
+  PairCounts counts;
+  for (std::size_t y = 0; y < side; ++y) {
+    if (y % 64 == 0) job.check();
+    fill(row.data(), static_cast<int>(y));
+    counts.add(row);
+    for (std::size_t x = 0; x < side; ++x) pairs.data()[y * side + x] = static_cast<std::uint16_t>(row[x]);
+  }
+  const PairPalette palette = pair_palette(counts.sums());
+  Array<std::uint8_t> pixels(job, pairs.size());
+  for (std::size_t i = 0; i < pairs.size(); ++i) pixels.data()[i] = palette.of[pairs.data()[i]];
+  Format format{size, 1, {}};
+  for (const glm::u8vec2& pair : palette.colors) format.palette.push_back(color(pair));
+  return image_of(format, std::move(name), pixels, job);
+}
+
+/// A normal of unit length with these bytes.
+glm::u8vec3 normal_color(const glm::u8vec2& pair) {
+  const float u = static_cast<float>(pair.x) * (1 / 127.5F) - 1,
+              v = static_cast<float>(pair.y) * (1 / 127.5F) - 1, rest = 1 - u * u - v * v;
+  return {pair, static_cast<std::uint8_t>(byte_of(0.5F + 0.5F * std::sqrt(rest < 0 ? 0 : rest), Levels(1)))};
+}
+
 std::shared_ptr<const Image> normal_image(const Source& source) {
   const Field& height = source.relief.height;
   const int size = source.size(), last = size - 1;
   const float steep = 0.5F * source.finish.depth * static_cast<float>(size);
   std::vector<float> around(static_cast<std::size_t>(size) + 2);
-  return picture({size, 3, {}}, source.name + "_normal", source.job,
-                 [&](std::vector<std::uint32_t>& row, int y) {
-                   const float* here = height.row(y);
-                   around.front() = here[last];
-                   std::copy_n(here, size, around.begin() + 1);
-                   around.back() = here[0];
-                   pack_normals({height.row((y - 1) & last), around.data(), height.row((y + 1) & last)},
-                                steep, source.finish.is_small, size, row.data());
-                 });
+  const auto fill = [&](std::uint32_t* row, int y) {
+    const float* here = height.row(y);
+    around.front() = here[last];
+    std::copy_n(here, size, around.begin() + 1);
+    around.back() = here[0];
+    pack_normals({height.row((y - 1) & last), around.data(), height.row((y + 1) & last)}, steep, size, row);
+  };
+  return picture_of_pairs(size, source.name + "_normal", source.job, fill, normal_color);
 }
 
 std::shared_ptr<const Image> surface_image(const Source& source) {
   const int size = surface_size(source.size()), step = source.size() / size;
-  const Levels levels(source.finish.is_small ? 8 : 1);
   std::vector<float> height(static_cast<std::size_t>(size)), accent(height.size(), 0.0F);
-  return picture({size, 3, {}}, source.name + "_surface", source.job,
-                 [&](std::vector<std::uint32_t>& row, int y) {
-                   fill_means(source.relief.height, step, y, height);
-                   if (source.has_accent()) fill_means(source.relief.accent, step, y, accent);
-                   pack_surface(height.data(), accent.data(), source.finish, levels, size, row.data());
-                 });
+  const auto fill = [&](std::uint32_t* row, int y) {
+    fill_means(source.relief.height, step, y, height);
+    if (source.has_accent()) fill_means(source.relief.accent, step, y, accent);
+    pack_surface(height.data(), accent.data(), source.finish, size, row);
+  };
+  return picture_of_pairs(size, source.name + "_surface", source.job, fill,
+                          [](const glm::u8vec2& pair) { return glm::u8vec3(pair, 0); });
 }
 
 }  // namespace

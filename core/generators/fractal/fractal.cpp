@@ -6,7 +6,9 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "core/base/attempt.h"
 #include "core/base/math.h"
+#include "core/generators/estimate.h"
 #include "core/generators/fractal/chaos.h"
 #include "core/generators/fractal/check.h"
 #include "core/generators/fractal/element.h"
@@ -258,6 +260,23 @@ Estimate estimate_stage(const FractalParams& params, const Instructions& instruc
   return {has_triangles ? elements : 0, bytes + 1000, presses_nothing_flat(instructions)};
 }
 
+/// The bytes of a small model, which is made, because copies share vertices in ways that the maps do not tell.
+std::optional<std::uint64_t> bytes_of_small(const FractalParams& params, const Estimate& planned,
+                                            const GenerateContext& context) {
+  constexpr std::uint64_t most_triangles = 100'000, most_bytes = 3'000'000, bytes_a_node = 130;
+  if (planned.triangles > most_triangles || planned.bytes > most_bytes) return std::nullopt;
+  Job own = context.job.for_small_estimate(context.job.limits());
+  std::optional<std::uint64_t> bytes;
+  const bool is_made = attempt([&] {
+    const Result<Model> model = generate_copies(params, {own, context.demand, context.generators, {}});
+    if (!model) return;
+    std::uint64_t nodes = model->nodes.size();
+    for (const Node& node : model->nodes) nodes += node.instances.transforms.size();
+    bytes = estimate_of_made(*model, context.demand).bytes + bytes_a_node * nodes;
+  });
+  return is_made ? bytes : std::nullopt;
+}
+
 Result<Appraisal> appraise_copies(const FractalParams& params, const GenerateContext& context) {
   Job& job = context.job;
   Appraisal appraisal;
@@ -273,6 +292,7 @@ Result<Appraisal> appraise_copies(const FractalParams& params, const GenerateCon
     const Estimate stage = estimate_stage(params, instructions, *element, static_cast<int>(rounds), job);
     sum = {sum.triangles + stage.triangles, sum.bytes + stage.bytes, sum.exact && stage.exact};
   }
+  sum.bytes = bytes_of_small(params, sum, context).value_or(sum.bytes);
   appraisal.estimate = sum;
   return appraisal;
 }

@@ -1,7 +1,6 @@
 #pragma once
 /// Draws words: every module moves the turtle, or is first rewritten by the interpretation rules.
 #include <algorithm>
-#include <array>
 #include <vector>
 
 #include "core/generators/api.h"
@@ -120,8 +119,6 @@ class Drawing {
   std::vector<Turtle::Pose> shapes_;  ///< poses at which the open polygons of a growing module started
   std::vector<const LsystemSurface*> surfaces_;  ///< surfaces in the order of their names
   Angle yaw_, pitch_, roll_;
-  /// A cache of sines and cosines, indexed by a hash of the angle, because most angles given as arguments repeat.
-  std::array<Angle, 16> known_angles_{};
   std::uint64_t interpreted_ = 0;
   std::uint64_t open_polygons_ = 0, stray_closings_ = 0;
 };

@@ -1,9 +1,9 @@
 /// Executes the turtle command of a module that no interpretation rule rewrites.
 #include <algorithm>
-#include <bit>
 #include <charconv>
 #include <cmath>
 
+#include "core/base/quick_math.h"
 #include "core/generators/lsystem/draw.h"
 #include "core/generators/lsystem/materials.h"
 #include "core/schema/json.h"
@@ -85,11 +85,7 @@ math::SinCos Drawing::turn(const Kind& kind, const double* parameters, const Ang
   } else if (share == 1) {
     return angle.bare;
   }
-  degrees *= share;
-  const std::size_t place = (std::bit_cast<std::uint64_t>(degrees) * 0x9E3779B97F4A7C15U) >> 60U;
-  Angle& known = known_angles_[place];
-  if (degrees != known.degrees) known = {degrees, math::sincos_degrees(degrees)};
-  return known.bare;
+  return math::quick_sincos_degrees(degrees * share);
 }
 
 /// A scale or width that is not finite would cause errors only much later.

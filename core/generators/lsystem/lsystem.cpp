@@ -35,6 +35,7 @@ constexpr std::size_t longest_text = std::size_t{16} << 20U;
 constexpr std::uint64_t most_appraised = 50'000;  // segments; drawing them takes milliseconds
 // Models of this size are made in about ten milliseconds.
 constexpr std::uint64_t most_made_modules = 50'000, most_made_triangles = 200'000;
+constexpr std::uint64_t modules_a_line = 5;  // of most curves
 
 Result<Grammar> compiled(const LsystemParams& params, const Job& job) {
   std::vector<Issue> issues;
@@ -331,7 +332,8 @@ static Estimate estimate_of_drawn(const Grammar& grammar, const LsystemParams& p
 /// nullopt for a model that takes longer than an estimate may.
 static std::optional<Estimate> estimate_of_made(const LsystemParams& params, const GenerateContext& context) {
   Limits limits = context.job.limits();
-  limits.modules = std::min(limits.modules, most_made_modules);
+  const std::uint64_t by_line = params.style == LsystemParams::Style::lines ? modules_a_line : 1;
+  limits.modules = std::min(limits.modules, by_line * most_made_modules);
   limits.triangles = std::min(limits.triangles, most_made_triangles);
   Job own = context.job.for_small_estimate(limits);
   std::optional<Estimate> estimate;
@@ -357,13 +359,15 @@ Result<Appraisal> appraise(const LsystemParams& params, const GenerateContext& c
   const std::vector<std::uint64_t> counts = exact_counts(*grammar, steps_of(params));
   const bool is_counted = !counts.empty() && grammar->interpretation.productions.empty();
   if (is_counted && share_of(params) == 1) warn_of_word(*grammar, counts, appraisal.warnings);
-  if (!is_counted || !params.surfaces.empty()) appraisal.estimate = estimate_of_made(params, context);
+  // How many points lines share is known only when they are drawn.
+  const bool is_lines = params.style == LsystemParams::Style::lines;
+  if (!is_counted || !params.surfaces.empty() || (is_lines && drawn(*grammar, counts) <= most_made_modules))
+    appraisal.estimate = estimate_of_made(params, context);
   if (is_counted && !appraisal.estimate) {
     const std::uint64_t segments = drawn(*grammar, counts);
-    const bool is_tubes = params.style != LsystemParams::Style::lines;
-    if (is_tubes && segments <= most_appraised) {
+    if (!is_lines && segments <= most_appraised) {
       appraisal.estimate = estimate_of_drawn(*grammar, params, job);
-    } else if (!is_tubes || !params.weld) {
+    } else if (is_lines || !params.weld) {
       appraisal.estimate = estimate_of(segments, std::min(segments, 1 + branches(*grammar, counts)), params);
     }
   }

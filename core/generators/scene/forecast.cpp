@@ -43,7 +43,9 @@ Forecast::Forecast(const SceneParams& params, const VariantTable& variant_table,
       variant_table_(variant_table),
       limits_{context.job.limits().modules, context.job.limits().shapes, context.job.limits().triangles} {
   if (params.terrain) {
-    const Result<Appraisal> own = appraise_child(*params.terrain, "/terrain", Rng(0), context);
+    GenerateContext plain = context;
+    plain.demand.textures = 0;  // which are no part of the triangles, but of the time
+    const Result<Appraisal> own = appraise_child(*params.terrain, "/terrain", Rng(0), plain);
     if (own && own->estimate && own->estimate->exact) ground_ = own->estimate->triangles;
   }
   for (const ModelVariant& variant : variant_table.variants) {

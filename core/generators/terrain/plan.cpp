@@ -234,6 +234,11 @@ NoisePlan noise_plan(const TerrainParams& params) {
 
 Window window_of(const TerrainParams& params) { return window_of(params, 0); }
 
+bool is_subdivided(const TerrainParams& params) {
+  return params.algorithm == Algorithm::triangular_edge || params.algorithm == Algorithm::diamond_square ||
+         params.algorithm == Algorithm::square_square;
+}
+
 int made_side(const TerrainParams& params) {
   switch (params.algorithm) {
     case Algorithm::triangular_edge:

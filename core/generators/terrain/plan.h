@@ -36,6 +36,8 @@ FracturePlan fracture_plan(const TerrainParams& params);
 /// Returns the window of the requested samples; for a tile, in its world.
 Window window_of(const TerrainParams& params);
 
+/// Returns true where the number of rounds determines the resolution.
+bool is_subdivided(const TerrainParams& params);
 /// Returns the number of samples along a side that the algorithm generates; for a sphere, along an edge of
 /// its cube; 0 for an image.
 int made_side(const TerrainParams& params);

@@ -10,6 +10,7 @@
 #include "core/generators/terrain/build_model.h"
 #include "core/generators/terrain/displacement.h"
 #include "core/generators/terrain/game_engines.h"
+#include "core/generators/terrain/grid_size.h"
 #include "core/generators/terrain/maps.h"
 #include "core/generators/terrain/model_parts.h"
 #include "core/generators/terrain/plan.h"
@@ -30,10 +31,6 @@ namespace {
 
 // derive() lists heights of fields with at most this number of samples along a side.
 constexpr int longest_listed = 257;
-constexpr std::uint64_t bytes_a_vertex = 36;  // position, normal, texture coordinates, colour
-// Of a vertex of ground with details: the texture coordinates of its grounds, and the tangent.
-constexpr std::uint64_t bytes_of_coordinates = 8, bytes_of_tangent = 16;
-constexpr std::uint64_t document_bytes = 1200;  // of the JSON, without the origin of the model
 
 /// Adds the warning of filled voids to a model.
 Result<Model> with_voids(Result<Model> model, const Field& field) {
@@ -105,13 +102,6 @@ std::uint64_t grid_triangles(const TerrainParams& params) {
 Refinement planned_refinement(const TerrainParams& params) {
   const int side = finished_side(params);
   return refinement_of(*params.refine, side, side, params.size / (side - 1));
-}
-
-/// True where the number of rounds determines the resolution.
-bool is_subdivided(const TerrainParams& params) {
-  return params.algorithm == TerrainAlgorithm::triangular_edge ||
-         params.algorithm == TerrainAlgorithm::diamond_square ||
-         params.algorithm == TerrainAlgorithm::square_square;
 }
 
 /// Called before the field is made, which may take seconds.
@@ -294,25 +284,6 @@ static void size_planetoid(Estimate& estimate, const TerrainParams& params, cons
                                             has_colors ? bytes_a_vertex : bytes_without_color, triangles);
 }
 
-/// The bytes of the file of a grid. The classes of ground follow from the heights, which are not computed here. Their
-/// number, 2.7, and the share of vertices that several classes have are means of the presets.
-static std::uint64_t bytes_of_grid(const TerrainParams& params, std::uint64_t triangles,
-                                   const Demand& demand) {
-  // Refined ground is one mesh, whose indices are wide.
-  const std::uint64_t bytes_a_triangle = params.refine ? 12 : 6;
-  constexpr double several = 1.4, bytes_a_texel = 2.7 * 2.5;  // of all images of all grounds
-  const auto squares = static_cast<std::uint64_t>(finished_side(params) - 1);
-  const std::uint64_t vertices = triangles / 2 + 2 * squares + 1;
-  const std::uint64_t least = document_bytes + vertices * bytes_a_vertex + triangles * bytes_a_triangle;
-  if (!params.detail || demand.textures == 0 || params.texture != 0) return least;
-  const std::uint64_t of_vertex =
-      bytes_a_vertex + bytes_of_coordinates + (demand.tangents ? bytes_of_tangent : 0);
-  const double texels = static_cast<double>(demand.textures) * demand.textures;
-  const double more = several * static_cast<double>(vertices * of_vertex) + bytes_a_texel * texels -
-                      static_cast<double>(vertices * bytes_a_vertex);
-  return least + static_cast<std::uint64_t>(math::to_int64(more));
-}
-
 Result<Appraisal> appraise(const TerrainParams& params, const GenerateContext& context) {
   Job& job = context.job;
   if (auto refused = refusal(params, job.limits())) return std::move(*refused);
@@ -347,7 +318,7 @@ Result<Appraisal> appraise(const TerrainParams& params, const GenerateContext& c
     size_planetoid(estimate, params, context);
     estimate.triangles += sea_triangles(params);
   } else {
-    estimate.bytes = bytes_of_grid(params, estimate.triangles, context.demand);
+    estimate.bytes = bytes_of_grid(params, estimate.triangles, context);
   }
   appraisal.estimate = estimate;
   return appraisal;

@@ -36,6 +36,22 @@ TEST(SizeEstimate, OfScenesCitiesAndHousesIsWithinAQuarter) {
     expect_within_a_quarter(preset, R"({"textures":256})");
 }
 
+TEST(SizeEstimate, OfTerrainsFollowsTheirClassesOfGround) {
+  for (const char* preset : {"alps", "dunes", "lava_plain", "mesas", "ridges", "snowfield", "tile_0_0"})
+    expect_within_a_quarter(preset, R"({"textures":256})");
+}
+
+TEST(SizeEstimate, OfTerrainsContainsTheirLevels) {
+  expect_within_a_quarter("levels_of_detail", R"({"lods":4,"profile":"unity"})");
+  expect_within_a_quarter("dunes", R"({"lods":3})");
+}
+
+TEST(SizeEstimate, OfCurvesAndCopiesCountsSharedPointsOnce) {
+  for (const char* preset : {"hutsko_dragon_curve", "snowflake_curve", "koch_curve_rounds",
+                             "corner_cube_centre", "menger_sponge", "jerusalem_cube"})
+    expect_within_a_quarter(preset, "{}");
+}
+
 TEST(SizeEstimate, OfGrowingScenesContainsTheirBones) {
   for (const char* preset : {"growing_garden", "fallow_field"})
     expect_within_a_quarter(preset, R"({"animation":"growth"})");
