@@ -6,6 +6,7 @@
 
 #include "core/generators/world/ground_cover.h"
 #include "core/generators/world/ground_texture.h"
+#include "core/generators/world/palette.h"
 #include "core/generators/world/terrain_indices.h"
 #include "core/texture/png.h"
 #include "tests/core/world/world_support.h"
@@ -117,6 +118,24 @@ TEST(WorldGroundTextures, HaveCoordinatesThatMeetAtBorders) {
         EXPECT_NEAR(north, std::round(north), 2e-6) << k;
       }
     }
+  }
+}
+
+double luminance_of(const std::array<std::uint8_t, 4>& color) {
+  return 0.2126 * color[0] + 0.7152 * color[1] + 0.0722 * color[2];
+}
+
+/// Beer 1852: light falls with depth. Foam at the shore is left out by a spacing that does not show it.
+TEST(WorldSea, IsDarkerWhereItIsDeeper) {
+  const World world = world_of(mountains_with_woods());
+  const GroundColors colors(world);
+  double before = 255;
+  for (const double depth : {0.0, 3.0, 8.0, 30.0, 120.0}) {
+    double mean = 0;
+    for (int k = 0; k < 100; ++k)
+      mean += luminance_of(sea_color(world, colors, depth, {733.0 * k, 1291.0 * k}, 64)) / 100;
+    EXPECT_LT(mean, before) << depth;
+    before = mean;
   }
 }
 
