@@ -21,6 +21,7 @@ const held = new Set<string>();
 /** The first view of a world: above its middle, towards the north. */
 const start: Pose = { east: 0, north: 0, height: 2500, heading: 0, pitch: -25 };
 const eyes = 1.7, pace = 6; // metres above the ground, and metres a second
+const sharpness = 8; // samples of a texture along the view
 const above_all = 100_000; // metres; no ground is as high
 const walk_button = form.elements.namedItem('walk') as HTMLButtonElement, panel = document.querySelector<HTMLElement>('.sliders')!;
 const ray = new Raycaster(), down = new Vector3(0, -1, 0);
@@ -59,8 +60,10 @@ function prepare(model: Object3D): void {
     if (!(part instanceof Mesh)) return;
     part.receiveShadow = true;
     make_matte(part);
+    for (const { map } of [part.material].flat() as MeshStandardMaterial[]) if (map) map.anisotropy = sharpness; // grounds are seen at low angles
     for (let above: Object3D | null = part; above; above = above.parent)
-      if (/^(plants|buildings)/.test(above.name)) { part.raycast = () => undefined; part.castShadow = true; return; }
+      if (/^terrain_(tufts|straw|flowers|stones)/.test(above.name)) { part.raycast = () => undefined; return; } // tufts and stones
+      else if (/^(plants|buildings)/.test(above.name)) { part.raycast = () => undefined; part.castShadow = true; return; }
   });
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/generators/world/areas.h"
+#include "core/generators/world/ground_cover.h"
 #include "core/generators/world/houses.h"
 #include "core/generators/world/plant_mesh.h"
 #include "core/generators/world/river_mesh.h"
@@ -181,6 +182,10 @@ TileBounds link_bounds(const World& world, const TileKey& key, const Area& area,
     const PlantExtent plants = plant_extent(area.plant_height);
     high = std::max(high, area.high + share * between + area.plant_top);
     low = std::min(low, area.low - below - plants.down);
+  }
+  if (has_ground_cover(world)) {
+    high = std::max(high, area.high + share * between + cover_height);
+    low = std::min(low, area.low - below - cover_depth);
   }
   const double own_below = frame.spacing < spacing ? below : at_samples(world, spacing, area.rough).below;
   low = std::min(low - frame.step, own_skirt(world, frame, area, spacing, own_below));

@@ -18,6 +18,8 @@ constexpr double least_closure = 0.6;  ///< share of the ground that crowns cove
 constexpr double jitter = 0.28;        ///< share of the spacing of samples, to each side
 constexpr double river_gap = 0.75;     ///< share of the spacing of samples, from woods to water
 constexpr double brightness = 1.3;     ///< makes up for the mean of the texture
+constexpr double edge_light = 0.86;    ///< of the foot of edges
+constexpr double ragged = 0.34;        ///< share of the spacing of samples by which edges leave their line
 
 struct Corner {
   Wood wood;
@@ -97,7 +99,9 @@ class Canopy {
     Rng rng = random_at(column, row);
     const double by = jitter * grid_.spacing;
     const double x = rng.uniform(-by, by), y = rng.uniform(-by, by), high = rng.uniform(0.6, 0.92);
-    const double tilt_east = rng.uniform(-0.4, 0.4), tilt_north = rng.uniform(-0.4, 0.4);
+    // wide cells are no crowns: tilted as much, they would be streaks
+    const double tilt = 0.4 - 0.25 * smooth_step(grid_.spacing, 16, 128);
+    const double tilt_east = rng.uniform(-tilt, tilt), tilt_north = rng.uniform(-tilt, tilt);
     c.light = rng.uniform(0.8, 1.15);
     c.at = {east_of(column) + (is_border(column) ? 0 : x), north_of(row) + (is_border(row) ? 0 : y),
             grid_.at(column, row).height + high * c.wood.height};
@@ -110,6 +114,8 @@ class Canopy {
   /// Beside woods: the foot of their edge, where the cover falls below that of woods.
   void place_edge(int column, int row) {
     Corner& c = at(column, row);
+    Rng rng = random_at(column, row);
+    const double bay = rng.uniform(-ragged, ragged);
     glm::dvec3 sum(0), out(0);
     Wood wood;
     int count = 0;
@@ -117,7 +123,8 @@ class Canopy {
          {Place{1, 0}, Place{0, 1}, Place{1, 1}, Place{-1, 0}, Place{0, -1}, Place{-1, -1}}) {
       const Corner& other = at(column + by[0], row + by[1]);
       if (!other.is_wood) continue;
-      const double t = std::clamp((wood_edge - c.wood.cover) / (other.wood.cover - c.wood.cover), 0.1, 0.8);
+      const double line = (wood_edge - c.wood.cover) / (other.wood.cover - c.wood.cover);
+      const double t = std::clamp(line + bay, 0.05, 0.8);
       const double height = grid_.at(column, row).height;
       sum += glm::dvec3(by[0] * t * grid_.spacing, by[1] * t * grid_.spacing,
                         t * (grid_.at(column + by[0], row + by[1]).height - height));
@@ -128,10 +135,11 @@ class Canopy {
     if (count == 0) return;
     sum /= count;
     for (std::size_t k = 0; k < 3; ++k) c.wood.color[k] = wood.color[k] / count;
-    c.light = 0.62;
+    c.light = edge_light * rng.uniform(0.85, 1.1);
     c.at = {east_of(column) + (is_border(column) ? 0 : sum.x), north_of(row) + (is_border(row) ? 0 : sum.y),
             grid_.at(column, row).height + sum.z - 0.2};
-    c.normal = math::unit(math::unit(out, {0, 0, 1}) + glm::dvec3(0, 0, 0.7), {0, 0, 1});
+    // edges are rows of round crowns, lit from above even on the side away from the sun
+    c.normal = math::unit(math::unit(out, {0, 0, 1}) * 0.55 + glm::dvec3(0, 0, 1), {0, 0, 1});
   }
 
   void add_triangle(const std::array<Place, 3>& places) {

@@ -64,6 +64,18 @@ void FlatMesh::add_rectangle(double west, double south, double east, double nort
   add({{west, south, height}, {east, south, height}, {east, north, height}, {west, north, height}});
 }
 
+void FlatMesh::add_rectangle(const glm::dvec2& low, const glm::dvec2& high, double height,
+                             const std::array<std::array<std::uint8_t, 4>, 4>& colors) {
+  const std::array<Point, 4> corners{Point(low, height), Point(high.x, low.y, height), Point(high, height),
+                                     Point(low.x, high.y, height)};
+  std::array<std::uint32_t, 4> own{};
+  for (std::size_t k = 0; k < 4; ++k) {
+    color_ = colors[k];
+    own[k] = index_of(corners[k]);
+  }
+  mesh_.indices.insert(mesh_.indices.end(), {own[0], own[1], own[2], own[0], own[2], own[3]});
+}
+
 void FlatMesh::add_clipped(std::vector<Point> polygon) {
   for (int axis = 0; axis < 2; ++axis) {
     const double low = axis == 0 ? frame_.west : frame_.south;

@@ -23,6 +23,11 @@ class FlatMesh {
   /// Adds a convex polygon, counter-clockwise seen from above.
   void add(const std::vector<Point>& polygon);
   void add_rectangle(double west, double south, double east, double north, double height);
+  /// The colour of what is added from now on. A vertex keeps the first of its colours.
+  void set_color(const std::array<std::uint8_t, 4>& color) { color_ = color; }
+  /// Adds a rectangle whose corners, from the south-west counter-clockwise, have these colours.
+  void add_rectangle(const glm::dvec2& low, const glm::dvec2& high, double height,
+                     const std::array<std::array<std::uint8_t, 4>, 4>& colors);
   /// Adds the part of a convex polygon that lies in the tile.
   void add_clipped(std::vector<Point> polygon);
   /// Adds a strip from one point to another, with a width at each. It extends past the second point by a fifth of its

@@ -168,7 +168,7 @@ int Glb::add_indices(const std::vector<std::uint32_t>& indices, std::size_t vert
 
 void Glb::add_mesh(std::string_view name, const TileMesh& mesh, int material, double step, double height,
                    const std::vector<float>& coordinates) {
-  SharedParts parts{add_indices(mesh.indices, mesh.vertices.size()), -1};
+  Parts parts{{{add_indices(mesh.indices, mesh.vertices.size()), material}}, -1};
   if (!coordinates.empty()) {
     const int view = add_bytes(coordinates.data(), coordinates.size() * sizeof(float), 0, array_buffer);
     parts.coordinates = add_accessor({{"bufferView", view},
@@ -176,7 +176,7 @@ void Glb::add_mesh(std::string_view name, const TileMesh& mesh, int material, do
                                       {"count", coordinates.size() / 2},
                                       {"type", "VEC2"}});
   }
-  add_mesh(name, mesh.vertices, parts, material, step, height);
+  add_mesh(name, mesh.vertices, parts, step, height);
 }
 
 int Glb::add_shared_indices(int buffer, std::size_t offset, std::size_t count) {
@@ -191,8 +191,8 @@ int Glb::add_shared_coordinates(int buffer, std::size_t offset, std::size_t coun
       {{"bufferView", view}, {"componentType", type_float}, {"count", count}, {"type", "VEC2"}});
 }
 
-void Glb::add_mesh(std::string_view name, const std::vector<TileVertex>& vertices, const SharedParts& parts,
-                   int material, double step, double height) {
+void Glb::add_mesh(std::string_view name, const std::vector<TileVertex>& vertices, const Parts& parts,
+                   double step, double height) {
   int low[3] = {32767, 32767, 32767}, high[3] = {-32768, -32768, -32768};
   for (const TileVertex& v : vertices) {
     const int values[3] = {v.x, v.y, v.z};
@@ -224,10 +224,10 @@ void Glb::add_mesh(std::string_view name, const std::vector<TileVertex>& vertice
                                         {"count", count},
                                         {"type", "VEC4"}});
   if (parts.coordinates >= 0) attributes["TEXCOORD_0"] = parts.coordinates;
-  const int made = add_gltf_mesh(
-      {{"name", name},
-       {"primitives",
-        Json::array({{{"attributes", attributes}, {"indices", parts.order}, {"material", material}}})}});
+  Json primitives = Json::array();
+  for (const Part& part : parts.parts)
+    primitives.push_back({{"attributes", attributes}, {"indices", part.order}, {"material", part.material}});
+  const int made = add_gltf_mesh({{"name", name}, {"primitives", std::move(primitives)}});
   add_node({{"name", name}, {"mesh", made}, {"translation", {0, height, 0}}, {"scale", {step, step, step}}});
 }
 

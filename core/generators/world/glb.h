@@ -53,13 +53,18 @@ class Glb {
   /// the texture, two for each vertex, or none.
   void add_mesh(std::string_view name, const TileMesh& mesh, int material, double step, double height,
                 const std::vector<float>& coordinates = {});
-  /// Numbers of the accessors of triangle indices (`order`) and of texture coordinates; -1: none.
-  struct SharedParts {
-    int order = -1, coordinates = -1;
+  /// Triangles with one material. `order`: number of the accessor of their indices.
+  struct Part {
+    int order = -1, material = -1;
+  };
+  /// The parts of a mesh, and the number of the accessor of its texture coordinates; -1: none.
+  struct Parts {
+    std::vector<Part> parts;
+    int coordinates = -1;
   };
   /// Like add_mesh() above, with triangle indices and texture coordinates from accessors.
-  void add_mesh(std::string_view name, const std::vector<TileVertex>& vertices, const SharedParts& parts,
-                int material, double step, double height);
+  void add_mesh(std::string_view name, const std::vector<TileVertex>& vertices, const Parts& parts,
+                double step, double height);
   /// Adds the indices of triangles over `vertices` vertices, and returns the index of their accessor.
   int add_indices(const std::vector<std::uint32_t>& indices, std::size_t vertices);
   /// Like add_indices(), with corners of 16 bits at a part of another buffer.

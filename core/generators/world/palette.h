@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/generators/world/ground.h"
+#include "core/generators/world/ground_texture.h"
 
 namespace seedmesh::world {
 
@@ -20,13 +21,29 @@ struct GroundColors {
   std::vector<Shade> fields;
 };
 
-/// Returns the linear colour of the ground at [east, north]. `steepness` is the cosine of the slope. Variations over less than
-/// `spacing`, the metres between samples, are left out. The ground of the deep sea has the colour of the water,
-/// because skirts can be visible through the water: the depth values of skirts that are seen edge-on have little
-/// precision.
-std::array<std::uint8_t, 4> ground_color(const World& world, const GroundColors& colors,
-                                         const GroundSample& sample, const glm::dvec2& at, double steepness,
-                                         double spacing);
+/// The linear colour of the ground at a position, and the kind of which it has most.
+struct GroundLook {
+  std::array<std::uint8_t, 4> color{};
+  GroundKind kind = GroundKind::grass;
+};
+
+/// The form of the ground around a sample.
+struct GroundForm {
+  double steepness = 1;     ///< cosine of the slope
+  double hollow = 0;        ///< mean height of the samples around it above it, by their distance
+  double spacing = 2;       ///< metres between samples; variations over less are left out
+  bool is_textured = true;  ///< whether a texture multiplies the colour
+};
+
+/// Returns the look of the ground at [east, north]. Hollows are darker and crests lighter. The ground of the deep sea has the colour of
+/// the water, because skirts can be visible through the water: the depth values of skirts that are seen edge-on have
+/// little precision.
+GroundLook ground_look(const World& world, const GroundColors& colors, const GroundSample& sample,
+                       const glm::dvec2& at, const GroundForm& form);
+/// Returns the colour of the sea at [east, north], `depth` metres above its bed: pale over shallow sand, dark where it is
+/// deep. Variations over less than `spacing` metres are left out.
+std::array<std::uint8_t, 4> sea_color(const World& world, const GroundColors& colors, double depth,
+                                      const glm::dvec2& at, double spacing);
 /// Returns a colour of the request as linear bytes, opaque.
 std::array<std::uint8_t, 4> linear_color(const Color& color);
 

@@ -157,6 +157,38 @@ void PlantBuilder::blade(double base, double turn, double reach, double drop, do
   }
 }
 
+void PlantBuilder::tuft(int blades, const Group& group, const Rgba& color) {
+  for (int k = 0; k < blades; ++k) {
+    const double away = group.radius * 0.7 * std::sqrt(rng_.unit()), turn = 360 * rng_.unit();
+    const double lean = rng_.uniform(0.2, 0.9), high = group.height * rng_.uniform(0.45, 1.0),
+                 light = rng_.uniform(0.8, 1.15), facing = 360 * rng_.unit();
+    const math::SinCos way = math::sincos_degrees(turn), across = math::sincos_degrees(facing);
+    const glm::dvec3 out(way.cos, 0, way.sin), foot = out * away, side(across.cos, 0, across.sin);
+    const double half = 0.035 + 0.05 * high, reach = std::min(lean * high, group.radius - away);
+    const glm::dvec3 normal = math::unit(glm::dvec3(0, 1, 0) + out * 0.25, {0, 1, 0});
+    const auto first = static_cast<std::uint32_t>(positions_.size());
+    add(foot - side * half, normal, shaded(color, 0.62 * light), in_cell(plain_surface, 0, 1));
+    add(foot + side * half, normal, shaded(color, 0.62 * light), in_cell(plain_surface, 1, 1));
+    add(foot + out * reach + glm::dvec3(0, high, 0), normal, shaded(color, 1.2 * light),
+        in_cell(plain_surface, 0.5, 0));
+    for (const std::uint32_t corner : {0U, 1U, 2U, 0U, 2U, 1U}) indices_.push_back(first + corner);
+  }
+}
+
+void PlantBuilder::heads(int count, const Group& group, const Rgba& color) {
+  constexpr double half = 0.032;
+  for (int k = 0; k < count; ++k) {
+    const double away = group.radius * 0.8 * std::sqrt(rng_.unit()), turn = 360 * rng_.unit();
+    const double high = group.height * rng_.uniform(0.6, 1.0), light = rng_.uniform(0.85, 1.0);
+    const math::SinCos way = math::sincos_degrees(turn);
+    const glm::dvec3 middle(away * way.cos, high, away * way.sin), up(0, 1, 0);
+    const glm::dvec3 x(half * way.cos, 0.3 * half, half * way.sin),
+        z(-half * way.sin, -0.2 * half, half * way.cos);
+    add_quad({middle - x + z, middle + x + z, middle + x - z, middle - x - z}, {up, up, up, up},
+             {light, light, light, light}, color, plain_surface);
+  }
+}
+
 PlantFile PlantBuilder::file() const {
   PlantFile file;
   file.vertices = static_cast<std::uint32_t>(positions_.size());

@@ -45,6 +45,17 @@ class PlantBuilder {
   /// Adds a bent leaf of a palm from `base`, outwards by `reach` and down by `drop`, seen from both sides.
   void blade(double base, double turn, double reach, double drop, double width, const Rgba& color);
 
+  /// The radius of a group of small plants and the height of the tallest.
+  struct Group {
+    double radius = 0, height = 0;
+  };
+  /// Adds blades of grass that lean outwards, seen from both sides, with the light of the ground around them.
+  void tuft(int blades, const Group& group, const Rgba& color);
+  /// Adds heads of flowers that face upwards.
+  void heads(int count, const Group& group, const Rgba& color);
+
+  /// Returns the number of corners of triangles so far.
+  std::size_t corners() const { return indices_.size(); }
   PlantFile file() const;
 
  private:

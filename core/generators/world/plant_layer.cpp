@@ -34,47 +34,6 @@ constexpr double widest_open = 1.3;     ///< the most that classes whose crowns 
 constexpr double least_far_height = 3;  ///< metres; lower classes are not seen from afar
 constexpr int first_far_level = 3;      ///< number of the level above the leaves
 
-int add_plant_mesh(Glb& glb, const PlantFile& file, const std::string& name, const std::string& image) {
-  const int buffer = glb.add_shared_buffer(file.hash + ".bin", file.bytes.size());
-  const std::size_t size = file.vertices * plant_vertex_bytes;
-  const int vertices = glb.add_view(buffer, 0, size, plant_vertex_bytes, array_buffer);
-  const int order = glb.add_view(buffer, size, file.indices * 2, 0, element_buffer);
-  Json attributes;
-  attributes["POSITION"] = glb.add_accessor({{"bufferView", vertices},
-                                             {"componentType", type_float},
-                                             {"count", file.vertices},
-                                             {"type", "VEC3"},
-                                             {"min", file.low},
-                                             {"max", file.high}});
-  attributes["NORMAL"] = glb.add_accessor({{"bufferView", vertices},
-                                           {"byteOffset", 12},
-                                           {"componentType", type_byte},
-                                           {"normalized", true},
-                                           {"count", file.vertices},
-                                           {"type", "VEC3"}});
-  attributes["COLOR_0"] = glb.add_accessor({{"bufferView", vertices},
-                                            {"byteOffset", 16},
-                                            {"componentType", type_unsigned_byte},
-                                            {"normalized", true},
-                                            {"count", file.vertices},
-                                            {"type", "VEC4"}});
-  attributes["TEXCOORD_0"] = glb.add_accessor({{"bufferView", vertices},
-                                               {"byteOffset", 20},
-                                               {"componentType", type_unsigned_short},
-                                               {"normalized", true},
-                                               {"count", file.vertices},
-                                               {"type", "VEC2"}});
-  const int indices = glb.add_accessor({{"bufferView", order},
-                                        {"componentType", type_unsigned_short},
-                                        {"count", file.indices},
-                                        {"type", "SCALAR"}});
-  const int material = glb.add_leaf_material(name, image);
-  return glb.add_gltf_mesh(
-      {{"name", name},
-       {"primitives",
-        Json::array({{{"attributes", attributes}, {"indices", indices}, {"material", material}}})}});
-}
-
 /// A tint that makes plants of a class differ: darker or lighter, yellower or bluer.
 std::array<std::uint8_t, 4> tint_of(Rng& rng) {
   const double light = rng.uniform(0.68, 0.96), hue = rng.uniform(-0.06, 0.06);
@@ -133,7 +92,8 @@ void add_places(Glb& glb, const World& world, int above_leaves, const TileFrame&
       const PlantFile file = plant_file(world, number, is_far ? PlantForm::simple : PlantForm::whole);
       job.spend(Resource::triangles, copies.count() * file.indices / 3);
       const std::string image = shared_files + leaf_texture(world, job)->hash + ".png";
-      copies.add_to(glb, name, {add_plant_mesh(glb, file, name, image)});
+      copies.add_to(glb, name,
+                    {add_plant_mesh(glb, add_shared_plants(glb, file, name, image), name, 0, file.indices)});
     }
   }
 }
@@ -147,6 +107,54 @@ void add_plants(Glb& glb, const World& world, const TileKey& key, const TileGrou
   if (has_places) add_places(glb, world, above_leaves, frame, job);
   if (has_places ? showings[above_leaves].has_canopy : frame.side <= widest_plants)
     add_canopy(glb, world, frame, ground, job);
+}
+
+SharedPlants add_shared_plants(Glb& glb, const PlantFile& file, const std::string& name,
+                               const std::string& image) {
+  const int buffer = glb.add_shared_buffer(file.hash + ".bin", file.bytes.size());
+  const std::size_t size = file.vertices * plant_vertex_bytes;
+  const int vertices = glb.add_view(buffer, 0, size, plant_vertex_bytes, array_buffer);
+  const int order = glb.add_view(buffer, size, file.indices * 2, 0, element_buffer);
+  Json attributes;
+  attributes["POSITION"] = glb.add_accessor({{"bufferView", vertices},
+                                             {"componentType", type_float},
+                                             {"count", file.vertices},
+                                             {"type", "VEC3"},
+                                             {"min", file.low},
+                                             {"max", file.high}});
+  attributes["NORMAL"] = glb.add_accessor({{"bufferView", vertices},
+                                           {"byteOffset", 12},
+                                           {"componentType", type_byte},
+                                           {"normalized", true},
+                                           {"count", file.vertices},
+                                           {"type", "VEC3"}});
+  attributes["COLOR_0"] = glb.add_accessor({{"bufferView", vertices},
+                                            {"byteOffset", 16},
+                                            {"componentType", type_unsigned_byte},
+                                            {"normalized", true},
+                                            {"count", file.vertices},
+                                            {"type", "VEC4"}});
+  attributes["TEXCOORD_0"] = glb.add_accessor({{"bufferView", vertices},
+                                               {"byteOffset", 20},
+                                               {"componentType", type_unsigned_short},
+                                               {"normalized", true},
+                                               {"count", file.vertices},
+                                               {"type", "VEC2"}});
+  return {std::move(attributes), order, glb.add_leaf_material(name, image)};
+}
+
+int add_plant_mesh(Glb& glb, const SharedPlants& plants, const std::string& name, std::size_t first,
+                   std::size_t count) {
+  Json order = {{"bufferView", plants.order_view},
+                {"componentType", type_unsigned_short},
+                {"count", count},
+                {"type", "SCALAR"}};
+  if (first > 0) order["byteOffset"] = 2 * first;
+  const int indices = glb.add_accessor(std::move(order));
+  return glb.add_gltf_mesh({{"name", name},
+                            {"primitives", Json::array({{{"attributes", plants.attributes},
+                                                         {"indices", indices},
+                                                         {"material", plants.material}}})}});
 }
 
 std::shared_ptr<const Asset> plant_asset(const World& world, int plant_class, AssetForm form, Job& job) {

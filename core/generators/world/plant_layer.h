@@ -14,6 +14,19 @@ constexpr double widest_plants = 4096;  ///< metres; wider tiles have the colour
 /// Adds the plants of a tile.
 void add_plants(Glb& glb, const World& world, const TileKey& key, const TileGround& ground, Job& job);
 
+struct PlantFile;
+/// The vertices and the material of a file of plants in a tile.
+struct SharedPlants {
+  Json attributes;
+  int order_view = -1, material = -1;
+};
+/// Adds the file, with a texture of leaves.
+SharedPlants add_shared_plants(Glb& glb, const PlantFile& file, const std::string& name,
+                               const std::string& image);
+/// Adds a mesh of `count` corners of the file from `first` on, and returns its index.
+int add_plant_mesh(Glb& glb, const SharedPlants& plants, const std::string& name, std::size_t first,
+                   std::size_t count);
+
 /// Returns the model of a class from the store; makes it if the store has none. Null if the class has no model.
 std::shared_ptr<const Asset> plant_asset(const World& world, int plant_class, AssetForm form, Job& job);
 

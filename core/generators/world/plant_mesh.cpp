@@ -37,7 +37,8 @@ void add_crown(PlantBuilder& builder, const Crown& crown, const std::vector<int>
   constexpr double body = 0.86;  // of the radius
   for (std::size_t k = 0; k < crown.parts.size(); ++k) {
     const CrownPart& part = crown.parts[k];
-    builder.lobe({part.middle, body * part.radius}, crown.heart, k == 0 ? 4 : 3, k == 0 ? 7 : 6, color);
+    const bool is_large = k == 0 && crown.parts.size() > 1;
+    builder.lobe({part.middle, body * part.radius}, crown.heart, is_large ? 4 : 3, is_large ? 7 : 6, color);
   }
   for (std::size_t k = 0; k < crown.parts.size(); ++k) {
     std::vector<CrownPart> parts = crown.parts;  // the own one last
@@ -133,20 +134,29 @@ void add_simple_form(PlantBuilder& builder, const WorldClass& plant) {
   switch (plant.form) {
     case WorldForm::conifer:
       builder.revolve({{0.02 * h, -0.02 * h}, {0.018 * h, 0.2 * h}}, 3, stem, plain_surface);
-      builder.revolve({{0.05 * h, 0.1 * h}, {0.18 * h, 0.16 * h}, {0.01 * h, h}}, 5, leaf, dense_leaves, 0.2);
+      builder.revolve({{0.03 * h, 0.1 * h}, {0.12 * h, 0.16 * h}, {0.005 * h, h}}, 4, leaf, dense_leaves,
+                      0.2);
+      for (int k = 0; k < 10; ++k) {
+        const double t = k / 10.0, reach = (0.06 + 0.17 * (1 - t)) * h;
+        builder.branch((0.22 + 0.72 * t) * h, 137.5 * k, reach, 0.6 * reach, leaf);
+      }
       return;
     case WorldForm::broadleaf:
       builder.revolve({{0.03 * h, -0.02 * h}, {0.02 * h, 0.4 * h}}, 3, stem, plain_surface);
       // two parts, since wide tiles widen one ellipsoid to a disc
-      builder.lobe({{-0.02 * h, 0.5 * h, 0}, {0.34 * h, 0.26 * h, 0.34 * h}}, 0.5 * h, 4, 5, leaf);
-      builder.lobe({{0.07 * h, 0.73 * h, 0.04 * h}, {0.25 * h, 0.24 * h, 0.25 * h}}, 0.5 * h, 3, 5, leaf);
+      add_crown(builder,
+                {{{{-0.02 * h, 0.5 * h, 0}, {0.34 * h, 0.26 * h, 0.34 * h}},
+                  {{0.07 * h, 0.73 * h, 0.04 * h}, {0.25 * h, 0.24 * h, 0.25 * h}}},
+                 0.45 * h,
+                 0.17 * h},
+                {8, 5}, leaf);
       return;
     case WorldForm::palm:
       builder.revolve({{0.03 * h, -0.02 * h}, {0.016 * h, 0.88 * h}}, 3, stem, plain_surface);
       builder.revolve({{0.3 * h, 0.8 * h}, {0.2 * h, 0.93 * h}, {0.01 * h, h}}, 5, leaf, dense_leaves, 0.4);
       return;
     case WorldForm::shrub:
-      builder.lobe({{0, 0.45 * h, 0}, {0.45 * h, 0.44 * h, 0.45 * h}}, 0.2 * h, 3, 6, leaf);
+      add_crown(builder, {{{{0, 0.43 * h, 0}, {0.36 * h, 0.4 * h, 0.36 * h}}}, 0.2 * h, 0.2 * h}, {8}, leaf);
       return;
     case WorldForm::cactus:
       builder.revolve({{0.07 * h, -0.02 * h}, {0.08 * h, 0.6 * h}, {0.005 * h, h}}, 4,

@@ -14,7 +14,7 @@ constexpr double least_lake = 1.0 / 4;    ///< radius as a share of the spacing
 constexpr double resolved_width = 1.5, resolved_lake = 3;  ///< by the spacing
 constexpr double strip_width = 0.35;                 ///< share of the spacing; wider ribbons are cut by cells
 constexpr double bend_tolerance = 0.1;               ///< share of the spacing, for the lines of rivers
-constexpr double great_river = 24;                   ///< metres; narrower ones have narrower ribbons
+constexpr double great_river = 18;                   ///< metres; narrower ones have narrower ribbons
 constexpr int least_corners = 8, most_corners = 24;  ///< corners of lakes
 
 /// A ribbon whose pieces share their corners, as triangles.
@@ -52,7 +52,7 @@ class Ribbon {
                      &after = points[std::min(k + 1, points.size() - 1)];
     const double x = after.east - before.east, y = after.north - before.north;
     const double length = std::max(1e-6, std::sqrt(x * x + y * y));
-    const double half = std::max(p.width, least * std::clamp(std::sqrt(p.width / great_river), 0.4, 1.0)) / 2;
+    const double half = std::max(p.width, least * std::clamp(std::sqrt(p.width / great_river), 0.5, 1.0)) / 2;
     const Point middle(p.east, p.north, p.water), out(-half * y / length, half * x / length, 0);
     return {middle + out, middle - out};
   }

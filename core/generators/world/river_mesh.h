@@ -8,7 +8,7 @@ namespace seedmesh::world {
 
 /// Returns the least width of the ribbon of a large river, for a tile with this spacing of samples. Such a tile is seen
 /// from a distance that grows with the spacing, even by clients with a small error limit.
-constexpr double least_ribbon(double spacing) { return spacing * (0.016 + 0.3 * spacing / (spacing + 300)); }
+constexpr double least_ribbon(double spacing) { return spacing * (0.016 + 0.5 * spacing / (spacing + 300)); }
 
 /// Returns the height in metres of draped water above the terrain.
 constexpr double drape_lift(double spacing) { return 0.02 * spacing; }

@@ -2,6 +2,7 @@
 
 #include <bit>
 
+#include "core/base/math.h"
 #include "core/generators/world/asset.h"
 #include "core/generators/world/ground_texture.h"
 #include "core/generators/world/tile_frame.h"
@@ -26,14 +27,19 @@ FilePart append_indices(std::string& file, int cells) {
   return part;
 }
 
-/// Appends the coordinates of a grid of `count` x `count` vertices with a skirt.
+/// Appends the coordinates of a grid of `count` x `count` vertices with a skirt. They are turned and bent, so that repeats
+/// do not lie in straight rows, but differ by whole repeats from border to border, so that tiles meet.
 FilePart append_coordinates(std::string& file, int count) {
+  constexpr double bend = 0.4;  // of a repeat
   FilePart part{file.size(), 0};
   const auto add = [&](int vertex) {
-    const float by = texture_repeats / static_cast<float>(count - 1);
-    const int column = vertex % count, row = vertex / count;
-    append_float(file, by * static_cast<float>(column));
-    append_float(file, by * static_cast<float>(row));
+    const double x = static_cast<double>(vertex % count) / (count - 1),  // exact
+        y = static_cast<double>(vertex / count) / (count - 1);
+    const math::SinCos around_x = math::sincos_degrees(360 * x), around_y = math::sincos_degrees(360 * y);
+    append_float(file, static_cast<float>(texture_repeats_along * x + texture_repeats_across * y +
+                                          bend * around_y.sin + bend / 2 * around_x.cos));
+    append_float(file, static_cast<float>(texture_repeats_along * y - texture_repeats_across * x +
+                                          bend * around_x.sin - bend / 2 * around_y.cos));
     ++part.count;
   };
   for (int k = 0; k < count * count; ++k) add(k);
@@ -84,6 +90,7 @@ std::shared_ptr<const TerrainFile> terrain_file(const World& world, const Job& j
     made.indices = append_indices(made.file, tile_cells);
     made.dense_indices = append_indices(made.file, dense_cells);
     made.coordinates = append_coordinates(made.file, tile_cells + 1);
+    made.dense_coordinates = append_coordinates(made.file, dense_cells + 1);
     made.hash = hash_of(made.file);
     return std::make_shared<const TerrainFile>(std::move(made));
   });

@@ -19,9 +19,9 @@ struct FilePart {
 
 struct TerrainFile {
   FilePart indices, dense_indices;  ///< corners of 16 bits of tiles with `tile_cells` and with `dense_cells`
-  FilePart coordinates;             ///< texture coordinates of tiles with `tile_cells`, as pairs of floats
-  std::string file;                 ///< little-endian
-  std::string hash;                 ///< 16 hexadecimal digits of the file
+  FilePart coordinates, dense_coordinates;  ///< texture coordinates of the same, as pairs of floats
+  std::string file;                         ///< little-endian
+  std::string hash;                         ///< 16 hexadecimal digits of the file
   std::uint64_t bytes() const { return file.size() + sizeof(TerrainFile); }
 };
 

@@ -32,8 +32,18 @@ Rise fine_rise(const World& world, const GroundSample& sample, double east, doub
           sample.land.height.north + (detail_at(world, sample.land, east, north + by) - here) / by};
 }
 
-TileVertex vertex_of(const World& world, const GroundColors& colors, const TileFrame& frame,
-                     const TileGround& ground, int column, int row) {
+/// A vertex and the kind of its ground.
+struct Corner {
+  TileVertex vertex;
+  GroundKind kind = GroundKind::grass;
+};
+
+/// What slopes are multiplied by, for shading alone. Wide samples leave most of the slope out, and land without shades looks
+/// flat from afar.
+double exaggeration(double spacing) { return 1 + 1.6 * smooth_step(spacing, 128, 1024); }
+
+Corner corner_of(const World& world, const GroundColors& colors, const TileFrame& frame,
+                 const TileGround& ground, int column, int row) {
   const TerrainGrid& grid = ground.grid;
   const GroundSample& sample = grid.at(column, row);
   const double east = grid.west + column * grid.spacing, north = grid.south + row * grid.spacing;
@@ -47,23 +57,32 @@ TileVertex vertex_of(const World& world, const GroundColors& colors, const TileF
     seen.east += share * (fine.east - seen.east);
     seen.north += share * (fine.north - seen.north);
   }
+  const double more = exaggeration(grid.spacing);
+  seen.east *= more;
+  seen.north *= more;
   const double length = std::sqrt(seen.east * seen.east + seen.north * seen.north + 1);
   const double steepness = 1 / std::sqrt(fine.east * fine.east + fine.north * fine.north + 1);
   const auto byte = [&](double value) {
     return static_cast<std::int8_t>(math::to_int32(std::floor(value / length * 127 + 0.5)));
   };
-  TileVertex vertex;
+  Corner corner;
+  TileVertex& vertex = corner.vertex;
   vertex.x = static_cast<std::int16_t>(math::to_int32((east - frame.middle_east) / frame.step));
   vertex.y = steps_of(sample.height, ground.base, frame.step);
   vertex.z = static_cast<std::int16_t>(math::to_int32((frame.middle_north - north) / frame.step));
   vertex.normal[0] = byte(-seen.east);
   vertex.normal[1] = byte(1);
   vertex.normal[2] = byte(seen.north);
+  const double around = grid.at(column + 1, row).height + grid.at(column - 1, row).height +
+                        grid.at(column, row + 1).height + grid.at(column, row - 1).height;
   // as tiles with the usual number of cells
   const double resolved = frame.side / tile_cells;
-  const auto color = ground_color(world, colors, sample, {east, north}, steepness, resolved);
-  std::copy(color.begin(), color.end(), vertex.color);
-  return vertex;
+  const GroundForm form{steepness, more * (around / 4 - sample.height) / grid.spacing, resolved,
+                        frame.spacing <= widest_textured_spacing};
+  const GroundLook look = ground_look(world, colors, sample, {east, north}, form);
+  std::copy(look.color.begin(), look.color.end(), vertex.color);
+  corner.kind = look.kind;
+  return corner;
 }
 
 double usual_skirt(const World& world, const TileFrame& frame, const Roughness& rough) {
@@ -96,12 +115,13 @@ double slope_of_border(const TerrainGrid& grid, double spacing, int stride) {
 }
 
 /// Vertices below those of the border.
-void add_skirt(std::vector<TileVertex>& vertices, int count, double skirt, double step) {
+void add_skirt(TerrainMesh& mesh, int count, double skirt, double step) {
   const int depth = math::to_int32(std::ceil(skirt / step));
   for (const std::uint16_t top : border_of_grid(count)) {
-    TileVertex low = vertices[top];
+    TileVertex low = mesh.vertices[top];
     low.y = static_cast<std::int16_t>(std::max(-32768, low.y - depth));
-    vertices.push_back(low);
+    mesh.vertices.push_back(low);
+    mesh.kinds.push_back(mesh.kinds[top]);
   }
 }
 
@@ -170,13 +190,16 @@ TerrainMesh terrain_mesh(const World& world, const TileFrame& frame, const Terra
   made.height = base_of(low, high, frame.step);
   const auto cells = static_cast<std::size_t>(count - 1);
   made.vertices.reserve((cells + 1) * (cells + 1) + 4 * cells);
+  made.kinds.reserve((cells + 1) * (cells + 1) + 4 * cells);
   const GroundColors colors(world);
   for (int row = 0; row < count; ++row) {
     for (int column = 0; column < count; ++column) {
-      made.vertices.push_back(vertex_of(world, colors, frame, {grid, made.height}, column, row));
+      const Corner corner = corner_of(world, colors, frame, {grid, made.height}, column, row);
+      made.vertices.push_back(corner.vertex);
+      made.kinds.push_back(corner.kind);
     }
   }
-  add_skirt(made.vertices, count, skirt, frame.step);
+  add_skirt(made, count, skirt, frame.step);
   return made;
 }
 

@@ -2,13 +2,15 @@
 /// The terrain of a tile as a quantized mesh.
 #include "core/generators/world/error_model.h"
 #include "core/generators/world/glb.h"
+#include "core/generators/world/ground_texture.h"
 #include "core/generators/world/terrain_grid.h"
 
 namespace seedmesh::world {
 
 struct TerrainMesh {
   std::vector<TileVertex> vertices;
-  double height = 0;  ///< metres at position 0: a multiple of the step
+  std::vector<GroundKind> kinds;  ///< of the vertices
+  double height = 0;              ///< metres at position 0: a multiple of the step
 };
 
 /// Returns a vertex for each sample of the tile, and below those of the border a skirt whose walls face outwards;

@@ -4,6 +4,7 @@
 #include "core/generators/world/canopy.h"
 #include "core/generators/world/flat_mesh.h"
 #include "core/generators/world/glb.h"
+#include "core/generators/world/ground_cover.h"
 #include "core/generators/world/ground_texture.h"
 #include "core/generators/world/houses.h"
 #include "core/generators/world/lanes.h"
@@ -32,24 +33,73 @@ void add_mesh(Glb& glb, const Surface& surface, const TileMesh& mesh, const Tile
   glb.add_mesh(surface.name, mesh, glb.add_material(surface.name, surface.roughness), frame.step, base);
 }
 
-void add_terrain(Glb& glb, const World& world, const TileFrame& frame, const TerrainMesh& terrain, Job& job) {
+/// The kinds of ground of the triangles of a terrain: that of two corners, or else of the first. If one is by far the most
+/// frequent, all have it, since indices of their own make a tile larger.
+std::vector<GroundKind> kinds_of(const TerrainMesh& terrain, const std::vector<std::uint16_t>& corners) {
+  constexpr double most_share = 0.76, least_share = 0.02;
+  std::vector<GroundKind> kinds;
+  std::array<std::size_t, ground_kinds> counts{};
+  const auto number = [](GroundKind kind) { return static_cast<std::size_t>(kind); };
+  for (std::size_t k = 0; k < corners.size(); k += 3) {
+    const GroundKind a = terrain.kinds[corners[k]], b = terrain.kinds[corners[k + 1]],
+                     c = terrain.kinds[corners[k + 2]];
+    kinds.push_back(b == c ? b : a);
+    ++counts[number(kinds.back())];
+  }
+  const auto first = std::max_element(counts.begin(), counts.end());
+  const double all = static_cast<double>(kinds.size());
+  const double least = static_cast<double>(*first) > most_share * all ? all : least_share * all;
+  for (GroundKind& kind : kinds) {
+    if (static_cast<double>(counts[number(kind)]) < least)
+      kind = static_cast<GroundKind>(first - counts.begin());
+  }
+  return kinds;
+}
+
+int add_ground_material(Glb& glb, const World& world, GroundKind kind, Job& job) {
   const auto [name, roughness] = ground_surface;
+  return glb.add_material(name, roughness, shared_files + ground_texture(world, kind, job)->hash + ".png");
+}
+
+void add_terrain(Glb& glb, const World& world, const TileFrame& frame, const TerrainMesh& terrain, Job& job) {
   const auto shared = terrain_file(world, job);
   const int buffer = glb.add_shared_buffer(shared->hash + ".bin", shared->file.size());
-  const FilePart& indices = frame.cells == dense_cells ? shared->dense_indices : shared->indices;
+  const bool is_dense = frame.cells == dense_cells;
+  const FilePart& indices = is_dense ? shared->dense_indices : shared->indices;
   job.spend(Resource::triangles, indices.count / 3);
-  Glb::SharedParts parts;
-  parts.order = glb.add_shared_indices(buffer, indices.offset, indices.count);
-  int material = -1;
+  Glb::Parts parts;
   if (frame.spacing <= widest_textured_spacing) {
-    const auto texture = ground_texture(world, job);
-    parts.coordinates =
-        glb.add_shared_coordinates(buffer, shared->coordinates.offset, shared->coordinates.count);
-    material = glb.add_material(name, roughness, shared_files + texture->hash + ".png");
-  } else {
-    material = glb.add_material(name, roughness);
+    const FilePart& coordinates = is_dense ? shared->dense_coordinates : shared->coordinates;
+    parts.coordinates = glb.add_shared_coordinates(buffer, coordinates.offset, coordinates.count);
   }
-  glb.add_mesh("terrain", terrain.vertices, parts, material, frame.step, terrain.height);
+  const auto add_all = [&](int material) {
+    parts.parts.push_back({glb.add_shared_indices(buffer, indices.offset, indices.count), material});
+  };
+  if (frame.spacing > widest_textured_spacing) {
+    add_all(glb.add_material(ground_surface.name, ground_surface.roughness));
+  } else if (frame.spacing > widest_kind_spacing) {
+    add_all(add_ground_material(glb, world, GroundKind::land, job));
+  } else {
+    const std::vector<std::uint16_t> corners = terrain_indices(frame.cells + 1);
+    const std::vector<GroundKind> kinds = kinds_of(terrain, corners);
+    for (std::size_t k = 0; k < ground_kinds; ++k) {
+      const auto kind = static_cast<GroundKind>(k);
+      const auto count = static_cast<std::size_t>(std::count(kinds.begin(), kinds.end(), kind));
+      if (count == 0) continue;
+      if (count == kinds.size()) {
+        add_all(add_ground_material(glb, world, kind, job));
+        break;
+      }
+      std::vector<std::uint32_t> own;
+      own.reserve(3 * count);
+      for (std::size_t t = 0; t < kinds.size(); ++t) {
+        if (kinds[t] == kind) own.insert(own.end(), {corners[3 * t], corners[3 * t + 1], corners[3 * t + 2]});
+      }
+      parts.parts.push_back(
+          {glb.add_indices(own, terrain.vertices.size()), add_ground_material(glb, world, kind, job)});
+    }
+  }
+  glb.add_mesh("terrain", terrain.vertices, parts, frame.step, terrain.height);
 }
 
 /// Whether a piece of a road can have a part in a rectangle.
@@ -121,6 +171,8 @@ std::string tile_glb(const World& world, const TileKey& key, Job& job) {
   const TerrainGrid grid = sample_grid(world, frame, frame.cells, 1, job);
   const TerrainMesh terrain = terrain_mesh(world, frame, grid, skirt_depth(world, key.level, grid));
   if (world.has(Layer::terrain)) add_terrain(glb, world, frame, terrain, job);
+  if (key.level == world.levels - 1 && has_ground_cover(world))
+    add_ground_cover(glb, world, frame, grid, terrain, job);
   if (world.has(Layer::water)) {
     const WaterMesh water = water_of(world, frame, {grid, terrain.height}, job);
     add_mesh(glb, water_surface, water.mesh, frame, terrain.height, job);
@@ -140,8 +192,10 @@ std::optional<SharedFile> shared_file(const World& world, std::string_view hash,
   if (world.has(Layer::terrain)) {
     const auto terrain = terrain_file(world, job);
     if (terrain->hash == hash) return binary(terrain->file);
-    const auto texture = ground_texture(world, job);
-    if (texture->hash == hash) return SharedFile{texture->file, "image/png", "png"};
+    for (std::size_t k = 0; k < ground_kinds; ++k) {
+      const auto texture = ground_texture(world, static_cast<GroundKind>(k), job);
+      if (texture->hash == hash) return SharedFile{texture->file, "image/png", "png"};
+    }
   }
   for (std::size_t k = 0; world.has(Layer::plants) && k < world.params.plants.size(); ++k) {
     const int number = static_cast<int>(k);
@@ -149,6 +203,10 @@ std::optional<SharedFile> shared_file(const World& world, std::string_view hash,
       PlantFile file = plant_file(world, number, form);
       if (file.hash == hash) return binary(std::move(file.bytes));
     }
+  }
+  if (has_ground_cover(world)) {
+    PlantFile cover = cover_file(world).file;
+    if (cover.hash == hash) return binary(std::move(cover.bytes));
   }
   if (world.has(Layer::plants) && !world.params.plants.empty()) {
     const auto canopy = canopy_texture(world, job);

@@ -68,14 +68,32 @@ bool is_below(const TerrainGrid& grid, int column, int row, double level) {
                   std::min(grid.at(column, row + 1).height, grid.at(column + 1, row + 1).height)) < level;
 }
 
-/// One sheet for the whole tile: the ground hides it where it is dry.
-void add_sea(FlatMesh& builder, const TerrainGrid& grid, double level) {
-  const int cells = grid.count - 1;
-  for (int row = 0; row < cells; ++row) {
-    for (int column = 0; column < cells; ++column) {
-      if (is_below(grid, column, row, level)) return add_sheet(builder, grid, {0, 0, cells, cells}, level);
+/// The sea in squares of cells, where ground is below it; the ground hides it where it is dry.
+void add_sea(FlatMesh& builder, const World& world, const TerrainGrid& grid, Job& job) {
+  constexpr int squares = 16;
+  const double level = world.params.relief.sea_level;
+  const int cells = grid.count - 1, step = std::max(1, cells / squares);
+  const GroundColors colors(world);
+  const auto place = [&](int column, int row) {
+    return glm::dvec2(grid.west + column * grid.spacing, grid.south + row * grid.spacing);
+  };
+  const auto color = [&](int column, int row) {
+    return sea_color(world, colors, level - grid.at(column, row).height, place(column, row),
+                     step * grid.spacing);
+  };
+  for (int row = 0; row < cells; row += step) {
+    job.check();
+    for (int column = 0; column < cells; column += step) {
+      bool is_wet = false;
+      for (int k = 0; k <= step * (step + 2) && !is_wet; ++k)
+        is_wet = grid.at(column + k % (step + 1), row + k / (step + 1)).height < level;
+      if (!is_wet) continue;
+      builder.add_rectangle(place(column, row), place(column + step, row + step), level,
+                            {color(column, row), color(column + step, row), color(column + step, row + step),
+                             color(column, row + step)});
     }
   }
+  builder.set_color(linear_color(world.params.colors.water));
 }
 
 void add_lake(FlatMesh& builder, const TerrainGrid& grid, const Lake& lake) {
@@ -94,7 +112,7 @@ WaterMesh water_of(const World& world, const TileFrame& frame, const TileGround&
   const TerrainGrid& grid = tile.grid;
   const Rectangle box{frame.west, frame.south, frame.west + frame.side, frame.south + frame.side};
   FlatMesh builder(frame, tile.base, linear_color(world.params.colors.water));
-  if (world.params.relief.sea) add_sea(builder, grid, world.params.relief.sea_level);
+  if (world.params.relief.sea) add_sea(builder, world, grid, job);
   if (grid.spacing <= widest_lake_spacing) {
     const Ground ground(world, box, job, lake_reach);
     for (const Lake& lake : ground.lakes()) {
