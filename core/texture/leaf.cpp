@@ -17,7 +17,7 @@ using glm::dvec2;
 using glm::vec2;
 
 // Blossoms and shoots of needles have fewer, narrow leaves more, so that all twigs have similar gaps.
-constexpr int leaves_of_a_twig = 31, blossoms_of_a_spray = 9, narrow_leaves_of_a_twig = 57;
+constexpr int leaves_of_a_twig = 31, blossoms_of_a_spray = 9, narrow_leaves_of_a_twig = 91;
 constexpr int shoots_of_a_spruce = 13, shoots_of_a_pine = 7;
 // Rows between two checks of the deadline.
 constexpr int rows_a_look = 32;
@@ -190,7 +190,7 @@ struct Colors {
 Colors colors_of(LeafShape shape) {
   switch (shape) {
     case LeafShape::willow:
-      return {{122, 146, 86}, {120, 104, 62}};
+      return {{122, 146, 86}, {168, 148, 92}};
     case LeafShape::birch:
       return {{106, 146, 62}, {96, 66, 48}};
     case LeafShape::cordate:
@@ -316,10 +316,12 @@ void let_light_through(Material& material, LeafShape shape) {
 }
 
 // Mip levels are means of alpha. With a lower cutoff, dense textures of fine parts close in the distance. With a higher
-// one, twigs of spruces vanish at the sixth level: their needles are thin, and their mean alpha is 0.29.
+// one, twigs of spruces vanish at the sixth level, because their needles are thin and their mean alpha is 0.29. Those of
+// willows are sparse too.
 float leaf_cutoff(std::string_view kind) {
   const LeafPicture picture = leaf_picture(kind);
-  return picture.count > 1 && picture.shape != LeafShape::needles ? 0.5F : 0.45F;
+  if (picture.count == 1 || picture.shape == LeafShape::needles) return 0.45F;
+  return picture.shape == LeafShape::willow ? 0.43F : 0.5F;
 }
 
 Finish leaf_finish(std::string_view kind, const Tint& tint) {
@@ -330,7 +332,7 @@ Finish leaf_finish(std::string_view kind, const Tint& tint) {
   finish.rough_low = 0.75F;
   finish.rough_high = 0.55F;
   finish.rough_accent = 0.85F;
-  finish.shade = 0.1F;
+  finish.shade = 0;  // occlusion by other leaves is in the vertex colours
   return finish;
 }
 

@@ -24,7 +24,7 @@ const leaves_of = async (name) => (await preset(name)).filter((each) => each.is_
 
 /**
  * Length of blades in cm without petioles; leaf area by the projection of the crown. `share` is the length of a blade by that
- * of its twig, as the drawings of twigs have it (31 leaves, 57 of willows).
+ * of its twig, as the drawings of twigs have it (31 leaves, 91 of willows).
  */
 const trees = {
   oak: { blade: [7, 14], share: 0.22, area: [3, 7] },
@@ -32,7 +32,7 @@ const trees = {
   maple: { blade: [7, 12], share: 0.175, area: [3, 7] },
   quaking_aspen: { blade: [3, 8], share: 0.19, area: [2, 5] },
   poplar: { blade: [5, 8], share: 0.19, area: [3, 7.5] },
-  weeping_willow: { blade: [5, 12], share: 0.27, area: [3, 7] },
+  weeping_willow: { blade: [8, 16], share: 0.17, area: [3, 7] },
 };
 
 /** Lengths of twigs: the extent of each along v, which the first `corners` vertices of each have. */

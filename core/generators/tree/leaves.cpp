@@ -25,17 +25,21 @@ constexpr float filled_card = 0.5F;
 // The name of a random number.
 constexpr std::uint64_t roll_name = 0x526F;
 // Crossed rectangles are steep: the normals of their lower sides can then turn up without leaving their face.
-constexpr double cross_tilt = 55;
+constexpr double cross_tilt = 62;
 // Headings of leaves (unit vectors) with a shorter horizontal part count as vertical and are not turned.
 constexpr float least_level = 0.05F;
 // Between both sides of a leaf, as a share of its length: 0.2 to 2 mm.
 constexpr float thickness = 0.003F;
 
-/// The frame of a leaf turned about its length by a random angle of up to `most` degrees to either side.
+/// The frame of a leaf turned about its length by a random angle of up to `most` degrees to either side. Their density
+/// grows with the sine of the angle, as that of the slopes of leaves that face all directions alike: few are level.
 glm::quat rolled(const Organ& organ, double most) {
   const double share = 2 * static_cast<double>(fraction_of(key_at(organ.key, roll_name))) - 1;
-  const math::SinCos half = math::sincos_degrees(0.5 * most * share);
-  return organ.frame * glm::quat(static_cast<float>(half.cos), 0, static_cast<float>(half.sin), 0);
+  // With cos(angle) uniform from cos(most) to 1, the sine of half the angle grows with a square root.
+  const double sine = math::sincos_degrees(0.5 * most).sin * std::sqrt(std::abs(share));
+  const double cosine = std::sqrt(1 - sine * sine);
+  return organ.frame *
+         glm::quat(static_cast<float>(cosine), 0, static_cast<float>(share < 0 ? -sine : sine), 0);
 }
 
 /// The frame turned about its length until its width is level and its upper side up. Vertical frames remain.

@@ -321,6 +321,7 @@ LeafDrawing twig(LeafShape shape, const LeafDetail& detail, int count) {
   if (shape == LeafShape::needles) return needle_twig(NeedleKind::single, count);
   if (shape == LeafShape::pine_needles) return needle_twig(NeedleKind::paired, count);
   if (shape == LeafShape::petal) return spray(detail, count);
+  if (shape == LeafShape::willow) return hanging_twig(single(shape, detail), count);
   // Maples bear their leaves in pairs.
   return leafy_twig(single(shape, detail), count,
                     shape == LeafShape::maple ? Phyllotaxis::opposite : Phyllotaxis::alternate);

@@ -8,14 +8,15 @@
 namespace seedmesh {
 
 /// The placement of a leaflet: its base, the direction of its tip in degrees to the right of +y, its length, and a
-/// factor of its width. The factor is below 1 for a leaflet that is seen from the side.
+/// factor of its width. The factor is below 1 for a leaflet that is seen from the side. `bend`: how far the tip is bent
+/// to the right, as a share of the length.
 struct LeafletPlacement {
   glm::dvec2 at{0};
-  double degrees = 0, length = 1, width = 1;
+  double degrees = 0, length = 1, width = 1, bend = 0;
 
   glm::dvec2 operator()(glm::dvec2 p) const {
     const math::SinCos turn = math::sincos_degrees(degrees);
-    const double x = p.x * width;
+    const double x = p.x * width + bend * p.y * p.y;
     return at + glm::dvec2{x * turn.cos + p.y * turn.sin, p.y * turn.cos - x * turn.sin} * length;
   }
 };

@@ -23,7 +23,7 @@ constexpr float least_over = 0.1F, wanted_over = 0.15F;
 // its upper side. The margin is several times the error of normals of eight bits.
 constexpr float least_beside = 0.03F, wanted_beside = 0.05F;
 // Outward normals are between straight up and the surface of the crown, because leaves turn to the light.
-constexpr float up_share = 0.6F;
+constexpr float up_share = 0.68F;
 constexpr int most_passes = 4;
 
 /// Of each lane: the columns of the rotation, the columns multiplied by the scale, and the inverse of the

@@ -72,7 +72,7 @@ TEST(OrganBlock, RotatesScalesAndMovesASurface) {
   }
 }
 
-/// m = normalize(share unit(0.4 unit((p - c) / e^2) + 0.6 up) + (1 - share) f); where m f < 0.03, n has the
+/// m = normalize(share unit(0.32 unit((p - c) / e^2) + 0.68 up) + (1 - share) f); where m f < 0.03, n has the
 /// direction of m beside f and n f = 0.05, in double precision.
 TEST(OrganBlock, TurnsNormalsOutwardAsFarAsTheyStayOnTheSideOfTheirFaces) {
   Job job = job_of();
@@ -93,7 +93,7 @@ TEST(OrganBlock, TurnsNormalsOutwardAsFarAsTheyStayOnTheSideOfTheirFaces) {
     const glm::dvec3 axes(options.crown_axes);
     const glm::dvec3 away =
         glm::normalize((glm::dvec3(mesh.position[i]) - glm::dvec3(*options.crown)) / (axes * axes));
-    const glm::dvec3 light = glm::normalize(0.4 * away + glm::dvec3(0, 0.6, 0));
+    const glm::dvec3 light = glm::normalize(0.32 * away + glm::dvec3(0, 0.68, 0));
     glm::dvec3 wanted = glm::normalize(0.65 * light + 0.35 * own);
     const double over = glm::dot(wanted, own);
     if (over < 0.03) wanted = std::sqrt(1 - 0.05 * 0.05) * glm::normalize(wanted - over * own) + 0.05 * own;
