@@ -145,7 +145,7 @@ void add_commands(CLI::App& app, Arguments& arguments, Texts& texts) {
                         "A further file, such as a view file of cpfg; may be repeated.");
   importing->add_option(
       "-t,--to", arguments.files.to,
-      "Write a file of this program instead: proctree or proctree_js. The file can then be a request.");
+      "Write a file of this program instead: proctree or proctree_js. The input can then be a request, too.");
   importing->add_option("-o,--out", arguments.files.out, "File for the result; - means standard output.");
   command("presets", "List the presets, or print the request of one.")
       ->add_option("name", arguments.preset, "The preset to print.");
@@ -172,7 +172,7 @@ void add_commands(CLI::App& app, Arguments& arguments, Texts& texts) {
       ->required();
   signing->add_option("--valid-for", arguments.valid_for,
                       "Seconds that the signature is valid; 0 means no end.");
-  command("key", "Create a new API key and signing key, and print the lines for the settings.")
+  command("key", "Create a new API key and signing key, and print the settings that contain them.")
       ->add_option("name", arguments.key_name, "Name of both keys.")
       ->required();
   CLI::App* checking = command("healthcheck", "Check that a service on this machine responds.");
@@ -241,9 +241,10 @@ int main(int count, char** words) {
   });
   app.require_subcommand(1);
   app.footer(
-      "Environment variables can set every flag of serve, for all commands: SEEDMESH_TIME_LIMIT sets "
+      "All commands read the flags of serve from environment variables, too: SEEDMESH_TIME_LIMIT sets "
       "--time-limit.\n"
-      "Exit status: 0; 1 for a refused request, with the problem as JSON on standard error; 2 for wrong "
+      "Exit status: 0 on success; 1 for a refused request, with the problem as JSON on standard error; 2 for "
+      "wrong "
       "usage.");
   Texts texts;
   Arguments arguments;

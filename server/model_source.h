@@ -1,5 +1,5 @@
 #pragma once
-/// Where `seedmesh sync` gets its models: from this program, or from a server over HTTP.
+/// The source of the models of `seedmesh sync`: this program, or a server over HTTP.
 #include <memory>
 #include <stop_token>
 #include <string>
@@ -11,6 +11,7 @@
 
 namespace seedmesh {
 
+/// The result of one request to a source.
 struct SourceResponse {
   enum class Kind {
     made,         ///< `payload` and `etag`

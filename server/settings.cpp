@@ -134,8 +134,9 @@ std::string set_log_level(Config& config, std::string_view given) {
 
 const std::vector<Setting>& setting_rows() {
   static const std::vector<Setting> rows = {
-      {"host", "Address to listen on.", set_host, [](const Config& c) { return Json(c.host); }},
-      count("port", "Port to listen on; 0 selects any free port.", &Config::port, 0, 65'535),
+      {"host", "Address at which the service listens.", set_host,
+       [](const Config& c) { return Json(c.host); }},
+      count("port", "Port at which the service listens; 0 selects any free port.", &Config::port, 0, 65'535),
       count("threads", "Largest number of concurrent generations, and of threads of one generation.",
             &Config::threads, 1, 1'024),
       count("queue", "Requests that may wait for a worker; a further request receives 429.", &Config::queue,
@@ -150,7 +151,7 @@ const std::vector<Setting>& setting_rows() {
            3'600),
       real("idle-timeout", "Seconds that a connection may be idle.", &Config::idle_timeout, 1, 3'600),
       real("write-timeout",
-           "Seconds in which a client has to read the next 64 KiB of a response, or a shorter rest.",
+           "Seconds in which a client has to read the next 64 KiB of a response, or all that remains.",
            &Config::write_timeout, 1, 3'600),
       real("min-rate", "Bytes per second that a client has to read of a large response; 0 means no limit.",
            &Config::min_rate, 0, 1e9, "NUMBER"),

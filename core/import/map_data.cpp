@@ -40,7 +40,7 @@ void MapWarnings::add(std::string message, const MapPosition& position) {
   entries_.push_back({std::move(message), position, 1});
 }
 
-std::vector<Warning> MapWarnings::take(std::string_view text) const {
+std::vector<Warning> MapWarnings::list(std::string_view text) const {
   std::vector<Warning> warnings;
   for (const Entry& entry : entries_) {
     Warning warning;

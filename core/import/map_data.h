@@ -56,9 +56,9 @@ enum class MapUnit { degrees, web_mercator, metres };
 class MapWarnings {
  public:
   void add(std::string message, const MapPosition& position);
-  /// Returns a copy as a list, in the order of their first occurrences. `text` is the file, for lines and
+  /// Returns the warnings in the order of their first occurrences. `text` is the file, for lines and
   /// columns; it is empty for JSON.
-  std::vector<Warning> take(std::string_view text) const;
+  std::vector<Warning> list(std::string_view text) const;
 
  private:
   struct Entry {

@@ -204,7 +204,7 @@ Result<Imported> scene_of_map(MapData data, std::string_view text, const ImportO
   Json parameters = parameters_of(map);
   if (!georeference.is_null()) parameters["georeference"] = georeference;
   imported.request = {{"generator", "scene"}, {"parameters", std::move(parameters)}};
-  imported.warnings = data.warnings.take(text);
+  imported.warnings = data.warnings.list(text);
   return imported;
 }
 

@@ -174,21 +174,6 @@ TaggedValue Program::run_tagged(const Expression& expression, const TaggedValue*
   return texts[0] != 0 ? TaggedValue{0, texts[0]} : TaggedValue{numbers[0], 0};
 }
 
-std::uint32_t Program::slots_used(const Expression& expression) const {
-  using enum Expression::Form;
-  if (expression.form == slot || expression.form == slot_and_value) return expression.left + 1;
-  if (expression.form == slot_and_slot) return std::max(expression.left, expression.right) + 1;
-  std::uint32_t used = 0;
-  for (std::uint32_t i = 0; i < expression.count; ++i) {
-    const Instruction& now = code_[expression.first + i];
-    if (now.left_in == Storage::slots) used = std::max(used, now.left + 1);
-    if (now.right_in == Storage::slots) used = std::max(used, now.right + 1);
-    if (now.operation == Operation::element)
-      used = std::max(used, static_cast<std::uint32_t>(numbers_[now.right] + numbers_[now.right + 1]));
-  }
-  return used;
-}
-
 bool Program::draws(const Expression& expression) const {
   const auto first = code_.begin() + static_cast<std::ptrdiff_t>(expression.first);
   return std::any_of(first, first + static_cast<std::ptrdiff_t>(expression.count),

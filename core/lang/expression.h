@@ -175,7 +175,7 @@ class Program {
   Expression parse(std::span<const Token> tokens, std::size_t& at, const Names& names,
                    std::vector<TextError>& errors, std::uint32_t max_depth = 200);
 
-  /// Returns the value of the expression. `slots` has at least slots_used() values, as bound at parsing. Draws random
+  /// Returns the value of the expression. `slots` has the value of each name, by the number to which Names binds it. Draws random
   /// numbers from `rng` in the order of evaluation, from left to right. Allocates nothing. Cost: about 2 ns for a
   /// constant, a slot or one operation; otherwise 5 ns, 3 ns for each operation and up to 100 ns for a transcendental
   /// function.
@@ -184,9 +184,6 @@ class Program {
   /// The same if values may be texts. == and != compare texts; a text equals no number; select() passes texts
   /// on. All other operations and functions take a text as NaN. Cost: about twice that of evaluate().
   TaggedValue evaluate_tagged(const Expression& expression, const TaggedValue* slots, Rng& rng) const;
-
-  /// Returns the number of the highest slot that the expression reads, plus one; 0 if it reads none.
-  std::uint32_t slots_used(const Expression& expression) const;
 
   bool draws(const Expression& expression) const;  ///< calls a random function
 

@@ -13,9 +13,10 @@ namespace seedmesh::lang {
 /// such function.
 std::span<const Function> rows_of(std::string_view name);
 
+/// Return the message about a name or a function that does not exist, with the nearest known name.
 std::string unknown_name(const Names& names, std::string_view name);
 std::string unknown_function(const Names& names, std::string_view name);
-/// `rows` has at least one row.
+/// Return the message about a call with `found` arguments. `rows` has at least one row.
 std::string wrong_number_of_arguments(std::span<const Function> rows, std::size_t found);
 std::string wrong_number_of_arguments(std::string_view name, const Names::Defined& function,
                                       std::size_t found);

@@ -25,7 +25,7 @@ class TextPositions {
 
 /// Returns true while there are at most max_errors errors, so that a reader should go on. One more error shows that the
 /// list was cut.
-inline bool has_room(const std::vector<TextError>& errors) { return errors.size() <= max_errors; }
+inline bool can_add_error(const std::vector<TextError>& errors) { return errors.size() <= max_errors; }
 
 /// Adds the errors of `text`, the value at `pointer`, in the order of the text. It adds the first max_errors, and a
 /// truncated_list if there are more.

@@ -87,7 +87,7 @@ Bins::Bins(const ProjectedScene& shown, bool blending, std::uint32_t height, con
       job.check();
       for (t.number = run.begin; t.number < run.end; ++t.number) {
         if ((t.number + 1) % check_every == 0) job.check();
-        if (!take(t, shown, drawing, lens, sides, all)) continue;
+        if (!read_triangle(t, shown, drawing, lens, sides, all)) continue;
         const auto first = static_cast<std::uint32_t>(std::max(t.cover.top, 0)) / height_;
         const auto last = static_cast<std::uint32_t>(std::min(t.cover.bottom, all.end - 1)) / height_;
         for (std::uint32_t band = first; band <= last; ++band) list[band].push_back({number, t.number});

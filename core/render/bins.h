@@ -22,8 +22,8 @@ struct Triangle {
 
 /// Reads the corners of triangle `number` of a drawing, and sets its box. Returns false if the triangle covers no
 /// sample of the rows or is left out. Does not set the edges.
-inline bool take(Triangle& t, const ProjectedScene& shown, const Drawing& drawing, const Lens& lens,
-                 Sides sides, const Rows& rows) {
+inline bool read_triangle(Triangle& t, const ProjectedScene& shown, const Drawing& drawing, const Lens& lens,
+                          Sides sides, const Rows& rows) {
   Cover& c = t.cover;
   for (std::size_t i = 0; i < 3; ++i) {
     t.vertex[i] = drawing.mesh->index.at(std::size_t{3} * t.number + i);

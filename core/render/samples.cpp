@@ -110,7 +110,7 @@ class Band {
       if (i % check_every == 0) job_.check();
       if (triangles[i].drawing != number_) take_drawing(triangles[i].drawing);
       t.number = triangles[i].number;
-      if (!take(t, shown_, *drawing_, lens_, sides_, rows_)) continue;
+      if (!read_triangle(t, shown_, *drawing_, lens_, sides_, rows_)) continue;
       set_edges(t.cover);
       visit(t);
     }

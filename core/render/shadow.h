@@ -11,7 +11,7 @@ struct ShadowMap {
   double step = 1;  ///< metres of a texel
   std::uint32_t size = 0;
   Array<float> depth;  ///< towards the sun; greater is nearer to it
-  /// The least and the greatest depth around each square of `block` texels, to `reach` texels beyond it.
+  /// The least and the greatest depth in a square of `block` texels and up to `reach` texels beyond it.
   struct Range {
     float least, greatest;
   };
@@ -46,7 +46,7 @@ struct ShadowMap {
     return range.least > at.depth ? 0.0F : -1.0F;
   }
 
-  Lens lens;
+  Lens lens;       ///< maps the frame of the model to texels and depth
   float bias = 0;  ///< metres towards the sun
   float side = 0;  ///< `size`
   std::size_t stride = 0, blocks = 0;

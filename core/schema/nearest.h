@@ -5,12 +5,13 @@
 
 namespace seedmesh::schema {
 
-/// Returns the one of `words` that `word` most likely means, or an empty text. A word that differs only in
-/// case, "_" and "-" comes first. Next comes a word that a short list of synonyms names, such as autumn for
-/// fall. Otherwise it is the word with the smallest Damerau distance, and the first one of several. That
-/// distance counts insertions, deletions, changes and swaps of neighbours (Damerau, "A technique for computer
-/// detection and correction of spelling errors", 1964). It is at most 3, and at most a third of the letters. Last comes
-/// the only word that continues `word`, or that `word` continues, if the shorter one has four letters.
+/// Returns the one of `words` that `word` most likely means, or an empty text. These are tried in turn:
+/// 1. a word that differs only in case, "_" and "-";
+/// 2. a word of a short list of synonyms, such as autumn for fall;
+/// 3. the word with the smallest Damerau distance, the first one of several. The distance counts insertions, deletions,
+///    changes and swaps of neighbours (Damerau, "A technique for computer detection and correction of spelling errors",
+///    1964). It is at most 3, and at most a third of the letters;
+/// 4. the only word that begins with `word`, or with which `word` begins, if the shorter one has four letters.
 /// Words of more than 64 bytes are not compared. Cost: length squared for each word.
 std::string_view nearest_word(std::string_view word, std::span<const std::string_view> words);
 

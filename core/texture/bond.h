@@ -19,8 +19,8 @@ class Courses {
  public:
   Courses(const Bond& bond, int size);
 
-  /// A row of texels. Positions in a piece are from 0 to 1, y down; distances are metres to the nearest vertical
-  /// and horizontal border.
+  /// A row of texels. `x` and `y` are positions in a piece, from 0 to 1, y down. `to_side` and `to_bed` are the distances
+  /// to the nearest vertical and horizontal border of the piece, in metres.
   struct Row {
     int row;
     float y, to_bed;

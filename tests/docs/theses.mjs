@@ -124,22 +124,26 @@ const titles = {
   Hutsko: 'Hutsko 2022: growth of plants', Tajić: 'Tajić 2009: models of trees', Sojma: 'Sojma: stochastic 0L-systems and leaves',
 };
 
+const longest_cell = 80;  // characters of a request or a list in a table cell; docs/theses.json has longer ones
 const code = (text) => `\`${text.replaceAll('|', '\\|').replaceAll('\n', ' ').trim()}\``;
 function value_text(value) {
   if (value === undefined) return '';
   const text = typeof value === 'string' ? value : Array.isArray(value) ? value.map((each) => (Array.isArray(each) ? `(${each.join(', ')})` : each)).join(', ') : value.toLocaleString('en-US', { maximumFractionDigits: 6 });
+  if (Array.isArray(value) && text.length > longest_cell) return `${value_text(value.slice(0, 2))} … (${value.length} entries)`;
   if (typeof value !== 'string') return text;
   return text.length <= 36 ? code(text) : `${code(text.slice(0, 24))} … (${text.length} letters)`;
 }
 
+/** The preset of a row and its changed members; requests that are too long for a cell are in docs/theses.json. */
 function made_by(row) {
   const request = Array.isArray(row.request) ? row.request[0] : row.request;
   const more = Array.isArray(row.request) && row.request.length > 1 ? `, and ${row.request.length - 1} more` : '';
   if (!request) return row.preset ? code(row.preset) : '';
   const changed = Object.entries({ ...request.parameters, ...request.output }).map(([name, value]) => `${name}: ${JSON.stringify(value)}`).join(', ');
-  if (request.preset) return `${code(request.preset)}${changed ? ` with ${code(changed)}` : ''}${more}`;
+  const is_long = changed.length > longest_cell;
+  if (request.preset) return `${code(request.preset)}${changed ? ` with ${is_long ? 'the members in `theses.json`' : code(changed)}` : ''}${more}`;
+  const text = is_long ? 'the request in `theses.json`' : code(changed);
   const seed = request.seed === undefined ? '' : `, seed ${request.seed}`;
-  const text = changed.length > 140 ? 'the request in `theses.json`' : `${code(changed)}`;
   return `${row.preset ? `${code(row.preset)}; ` : ''}${request.generator}, ${text}${seed}${more}`;
 }
 

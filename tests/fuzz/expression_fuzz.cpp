@@ -45,7 +45,6 @@ void check_faults(const std::vector<lang::TextError>& faults, std::size_t before
 
 void check_value(const lang::Program& program, const lang::Expression& expression) {
   constexpr std::array slots = {3.0, -0.5, 1e9};
-  require(program.slots_used(expression) <= slots.size());
   Rng once = Rng::of_seed(1), again = once;
   const double value = program.evaluate(expression, slots.data(), once);
   require(bits(value) == bits(program.evaluate(expression, slots.data(), again)));

@@ -94,7 +94,7 @@ async function problem_of(response: Response): Promise<Problem> {
   try {
     return (await response.json()) as Problem;
   } catch {
-    return { detail: `The server answered ${response.status} ${response.statusText}.` };
+    return { detail: `The server responded with ${response.status} ${response.statusText}.` };
   }
 }
 

@@ -2,7 +2,7 @@
 import type { Generator, Preset } from './api';
 import { el } from './dom';
 import { neighbour, roving } from './roving';
-import { matcher } from './words';
+import { matcher } from './word_search';
 
 export interface Gallery {
   /** Marks the card of the open preset; null marks none. */

@@ -14,7 +14,7 @@ import { wire_growth, type GrowthAsk } from './growth';
 import { is_typing, wire_help } from './help';
 import { levels_of, motions_of } from './levels';
 import { wire_menus } from './menu';
-import { wire_nine } from './nine';
+import { wire_nine } from './seed_choice';
 import { wire_files } from './open_files';
 import { wire_request_text } from './request_text';
 import { wire_result } from './result';

@@ -75,7 +75,7 @@ export interface Problem {
 }
 
 /** One solid. */
-export interface PictureSolidsItem {
+export interface FigureSolidsItem {
   /** The kind of solid. */
   solid?: "box" | "cylinder" | "cone" | "sphere" | "pyramid" | "prism" | "triangular_prism";
   /** The centre of its base, in two dimensions its centre. Default: the origin. */
@@ -89,7 +89,7 @@ export interface PictureSolidsItem {
 }
 
 /** One marker. */
-export interface PictureMarkersItem {
+export interface FigureMarkersItem {
   /** Its label. */
   name: string;
   /** One to three points. Their order matters. */
@@ -97,7 +97,7 @@ export interface PictureMarkersItem {
 }
 
 /** One member of a family, translated, rotated, scaled or mirrored. */
-export interface PictureShapesItem {
+export interface FigureShapesItem {
   /** The name of the family. */
   shape: string;
   /** Values for the parameters of the family: numbers, or expressions over the parameters of this figure. */
@@ -113,17 +113,17 @@ export interface PictureShapesItem {
 }
 
 /** A figure: lines, solids, markers and members of families. */
-export interface Picture {
+export interface Figure {
   /** Named numbers for the coordinates of this figure. They make a figure of `shapes` a family: each use can give them other values. */
   parameters?: { [key: string]: number };
   /** Polylines, each as a row of points. Lines that overlap or continue each other become one line. */
   lines?: (((number | string)[])[])[];
   /** Solids. Rules match whole solids, as in a set grammar. In two dimensions they are boxes (rectangles) and cylinders (circles). */
-  solids?: PictureSolidsItem[];
+  solids?: FigureSolidsItem[];
   /** Labelled points that rules match: the nonterminal shapes. A marker of two or three points is an arrow or a corner, which also has a direction and a size. */
-  markers?: PictureMarkersItem[];
+  markers?: FigureMarkersItem[];
   /** Members of families of shapes that are part of this figure. */
-  shapes?: PictureShapesItem[];
+  shapes?: FigureShapesItem[];
 }
 
 /** A variable of a left shape. */
@@ -147,7 +147,7 @@ export interface BuildingParametersShapeGrammarRulesItem {
   /** An expression over the open variables. Matches for which it is 0 do not count. Without one, all count. */
   condition?: string;
   /** The left shape, which is matched, and the right shape, which replaces it. */
-  pair: [Picture, Picture];
+  pair: [Figure, Figure];
 }
 
 /** A general shape grammar after Stiny and Gips (1972) instead of rules: pairs of labelled shapes in two or three dimensions. The left shape of a pair matches if it is part of the current figure after a translation, rotation, scaling or reflection. Lines also match within longer lines; solids and markers match as a whole. The right shape replaces it. iterations, derivation.mode and restrict apply to it. */
@@ -155,11 +155,11 @@ export interface BuildingParametersShapeGrammar {
   /** 2: points are x and y, seen from above; 3: x, y (up) and z. */
   dimensions?: number;
   /** Shapes by name, with variables for coordinates: each use is a member with values of its own. */
-  shapes?: { [key: string]: Picture };
+  shapes?: { [key: string]: Figure };
   /** The pairs. */
   rules: BuildingParametersShapeGrammarRulesItem[];
   /** The initial figure, as the union of these figures. */
-  initial: Picture[];
+  initial: Figure[];
   /** Whether left shapes also match mirrored. */
   mirror?: boolean;
   /** The width and height of drawn lines. */
@@ -323,7 +323,7 @@ export interface CityParametersMaps {
 
 /** Existing parts of the city as GeoJSON in local metres. They stay as they are, and the rest grows from them. */
 export interface CityParametersGiven {
-  /** Existing streets: LineString, MultiLineString, or a GeometryCollection of them. The value is a FeatureCollection, a Feature or a geometry of GeoJSON in metres, east and north. Members that RFC 7946 does not define have no effect. The properties `class` (highway, major, minor or lane), `width`, `lanes`, `sidewalk` (one number, or left and right), `level`, `bridge` and `tunnel` count. Without `class`, `highway` of OpenStreetMap decides. Where two streets meet or cross on one level, an end or corner of one has to lie within 3 m of the other. */
+  /** Existing streets: LineString, MultiLineString, or a GeometryCollection of them. The value is a FeatureCollection, a Feature or a geometry of GeoJSON in metres, east and north. Members that RFC 7946 does not define have no effect. The properties `class` (highway, major, minor or lane), `width`, `lanes`, `sidewalk` (one number, or left and right), `level`, `bridge` and `tunnel` are used. Without `class`, the tag `highway` of OpenStreetMap selects the class. Where two streets meet or cross on one level, an end or corner of one has to lie within 3 m of the other. */
   streets?: { [key: string]: unknown };
   /** Existing water: Polygon, MultiPolygon, or a GeometryCollection of them. The value is a FeatureCollection, a Feature or a geometry of GeoJSON in metres, east and north. Members that RFC 7946 does not define have no effect. */
   water?: { [key: string]: unknown };
@@ -1050,7 +1050,7 @@ export interface LsystemParameters {
   step?: number | LsystemParametersStep2;
   /** The diameter that the turtle starts with. */
   width?: number | LsystemParametersWidth2;
-  /** The rule for the diameter of a segment. symbols: ! and its argument. decrement: thinner by the width decrement for each derivation step before the segment appeared. branch_factor: multiplied by the width factor for each bracket around the segment. longest_chain: it depends on the longest chain of segments from this segment on. The longest chain of the plant begins with the turtle's first width, and every chain ends with the tip width. pipe_model: the tip width at every tip, summed where limbs meet. */
+  /** The rule for the diameter of a segment. symbols: ! and its argument. decrement: thinner by the width decrement for each derivation step before the segment appeared. branch_factor: multiplied by the width factor for each bracket around the segment. longest_chain: increases linearly with the number of segments to the farthest tip. Every tip has the tip width, and the longest chain of the plant begins with the turtle's first width. pipe_model: the tip width at every tip; where limbs meet, powers of their diameters are added (pipe_exponent). */
   width_rule?: "symbols" | "decrement" | "branch_factor" | "longest_chain" | "pipe_model";
   /** The value that a ! without an argument subtracts from the diameter, and that the width rule decrement subtracts for each derivation step. */
   width_decrement?: number;
@@ -1086,7 +1086,7 @@ export interface LsystemParameters {
   levels?: "outline" | "slices";
   /** Whether thinner limbs have fewer sides and shorter segments fewer stacks. Coarser levels of detail always do. */
   adapt?: boolean;
-  /** Joins the limbs of brackets to one surface, as for trees: limbs of similar thickness in a fork, thin limbs in a collar. Limbs where no joint fits, and limbs with a contour, stay closed tubes that begin inside their parent. Thin welded limbs have fewer sides, and rings where they bend; stacks and adapt have no effect on them. */
+  /** Joins the limbs that brackets begin into one surface, as for trees: limbs of similar thickness in a fork, thin limbs in a collar. Limbs where no joint fits, and limbs with a contour, stay closed tubes that begin inside their parent. Thin welded limbs have fewer sides, and rings where they bend; stacks and adapt have no effect on them. */
   weld?: boolean;
   /** The materials that the turtle's colour index selects, counted from 0. An empty list gives a built-in palette that starts with bark and leaf. */
   materials?: LsystemParametersMaterialsItem[];
@@ -1267,7 +1267,7 @@ export interface SceneParametersLayersItemPlaceNearItem {
 
 /** The positions of the layer. */
 export interface SceneParametersLayersItemPlace {
-  /** poisson: everywhere, with a least distance of `distance`. scatter: `count` random positions. clusters: `count` positions in groups. rows: on a grid of `spacing`. path: along `points`. positions: the list `positions`. Other members of `place` end with the methods that use them, in parentheses. */
+  /** poisson: everywhere, with a least distance of `distance`. scatter: `count` random positions. clusters: `count` positions in groups. rows: on a grid of `spacing`. path: along `points`. positions: the list `positions`. The description of each other member of `place` ends with the methods that use it, in parentheses. */
   method?: "poisson" | "scatter" | "clusters" | "rows" | "path" | "positions";
   /** Explicit positions (positions). */
   positions?: SceneParametersLayersItemPlacePositionsItem[];
@@ -1461,7 +1461,7 @@ export interface TerrainParametersTile {
   x?: number;
   /** The row of the tile, counted southwards. It may be negative without `across`. */
   z?: number;
-  /** The number of tiles along a side of the world. Faults cross this world (fault_formation and poisson_faulting; default 1), and x and z are then below this number. An island covers this world, with sea beyond. With hydraulic erosion it is required: water runs over this world, of at most 4,097 samples a side, and each tile is cut out of it. */
+  /** The number of tiles along a side of the world. The faults of fault_formation and poisson_faulting cross this world; the default is then 1, and x and z are below this number. An island covers this world, with sea beyond. Hydraulic erosion requires this number: water runs over the whole world, which has at most 4,097 samples a side, and each tile is cut out of it. */
   across?: number;
 }
 
@@ -1535,7 +1535,7 @@ export interface TerrainParametersHydraulic {
   area_exponent?: number;
 }
 
-/** Finer ground around a point, such as a walking camera. Within the radius, the squares of the grid are divided until their sides are at most the step; further out, the step doubles with each radius until it is that of the grid. Small forms are added by the kind of ground: ledges and outcrops on rock, lumps on scree, hummocks on grass, ripples on sand and soil, low drifts on snow. They end at the rim and at the border of the field. Only for the shape plane with the mesh grid and without texture. */
+/** Finer ground around a point, such as a walking camera. Within the radius, the squares of the grid are divided until their sides are at most the step; further out, the step doubles with each radius until it is that of the grid. Small forms are added by the kind of ground: ledges and outcrops on rock, lumps on scree, hummocks on grass, ripples on sand and soil, low drifts on snow. They fade toward the outer edge of the refined area and toward the border of the field. Only for the shape plane with the mesh grid and without texture. */
 export interface TerrainParametersRefine {
   /** The point, in metres to the east and south of the middle of the field or tile. */
   center?: [number, number];
@@ -1574,7 +1574,7 @@ export interface TerrainParametersHeightmap {
 export interface TerrainParameters {
   /** The algorithm. fault_formation and poisson_faulting lift one side of random lines. triangular_edge, diamond_square and square_square refine a few heights repeatedly. fbm sums octaves of noise. brownian is fractional Brownian motion along a line, for the shape profile. image takes heights from an image. expression computes each height. fracture breaks a solid along random planes, for rocks of the shape sphere. */
   algorithm?: "fault_formation" | "poisson_faulting" | "triangular_edge" | "diamond_square" | "square_square" | "fbm" | "brownian" | "image" | "expression" | "fracture";
-  /** The height of a sample, for the algorithm expression: x and y are metres to the east and north of the centre. On a sphere, x, y and z are the position, and latitude and longitude are in degrees. size is the size. noise(x, y) is gradient noise; fbm, ridged and billow(x, y, octaves) are sums of it; all take a z as well. ran(high) and similar functions return another random number at each sample. */
+  /** The height of a sample, for the algorithm expression: x and y are metres to the east and north of the centre. On a sphere, x, y and z are the position, and latitude and longitude are in degrees. size is the size of the terrain. noise(x, y) is gradient noise. fbm, ridged and billow(x, y, octaves) are sums of octaves of it. All of them also take a z. ran(high) and similar functions return another random number at each sample. */
   expression?: string;
   /** Further heights that are combined with those of the algorithm, one after the other, before the filters. */
   layers?: TerrainParametersLayersItem[];
@@ -1644,7 +1644,7 @@ export interface TerrainParameters {
   skirt?: number;
   /** Makes a closed solid for printing, with a floor at this distance below the lowest height. */
   base?: number;
-  /** Finer ground around a point, such as a walking camera. Within the radius, the squares of the grid are divided until their sides are at most the step; further out, the step doubles with each radius until it is that of the grid. Small forms are added by the kind of ground: ledges and outcrops on rock, lumps on scree, hummocks on grass, ripples on sand and soil, low drifts on snow. They end at the rim and at the border of the field. Only for the shape plane with the mesh grid and without texture. */
+  /** Finer ground around a point, such as a walking camera. Within the radius, the squares of the grid are divided until their sides are at most the step; further out, the step doubles with each radius until it is that of the grid. Small forms are added by the kind of ground: ledges and outcrops on rock, lumps on scree, hummocks on grass, ripples on sand and soil, low drifts on snow. They fade toward the outer edge of the refined area and toward the border of the field. Only for the shape plane with the mesh grid and without texture. */
   refine?: TerrainParametersRefine;
   /** Colours by height, slope and hollows. stone and mossy are those of rocks: light tops, and tops with moss. forest is the floor of a forest: fallen leaves and needles with patches of herbs. */
   palette?: "alpine" | "desert" | "tropical" | "arctic" | "volcanic" | "moon" | "stone" | "mossy" | "forest" | "grey" | "none";
@@ -2090,7 +2090,7 @@ export interface TreeParameters {
   Leaves?: number;
   /** How the number of leaves of a limb depends on its position along the parent: the number of a crown shape (Shape). The paper has 4. */
   LeafDistrib?: number;
-  /** The program whose numbers of stems, branches and leaves the tree has. paper: the formulas of Weber and Penn (1995); a stem and its clones share its branches and leaves, and each split makes further splits half as likely. arbaro: the formulas of the program Arbaro, which imported species of Arbaro have; a stem and its clones share its branches, but each has as many leaves per segment as a stem without clones. Splits do not become rarer, numbers of branches are rounded down, and pruned limbs stay. sapling: the numbers of branches and leaves of Blender's Sapling, which follow from the lengths of their stems. What would grow below the base of a stem is left out. */
+  /** The source of the formulas for the numbers of stems, branches and leaves. paper: Weber and Penn (1995). A stem and its clones share its branches and leaves, and each split makes further splits half as likely. arbaro: the program Arbaro, as for imported species of Arbaro. A stem and its clones share its branches, but each has as many leaves per segment as a stem without clones. Splits do not become rarer, numbers of branches are rounded down, and pruned limbs stay. sapling: Blender's Sapling, where numbers of branches and leaves follow from the lengths of their stems. Branches and leaves below the base of a stem are left out. */
   counting?: "paper" | "arbaro" | "sapling";
   /** Length of a leaf. */
   LeafScale?: number;

@@ -29,12 +29,12 @@ class Assembly {
     gather();
     begin();
     const bool all = sharing == Sharing::nodes;
-    if (sharing == Sharing::paying) count_costly();
+    if (sharing == Sharing::if_smaller) count_costly();
     std::vector<DrawnBody> merged, single;
     for (const DrawnBody& body : bodies_) {
       const Shape& shape = shapes_.shapes[body.shape];
       const bool is_textured = body.material >= 0 && materials_.tile_of(body.material) != nullptr;
-      const bool is_single = source_.is_own(shape) || (!is_textured && (all || is_paying(body)));
+      const bool is_single = source_.is_own(shape) || (!is_textured && (all || is_smaller_shared(body)));
       (is_single ? single : merged).push_back(body);
     }
     share(single);
@@ -93,11 +93,11 @@ class Assembly {
   }
   bool is_costly(const DrawnBody& body) {
     const Shape& shape = source_.shape_of(body);
-    return shape.geometry != box_geometry && source_.cost_of(shape).pays(~std::uint32_t{0});
+    return shape.geometry != box_geometry && source_.cost_of(shape).saves_if_shared(~std::uint32_t{0});
   }
-  bool is_paying(const DrawnBody& body) {
+  bool is_smaller_shared(const DrawnBody& body) {
     return !costly_.empty() && is_costly(body) &&
-           source_.cost_of(source_.shape_of(body)).pays(costly_[key_of(body)]);
+           source_.cost_of(source_.shape_of(body)).saves_if_shared(costly_[key_of(body)]);
   }
 
   /// Collects the drawn bodies with their materials, and the box around them.

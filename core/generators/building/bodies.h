@@ -26,16 +26,16 @@ struct BodyCost {
 
   /// Whether `count` equal bodies should share a mesh: compared with merging, they must save
   /// 8 kB for each node and 64 kB in all.
-  bool pays(std::uint64_t count) const {
+  bool saves_if_shared(std::uint64_t count) const {
     const std::uint64_t saved = count > 0 ? bytes() * (count - 1) : 0;
     return saved >= 65'536 && saved >= 8'192 * count * primitives;
   }
 };
 
 enum class Sharing {
-  paying,  ///< equal bodies share a mesh if BodyCost::pays() is true; others are merged
-  nodes,   ///< equal bodies share a mesh, and each has a node
-  merged,  ///< one mesh for each layer, with one primitive for each material
+  if_smaller,  ///< equal bodies share a mesh if BodyCost::saves_if_shared() is true; others are merged
+  nodes,       ///< equal bodies share a mesh, and each has a node
+  merged,      ///< one mesh for each layer, with one primitive for each material
 };
 
 /// Adds a node "building" with the meshes of all active shapes below it. Shapes without an area are left out.

@@ -10,8 +10,8 @@
 #include "core/generators/building/collision.h"
 #include "core/generators/building/derive.h"
 #include "core/generators/building/estimate.h"
+#include "core/generators/building/figure_shapes.h"
 #include "core/generators/building/footprint.h"
-#include "core/generators/building/picture_shapes.h"
 #include "core/generators/building/shapes_json.h"
 #include "core/generators/building/split_mesh.h"
 #include "core/generators/building/unused.h"
@@ -32,7 +32,7 @@ constexpr std::string_view lod_attribute = "lod";
 /// The intermediate results between parameters and shapes.
 struct Work {
   std::shared_ptr<const RuleSet> rules;  ///< of a shape grammar, once it is derived, the names
-  PictureGrammar pictures;               ///< where there is a shape grammar
+  FigureGrammar figures;                 ///< where there is a shape grammar
   std::vector<AssetBox> boxes;
   std::vector<Asset> assets;
   Model model;  ///< materials and textures of assets, and warnings
@@ -105,13 +105,13 @@ Shapes shapes_of(Work& work, const BuildingParams& params, const GenerateContext
   Job& job = context.job;
   if (params.shape_grammar) {
     const bool is_parallel = params.derivation.mode == BuildingMode::parallel;
-    const DerivedPicture derived =
-        derive_picture(*params.shape_grammar, work.pictures, params.iterations, is_parallel, job);
+    const DerivedFigure derived =
+        derive_figure(*params.shape_grammar, work.figures, params.iterations, is_parallel, job);
     auto names = std::make_shared<RuleSet>();
     names->text = rule_text("");
-    names->grammar = grammar_of_names(work.pictures);
+    names->grammar = grammar_of_names(work.figures);
     work.rules = std::move(names);
-    return shapes_of_picture(work.pictures, derived, *params.shape_grammar, job);
+    return shapes_of_figure(work.figures, derived, *params.shape_grammar, job);
   }
   Task plan;
   const Grammar& grammar = work.rules->grammar;
@@ -178,7 +178,7 @@ std::vector<double> lods_of(const Grammar& grammar, const BuildingParams& params
 
 Sharing sharing_of(const Demand& demand) {
   if (demand.copies == CopyForm::merge) return Sharing::merged;
-  return demand.share_organs ? Sharing::nodes : Sharing::paying;
+  return demand.share_organs ? Sharing::nodes : Sharing::if_smaller;
 }
 
 std::uint64_t triangles_of(const Model& model, std::span<const int> meshes) {
@@ -195,7 +195,7 @@ void add_levels(Model& model, Work& work, const BuildingParams& params, const Sh
   Job& job = context.job;
   const std::vector<double> lods = lods_of(work.rules->grammar, params, context.demand.lods);
   std::vector<std::vector<int>> levels;
-  levels.push_back(add_level(model, finest, materials, work.assets, {.sharing = Sharing::paying}, job));
+  levels.push_back(add_level(model, finest, materials, work.assets, {.sharing = Sharing::if_smaller}, job));
   for (const double lod : lods) {
     const Shapes shapes = shapes_of(work, params, context, {.lod = lod});
     materials.use(shapes);
@@ -256,13 +256,13 @@ void point_at_blueprint(const BuildingParams& params, std::vector<Warning>& warn
 
 std::vector<Issue> check(const BuildingParams& params, const Limits& limits, const Job* job) {
   Work work;
-  return check_all(params, {limits, job}, work.rules, work.pictures);
+  return check_all(params, {limits, job}, work.rules, work.figures);
 }
 
 Generator::Prepared prepare(const BuildingParams& params, const CheckContext& context) {
   Work work;
   if (params.shape_grammar) return nullptr;
-  return check_all(params, {context.job.limits(), &context.job}, work.rules, work.pictures).empty()
+  return check_all(params, {context.job.limits(), &context.job}, work.rules, work.figures).empty()
              ? work.rules
              : nullptr;
 }
@@ -270,7 +270,7 @@ Generator::Prepared prepare(const BuildingParams& params, const CheckContext& co
 Result<Model> generate(const BuildingParams& params, const GenerateContext& context) {
   Job& job = context.job;
   Work work = work_of(params, context);
-  std::vector<Issue> issues = check_all(params, {job.limits(), &job}, work.rules, work.pictures);
+  std::vector<Issue> issues = check_all(params, {job.limits(), &job}, work.rules, work.figures);
   if (!issues.empty()) return Error{Code::invalid, std::move(issues)};
   job.progress("derive", 0);
   if (auto refused = add_assets(work, params, context)) return std::move(*refused);
@@ -301,7 +301,7 @@ Result<Model> generate(const BuildingParams& params, const GenerateContext& cont
 Result<Json> derive(const BuildingParams& params, const GenerateContext& context) {
   Job& job = context.job;
   Work work = work_of(params, context);
-  std::vector<Issue> issues = check_all(params, {job.limits(), &job}, work.rules, work.pictures);
+  std::vector<Issue> issues = check_all(params, {job.limits(), &job}, work.rules, work.figures);
   if (!issues.empty()) return Error{Code::invalid, std::move(issues)};
   if (auto refused = add_assets(work, params, context)) return std::move(*refused);
   const Shapes shapes = shapes_of(work, params, context, {.lod = std::nullopt, .is_listed = true});
@@ -348,7 +348,7 @@ Result<Appraisal> appraise(const BuildingParams& params, const GenerateContext& 
   Job& job = context.job;
   Appraisal appraisal;
   Work work = work_of(params, context);
-  std::vector<Issue> issues = check_all(params, {job.limits(), &job}, work.rules, work.pictures);
+  std::vector<Issue> issues = check_all(params, {job.limits(), &job}, work.rules, work.figures);
   if (!issues.empty()) return Error{Code::invalid, std::move(issues)};
   appraisal.warnings = unused_settings(params, grammar_of(params, work));
   if (work.rules) append(appraisal.warnings, work.rules->grammar.warnings);

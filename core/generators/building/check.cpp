@@ -242,10 +242,10 @@ void check_alone(const BuildingParams& params, std::vector<Issue>& issues) {
   }
 }
 
-PictureRestriction restriction_of(BuildingRestrict restrict) {
-  return restrict == BuildingRestrict::unimarker     ? PictureRestriction::unimarker
-         : restrict == BuildingRestrict::non_erasing ? PictureRestriction::non_erasing
-                                                     : PictureRestriction::any;
+FigureRestriction restriction_of(BuildingRestrict restrict) {
+  return restrict == BuildingRestrict::unimarker     ? FigureRestriction::unimarker
+         : restrict == BuildingRestrict::non_erasing ? FigureRestriction::non_erasing
+                                                     : FigureRestriction::any;
 }
 
 }  // namespace
@@ -316,11 +316,11 @@ std::optional<Warning> nothing_drawn(const Shapes& shapes) {
 }
 
 std::vector<Issue> check_all(const BuildingParams& params, const Bounds& bounds,
-                             std::shared_ptr<const RuleSet>& rules, PictureGrammar& pictures) {
+                             std::shared_ptr<const RuleSet>& rules, FigureGrammar& figures) {
   std::vector<Issue> issues;
   if (params.shape_grammar) {
     check_alone(params, issues);
-    pictures = read_pictures(*params.shape_grammar, restriction_of(params.restrict), issues);
+    figures = read_figures(*params.shape_grammar, restriction_of(params.restrict), issues);
   } else if (!params.rules && !params.blueprint) {
     issues.emplace_back(missing_for({"rules", "blueprint", "shape_grammar"}), "",
                         "found none of \"rules\", \"blueprint\" and \"shape_grammar\", expected one of them");

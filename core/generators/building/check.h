@@ -64,11 +64,11 @@ struct Bounds {
   const Job* job = nullptr;  ///< checked for stop and deadline; may be null
 };
 
-/// Returns all errors. Sets `rules`, or `pictures` if the request has a shape grammar. If `rules` is not
+/// Returns all errors. Sets `rules`, or `figures` if the request has a shape grammar. If `rules` is not
 /// null, it must be the rules of the parameters (has_rules_of), and they are not read again. `rules` becomes
 /// null if the rules have errors.
 std::vector<Issue> check_all(const BuildingParams& params, const Bounds& bounds,
-                             std::shared_ptr<const RuleSet>& rules, PictureGrammar& pictures);
+                             std::shared_ptr<const RuleSet>& rules, FigureGrammar& figures);
 
 /// Whether `params` would give the same rules, so that these need not be read again.
 bool has_rules_of(const RuleSet& rules, const BuildingParams& params);

@@ -296,15 +296,15 @@ std::uint32_t query_index(Parser& p, Query::Kind kind, std::string target) {
 
 std::size_t end_of_value(const Parser& p, std::size_t i) {
   const auto is_weight = [&](std::size_t at) {
-    const std::size_t behind = p.tokens.behind_expression(at);
+    const std::size_t behind = p.tokens.after_expression(at);
     return behind > at && p.tokens.is(behind, "%") && p.tokens.is(behind + 1, ":");
   };
   // Cases inside a case end with their else.
   const auto skip = [&](auto&& self, std::size_t at, int depth) -> std::size_t {
     const bool is_case = p.tokens.is_name(at, "case");
-    if (depth > 100 || (!is_case && !is_weight(at))) return p.tokens.behind_expression(at);
+    if (depth > 100 || (!is_case && !is_weight(at))) return p.tokens.after_expression(at);
     while (is_case ? p.tokens.is_name(at, "case") : is_weight(at)) {
-      const std::size_t behind = p.tokens.behind_expression(is_case ? at + 1 : at);
+      const std::size_t behind = p.tokens.after_expression(is_case ? at + 1 : at);
       at = is_case ? behind : behind + 1;
       if (!p.tokens.is(at, ":")) return at;
       const std::size_t value = self(self, at + 1, depth + 1);

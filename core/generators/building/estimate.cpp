@@ -106,8 +106,8 @@ std::optional<Estimate> estimate_of(const Shapes& shapes, MaterialTable& materia
   for (const auto& each : bodies) {
     const auto& [cost, count, tangents, is_own_part] = each.second;
     estimate.triangles += cost.triangles * count;
-    const bool is_shared =
-        options.shares_all || (options.copies != CopyForm::merge && is_own_part && cost.pays(count));
+    const bool is_shared = options.shares_all ||
+                           (options.copies != CopyForm::merge && is_own_part && cost.saves_if_shared(count));
     const std::uint64_t bytes = bytes_of(cost, tangents);
     estimate.bytes += is_shared ? bytes + mesh_bytes * cost.primitives + node_bytes * count : bytes * count;
   }

@@ -22,8 +22,7 @@ Mesh empty_mesh(bool has_uv, const Job& job);
 void append(const BodySurface& surface, Mesh& mesh, const glm::dmat3& axes, const glm::dvec3& origin,
             const TextureMapping& texturing);
 
-/// Appends a mesh of an asset. Texture coordinates of `from` are in metres. Those of `to` are in tiles of `tile`
-/// metres.
+/// Appends the mesh of a part. Texture coordinates of `from` are in metres; those of `to` are in tiles of `tile` metres.
 void append_part(const Mesh& from, Mesh& to, const glm::dmat3& axes, const glm::dvec3& at,
                  const glm::dvec2* tile);
 

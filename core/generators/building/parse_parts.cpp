@@ -136,7 +136,7 @@ Part parse_selector(Parser& p) {
   Part part;
   part.offset = offset_here(p);
   const std::size_t from = p.at;
-  std::size_t to = p.tokens.behind_expression(from);
+  std::size_t to = p.tokens.after_expression(from);
   // `front = A` is a selector and a sign, and no comparison.
   const Token& token = here(p);
   std::string dotted(token.text);

@@ -24,7 +24,7 @@ bool is_row_of_symbols(const Grammar& grammar, const Choice& choice) {
 /// Reads `successor : weight ~> successor : weight ...` under one condition, or a body in today's notation.
 std::uint32_t parse_alternatives_2006(Parser& p, const Value& condition, bool may_stack) {
   if (!condition.is_given &&
-      (p.tokens.is_name(p.at, "case") || p.tokens.is(p.tokens.behind_expression(p.at), "%")))
+      (p.tokens.is_name(p.at, "case") || p.tokens.is(p.tokens.after_expression(p.at), "%")))
     return parse_body(p);
   Branch branch;
   branch.condition = condition;

@@ -32,7 +32,7 @@ std::string_view mistyped_operation(std::string_view name) {
 
 bool begins_cases(const Parser& p) {
   if (p.tokens.is_name(p.at, "case")) return true;
-  const std::size_t behind = p.tokens.behind_expression(p.at);
+  const std::size_t behind = p.tokens.after_expression(p.at);
   return behind > p.at && p.tokens.is(behind, "%") && p.tokens.is(behind + 1, ":");
 }
 
@@ -57,7 +57,7 @@ void parse_choices(Parser& p, std::vector<Choice>& out) {
     return;
   }
   while (!p.tokens.is_name(p.at, "case") && begins_cases(p)) {
-    const std::size_t from = p.at, to = p.tokens.behind_expression(p.at);
+    const std::size_t from = p.at, to = p.tokens.after_expression(p.at);
     Value weight = compile_value(p, from, to);
     p.at = to + 1;
     expect(p, ":", "the percentage");
@@ -81,7 +81,7 @@ bool ends_successor(const Parser& p) {
       is_here(p, ":") || is_here(p, ")") || p.tokens.is_arrow(p.at))
     return true;
   if (token.kind == TokenKind::name && (token.text == "case" || token.text == "else")) return true;
-  if (token.kind != TokenKind::name && p.tokens.is(p.tokens.behind_expression(p.at), "%")) return true;
+  if (token.kind != TokenKind::name && p.tokens.is(p.tokens.after_expression(p.at), "%")) return true;
   return begins_statement(p, p.at);
 }
 

@@ -119,7 +119,7 @@ bool begins_rule(const Parser& p, std::size_t i) {
   }
   if (p.tokens.is_arrow(i)) return true;
   if (!p.tokens.is(i, ":")) return false;
-  const std::size_t behind = p.tokens.behind_expression(i + 1);
+  const std::size_t behind = p.tokens.after_expression(i + 1);
   // `B : 0.5 ~> C : 0.5` is a weight and another successor: no condition is a mere number.
   const bool is_number = behind == i + 2 && p.tokens.at(i + 1).kind == TokenKind::number;
   return behind > i + 1 && !is_number && p.tokens.is_arrow(behind);

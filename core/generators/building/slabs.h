@@ -1,5 +1,5 @@
 #pragma once
-/// Pieces of a shape between two planes across an axis of its scope.
+/// Pieces of a shape between two parallel planes at right angles to an axis of its scope.
 #include <optional>
 
 #include "core/generators/building/derivation.h"

@@ -137,7 +137,7 @@ bool Tokens::is_each_comparison(std::size_t i) const {
          std::ranges::find(signs, at(i + 1).text) != std::end(signs);
 }
 
-std::size_t Tokens::behind_operand(std::size_t i) const {
+std::size_t Tokens::after_operand(std::size_t i) const {
   const lang::Token& token = at(i);
   if (token.kind == TokenKind::number || token.kind == TokenKind::string) return i + 1;
   if (is(i, "(") || is(i, "[")) return std::min(partner(i) + 1, end());
@@ -153,11 +153,11 @@ std::size_t Tokens::behind_operand(std::size_t i) const {
   return i;
 }
 
-std::size_t Tokens::behind_expression(std::size_t i) const {
+std::size_t Tokens::after_expression(std::size_t i) const {
   while (true) {
     std::size_t operand = i;
     while (is_sign(at(operand))) ++operand;
-    std::size_t behind = behind_operand(operand);
+    std::size_t behind = after_operand(operand);
     if (behind == operand) return i;
     while (is(behind, "[") && at(behind - 1).kind != TokenKind::number)
       behind = std::min(partner(behind) + 1, end());
@@ -168,7 +168,7 @@ std::size_t Tokens::behind_expression(std::size_t i) const {
     if (is(i, "*") && is(next, "*")) ++next;
     std::size_t probe = next;
     while (is_sign(at(probe))) ++probe;
-    if (behind_operand(probe) == probe) return i;
+    if (after_operand(probe) == probe) return i;
     // The percent sign of a weight, as in `30% : A`, does not get here: no operand follows it.
     i = next;
   }

@@ -40,10 +40,10 @@ class Tokens {
   /// Returns the index of the closing bracket of an opening one; the end if it has none.
   std::size_t partner(std::size_t i) const { return partner_[i]; }
   /// Returns the index of the token after the expression that begins at i; i if none begins there.
-  std::size_t behind_expression(std::size_t i) const;
+  std::size_t after_expression(std::size_t i) const;
 
  private:
-  std::size_t behind_operand(std::size_t i) const;
+  std::size_t after_operand(std::size_t i) const;
 
   const RuleText& files_;
   std::string text_;  ///< text without comments; tokens point into it

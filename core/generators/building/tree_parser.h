@@ -97,7 +97,7 @@ class TreeParser {
 
   /// Whether a percentage begins here: 30% : value
   bool is_weight() const {
-    const std::size_t behind = p_.tokens.behind_expression(at_);
+    const std::size_t behind = p_.tokens.after_expression(at_);
     return behind > at_ && behind + 1 < to_ && p_.tokens.is(behind, "%") && p_.tokens.is(behind + 1, ":");
   }
 

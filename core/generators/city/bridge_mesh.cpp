@@ -30,7 +30,7 @@ class BridgeBuilder {
     mesh_.uv[0] = Array<glm::vec2>(job);
   }
 
-  void add(const Bridge& bridge) {
+  void add(const SeparatedStreet& bridge) {
     const std::vector<Station> stations = stations_of(bridge);
     for (std::size_t k = 1; k < stations.size(); ++k) add_piece(stations[k - 1], stations[k]);
     add_piers(stations);
@@ -53,8 +53,8 @@ class BridgeBuilder {
  private:
   using Corner = std::pair<dvec2, double>;
 
-  std::vector<Station> stations_of(const Bridge& bridge) const {
-    const std::vector<ProfilePoint> line = bridge_profile(plan_, bridge);
+  std::vector<Station> stations_of(const SeparatedStreet& bridge) const {
+    const std::vector<ProfilePoint> line = separated_profile(plan_, bridge);
     const double half = plan_.classes[bridge.tag].width / 2;
     std::vector<Station> stations;
     for (std::size_t k = 0; k < line.size(); ++k) {
@@ -162,9 +162,9 @@ class BridgeBuilder {
 
 Mesh bridge_mesh(const CityPlan& plan, const Job& job) {
   BridgeBuilder builder(plan, job);
-  for (const Bridge& bridge : plan.graph.bridges) {
+  for (const SeparatedStreet& each : plan.graph.separated) {
     job.check();
-    if (bridge.level > 0) builder.add(bridge);
+    if (each.level > 0) builder.add(each);
   }
   return builder.take();
 }

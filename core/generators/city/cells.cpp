@@ -316,9 +316,9 @@ class Cell final : public RoadRules {
 
  public:
   /// Keeps streets off the mouths of tunnels and off ground that is low above them.
-  void avoid_tunnels(const std::vector<Bridge>& bridges) {
+  void avoid_tunnels(const std::vector<SeparatedStreet>& separated) {
     if (!input_.landform) return;
-    for (const Bridge& each : bridges) {
+    for (const SeparatedStreet& each : separated) {
       if (each.level > 0) continue;
       tunnels_.push_back(&each);
       for (const CmPoint& end : {each.line.front(), each.line.back()}) {
@@ -335,7 +335,7 @@ class Cell final : public RoadRules {
   bool is_above_tunnel(const dvec2& from, const dvec2& to) const {
     constexpr double beside = 1500, least_depth = 14;  // cm, m
     const auto ground = [&](const dvec2& cm) { return input_.landform->at(cm / 100.0); };
-    for (const Bridge* tunnel : tunnels_) {
+    for (const SeparatedStreet* tunnel : tunnels_) {
       const CmRing& line = tunnel->line;
       const double floor = std::max(ground(in_cm(line.front())), ground(in_cm(line.back())));
       if (std::min(ground(from), ground(to)) > floor + least_depth) continue;
@@ -360,7 +360,7 @@ class Cell final : public RoadRules {
   std::vector<std::vector<std::uint32_t>> rings_;
   std::vector<std::vector<std::uint8_t>> borders_;
   std::vector<Road> roads_;
-  std::vector<const Bridge*> tunnels_;
+  std::vector<const SeparatedStreet*> tunnels_;
 };
 
 }  // namespace
@@ -374,7 +374,7 @@ CellStreets grow_cell(const GrowthInput& input, const StreetGraph& majors,
     lowest = std::min(lowest, majors.nodes[start_of(majors.edges, half)]);
   cell.set_key(point_key(lowest));
   for (const std::vector<std::uint32_t>& loop : loops) cell.add_loop(majors, loop);
-  cell.avoid_tunnels(majors.bridges);
+  cell.avoid_tunnels(majors.separated);
   const auto grow = [&](const std::vector<StreetGrammar::Start>& starts) {
     const auto steps = input.grammar.grow(starts, cell, most_steps_of_a_cell, job);
     if (!steps) return;

@@ -118,23 +118,23 @@ Region region_of_request(const CityParams& params, const Maps& maps, const CityP
   return region_of(area, water, job);
 }
 
-/// The given streets as pieces, cut at the border and at water. A bridge that is given twice is kept once.
+/// The given streets as pieces, cut at the border and at water. A bridge or tunnel that is given twice is kept once.
 Route given_route_of(const Region& region, const std::vector<GivenLine>& lines) {
   Route all;
   std::set<std::pair<int, CmRing>> known;
-  const auto add_bridge = [&](BridgeLine bridge) {
-    const CmRing back(bridge.line.rbegin(), bridge.line.rend());
-    if (known.emplace(bridge.level, std::min(bridge.line, back)).second)
-      all.bridges.push_back(std::move(bridge));
+  const auto add_separated = [&](SeparatedLine separated) {
+    const CmRing back(separated.line.rbegin(), separated.line.rend());
+    if (known.emplace(separated.level, std::min(separated.line, back)).second)
+      all.separated.push_back(std::move(separated));
   };
   for (const GivenLine& line : lines) {
     if (line.level != 0) {
-      add_bridge({line.points, line.section, line.level});
+      add_separated({line.points, line.section, line.level});
       continue;
     }
     Route route = given_route(region, line.points, line.section);
     all.pieces.insert(all.pieces.end(), route.pieces.begin(), route.pieces.end());
-    for (BridgeLine& each : route.bridges) add_bridge(std::move(each));
+    for (SeparatedLine& each : route.separated) add_separated(std::move(each));
   }
   return all;
 }

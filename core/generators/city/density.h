@@ -10,7 +10,7 @@
 #include "core/base/array.h"
 #include "core/base/job.h"
 #include "core/base/result.h"
-#include "core/generators/city/geometry.h"
+#include "core/generators/city/rings.h"
 #include "core/lang/expression.h"
 #include "core/schema/geojson.h"
 

@@ -7,7 +7,7 @@
 
 #include "core/base/math.h"
 #include "core/generators/city/geojson.h"
-#include "core/generators/city/geometry.h"
+#include "core/generators/city/rings.h"
 #include "generated/params/city.h"
 
 namespace seedmesh::city {

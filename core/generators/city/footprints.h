@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "core/generators/city/geometry.h"
 #include "core/generators/city/plan.h"
+#include "core/generators/city/rings.h"
 
 namespace seedmesh {
 struct CityParams;

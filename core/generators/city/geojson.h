@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/base/result.h"
-#include "core/generators/city/geometry.h"
+#include "core/generators/city/rings.h"
 #include "core/schema/geojson.h"
 #include "core/schema/json.h"
 

@@ -130,10 +130,10 @@ void add_points(const CityPlan& plan, std::uint32_t edge, std::vector<ProfilePoi
 /// The greatest difference of heights over a length, less what rounding may add.
 double rise_over(double limit, double length) { return std::max(0.0, limit * length - 2 * resolution); }
 
-double length_of(const Bridge& bridge) {
+double length_of(const SeparatedStreet& street) {
   double length = 0;
-  for (std::size_t k = 1; k < bridge.line.size(); ++k)
-    length += distance(bridge.line[k - 1], bridge.line[k]) / 100;
+  for (std::size_t k = 1; k < street.line.size(); ++k)
+    length += distance(street.line[k - 1], street.line[k]) / 100;
   return length;
 }
 
@@ -162,10 +162,10 @@ GradeGraph grade_graph(const CityPlan& plan, const Landform& landform, double le
     }
     if (last - first == 1) grades.links.push_back({before, graph.edges[edge].to, 0, 1});
   }
-  for (const Bridge& bridge : graph.bridges) {
-    const double length = length_of(bridge);
+  for (const SeparatedStreet& each : graph.separated) {
+    const double length = length_of(each);
     grades.links.push_back(
-        {bridge.from, bridge.to, rise_over(plan.classes[bridge.tag].grade_limit, length), length});
+        {each.from, each.to, rise_over(plan.classes[each.tag].grade_limit, length), length});
   }
   grades.index();
   return grades;
@@ -233,32 +233,32 @@ std::vector<ProfilePoint> shown_profile(const CityPlan& plan, std::uint32_t edge
   return points;
 }
 
-std::vector<ProfilePoint> bridge_profile(const CityPlan& plan, const Bridge& bridge) {
+std::vector<ProfilePoint> separated_profile(const CityPlan& plan, const SeparatedStreet& street) {
   std::vector<ProfilePoint> points;
-  for (std::size_t k = 0; k + 1 < bridge.line.size(); ++k) {
-    const dvec2 a = in_cm(bridge.line[k]), b = in_cm(bridge.line[k + 1]);
+  for (std::size_t k = 0; k + 1 < street.line.size(); ++k) {
+    const dvec2 a = in_cm(street.line[k]), b = in_cm(street.line[k + 1]);
     const int count = std::max(1, math::to_int32(glm::length(b - a) / (sample_spacing * 100)));
     for (int n = 0; n < count; ++n)
       points.push_back({rounded_cm(a + (b - a) * (static_cast<double>(n) / count)), 0, 0});
   }
-  points.push_back({bridge.line.back(), 0, 0});
+  points.push_back({street.line.back(), 0, 0});
   for (std::size_t k = 1; k < points.size(); ++k)
     points[k].station = points[k - 1].station + distance(points[k - 1].at, points[k].at) / 100;
   const double length = points.back().station;
   const std::vector<double>& node = plan.heights.node;
-  const double from = node.empty() ? 0 : node[bridge.from], to = node.empty() ? 0 : node[bridge.to];
+  const double from = node.empty() ? 0 : node[street.from], to = node.empty() ? 0 : node[street.to];
   const auto is_on_shore = [&](std::uint32_t at) {
     return plan.graph.is_border[at] != 0 && plan.graph.degree(at) == 1;
   };
-  const bool is_over_water = is_on_shore(bridge.from) && is_on_shore(bridge.to);
-  const double limit = plan.classes[bridge.tag].grade_limit;
+  const bool is_over_water = is_on_shore(street.from) && is_on_shore(street.to);
+  const double limit = plan.classes[street.tag].grade_limit;
   const double ramp =
       is_over_water ? 0 : std::clamp(limit - std::abs(to - from) / length - 2e-6, 0.0, steepest_ramp);
   for (ProfilePoint& point : points) {
     const double rise =
-        std::min(clearance * std::abs(bridge.level), ramp * std::min(point.station, length - point.station));
+        std::min(clearance * std::abs(street.level), ramp * std::min(point.station, length - point.station));
     point.height =
-        rounded(from + (to - from) * (point.station / length) + (bridge.level > 0 ? rise : 0 - rise));
+        rounded(from + (to - from) * (point.station / length) + (street.level > 0 ? rise : 0 - rise));
   }
   points.front().height = from;
   points.back().height = to;

@@ -8,7 +8,7 @@
 namespace seedmesh::city {
 
 struct CityPlan;
-struct Bridge;
+struct SeparatedStreet;
 class Landform;
 
 /// A point on the centre line of a street.
@@ -28,9 +28,9 @@ struct StreetHeights {
   bool is_level() const { return node.empty(); }
 };
 
-/// Computes the heights of nodes, streets and bridges from the natural ground. Streets are level as far as the
+/// Computes the heights of nodes, streets, bridges and tunnels from the natural ground. Streets are level as far as the
 /// corners at their nodes reach (CityPlan::corner_reaches), so that junctions are level. Between these corners,
-/// streets are sampled about every 10 m; bridges have no samples. Two passes of Dijkstra's algorithm give upper and
+/// streets are sampled about every 10 m; bridges and tunnels have no samples. Two passes of Dijkstra's algorithm give upper and
 /// lower heights, with the grade limit of each class as cost. These heights differ from the ground only where a limit
 /// requires it. Their mean keeps all limits with the least possible greatest cut or fill. Heights are then smoothed
 /// along the streets and limited again. `least` is a lower bound of all heights. Cost: n log n in the samples.
@@ -45,6 +45,6 @@ std::vector<ProfilePoint> shown_profile(const CityPlan& plan, std::uint32_t edge
 
 /// Returns the points of a street on another level: its corners and points about every 10 m between them. On level
 /// ground, heights are measured from the ground.
-std::vector<ProfilePoint> bridge_profile(const CityPlan& plan, const Bridge& bridge);
+std::vector<ProfilePoint> separated_profile(const CityPlan& plan, const SeparatedStreet& street);
 
 }  // namespace seedmesh::city

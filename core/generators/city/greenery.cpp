@@ -7,9 +7,9 @@
 #include <optional>
 
 #include "core/base/math.h"
-#include "core/generators/city/geometry.h"
 #include "core/generators/city/house_box.h"
 #include "core/generators/city/objects.h"
+#include "core/generators/city/rings.h"
 #include "generated/params/city.h"
 
 namespace seedmesh::city {

@@ -67,7 +67,7 @@ std::optional<Route> GrowthInput::tunnelled(const Route& route) const {
     is_steep.push_back(is_too_steep(in_cm(each.a), in_cm(each.b), limit_of(each.kind)) ? 1 : 0);
   }
   Route built;
-  built.bridges = route.bridges;
+  built.separated = route.separated;
   built.reaches_end = route.reaches_end;
   for (std::size_t i = 0; i < pieces.size();) {
     const StreetPiece& first = pieces[i];
@@ -91,7 +91,7 @@ std::optional<Route> GrowthInput::tunnelled(const Route& route) const {
         glm::dot(along, direction_of(after.a, after.b)) < least_cosine ||
         !is_ridge(*landform, first.a, last.b, limit_of(first.kind)))
       return std::nullopt;
-    built.bridges.push_back({{first.a, last.b}, first.kind, -1});
+    built.separated.push_back({{first.a, last.b}, first.kind, -1});
     i = end;
   }
   return built;

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/math.h"
-#include "core/generators/city/geometry.h"
+#include "core/generators/city/rings.h"
 #include "core/schema/json.h"
 #include "generated/params/city.h"
 

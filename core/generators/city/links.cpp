@@ -40,7 +40,7 @@ class Networks {
     for (std::uint32_t e = 0; e < graph.edges.size(); ++e) {
       if (graph.is_street(e)) join(graph.edges[e].from, graph.edges[e].to);
     }
-    for (const Bridge& bridge : graph.bridges) join(bridge.from, bridge.to);
+    for (const SeparatedStreet& each : graph.separated) join(each.from, each.to);
   }
 
   /// Returns the node that represents the network of a node.

@@ -204,7 +204,7 @@ class NetRules final : public RoadRules {
     }
     if (!built) return RoadState::failed;
     route.pieces.insert(route.pieces.end(), built->pieces.begin(), built->pieces.end());
-    route.bridges.insert(route.bridges.end(), built->bridges.begin(), built->bridges.end());
+    route.separated.insert(route.separated.end(), built->separated.begin(), built->separated.end());
     for (const Site& end : {from, built->reaches_end ? each.to : from}) {
       if (const auto part = part_of_land(input_.region, net_.position(end))) parts_.insert(*part);
     }
@@ -277,7 +277,7 @@ class NetRules final : public RoadRules {
     std::optional<Route> built = route_of(input_.region, line, kind, input_.streets.bridge_length * 100);
     if (has_tunnel || !input_.is_free(*built)) built = input_.tunnelled(*built);
     if (!built || !is_clear_of_bridges(*built)) return std::nullopt;
-    const bool is_tunnel = std::any_of(built->bridges.begin(), built->bridges.end(),
+    const bool is_tunnel = std::any_of(built->separated.begin(), built->separated.end(),
                                        [](const auto& each) { return each.level < 0; });
     return has_tunnel && !is_tunnel ? std::nullopt : built;
   }
@@ -296,16 +296,16 @@ class NetRules final : public RoadRules {
   /// streets between them.
   bool is_clear_of_bridges(const Route& built) const {
     constexpr double apart = 4000;  // cm
-    for (const BridgeLine& own : built.bridges) {
-      for (const BridgeLine& other : route.bridges) {
+    for (const SeparatedLine& own : built.separated) {
+      for (const SeparatedLine& other : route.separated) {
         for (const CmPoint& end : {own.line.front(), own.line.back()}) {
           if (distance(end, other.line.front()) < apart || distance(end, other.line.back()) < apart)
             return false;
         }
       }
     }
-    return !meets_bridges(built, route.bridges) &&
-           !(input_.given && meets_bridges(built, input_.given->bridges));
+    return !meets_separated(built, route.separated) &&
+           !(input_.given && meets_separated(built, input_.given->separated));
   }
 
   bool may_start(const dvec2& cm) const {

@@ -49,16 +49,16 @@ void add_probes(const Region& region, const GivenLine& line, std::uint32_t numbe
   }
 }
 
-/// Marks the probes that lie on an edge or a bridge of the plan.
+/// Marks the probes that lie on an edge, a bridge or a tunnel of the plan.
 void mark_built(const StreetGraph& graph, std::vector<Probe>& probes) {
   std::vector<Segment> all;
   all.reserve(probes.size() + graph.edges.size());
   for (const Probe& each : probes) all.push_back({each.middle, each.middle});
   for (const PlanarEdge& edge : graph.edges)
     all.push_back({in_cm(graph.nodes[edge.from]), in_cm(graph.nodes[edge.to])});
-  for (const Bridge& bridge : graph.bridges) {
-    for (std::size_t i = 1; i < bridge.line.size(); ++i)
-      all.push_back({in_cm(bridge.line[i - 1]), in_cm(bridge.line[i])});
+  for (const SeparatedStreet& each : graph.separated) {
+    for (std::size_t i = 1; i < each.line.size(); ++i)
+      all.push_back({in_cm(each.line[i - 1]), in_cm(each.line[i])});
   }
   each_near_pair(all, tolerance, nullptr, [&](std::size_t i, std::size_t k) {
     if (i < probes.size() && k >= probes.size() && !probes[i].is_built)

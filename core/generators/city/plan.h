@@ -41,15 +41,15 @@ struct StreetPiece {
   std::uint32_t kind = 0;
 };
 
-/// A bridge (`level` above 0) or a tunnel (below 0), before its ends have become nodes.
-struct BridgeLine {
+/// The line of a grade-separated street (SeparatedStreet), before its ends have become nodes.
+struct SeparatedLine {
   CmRing line;
   std::uint32_t kind = 0;
   int level = 1;
 };
 
-/// A street on another level: a bridge (`level` above 0) or a tunnel (below 0). It is no part of the planar graph.
-struct Bridge {
+/// A grade-separated street: a bridge (`level` above 0) or a tunnel (below 0). It is no part of the planar graph.
+struct SeparatedStreet {
   std::uint32_t from = 0, to = 0;  ///< nodes
   std::uint32_t tag = 0;
   int level = 1;
@@ -64,10 +64,11 @@ struct StreetGraph {
   PlanarArms arms;
   std::vector<std::uint64_t> node_key, edge_key;  ///< keys that follow from positions alone
   std::vector<std::uint8_t> is_border;  ///< 1 on the border of the area or on a shore, indexed by node
-  std::vector<Bridge> bridges;
-  std::vector<CmPoint> ring_nodes;         ///< nodes of roundabouts, sorted
-  bool has_branches = false;               ///< at least one minor street could have branches at its end
-  std::vector<std::uint32_t> bridge_ends;  ///< number of ends of bridges at each node; empty without bridges
+  std::vector<SeparatedStreet> separated;
+  std::vector<CmPoint> ring_nodes;  ///< nodes of roundabouts, sorted
+  bool has_branches = false;        ///< at least one minor street could have branches at its end
+  std::vector<std::uint32_t>
+      separated_ends;  ///< number of ends of `separated` at each node; empty if there are none
 
   bool is_street(std::uint32_t edge) const { return is_street_tag(edges[edge].tag); }
   /// Whether a node is on the border of the area itself.
@@ -82,7 +83,7 @@ struct StreetGraph {
   }
   /// Returns the number of ends of streets of all levels at a node.
   std::uint32_t street_ends(std::uint32_t node) const {
-    return degree(node) + (bridge_ends.empty() ? 0 : bridge_ends[node]);
+    return degree(node) + (separated_ends.empty() ? 0 : separated_ends[node]);
   }
   /// Returns the number of ends of streets of level 0 at a node.
   std::uint32_t degree(std::uint32_t node) const {

@@ -97,11 +97,12 @@ class Writer {
       add_street({each.from, each.to, each.tag, 0, {}, plan_.graph.edge_key[edge]},
                  shown_profile(plan_, edge));
     }
-    for (const Bridge& bridge : plan_.graph.bridges) add_street(bridge, bridge_profile(plan_, bridge));
+    for (const SeparatedStreet& each : plan_.graph.separated)
+      add_street(each, separated_profile(plan_, each));
   }
 
   /// A street of any level. On level ground its line has its corners alone.
-  void add_street(const Bridge& street, const std::vector<ProfilePoint>& profile) {
+  void add_street(const SeparatedStreet& street, const std::vector<ProfilePoint>& profile) {
     const CrossSection& section = plan_.classes[street.tag];
     Json coordinates = Json::array();
     double grade = 0;

@@ -137,9 +137,9 @@ std::vector<Warning> plan_warnings(const CityParams& params, const CityPlan& pla
          "the terrain is smaller than the area; beyond its border the ground has the height of the border"});
   }
   for (Warning& each : landmark_warnings(plan)) warnings.push_back(std::move(each));
-  const std::vector<Bridge>& bridges = plan.graph.bridges;
-  const bool has_tunnel =
-      std::any_of(bridges.begin(), bridges.end(), [](const Bridge& each) { return each.level < 0; });
+  const std::vector<SeparatedStreet>& separated = plan.graph.separated;
+  const bool has_tunnel = std::any_of(separated.begin(), separated.end(),
+                                      [](const SeparatedStreet& each) { return each.level < 0; });
   if (has_tunnel && plan.heights.is_level()) {
     warnings.push_back(
         {"/given/streets", "tunnels below level ground have no mesh; expected a terrain or maps.height"});

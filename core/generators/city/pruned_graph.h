@@ -26,7 +26,7 @@ inline bool is_street(const PlanarEdge& edge) { return is_street_tag(edge.tag); 
 /// Working copy of a graph with the degrees of its nodes.
 class PrunedGraph {
  public:
-  PrunedGraph(const PlanarGraph& graph, const std::vector<BridgeLine>& bridges)
+  PrunedGraph(const PlanarGraph& graph, const std::vector<SeparatedLine>& separated)
       : nodes_(graph.nodes()), degree_(nodes_.size(), 0) {
     for (const PlanarEdge& edge : graph.edges()) {
       if (!edge.is_removed()) edges_.push_back(edge);
@@ -36,15 +36,15 @@ class PrunedGraph {
       if (is_boundary(edge)) is_border_[edge.from] = is_border_[edge.to] = 1;
     }
     count_degrees();
-    if (bridges.empty()) return;
+    if (separated.empty()) return;
     std::map<CmPoint, std::uint32_t> at;
     for (std::uint32_t n = 0; n < nodes_.size(); ++n) at.emplace(nodes_[n], n);
-    for (const BridgeLine& each : bridges) {
+    for (const SeparatedLine& each : separated) {
       const auto from = at.find(each.line.front()), to = at.find(each.line.back());
       if (from == at.end() || to == at.end()) continue;
-      bridges_.push_back({from->second, to->second, each.kind, each.level, each.line, 0});
+      separated_.push_back({from->second, to->second, each.kind, each.level, each.line, 0});
     }
-    mark_bridge_ends();
+    mark_separated_ends();
   }
 
   void drop_outside(const Region& region) {
@@ -91,7 +91,7 @@ class PrunedGraph {
     const PlanarArms arms = arms_of(nodes_, edges_);
     for (std::uint32_t node = 0; node < nodes_.size(); ++node) {
       const auto around = arms.of(node);
-      if (around.size() != 2 || is_bridge_end(node)) continue;
+      if (around.size() != 2 || is_separated_end(node)) continue;
       PlanarEdge &first = edges_[around[0] / 2], &second = edges_[around[1] / 2];
       if (first.is_removed() || second.is_removed() || !is_given(first) || first.tag != second.tag) continue;
       const std::uint32_t a = first.from == node ? first.to : first.from,
@@ -110,7 +110,7 @@ class PrunedGraph {
   /// Removes an edge if its angle to a wider or earlier edge of a node is less than the least one. `cos_least` is the
   /// cosine of the least angle.
   void drop_sharp(double cos_least) {
-    mark_ways_to_bridges();
+    mark_paths_to_separated();
     for (int round = 0; round < 8; ++round) {
       const PlanarArms arms = arms_of(nodes_, edges_);
       bool goes_on = false;
@@ -119,7 +119,7 @@ class PrunedGraph {
       compact();
       if (!goes_on) break;
     }
-    drop_sharp_at_bridges(cos_least);
+    drop_sharp_at_separated(cos_least);
   }
 
   /// Removes streets that grew if another street without a common node is nearer than half of both widths. Both stay if
@@ -148,7 +148,7 @@ class PrunedGraph {
   /// Keeps the network of streets with the greatest length, those of at least this share of its length, and those with
   /// given streets.
   void keep_large(double least_share) {
-    drop_loose_bridges();
+    drop_loose_separated();
     std::vector<std::uint32_t> root(nodes_.size());
     for (std::uint32_t i = 0; i < root.size(); ++i) root[i] = i;
     const auto find = [&root](std::uint32_t i) {
@@ -162,7 +162,7 @@ class PrunedGraph {
     for (const PlanarEdge& edge : edges_) {
       if (is_street(edge)) join(edge.from, edge.to);
     }
-    for (const Bridge& bridge : bridges_) join(bridge.from, bridge.to);
+    for (const SeparatedStreet& each : separated_) join(each.from, each.to);
     std::vector<double> length(nodes_.size(), 0);
     std::vector<std::uint8_t> has_given(nodes_.size(), 0);
     for (const PlanarEdge& edge : edges_) {
@@ -179,12 +179,12 @@ class PrunedGraph {
       if (network != longest && length[network] < least && has_given[network] == 0) remove(edge);
     }
     compact();
-    drop_loose_bridges();
+    drop_loose_separated();
   }
 
-  std::vector<BridgeLine> bridges() const {
-    std::vector<BridgeLine> all;
-    for (const Bridge& each : bridges_) all.push_back({each.line, each.tag, each.level});
+  std::vector<SeparatedLine> separated() const {
+    std::vector<SeparatedLine> all;
+    for (const SeparatedStreet& each : separated_) all.push_back({each.line, each.tag, each.level});
     return all;
   }
 
@@ -207,16 +207,16 @@ class PrunedGraph {
       graph.edge_key.push_back(key_at(std::min(a, b), std::max(a, b)));
     }
     graph.arms = arms_of(graph.nodes, graph.edges);
-    if (bridges_.empty()) return graph;
-    graph.bridge_ends.assign(graph.nodes.size(), 0);
-    for (Bridge bridge : bridges_) {
-      bridge.from = number[bridge.from];
-      bridge.to = number[bridge.to];
-      const std::uint64_t a = graph.node_key[bridge.from], b = graph.node_key[bridge.to];
-      bridge.key = key_at(key_at(std::min(a, b), std::max(a, b)), 0xB41D6E);
-      ++graph.bridge_ends[bridge.from];
-      ++graph.bridge_ends[bridge.to];
-      graph.bridges.push_back(std::move(bridge));
+    if (separated_.empty()) return graph;
+    graph.separated_ends.assign(graph.nodes.size(), 0);
+    for (SeparatedStreet each : separated_) {
+      each.from = number[each.from];
+      each.to = number[each.to];
+      const std::uint64_t a = graph.node_key[each.from], b = graph.node_key[each.to];
+      each.key = key_at(key_at(std::min(a, b), std::max(a, b)), 0xB41D6E);
+      ++graph.separated_ends[each.from];
+      ++graph.separated_ends[each.to];
+      graph.separated.push_back(std::move(each));
     }
     return graph;
   }
@@ -244,28 +244,29 @@ class PrunedGraph {
     }
     return false;
   }
-  /// Removes bridges without a street at one of their ends.
-  void drop_loose_bridges() {
-    std::erase_if(bridges_, [&](const Bridge& each) {
+  /// Removes bridges and tunnels without a street at one of their ends.
+  void drop_loose_separated() {
+    std::erase_if(separated_, [&](const SeparatedStreet& each) {
       return degree_[each.from] == 0 || degree_[each.to] == 0 || each.from == each.to;
     });
-    mark_bridge_ends();
+    mark_separated_ends();
   }
 
-  void mark_bridge_ends() {
-    is_bridge_end_.assign(nodes_.size(), 0);
-    for (const Bridge& each : bridges_) is_bridge_end_[each.from] = is_bridge_end_[each.to] = 1;
+  void mark_separated_ends() {
+    is_separated_end_.assign(nodes_.size(), 0);
+    for (const SeparatedStreet& each : separated_)
+      is_separated_end_[each.from] = is_separated_end_[each.to] = 1;
   }
-  /// Marks the nodes from each end of a bridge to the next junction, without the junction.
-  void mark_ways_to_bridges() {
-    leads_to_bridge_ = is_bridge_end_;
-    if (bridges_.empty()) return;
+  /// Marks the nodes from each end of a bridge or tunnel to the next junction, without the junction.
+  void mark_paths_to_separated() {
+    leads_to_separated_ = is_separated_end_;
+    if (separated_.empty()) return;
     const PlanarArms arms = arms_of(nodes_, edges_);
     for (std::uint32_t end = 0; end < nodes_.size(); ++end) {
-      if (is_bridge_end_[end] == 0) continue;
+      if (is_separated_end_[end] == 0) continue;
       std::uint32_t before = end, at = next_of(end, end, arms);
-      while (at != no_index && leads_to_bridge_[at] == 0 && degree_[at] == 2) {
-        leads_to_bridge_[at] = 1;
+      while (at != no_index && leads_to_separated_[at] == 0 && degree_[at] == 2) {
+        leads_to_separated_[at] = 1;
         const std::uint32_t next = next_of(at, before, arms);
         before = at;
         at = next;
@@ -280,17 +281,17 @@ class PrunedGraph {
     }
     return no_index;
   }
-  /// The rank of a street; of the same class, the way to a bridge comes first.
+  /// The rank of a street; in the same class, streets that lead to a bridge or tunnel come first.
   std::uint32_t order_of(const PlanarEdge& edge) const {
     const bool leads =
-        !leads_to_bridge_.empty() && (leads_to_bridge_[edge.from] | leads_to_bridge_[edge.to]) != 0;
+        !leads_to_separated_.empty() && (leads_to_separated_[edge.from] | leads_to_separated_[edge.to]) != 0;
     return 2 * rank_of(edge) + (leads ? 0 : 1);
   }
-  bool is_bridge_end(std::uint32_t node) const {
-    return !is_bridge_end_.empty() && is_bridge_end_[node] != 0;
+  bool is_separated_end(std::uint32_t node) const {
+    return !is_separated_end_.empty() && is_separated_end_[node] != 0;
   }
   bool is_loose(std::uint32_t node) const {
-    return degree_[node] == 1 && is_border_[node] == 0 && !is_bridge_end(node);
+    return degree_[node] == 1 && is_border_[node] == 0 && !is_separated_end(node);
   }
 
   void remove(PlanarEdge& edge) {
@@ -331,7 +332,8 @@ class PrunedGraph {
         continue;
       }
       if (u.x * v.x + u.y * v.y <= cos_least) continue;
-      // The border and given streets stay, then the lower class, then the way to a bridge, then the earlier one of this round.
+      // The border and given streets stay, then the lower class, then the street that leads to a bridge or tunnel, then the
+      // earlier one of this round.
       const bool drops_second =
           is_boundary(first) || (is_street(second) && order_of(first) <= order_of(second));
       PlanarEdge& dropped = drops_second ? second : first;
@@ -342,8 +344,8 @@ class PrunedGraph {
     return has_dropped;
   }
   /// Removes streets that grew and leave the end of a bridge or tunnel in nearly its direction.
-  void drop_sharp_at_bridges(double cos_least) {
-    if (bridges_.empty()) return;
+  void drop_sharp_at_separated(double cos_least) {
+    if (separated_.empty()) return;
     const PlanarArms arms = arms_of(nodes_, edges_);
     const auto drop = [&](std::uint32_t node, const CmPoint& next) {
       const glm::dvec2 along = (in_cm(next) - in_cm(nodes_[node])) / distance(nodes_[node], next);
@@ -354,7 +356,7 @@ class PrunedGraph {
         if (other.x * along.x + other.y * along.y > cos_least) remove(edge);
       }
     };
-    for (const Bridge& each : bridges_) {
+    for (const SeparatedStreet& each : separated_) {
       drop(each.from, each.line[1]);
       drop(each.to, each.line[each.line.size() - 2]);
     }
@@ -368,8 +370,8 @@ class PrunedGraph {
   std::vector<CmPoint> nodes_;
   std::vector<PlanarEdge> edges_;
   std::vector<std::uint32_t> degree_;
-  std::vector<std::uint8_t> is_border_, is_bridge_end_, leads_to_bridge_;  ///< by node
-  std::vector<Bridge> bridges_;
+  std::vector<std::uint8_t> is_border_, is_separated_end_, leads_to_separated_;  ///< by node
+  std::vector<SeparatedStreet> separated_;
 };
 
 }  // namespace seedmesh::city

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "core/generators/city/geometry.h"
+#include "core/generators/city/rings.h"
 
 namespace seedmesh::city {
 namespace {

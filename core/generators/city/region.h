@@ -8,7 +8,7 @@
 
 #include "core/base/job.h"
 #include "core/generators/city/density.h"
-#include "core/generators/city/geometry.h"
+#include "core/generators/city/rings.h"
 #include "core/geom/polygon/planar_graph.h"
 
 namespace seedmesh::city {

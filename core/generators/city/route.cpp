@@ -141,7 +141,7 @@ class Follower {
     kept_ = std::move(*before);
     kept_.push_back(banks.a);
     flush();
-    route_.bridges.push_back({{banks.a, banks.b}, kind_, 1});
+    route_.separated.push_back({{banks.a, banks.b}, kind_, 1});
     kept_ = {banks.b};
     ahead_ = std::move(*after);
     return true;
@@ -259,7 +259,7 @@ Route given_route(const Region& region, const std::vector<CmPoint>& line, std::u
         if (!is_end && hits[k].is_shore) over = {to};
       } else if (!over.empty()) {
         over.push_back(to);
-        if (!is_end && hits[k].is_shore) route.bridges.push_back({over, kind, 1});
+        if (!is_end && hits[k].is_shore) route.separated.push_back({over, kind, 1});
         if (!is_end) over.clear();
       }
       from = to;
@@ -268,7 +268,7 @@ Route given_route(const Region& region, const std::vector<CmPoint>& line, std::u
   return route;
 }
 
-bool meets_bridges(const Route& route, const std::vector<BridgeLine>& bridges) {
+bool meets_separated(const Route& route, const std::vector<SeparatedLine>& separated) {
   const auto meet = [](const CmRing& a, const CmRing& b) {
     for (std::size_t i = 1; i < a.size(); ++i) {
       for (std::size_t k = 1; k < b.size(); ++k) {
@@ -277,8 +277,8 @@ bool meets_bridges(const Route& route, const std::vector<BridgeLine>& bridges) {
     }
     return false;
   };
-  return std::any_of(route.bridges.begin(), route.bridges.end(), [&](const BridgeLine& own) {
-    return std::any_of(bridges.begin(), bridges.end(), [&](const BridgeLine& other) {
+  return std::any_of(route.separated.begin(), route.separated.end(), [&](const SeparatedLine& own) {
+    return std::any_of(separated.begin(), separated.end(), [&](const SeparatedLine& other) {
       return own.level == other.level && meet(own.line, other.line);
     });
   });

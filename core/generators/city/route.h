@@ -20,7 +20,7 @@ std::vector<OutlineHit> hits_of(const Region& region, const glm::dvec2& a, const
 /// The part of a line that can be built.
 struct Route {
   std::vector<StreetPiece> pieces;
-  std::vector<BridgeLine> bridges;
+  std::vector<SeparatedLine> separated;
   bool reaches_end = false;
 };
 
@@ -34,7 +34,7 @@ Route route_of(const Region& region, const std::vector<CmPoint>& line, std::uint
 /// the area are left out, and parts over water become bridges where both ends are on land.
 Route given_route(const Region& region, const std::vector<CmPoint>& line, std::uint32_t kind);
 
-/// Whether a bridge of a route meets one of the given bridges on the same level.
-bool meets_bridges(const Route& route, const std::vector<BridgeLine>& bridges);
+/// Whether a bridge or tunnel of a route meets one of `separated` on the same level.
+bool meets_separated(const Route& route, const std::vector<SeparatedLine>& separated);
 
 }  // namespace seedmesh::city

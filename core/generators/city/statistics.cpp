@@ -70,11 +70,11 @@ struct StreetNetwork {
           plan.heights.is_level() ? distance(a, b) / 100 : length_of(shown_profile(plan, edge));
       add({each.from, each.to, length, distances.is_far(a, b, border_margin * 100)});
     }
-    for (const Bridge& bridge : graph.bridges) {
+    for (const SeparatedStreet& each : graph.separated) {
       double length = 0;
-      for (std::size_t k = 1; k < bridge.line.size(); ++k)
-        length += distance(bridge.line[k - 1], bridge.line[k]) / 100;
-      add({bridge.from, bridge.to, length, false});
+      for (std::size_t k = 1; k < each.line.size(); ++k)
+        length += distance(each.line[k - 1], each.line[k]) / 100;
+      add({each.from, each.to, length, false});
     }
   }
   void add(const Street& street) {

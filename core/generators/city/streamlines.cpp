@@ -322,7 +322,7 @@ std::optional<Route> free_route(const GrowthInput& input, const Span& span) {
   if (std::optional<Route> tunnelled = input.tunnelled(built)) return tunnelled;
   if (!input.landform) return std::nullopt;
   built = route_of(input.region, span.points, minor, bridge_length);
-  if (!built.bridges.empty()) return input.is_free(built) ? std::optional(built) : std::nullopt;
+  if (!built.separated.empty()) return input.is_free(built) ? std::optional(built) : std::nullopt;
   std::erase_if(built.pieces, [&](const StreetPiece& piece) { return !input.is_free({{piece}, {}, true}); });
   return built;
 }
@@ -352,10 +352,11 @@ Route trace_majors(const GrowthInput& input, const TensorField& field, Job& job)
     std::optional<Route> free = free_route(input, span);
     if (!free) continue;
     Route built = *std::move(free);
-    if (meets_bridges(built, route.bridges) || (input.given && meets_bridges(built, input.given->bridges)))
+    if (meets_separated(built, route.separated) ||
+        (input.given && meets_separated(built, input.given->separated)))
       continue;
     route.pieces.insert(route.pieces.end(), built.pieces.begin(), built.pieces.end());
-    route.bridges.insert(route.bridges.end(), built.bridges.begin(), built.bridges.end());
+    route.separated.insert(route.separated.end(), built.separated.begin(), built.separated.end());
   }
   return route;
 }

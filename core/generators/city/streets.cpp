@@ -39,14 +39,14 @@ PlanarGraph graph_of(const Region& region, const Route& route, Job& job) {
   return graph;
 }
 
-/// A graph and the bridges whose ends are its nodes.
+/// A graph, and the bridges and tunnels whose ends are its nodes.
 struct Majors {
   StreetGraph graph;
-  std::vector<BridgeLine> bridges;
+  std::vector<SeparatedLine> separated;
 };
 
 Majors majors_of(const GrowthInput& input, const Route& route, Job& job) {
-  PrunedGraph pruned(graph_of(input.region, route, job), route.bridges);
+  PrunedGraph pruned(graph_of(input.region, route, job), route.separated);
   pruned.drop_outside(input.region);
   pruned.drop_short(least_street);
   pruned.drop_sharp(math::cos(math::radians(input.streets.minimal_angle)));
@@ -54,7 +54,7 @@ Majors majors_of(const GrowthInput& input, const Route& route, Job& job) {
   pruned.drop_loose_majors();
   pruned.keep_large(share_of_a_network);
   pruned.drop_loose_majors();
-  return {pruned.finished(), pruned.bridges()};
+  return {pruned.finished(), pruned.separated()};
 }
 
 std::vector<StreetPiece> pieces_of(const StreetGraph& graph) {
@@ -65,9 +65,9 @@ std::vector<StreetPiece> pieces_of(const StreetGraph& graph) {
   return pieces;
 }
 
-std::vector<BridgeLine> bridge_lines(const StreetGraph& graph) {
-  std::vector<BridgeLine> lines;
-  for (const Bridge& each : graph.bridges) lines.push_back({each.line, each.tag, each.level});
+std::vector<SeparatedLine> separated_lines(const StreetGraph& graph) {
+  std::vector<SeparatedLine> lines;
+  for (const SeparatedStreet& each : graph.separated) lines.push_back({each.line, each.tag, each.level});
   return lines;
 }
 
@@ -109,7 +109,7 @@ Route given_pieces(const GrowthInput& input) {
   constexpr double longest = 3000;
   Route route;
   if (!input.given) return route;
-  route.bridges = input.given->bridges;
+  route.separated = input.given->separated;
   for (const StreetPiece& piece : input.given->pieces) {
     const glm::dvec2 from = in_cm(piece.a), along = in_cm(piece.b) - from;
     const int count = std::max(1, math::to_int32(std::ceil(distance(piece.a, piece.b) / longest)));
@@ -125,12 +125,12 @@ Route given_pieces(const GrowthInput& input) {
 
 void append(Route& route, const Route& more) {
   route.pieces.insert(route.pieces.end(), more.pieces.begin(), more.pieces.end());
-  route.bridges.insert(route.bridges.end(), more.bridges.begin(), more.bridges.end());
+  route.separated.insert(route.separated.end(), more.separated.begin(), more.separated.end());
 }
 
 /// `least_share`: of the longest network, for others to stay.
 StreetGraph finished_graph(const GrowthInput& input, const Route& route, double least_share, Job& job) {
-  PrunedGraph pruned(graph_of(input.region, route, job), route.bridges);
+  PrunedGraph pruned(graph_of(input.region, route, job), route.separated);
   pruned.drop_short(least_street);
   pruned.drop_sharp(math::cos(math::radians(22.6)));
   pruned.drop_near(widths_of(input.sections), job);
@@ -140,10 +140,10 @@ StreetGraph finished_graph(const GrowthInput& input, const Route& route, double 
 }
 
 /// Links separate networks by minor streets, and removes those that stay apart without a given street.
-StreetGraph connected(const GrowthInput& input, StreetGraph graph, std::vector<BridgeLine> bridges,
+StreetGraph connected(const GrowthInput& input, StreetGraph graph, std::vector<SeparatedLine> separated,
                       Job& job) {
   if (is_one_network(graph)) return graph;
-  Route whole = {pieces_of(graph), std::move(bridges), true};
+  Route whole = {pieces_of(graph), std::move(separated), true};
   const std::vector<StreetPiece> links = links_between_networks(input, graph, job);
   whole.pieces.insert(whole.pieces.end(), links.begin(), links.end());
   std::vector<CmPoint> ring_nodes = std::move(graph.ring_nodes);
@@ -157,7 +157,7 @@ StreetGraph grow_all(const GrowthInput& input, std::vector<CmPoint>& ring_nodes,
   const CityStreets& streets = input.streets;
   Route route = given_pieces(input);
   if (streets.method == CityMethod::given) {
-    PrunedGraph pruned(graph_of(input.region, route, job), route.bridges);
+    PrunedGraph pruned(graph_of(input.region, route, job), route.separated);
     pruned.drop_outside(input.region);
     pruned.drop_short(least_street);
     pruned.keep_largest();
@@ -179,19 +179,19 @@ StreetGraph grow_all(const GrowthInput& input, std::vector<CmPoint>& ring_nodes,
   if (streets.roundabouts > 0 && !input.wards) {
     const std::vector<StreetPiece> pieces =
         with_roundabouts(majors.graph, streets, job.rng().at("roundabouts"), ring_nodes, job);
-    PrunedGraph pruned(graph_of(input.region, {pieces, {}, true}, job), majors.bridges);
+    PrunedGraph pruned(graph_of(input.region, {pieces, {}, true}, job), majors.separated);
     pruned.drop_short(least_street);
     majors.graph = pruned.finished();
   }
   if (streets.pattern == CityPattern::raster && !input.given && !input.wards && !input.tensor &&
       (!streets.minor_pattern || *streets.minor_pattern == CityMinorPattern::raster))
-    return connected(input, std::move(majors.graph), std::move(majors.bridges), job);
-  Route whole = {pieces_of(majors.graph), std::move(majors.bridges), true};
+    return connected(input, std::move(majors.graph), std::move(majors.separated), job);
+  Route whole = {pieces_of(majors.graph), std::move(majors.separated), true};
   const CellStreets minors = grow_cells(input, majors.graph, job);
   has_branches = minors.has_branches;
   whole.pieces.insert(whole.pieces.end(), minors.pieces.begin(), minors.pieces.end());
   StreetGraph graph = finished_graph(input, whole, share_of_a_network, job);
-  return connected(input, std::move(graph), std::move(whole.bridges), job);
+  return connected(input, std::move(graph), std::move(whole.separated), job);
 }
 
 }  // namespace
@@ -224,7 +224,7 @@ bool drop_deep_streets(const GrowthInput& input, const StreetHeights& heights, S
     if (!is_deep) kept.pieces.push_back({graph.nodes[each.from], graph.nodes[each.to], each.tag});
   }
   if (!is_any_deep) return false;
-  kept.bridges = bridge_lines(graph);
+  kept.separated = separated_lines(graph);
   std::vector<CmPoint> ring_nodes = std::move(graph.ring_nodes);
   const bool has_branches = graph.has_branches;
   const double least_share = separate == Separate::kept ? share_of_a_network : largest_alone;
@@ -236,8 +236,8 @@ bool drop_deep_streets(const GrowthInput& input, const StreetHeights& heights, S
 
 void link_networks(const GrowthInput& input, StreetGraph& graph, Job& job) {
   const bool has_branches = graph.has_branches;
-  std::vector<BridgeLine> bridges = bridge_lines(graph);
-  graph = connected(input, std::move(graph), std::move(bridges), job);
+  std::vector<SeparatedLine> separated = separated_lines(graph);
+  graph = connected(input, std::move(graph), std::move(separated), job);
   graph.has_branches = has_branches;
 }
 

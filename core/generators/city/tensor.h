@@ -7,8 +7,8 @@
 #include "core/base/job.h"
 #include "core/base/result.h"
 #include "core/generators/city/density.h"
-#include "core/generators/city/geometry.h"
 #include "core/generators/city/region.h"
+#include "core/generators/city/rings.h"
 
 namespace seedmesh {
 struct CityStreets;

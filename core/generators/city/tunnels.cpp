@@ -142,21 +142,21 @@ bool is_shallow(const CityPlan& plan, const std::vector<ProfilePoint>& line) {
 
 Tunnels::Tunnels(const CityPlan& plan, const EdgeTable& part_of_edge) {
   std::vector<Border> borders;
-  for (const Bridge& bridge : plan.graph.bridges) {
-    if (bridge.level > 0) continue;
+  for (const SeparatedStreet& each : plan.graph.separated) {
+    if (each.level > 0) continue;
     if (borders.empty()) borders = borders_of(plan, part_of_edge);
     Tunnel tunnel;
-    tunnel.half = plan.classes[bridge.tag].width / 2 + verge_width;
-    const CmRing& line = bridge.line;
+    tunnel.half = plan.classes[each.tag].width / 2 + verge_width;
+    const CmRing& line = each.line;
     auto first = mouth_at(borders, in_metres(line[0]), in_metres(line[1]), tunnel.half);
     auto last = mouth_at(borders, in_metres(line.back()), in_metres(line[line.size() - 2]), tunnel.half);
-    const std::vector<ProfilePoint> profile = bridge_profile(plan, bridge);
+    const std::vector<ProfilePoint> profile = separated_profile(plan, each);
     if (!first || !last || is_shallow(plan, profile)) {
       ++left_out_;
       continue;
     }
-    first->floor = plan.heights.node[bridge.from] + kerb_height;
-    last->floor = plan.heights.node[bridge.to] + kerb_height;
+    first->floor = plan.heights.node[each.from] + kerb_height;
+    last->floor = plan.heights.node[each.to] + kerb_height;
     tunnel.mouths = {*first, *last};
     tunnel.stations = stations_of(profile, tunnel);
     add_ground_points(tunnel);

@@ -146,7 +146,7 @@ class Streets {
           route_of(input_.ground.region, {start, end}, major, input_.streets.bridge_length * 100);
       if (road.pieces.empty() || !is_apart(road, start) || is_steep(road)) continue;
       for (const StreetPiece& piece : road.pieces) add_pieces(piece.a, piece.b, major);
-      plan_.route.bridges.insert(plan_.route.bridges.end(), road.bridges.begin(), road.bridges.end());
+      plan_.route.separated.insert(plan_.route.separated.end(), road.separated.begin(), road.separated.end());
       return;
     }
   }

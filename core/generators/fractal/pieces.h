@@ -18,15 +18,17 @@ struct Plan {
   std::uint64_t bytes = 0;  ///< bytes of the GLB, approximately
 };
 
+/// Returns the number of copies after this number of rounds.
 double pieces_after(const Instructions& instructions, int rounds);
 
 /// Throws Stop if the limit of triangles would be exceeded. The message gives the largest number of rounds within the
 /// limit.
 Plan plan_of(const Instructions& instructions, const Element& element, int rounds, const Job& job);
 
+/// The copies that add_pieces() makes.
 struct Copies {
   int rounds = 0;
-  double size = 1;  ///< metres of the unit of the element
+  double size = 1;  ///< length of one unit of the element, in metres
 };
 
 /// Adds the meshes and nodes of the fractal below node `parent`. The first materials of the model must be those of the

@@ -47,7 +47,7 @@ void cut(const Limbs& limbs, const Chains& chains, std::uint32_t head, float thi
 Mesh prism(const LimbBody& body, const Job& job) {
   Mesh mesh = empty_mesh(job);
   const glm::vec3 along = math::unit(body.to - body.from, glm::vec3{0, 1, 0});
-  const glm::vec3 u = any_aside(along), v = glm::cross(along, u);
+  const glm::vec3 u = unit_perpendicular(along), v = glm::cross(along, u);
   const float length = std::sqrt(glm::dot(body.to - body.from, body.to - body.from));
   const float slope = (body.base - body.end) / std::max(length, 1e-6F);
   const auto add = [&](const glm::vec3& position, const glm::vec3& normal) {

@@ -121,7 +121,7 @@ void read_alphabet(Compilation& c) {
 }
 
 void check_symbol(const Compilation& c, const WrittenModule& module, Source& source) {
-  if (!lang::has_room(source.errors)) return;
+  if (!lang::can_add_error(source.errors)) return;
   if (!c.params.alphabet || c.variables.count(module.symbol) || c.alphabet_constants.count(module.symbol))
     return;
   source.errors.push_back(

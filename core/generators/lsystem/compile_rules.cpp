@@ -82,7 +82,7 @@ KindId read_formal(Compilation& c, Source& source, const WrittenModule& module, 
 std::vector<KindId> read_context(Compilation& c, Source& source, Slice slice, std::uint32_t& slots) {
   std::vector<KindId> kinds;
   for (const WrittenModule& module : read_modules(source.text, slice, c.symbols, source.errors)) {
-    if (!lang::has_room(source.errors)) break;
+    if (!lang::can_add_error(source.errors)) break;
     check_symbol(c, module, source);
     kinds.push_back(read_formal(c, source, module, slots));
   }
@@ -116,7 +116,7 @@ void read_predecessor(Compilation& c, Source& source, Slice slice, Production& m
   }
   if (!is_strict) return;
   check_brackets(c, source, slice);
-  for (std::size_t i = 1; i < heads.size() && lang::has_room(source.errors); ++i) {
+  for (std::size_t i = 1; i < heads.size() && lang::can_add_error(source.errors); ++i) {
     check_symbol(c, heads[i], source);
     made.rest.push_back(read_formal(c, source, heads[i], slots));
   }
@@ -177,7 +177,7 @@ Range compile_word(Compilation& c, Source& source, Slice slice) {
   check_word(c, source, slice);
   std::size_t count = 0;
   for (const WrittenModule& module : read_modules(source.text, slice, c.symbols, source.errors)) {
-    if (!lang::has_room(source.errors)) break;
+    if (!lang::can_add_error(source.errors)) break;
     if (c.job && (++count & 4095U) == 0) c.job->check();
     check_symbol(c, module, source);
     check_surface(c, module, source);
@@ -200,7 +200,7 @@ Range compile_word(Compilation& c, Source& source, Slice slice) {
 void check_brackets(Compilation& c, Source& source, Slice slice) {
   std::vector<std::size_t> open;
   int depth = 0;
-  for (std::size_t i = slice.from; i < slice.to && lang::has_room(source.errors); ++i) {
+  for (std::size_t i = slice.from; i < slice.to && lang::can_add_error(source.errors); ++i) {
     const char sign = source.text[i];
     if (sign == '(') ++depth;
     if (sign == ')') --depth;

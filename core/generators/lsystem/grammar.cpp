@@ -349,7 +349,7 @@ void check_surface(Compilation& c, const WrittenModule& module, Source& source) 
          "found `~` without `surfaces`; it adds no organ, and the text after it is read as modules");
     return;
   }
-  if (!lang::has_room(source.errors)) return;
+  if (!lang::can_add_error(source.errors)) return;
   std::string known;
   for (const auto& [name, surface] : c.params.surfaces) known += (known.empty() ? "~" : ", ~") + name;
   source.errors.push_back(

@@ -53,7 +53,7 @@ std::vector<Slice> arguments_between(std::string_view text, std::size_t open, st
     if (text[i] == '(') ++depth;
     if (text[i] == ')' && i != close) --depth;
     if (i == close || (text[i] == ',' && depth == 0)) {
-      if (skip_spaces(text, from, i) == i && lang::has_room(errors))
+      if (skip_spaces(text, from, i) == i && lang::can_add_error(errors))
         errors.push_back({from, "found nothing; expected an argument here"});
       found.push_back({from, i});
       from = i + 1;
@@ -215,7 +215,7 @@ std::size_t Symbols::length_at(std::string_view text, std::size_t at, std::size_
 std::vector<WrittenModule> read_modules(std::string_view text, Slice slice, const Symbols& symbols,
                                         std::vector<TextError>& errors) {
   std::vector<WrittenModule> modules;
-  for (std::size_t at = skip_spaces(text, slice.from, slice.to); at < slice.to && lang::has_room(errors);
+  for (std::size_t at = skip_spaces(text, slice.from, slice.to); at < slice.to && lang::can_add_error(errors);
        at = skip_spaces(text, at, slice.to)) {
     if (modules.size() == most_modules) {
       errors.push_back({at, "found more than 1,000,000 modules in one grammar"});

@@ -51,7 +51,7 @@ class Assembly {
   Assembly(const SceneParams& params, const Plan& plan, const GenerateContext& context)
       : params_(params),
         ground_(plan.ground),
-        planting_(plan.planting),
+        all_placements_(plan.all_placements),
         variant_table_(plan.variant_table),
         context_(context),
         job_(context.job) {
@@ -73,14 +73,14 @@ class Assembly {
     if (chooses_levels(params_, context_.demand)) {
       std::vector<LodInfo> lod_infos;
       for (const Group& group : groups_) lod_infos.push_back(group.lod_info);
-      levels_ = levels_of(params_, {ground_, planting_, variant_table_}, lod_infos, others, context_);
+      levels_ = levels_of(params_, {ground_, all_placements_, variant_table_}, lod_infos, others, context_);
     }
     Json summary = Json::array();
     for (std::size_t i = 0; i < params_.layers.size(); ++i) summary.push_back(add_layer(i));
     model_.extras.push_back({"layers", canonical_text(summary)});
     if (params_.georeference)
       model_.extras.push_back({"georeference", georeference_text(*params_.georeference)});
-    for (const Warning& each : planting_.warnings) model_.warnings.push_back(each);
+    for (const Warning& each : all_placements_.warnings) model_.warnings.push_back(each);
     tell_what_is_missing();
     return std::move(model_);
   }
@@ -197,7 +197,7 @@ class Assembly {
   /// Adds the nodes of a layer and returns its summary.
   Json add_layer(std::size_t number) {
     const SceneLayer& layer = params_.layers[number];
-    const Array<Placement>& placements = planting_.layers[number];
+    const Array<Placement>& placements = all_placements_.layers[number];
     const std::string name = layer.name.value_or("layer_" + std::to_string(number));
     const auto parent = static_cast<int>(model_.nodes.size());
     add_node(model_, name, 0);
@@ -228,14 +228,14 @@ class Assembly {
                     {"models", models_of(number)},
                     {"triangles", triangles}};
     if (!levels_.empty()) summary["levels"] = levels_json(copies);
-    planting_.layers[number] = Array<Placement>();  // the nodes hold all data now
+    all_placements_.layers[number] = Array<Placement>();  // the nodes hold all data now
     return summary;
   }
 
   /// Returns the number of variants of a layer with placements.
   std::size_t models_of(std::size_t layer) const {
     std::set<std::uint32_t> seen;
-    for (const Placement& placement : planting_.layers[layer])
+    for (const Placement& placement : all_placements_.layers[layer])
       seen.insert(variant_table_.variant_at(layer, placement));
     return seen.size();
   }
@@ -263,12 +263,12 @@ class Assembly {
     add_growing_plant(
         model_, growing_plant,
         {variant_table_.variants[variant].name + "_" + std::to_string(placement), pose_of(layer, placement),
-         parent, start_of(params_.layers[layer], planting_.layers[layer][placement])});
+         parent, start_of(params_.layers[layer], all_placements_.layers[layer][placement])});
     return triangles_of(model_.meshes[static_cast<std::size_t>(growing_plant.mesh)]);
   }
 
   Transform pose_of(std::size_t layer, std::size_t placement) const {
-    return transform_of(planting_.layers[layer][placement], params_.layers[layer], ground_);
+    return transform_of(all_placements_.layers[layer][placement], params_.layers[layer], ground_);
   }
 
   std::uint16_t chunk_of(const glm::dvec2& p) const {
@@ -312,7 +312,7 @@ class Assembly {
 
   const SceneParams& params_;
   const Ground& ground_;
-  Planting& planting_;
+  ScenePlacements& all_placements_;
   const VariantTable& variant_table_;
   const GenerateContext& context_;
   Job& job_;

@@ -1,14 +1,14 @@
 #pragma once
 /// Assembles the model of a scene: one mesh for each model variant, and nodes with its copies.
 #include "core/generators/scene/model_variants.h"
-#include "core/generators/scene/plant.h"
+#include "core/generators/scene/place_layers.h"
 
 namespace seedmesh::scene {
 
 /// Inputs of assembled() that exist before the models. Does not own them.
 struct Plan {
   const Ground& ground;
-  Planting& planting;  ///< consumed by assembled()
+  ScenePlacements& all_placements;  ///< consumed by assembled()
   const VariantTable& variant_table;
 };
 

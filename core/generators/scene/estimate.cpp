@@ -8,7 +8,7 @@
 #include "core/base/math.h"
 #include "core/generators/child.h"
 #include "core/generators/scene/buildings.h"
-#include "core/generators/scene/plant.h"
+#include "core/generators/scene/place_layers.h"
 #include "core/generators/scene/sampled_share.h"
 #include "core/generators/scene/shapes.h"
 #include "core/generators/terrain/plan.h"

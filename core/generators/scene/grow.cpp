@@ -97,8 +97,8 @@ void add_growing_plant(Model& scene, GrowingPlant& growing_plant, const PlantIns
 
 Result<std::uint32_t> bones_for(const Plan& plan, GeneratorList generators) {
   std::size_t growing = 0;
-  for (std::size_t layer = 0; layer < plan.planting.layers.size(); ++layer) {
-    for (const Placement& placement : plan.planting.layers[layer]) {
+  for (std::size_t layer = 0; layer < plan.all_placements.layers.size(); ++layer) {
+    for (const Placement& placement : plan.all_placements.layers[layer]) {
       const ModelVariant& variant =
           plan.variant_table.variants[plan.variant_table.variant_at(layer, placement)];
       const Generator* generator = find_generator(generators, variant.request.generator);

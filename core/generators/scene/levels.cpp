@@ -57,8 +57,8 @@ class Camera {
 
 double widest_of(const Plan& plan, const std::vector<LodInfo>& lod_infos) {
   double widest = 0;
-  for (std::size_t layer = 0; layer < plan.planting.layers.size(); ++layer) {
-    for (const Placement& placement : plan.planting.layers[layer]) {
+  for (std::size_t layer = 0; layer < plan.all_placements.layers.size(); ++layer) {
+    for (const Placement& placement : plan.all_placements.layers[layer]) {
       const LodInfo& lod_info = lod_infos[plan.variant_table.variant_at(layer, placement)];
       widest = std::max(widest, lod_info.radius * static_cast<double>(placement.scale));
     }
@@ -72,8 +72,8 @@ Views views_of(const SceneParams& params, const Plan& plan, const std::vector<Lo
   std::optional<Camera> camera;
   if (params.camera) camera.emplace(*params.camera, plan.ground);
   const double widest = camera ? 1 : widest_of(plan, lod_infos);
-  for (std::size_t layer = 0; layer < plan.planting.layers.size(); ++layer) {
-    const Array<Placement>& placements = plan.planting.layers[layer];
+  for (std::size_t layer = 0; layer < plan.all_placements.layers.size(); ++layer) {
+    const Array<Placement>& placements = plan.all_placements.layers[layer];
     Array<float> share(job, placements.size());
     Array<std::uint16_t> variant(job, placements.size());
     for (std::size_t i = 0; i < placements.size(); ++i) {

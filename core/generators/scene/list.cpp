@@ -23,17 +23,17 @@ constexpr std::size_t placements_a_chunk = 8192;
 std::array<float, 3> numbers(const glm::vec3& v) { return {v.x + 0.0F, v.y + 0.0F, v.z + 0.0F}; }
 std::array<float, 4> numbers(const glm::quat& q) { return {q.x + 0.0F, q.y + 0.0F, q.z + 0.0F, q.w + 0.0F}; }
 
-std::size_t count_of(const Planting& planting) {
+std::size_t count_of(const ScenePlacements& all_placements) {
   std::size_t count = 0;
-  for (const Array<Placement>& layer : planting.layers) count += layer.size();
+  for (const Array<Placement>& layer : all_placements.layers) count += layer.size();
   return count;
 }
 
-Json layers_json(const SceneParams& params, const Planting& planting) {
+Json layers_json(const SceneParams& params, const ScenePlacements& all_placements) {
   Json layers = Json::array();
   for (std::size_t i = 0; i < params.layers.size(); ++i) {
     layers.push_back({{"name", params.layers[i].name.value_or("layer_" + std::to_string(i))},
-                      {"placed", planting.layers[i].size()}});
+                      {"placed", all_placements.layers[i].size()}});
   }
   return layers;
 }
@@ -65,14 +65,15 @@ void append(std::string& out, const std::string& model, const Transform& t) {
 }
 
 /// Returns the lines of all placements, in chunks that were written in parallel.
-std::vector<std::string> lines_of(const SceneParams& params, const Ground& ground, const Planting& planting,
-                                  const VariantTable& variant_table, Job& job) {
+std::vector<std::string> lines_of(const SceneParams& params, const Ground& ground,
+                                  const ScenePlacements& all_placements, const VariantTable& variant_table,
+                                  Job& job) {
   struct Piece {
     std::size_t layer, begin, end;
   };
   std::vector<Piece> pieces;
-  for (std::size_t i = 0; i < planting.layers.size(); ++i) {
-    const std::size_t size = planting.layers[i].size();
+  for (std::size_t i = 0; i < all_placements.layers.size(); ++i) {
+    const std::size_t size = all_placements.layers[i].size();
     for (std::size_t begin = 0; begin < size; begin += placements_a_chunk)
       pieces.push_back({i, begin, std::min(begin + placements_a_chunk, size)});
   }
@@ -83,7 +84,7 @@ std::vector<std::string> lines_of(const SceneParams& params, const Ground& groun
       std::string& out = lines[p];
       job.check();
       for (std::size_t i = piece.begin; i < piece.end; ++i) {
-        const Placement& placement = planting.layers[piece.layer][i];
+        const Placement& placement = all_placements.layers[piece.layer][i];
         out += p == 0 && i == 0 ? "\n" : ",\n";
         append(out, variant_table.variants[variant_table.variant_at(piece.layer, placement)].name,
                transform_of(placement, params.layers[piece.layer], ground));
@@ -105,21 +106,21 @@ Payload file_of(Model model, const GenerateContext& context) {
 
 }  // namespace
 
-Json placements_json(const SceneParams& params, const Ground& ground, const Planting& planting,
+Json placements_json(const SceneParams& params, const Ground& ground, const ScenePlacements& all_placements,
                      const VariantTable& variant_table, const Job& job) {
   Json models = Json::object();
   for (const ModelVariant& variant : variant_table.variants)
     models[variant.name] = schema::write_child(variant.request);
   Json answer{{"models", std::move(models)},
-              {"layers", layers_json(params, planting)},
-              {"warnings", warning_list(planting.warnings)},
+              {"layers", layers_json(params, all_placements)},
+              {"warnings", warning_list(all_placements.warnings)},
               {"placements", nullptr}};
-  if (count_of(planting) > most_listed) return answer;
+  if (count_of(all_placements) > most_listed) return answer;
   Json rows = Json::array();
-  for (std::size_t layer = 0; layer < planting.layers.size(); ++layer) {
-    for (std::size_t i = 0; i < planting.layers[layer].size(); ++i) {
+  for (std::size_t layer = 0; layer < all_placements.layers.size(); ++layer) {
+    for (std::size_t i = 0; i < all_placements.layers[layer].size(); ++i) {
       if (i % 4096 == 0) job.check();
-      const Placement& placement = planting.layers[layer][i];
+      const Placement& placement = all_placements.layers[layer][i];
       const Transform t = transform_of(placement, params.layers[layer], ground);
       rows.push_back({{"model", variant_table.variants[variant_table.variant_at(layer, placement)].name},
                       {"translation", numbers(t.translation)},
@@ -131,8 +132,9 @@ Json placements_json(const SceneParams& params, const Ground& ground, const Plan
   return answer;
 }
 
-Result<Payload> placement_list(const SceneParams& params, const Ground& ground, const Planting& planting,
-                               Forecast& forecast, const GenerateContext& context) {
+Result<Payload> placement_list(const SceneParams& params, const Ground& ground,
+                               const ScenePlacements& all_placements, Forecast& forecast,
+                               const GenerateContext& context) {
   Job& job = context.job;
   const VariantTable& variant_table = forecast.variant_table();
   std::vector<gltf::ZipEntry> entries;
@@ -142,9 +144,9 @@ Result<Payload> placement_list(const SceneParams& params, const Ground& ground, 
     models[variant.name] = {{"file", "models/" + variant.name + ".glb"},
                             {"request", schema::write_child(variant.request)}};
   }
-  list.payload.add("{\"models\":" + canonical_text(models) +
-                   ",\"layers\":" + canonical_text(layers_json(params, planting)) + ",\n\"placements\":[");
-  for (std::string& lines : lines_of(params, ground, planting, variant_table, job))
+  list.payload.add("{\"models\":" + canonical_text(models) + ",\"layers\":" +
+                   canonical_text(layers_json(params, all_placements)) + ",\n\"placements\":[");
+  for (std::string& lines : lines_of(params, ground, all_placements, variant_table, job))
     if (!lines.empty()) list.payload.add(std::move(lines));
   list.payload.add("\n]}\n");
   entries.push_back(std::move(list));

@@ -9,7 +9,7 @@
 #include "core/base/parallel.h"
 #include "core/generators/child.h"
 #include "core/generators/scene/forecast.h"
-#include "core/generators/scene/plant.h"
+#include "core/generators/scene/place_layers.h"
 #include "core/schema/embedded.h"
 #include "generated/params/scene.h"
 

@@ -1,7 +1,7 @@
 #include <cmath>
 
 #include "core/base/math.h"
-#include "core/generators/scene/plant.h"
+#include "core/generators/scene/place_layers.h"
 #include "generated/params/scene.h"
 
 namespace seedmesh::scene {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <string>
 
-#include "core/generators/scene/plant.h"
+#include "core/generators/scene/place_layers.h"
 #include "core/generators/scene/rules.h"
 #include "generated/params/scene.h"
 

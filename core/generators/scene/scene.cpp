@@ -107,19 +107,20 @@ std::vector<Issue> conflicts(const SceneParams& params, const GenerateContext& c
 }
 
 /// Returns the number of placements of each variant.
-std::vector<std::uint64_t> placements_of(const Planting& planting, const VariantTable& variant_table) {
+std::vector<std::uint64_t> placements_of(const ScenePlacements& all_placements,
+                                         const VariantTable& variant_table) {
   std::vector<std::uint64_t> placements(variant_table.variants.size());
-  for (std::size_t layer = 0; layer < planting.layers.size(); ++layer) {
-    for (const Placement& placement : planting.layers[layer])
+  for (std::size_t layer = 0; layer < all_placements.layers.size(); ++layer) {
+    for (const Placement& placement : all_placements.layers[layer])
       ++placements[variant_table.variant_at(layer, placement)];
   }
   return placements;
 }
 
 /// A list of placements has neither the ground nor what belongs to it.
-void warn_of_outlines(const SceneParams& params, Planting& planting) {
+void warn_of_outlines(const SceneParams& params, ScenePlacements& all_placements) {
   if (!params.buildings.empty()) {
-    planting.warnings.push_back(
+    all_placements.warnings.push_back(
         {"/buildings", "buildings belong to the ground, which a list of placements leaves out"});
   }
 }
@@ -160,9 +161,9 @@ Result<Model> generate(const SceneParams& params, const GenerateContext& context
   std::optional<Result<Model>> made;
   if (context.demand.packs && !has_foundations(params)) made.emplace(packed_ground(params, *ground, context));
   if (made && !*made) return std::move(*made);
-  Planting planting = plant(params, *ground, job);
-  for (Warning& each : without_effect(params)) planting.warnings.push_back(std::move(each));
-  warn_of_words(params, false, planting.warnings);
+  ScenePlacements all_placements = place_layers(params, *ground, job);
+  for (Warning& each : without_effect(params)) all_placements.warnings.push_back(std::move(each));
+  warn_of_words(params, false, all_placements.warnings);
   job.progress("mesh", 0);
   Pieces pieces;
   Demand demand;
@@ -170,12 +171,13 @@ Result<Model> generate(const SceneParams& params, const GenerateContext& context
   demand.two_sided_leaves = context.demand.two_sided_leaves;
   demand.growth = context.demand.growth;
   if (demand.growth) {
-    const Result<std::uint32_t> bones = bones_for({*ground, planting, variant_table}, context.generators);
+    const Result<std::uint32_t> bones =
+        bones_for({*ground, all_placements, variant_table}, context.generators);
     if (!bones) return bones.error();
     demand.most_bones = *bones;
   }
   const bool merges = context.demand.copies == CopyForm::merge && !chooses_levels(params, context.demand);
-  forecast.set_counts(placements_of(planting, variant_table), merges);
+  forecast.set_counts(placements_of(all_placements, variant_table), merges);
   if (context.demand.packs && !made) made.emplace(packed_ground(params, *ground, context));
   if (made && !*made) return std::move(*made);
   if (made) forecast.spend_ground();
@@ -188,7 +190,7 @@ Result<Model> generate(const SceneParams& params, const GenerateContext& context
   if (!*made) return std::move(*made);
   pieces.models = std::move(*models);
   pieces.ground = std::move(**made);
-  return assembled(params, {*ground, planting, variant_table}, std::move(pieces), context);
+  return assembled(params, {*ground, all_placements, variant_table}, std::move(pieces), context);
 }
 
 Result<Json> derive(const SceneParams& params, const GenerateContext& context) {
@@ -197,13 +199,13 @@ Result<Json> derive(const SceneParams& params, const GenerateContext& context) {
   refuse_patterns(params, job);
   Result<Ground> ground = Ground::make(params, job);
   if (!ground) return std::move(ground).error();
-  Planting planting = plant(params, *ground, job);
-  warn_of_outlines(params, planting);
-  warn_of_words(params, true, planting.warnings);
+  ScenePlacements all_placements = place_layers(params, *ground, job);
+  warn_of_outlines(params, all_placements);
+  warn_of_words(params, true, all_placements.warnings);
   const VariantTable variant_table = variant_table_of(params, job);
-  Json answer = placements_json(params, *ground, planting, variant_table, job);
+  Json answer = placements_json(params, *ground, all_placements, variant_table, job);
   if (!params.words) return answer;
-  Result<Json> words = words_of(planting, variant_table, context);
+  Result<Json> words = words_of(all_placements, variant_table, context);
   if (!words) return words;
   answer["words"] = *std::move(words);
   return answer;
@@ -252,11 +254,11 @@ Result<Payload> encode(const SceneParams& params, const WantedFormat&, const Gen
   forecast.refuse(job);
   Result<Ground> ground = Ground::make(params, job);
   if (!ground) return std::move(ground).error();
-  Planting planting = plant(params, *ground, job);
-  warn_of_outlines(params, planting);
-  warn_of_words(params, false, planting.warnings);
+  ScenePlacements all_placements = place_layers(params, *ground, job);
+  warn_of_outlines(params, all_placements);
+  warn_of_words(params, false, all_placements.warnings);
   job.progress("encode", 0);
-  return placement_list(params, *ground, planting, forecast, context);
+  return placement_list(params, *ground, all_placements, forecast, context);
 }
 
 }  // namespace seedmesh::scene

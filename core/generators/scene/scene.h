@@ -2,7 +2,7 @@
 /// Scenes: many models on one ground.
 ///
 ///   params -> Ground (the height field of a terrain, or level ground)
-///          -> plant(): computes the placements of each layer, and levels the ground under foundations
+///          -> place_layers(): computes the placements of each layer, and levels the ground under foundations
 ///          -> variant_table_of(): the requests of all models -> models_of(), in parallel
 ///          -> assembled(): one mesh for each model, nodes with copies
 ///

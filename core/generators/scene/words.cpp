@@ -24,10 +24,10 @@ std::uint64_t deepest_bracket(std::string_view word) {
   return deepest;
 }
 
-std::vector<bool> placed_variants(const Planting& planting, const VariantTable& variant_table) {
+std::vector<bool> placed_variants(const ScenePlacements& all_placements, const VariantTable& variant_table) {
   std::vector<bool> placed(variant_table.variants.size());
-  for (std::size_t layer = 0; layer < planting.layers.size(); ++layer) {
-    for (const Placement& placement : planting.layers[layer])
+  for (std::size_t layer = 0; layer < all_placements.layers.size(); ++layer) {
+    for (const Placement& placement : all_placements.layers[layer])
       placed[variant_table.variant_at(layer, placement)] = true;
   }
   return placed;
@@ -35,9 +35,9 @@ std::vector<bool> placed_variants(const Planting& planting, const VariantTable& 
 
 }  // namespace
 
-Result<Json> words_of(const Planting& planting, const VariantTable& variant_table,
+Result<Json> words_of(const ScenePlacements& all_placements, const VariantTable& variant_table,
                       const GenerateContext& context) {
-  const std::vector<bool> placed = placed_variants(planting, variant_table);
+  const std::vector<bool> placed = placed_variants(all_placements, variant_table);
   std::size_t left = longest_sum;
   Json words = Json::object();
   for (std::size_t i = 0; i < variant_table.variants.size(); ++i) {

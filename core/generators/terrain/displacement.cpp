@@ -5,8 +5,8 @@
 
 #include "core/base/math.h"
 #include "core/base/parallel.h"
-#include "core/geom/mesh/flipped_normals.h"
 #include "core/geom/mesh/point_grid.h"
+#include "core/geom/mesh/split_inward_corners.h"
 #include "core/model/index_width.h"
 #include "core/texture/png_image.h"
 
@@ -195,7 +195,7 @@ void displace_group(MeshGroup& group, const Field& field, int rounds, Job& job) 
     shade(mesh, weld_of, welds.size(), job);
     mesh.tangent = Array<glm::vec4>();
     // Where a displacement folds the surface, faces of one corner can face opposite sides.
-    repair_inward_normals(mesh, job);
+    split_inward_corners(mesh, job);
   }
 }
 

@@ -19,11 +19,12 @@ struct TerrainHydraulic;
 
 namespace seedmesh::terrain {
 
-// Largest number of samples along a side of a field.
+/// Largest number of samples along a side of a field.
 constexpr int longest_side = 16'385;
 
-/// Number of rounds, faults or octaves of the request, without and with `extra_iterations` respectively.
+/// Returns the number of rounds, faults or octaves of the request, without `extra_iterations`.
 int planned_iterations(const TerrainParams& params);
+/// Returns the same number with `extra_iterations`.
 int all_iterations(const TerrainParams& params);
 
 double amplitude_of(const TerrainParams& params);

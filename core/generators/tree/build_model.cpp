@@ -12,7 +12,7 @@
 #include "core/generators/tree/weber_penn_shape.h"
 #include "core/geom/lod/coarse_limbs.h"
 #include "core/geom/lod/detail.h"
-#include "core/geom/mesh/flipped_normals.h"
+#include "core/geom/mesh/split_inward_corners.h"
 #include "core/geom/plant/graft/graft.h"
 #include "core/geom/plant/grow.h"
 #include "core/model/build.h"
@@ -108,7 +108,7 @@ Mesh coarser_bark(const Limbs& limbs, const CoarseOptions& wanted, GraftOptions 
     if (made <= wanted.triangles + wanted.triangles / 100) break;
     coarse.triangles = coarse.triangles * wanted.triangles / made;
   }
-  repair_inward_normals(mesh, job);
+  split_inward_corners(mesh, job);
   return mesh;
 }
 

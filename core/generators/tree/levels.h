@@ -1,5 +1,5 @@
 #pragma once
-/// Which leaves and limbs of a tree remain at coarser levels of detail.
+/// Selects the leaves and limbs of a tree that remain at coarser levels of detail.
 ///
 /// Levels have 100, 40, 15, 5 and 3 % of the triangles. Leaves lose triangles first, because their textures
 /// keep the outline. Bent cards become flat quads, then triangles, then single triangles that are visible
@@ -17,7 +17,7 @@
 namespace seedmesh::tree {
 
 struct TreeLevels {
-  /// Needs a skeleton after fit_leaves(). Does nothing if there is only one level of detail.
+  /// Requires a skeleton for which fit_leaves() has run. Does nothing if there is only one level of detail.
   TreeLevels(const Skeleton& skeleton, const TreeParams& params, const GenerateContext& context);
 
   struct Plan {

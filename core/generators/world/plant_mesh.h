@@ -14,7 +14,6 @@ struct PlantFile {
   std::string bytes;
   std::uint32_t vertices = 0, indices = 0;  ///< indices have 16 bits
   float low[3] = {0, 0, 0}, high[3] = {0, 0, 0};
-  std::uint64_t bytes_of_store() const { return bytes.size() + sizeof(PlantFile); }
 };
 
 constexpr std::size_t plant_vertex_bytes = 24;

@@ -45,7 +45,7 @@ double wood_cover(const World& world, int plant_class, const GroundSample& sampl
 double tallest_growing(const World& world, const GroundSample& sample, double east, double north,
                        double spacing);
 
-/// What is known of a square: bounds of its heights, and of the heights of its plants.
+/// Bounds of the heights in a square, and of the heights of the plants that can grow there, in metres.
 struct Growth {
   double low = 0, high = 0, tallest = 0;
   bool has_river = false;  ///< a river beside which `tallest` does not include the moist ground

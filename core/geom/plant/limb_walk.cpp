@@ -66,7 +66,7 @@ bool MitreCheck::allows(const Internode& a, const Internode& b, float radius_bef
   const float most_of_a = a.length - std::max(least_free * a.length, scale_->apart);
   const float most_of_b = b.length - std::max(least_free * b.length, scale_->apart);
   Ring ring{turn, radius, gentle_taper, false};
-  if (turn.reach > most_of_b || !leaves_room(a, most_of_a, ring)) return false;
+  if (turn.reach > most_of_b || !has_length_for_rings(a, most_of_a, ring)) return false;
 
   const float free_a = std::max(a.length - turn.reach - last_.turn.reach, least_free * a.length);
   const float free_b = std::max(b.length - turn.reach, least_free * b.length);
@@ -83,7 +83,7 @@ bool MitreCheck::allows(const Internode& a, const Internode& b, float radius_bef
 }
 
 /// True where the rings at both ends of `a` do not cross: together they use at most the length `most` of it.
-bool MitreCheck::leaves_room(const Internode& a, float most, const Ring& ring) const {
+bool MitreCheck::has_length_for_rings(const Internode& a, float most, const Ring& ring) const {
   if (ring.turn.reach + last_.turn.reach <= most) return true;
   glm::vec3 both = lean_along(a.along, ring.turn, ring.radius);
   if (last_.radius > 0) both -= lean_along(a.along, last_.turn, last_.radius);

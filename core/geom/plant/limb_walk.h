@@ -114,7 +114,7 @@ class MitreCheck {
     bool is_gentle = true;  ///< turn and taper are so small that no face there can face inward
   };
 
-  bool leaves_room(const Internode& a, float most, const Ring& ring) const;
+  bool has_length_for_rings(const Internode& a, float most, const Ring& ring) const;
   bool keeps_faces_outside(const Ring& ring, float taper_after) const;
 
   const Scale* scale_;

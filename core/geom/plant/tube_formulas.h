@@ -38,13 +38,13 @@ inline float texture_repeats(float radius, float least) {
 /// Returns the radius that determines how fast v grows along a limb. A texture that repeats as a whole keeps its
 /// proportions. One with strips, of which `least` is below 1, becomes narrower than long: it is half way between
 /// keeping its proportions and keeping its scale.
-inline float paced_radius(float radius, float first, float least) {
+inline float texture_radius(float radius, float first, float least) {
   return least < 1 ? std::sqrt(radius * first) : radius;
 }
 
 /// Returns a unit vector at right angles to the unit vector `along` (Duff et al., "Building an Orthonormal Basis,
 /// Revisited", 2017).
-inline glm::vec3 any_aside(const glm::vec3& along) {
+inline glm::vec3 unit_perpendicular(const glm::vec3& along) {
   const float sign = along.z < 0 ? -1.0F : 1.0F;
   const float a = -1 / (sign + along.z);
   return {1 + sign * along.x * along.x * a, sign * along.x * along.y * a, -sign * along.x};

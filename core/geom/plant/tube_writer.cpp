@@ -17,7 +17,7 @@ constexpr std::uint32_t widest_column = 8, widest_cold_column = 6;
 constexpr std::uint32_t phase_count = 64;
 // The limit of v for each metre, relative to the beginning of the limb: at a tip the texture would shrink to
 // nothing.
-constexpr float most_hurry = 4;
+constexpr float most_rate = 4;
 
 glm::vec2 slope_of(float radius, float next_radius, float length) {
   const float drop = radius - next_radius;
@@ -78,7 +78,7 @@ float TubeWriter::nudge(std::uint64_t hash, float radius) const {
 }
 
 void TubeWriter::start_frame(const glm::vec3& along, std::uint64_t hash) {
-  const glm::vec3 u = any_aside(along);
+  const glm::vec3 u = unit_perpendicular(along);
   const TubeTables& angles = context_.tables[finest_sides_];
   const auto both = [](const glm::vec2& one, const glm::vec2& other) {
     return glm::vec2{one.x * other.x - one.y * other.y, one.x * other.y + one.y * other.x};
@@ -114,24 +114,24 @@ void TubeWriter::begin_piece(std::int16_t color) {
 }
 
 /// Sets v for each metre of an internode.
-void TubeWriter::pace_picture(const Internode& internode) {
+void TubeWriter::set_texture_rate(const Internode& internode) {
   if (!context_.options.wrap) return;
   const auto round = static_cast<float>(2 * math::pi);
   if (turns_ == 0) {
     turns_ = texture_repeats(internode.base, context_.options.least_repeats);
-    slowest_ = turns_ / (round * std::max(internode.base, context_.scale.thinnest));
+    first_v_per_metre_ = turns_ / (round * std::max(internode.base, context_.scale.thinnest));
   }
   const float radius = std::max(0.5F * (internode.base + internode.end), context_.scale.thinnest);
-  const float first = turns_ / (round * slowest_);
-  const float paced = paced_radius(radius, first, context_.options.least_repeats);
-  by_length_ = std::min(turns_ / (round * paced), most_hurry * slowest_);
+  const float first = turns_ / (round * first_v_per_metre_);
+  const float mean = texture_radius(radius, first, context_.options.least_repeats);
+  v_per_metre_ = std::min(turns_ / (round * mean), most_rate * first_v_per_metre_);
 }
 
 void TubeWriter::open(const Internode& first, TubeOpening opening) {
   internode_ = first;
   radius_ = first.base;
   reach_ = 0;
-  pace_picture(first);
+  set_texture_rate(first);
   begin_piece(first.color);
   is_turned_ = false;
   const std::uint64_t hash = hash_of(first.first);
@@ -162,7 +162,7 @@ void TubeWriter::open(const Internode& first, TubeOpening opening) {
     }
     case TubeOpening::branch: {
       const float back = nudge(hash, radius_), cone = cap_share * radius_;
-      pending_ring_ = plain_ring(first.from - first.along * back, radius_, v_so_far_ - back * by_length_);
+      pending_ring_ = plain_ring(first.from - first.along * back, radius_, v_so_far_ - back * v_per_metre_);
       pending_ring_.contour = first_contour(first.joint);
       if (begins_flat(context_.options)) {
         write_flat(pending_ring_, -1);
@@ -170,7 +170,7 @@ void TubeWriter::open(const Internode& first, TubeOpening opening) {
       }
       pending_ring_.before = slope_of(0, radius_, cone);
       piece_.start_apex = write_apex(pending_ring_.centre - first.along * cone, -first.along,
-                                     {half_round(radius_), pending_ring_.v - cone * by_length_});
+                                     {half_round(radius_), pending_ring_.v - cone * v_per_metre_});
       break;
     }
   }
@@ -183,7 +183,7 @@ void TubeWriter::join(const Turn& turn, const Internode& next) {
   write_pending_ring(slope);
   write_inner_rings({next.base, internode_.length, reach_, internode_.length - turn.reach});
 
-  v_so_far_ += internode_.length * by_length_;
+  v_so_far_ += internode_.length * v_per_metre_;
   Ring ring;
   ring.centre = internode_.to;
   if (context_.chains.mark[internode_.joint] & revisit) {
@@ -215,7 +215,7 @@ void TubeWriter::join(const Turn& turn, const Internode& next) {
   radius_ = next.base;
   reach_ = turn.reach;
   twist(u_);
-  pace_picture(next);
+  set_texture_rate(next);
 }
 
 void TubeWriter::close(TubeClosing closing, float free) {
@@ -231,7 +231,7 @@ void TubeWriter::close(TubeClosing closing, float free) {
   write_pending_ring(slope);
   write_inner_rings({end, ring_at, reach_, ring_at});
 
-  v_so_far_ += internode_.length * by_length_;
+  v_so_far_ += internode_.length * v_per_metre_;
   glm::vec3 apex = internode_.to;
   if (context_.chains.mark[internode_.joint] & revisit) apex += along * nudge(hash, 0);
   if (closing != TubeClosing::point) {
@@ -240,7 +240,7 @@ void TubeWriter::close(TubeClosing closing, float free) {
                          : is_revisit                ? -0.25F * cone * fraction_of(hash)
                                                      : 0;
     Ring ring = plain_ring(internode_.from + along * (ring_at + nudged), end,
-                           v_so_far_ - (internode_.length - ring_at) * by_length_);
+                           v_so_far_ - (internode_.length - ring_at) * v_per_metre_);
     ring.before = slope;
     ring.is_turned = is_turned_;
     if (closing == TubeClosing::cap) apex = ring.centre + along * cone;
@@ -252,7 +252,7 @@ void TubeWriter::close(TubeClosing closing, float free) {
       return;
     }
   }
-  const float v = closing == TubeClosing::cap ? v_so_far_ + cone * by_length_ : v_so_far_;
+  const float v = closing == TubeClosing::cap ? v_so_far_ + cone * v_per_metre_ : v_so_far_;
   piece_.end_apex = write_apex(apex, along, {half_round(end), v});
   end_piece();
 }
@@ -282,7 +282,7 @@ void TubeWriter::write_inner_rings(const Taper& taper) {
       u_ = first_u_ + (last_u - first_u_) * (at / taper.length);
       u_ *= 1 / std::sqrt(glm::dot(u_, u_));
     }
-    Ring ring = plain_ring(internode_.from + internode_.along * at, radius, v_so_far_ + at * by_length_);
+    Ring ring = plain_ring(internode_.from + internode_.along * at, radius, v_so_far_ + at * v_per_metre_);
     turn_on(way, std::max(radius_, taper.end));
     ring.is_turned = is_turned_;
     ring.before = slope;

@@ -113,7 +113,7 @@ class TubeWriter {
   void twist(const glm::vec3& side);
   ContourCorner corner(const Ring& ring, std::uint32_t k) const;
   void write_contour(const Ring& ring, Slope after);
-  void pace_picture(const Internode& internode);
+  void set_texture_rate(const Internode& internode);
   void begin_piece(std::int16_t color);
   void end_piece();
   template <class WantsOther>
@@ -151,9 +151,9 @@ class TubeWriter {
   float twist_ = 1;       ///< cosine of the angle between the two, where it is visible
   /// Texture coordinate v of the limb up to the beginning of the current internode.
   float v_so_far_ = 0;
-  float by_length_ = 1;  ///< v of the current internode for each metre
-  float slowest_ = 1;    ///< v for each metre at the beginning of the limb
-  float turns_ = 0;      ///< repetitions of a wrapped texture around the limb; 0: not chosen yet
+  float v_per_metre_ = 1;        ///< v of the current internode for each metre
+  float first_v_per_metre_ = 1;  ///< v for each metre at the beginning of the limb
+  float turns_ = 0;              ///< repetitions of a wrapped texture around the limb; 0: not chosen yet
 };
 
 }  // namespace seedmesh

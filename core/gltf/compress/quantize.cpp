@@ -9,7 +9,7 @@
 #include "core/base/array.h"
 #include "core/gltf/compress/flat_triangles.h"
 #include "core/gltf/compress/merged_points.h"
-#include "core/gltf/compress/repair_normals.h"
+#include "core/gltf/compress/quantized_normals.h"
 #include "core/gltf/compress/vertex_data.h"
 
 namespace seedmesh::gltf {
@@ -258,7 +258,7 @@ void quantize(Part& part, const Grid& grid, Job& job, Encoding encoding) {
   const bool is_closed = split_merged_points(part, exact, job);
   if (!is_closed) keep_positions(part.columns.front(), exact, grid, job);
   exact = {};
-  repair_normals(part, inward, job);
+  repair_quantized_normals(part, inward, job);
   if (is_closed) clean(part, job);
 }
 

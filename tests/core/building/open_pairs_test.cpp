@@ -164,9 +164,9 @@ TEST(OpenPairs, MatchSolidsInThePlaneAndInSpace) {
 TEST(OpenPairs, RejectLeftShapesThatDoNotDetermineTheirVariables) {
   const std::string initial = R"({"shapes":[{"shape":"rectangle"}]})";
   const auto errors = [&](const std::string& open, const std::string& values, const std::string& more = "") {
-    const std::string picture = R"({"shapes":[{"shape":"rectangle","values":{)" + values + "}}]" + more + "}";
+    const std::string figure = R"({"shapes":[{"shape":"rectangle","values":{)" + values + "}}]" + more + "}";
     return errors_of(
-        request(R"({"open":[)" + open + R"(],"pair":[)" + picture + "," + picture + "]}", initial));
+        request(R"({"open":[)" + open + R"(],"pair":[)" + figure + "," + figure + "]}", initial));
   };
   const std::string h = R"({"name":"h"})", w = R"({"name":"w"})";
   EXPECT_THAT(errors(h, R"("h":"h")"), testing::IsEmpty());

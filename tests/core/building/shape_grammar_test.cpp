@@ -204,11 +204,11 @@ TEST(ShapeGrammar, KeepsLinesMaximal) {
   Rng rng(5);
   for (int trial = 0; trial < 300; ++trial) {
     const glm::dvec3 along(0.6, 0, 0.8), start(rng.uniform(-5, 5), 0, rng.uniform(-5, 5));
-    std::vector<PictureLine> lines;
+    std::vector<FigureLine> lines;
     std::vector<bool> cells(20, false);
     for (int i = 0; i < 25; ++i) {
       const std::uint32_t from = rng.below(19), to = from + 1 + rng.below(19 - from);
-      PictureLine line{start + along * static_cast<double>(from), start + along * static_cast<double>(to)};
+      FigureLine line{start + along * static_cast<double>(from), start + along * static_cast<double>(to)};
       if (rng.below(2) == 0) std::swap(line.from, line.to);
       const bool adds = rng.below(3) > 0;
       for (std::uint32_t c = from; c < to; ++c) cells[c] = adds;
@@ -220,8 +220,8 @@ TEST(ShapeGrammar, KeepsLinesMaximal) {
       for (std::size_t c = 0; c < cells.size(); ++c) runs += cells[c] && (c == 0 || !cells[c - 1]);
       ASSERT_EQ(lines.size(), runs) << trial << " " << i;
       for (std::size_t c = 0; c < 19; ++c) {
-        const PictureLine cell{start + along * static_cast<double>(c),
-                               start + along * static_cast<double>(c + 1)};
+        const FigureLine cell{start + along * static_cast<double>(c),
+                              start + along * static_cast<double>(c + 1)};
         ASSERT_EQ(contains(lines, cell, 1e-7), cells[c]);
       }
     }

@@ -9,8 +9,8 @@
 
 #include "core/generators/child.h"
 #include "core/generators/city/city.h"
-#include "core/generators/city/geometry.h"
 #include "core/generators/city/objects.h"
+#include "core/generators/city/rings.h"
 #include "generated/params/city.h"
 #include "tests/support/context.h"
 

@@ -192,17 +192,6 @@ TEST(Expression, ReadsFromTheMiddleOfATokenList) {
   EXPECT_EQ(program.evaluate(second, slots, rng), 5);
 }
 
-TEST(Expression, ReportsTheSlotsThatItNeeds) {
-  const std::pair<const char*, std::uint32_t> table[] = {
-      {"1", 0},   {"x", 1},   {"z", 3},     {"y*2", 2},       {"2-z", 3},
-      {"x*z", 3}, {"z*x", 3}, {"x+y+1", 2}, {"max(1, z)", 3}, {"0 && z", 0},
-  };
-  for (const auto& [text, slots] : table) {
-    const Parsed parsed = parse(text);
-    EXPECT_EQ(parsed.program.slots_used(parsed.expression), slots) << text;
-  }
-}
-
 TEST(Expression, KeepsManyInOneProgram) {
   Program program;
   std::vector<Expression> expressions;

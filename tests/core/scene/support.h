@@ -5,7 +5,7 @@
 #include <string>
 
 #include "core/generators/child.h"
-#include "core/generators/scene/plant.h"
+#include "core/generators/scene/place_layers.h"
 #include "core/generators/scene/scene.h"
 #include "core/geom/mesh/finish.h"
 #include "core/registry/registry.h"
@@ -46,8 +46,8 @@ inline std::vector<std::string> scene_errors(const Json& json) {
 /// The placements of a scene, and its ground.
 struct Planted {
   scene::Ground ground;
-  scene::Planting planting;
-  const Array<scene::Placement>& layer(std::size_t i) const { return planting.layers.at(i); }
+  scene::ScenePlacements all_placements;
+  const Array<scene::Placement>& layer(std::size_t i) const { return all_placements.layers.at(i); }
 };
 
 inline Planted planted(const Json& json, std::uint64_t seed = 1, int threads = 1) {
@@ -55,8 +55,8 @@ inline Planted planted(const Json& json, std::uint64_t seed = 1, int threads = 1
   Job job = job_of(seed, threads);
   Result<scene::Ground> ground = scene::Ground::make(own(params), job);
   EXPECT_TRUE(ground);
-  scene::Planting planting = scene::plant(own(params), *ground, job);
-  return {std::move(*ground), std::move(planting)};
+  scene::ScenePlacements all_placements = scene::place_layers(own(params), *ground, job);
+  return {std::move(*ground), std::move(all_placements)};
 }
 
 inline Result<Model> scene_of(const Json& json, std::uint64_t seed = 1, Job::Options options = {}) {

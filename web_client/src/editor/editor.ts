@@ -8,7 +8,7 @@ import { EditorView, keymap, lineNumbers } from '@codemirror/view';
 import type { Vocabulary } from '../api';
 import { completions } from './complete';
 import type { CodeEditor, CodeOptions, MakeEditor } from './types';
-import { colours, look, tags } from './look';
+import { colours, look, tags } from './theme';
 import { formula, json, production, shape_rules } from './notations';
 import { words_for, type Words } from './words';
 

@@ -1,7 +1,7 @@
 /** Reports clicks on the ground as events on the canvas, and shows markers on the ground. */
 import { Plane, Raycaster, Vector3, type Group, type Object3D, type PerspectiveCamera } from 'three';
 import type { GroundClick, GroundMarks } from '../form/planting';
-import { is_ground } from './footing';
+import { is_ground } from './land';
 import { draw_marks } from './marks';
 import { on_tap, ray_of } from './tap';
 

@@ -1,9 +1,9 @@
 /** The view. It renders only after changes, and holds one model at a time. */
 import { Box3, Fog, NeutralToneMapping, PCFShadowMap, Scene, Vector3, WebGLRenderer, type Group, type PerspectiveCamera } from 'three';
 import { measured } from '../grower';
-import { Comparison } from './beside';
+import { Comparison } from './comparison';
 import { Scopes, drop_boxes, type ScopeBox } from './boxes';
-import { OrbitCamera } from './eye';
+import { OrbitCamera } from './orbit_camera';
 import { corners_of, type Covered } from './frame';
 import { wire_ground } from './ground';
 import { Levels, Model } from './model';

@@ -3,7 +3,7 @@
  * buttons press the same keys.
  */
 import { MathUtils, Vector3, type Box3, type Object3D, type PerspectiveCamera } from 'three';
-import { Land, surface_heights } from './footing';
+import { Land, surface_heights } from './land';
 
 export type Gait = 'orbit' | 'walk' | 'fly';
 

@@ -48,7 +48,7 @@ class Problem(_ProblemRequired, total=False):
     errors: List["ProblemErrorsItem"]
 
 
-class PictureSolidsItem(TypedDict, total=False):
+class FigureSolidsItem(TypedDict, total=False):
     solid: Literal['box', 'cylinder', 'cone', 'sphere', 'pyramid', 'prism', 'triangular_prism']
     at: List[Union[float, str]]
     size: List[Union[float, str]]
@@ -56,16 +56,16 @@ class PictureSolidsItem(TypedDict, total=False):
     material: str
 
 
-class PictureMarkersItem(TypedDict):
+class FigureMarkersItem(TypedDict):
     name: str
     points: List[List[Union[float, str]]]
 
 
-class _PictureShapesItemRequired(TypedDict):
+class _FigureShapesItemRequired(TypedDict):
     shape: str
 
 
-class PictureShapesItem(_PictureShapesItemRequired, total=False):
+class FigureShapesItem(_FigureShapesItemRequired, total=False):
     values: Dict[str, Union[float, str]]
     at: List[Union[float, str]]
     turn: List[Union[float, str]]
@@ -73,12 +73,12 @@ class PictureShapesItem(_PictureShapesItemRequired, total=False):
     mirror: bool
 
 
-class Picture(TypedDict, total=False):
+class Figure(TypedDict, total=False):
     parameters: Dict[str, float]
     lines: List[List[List[Union[float, str]]]]
-    solids: List["PictureSolidsItem"]
-    markers: List["PictureMarkersItem"]
-    shapes: List["PictureShapesItem"]
+    solids: List["FigureSolidsItem"]
+    markers: List["FigureMarkersItem"]
+    shapes: List["FigureShapesItem"]
 
 
 class _BuildingParametersShapeGrammarRulesItemOpenItemRequired(TypedDict):
@@ -91,7 +91,7 @@ class BuildingParametersShapeGrammarRulesItemOpenItem(_BuildingParametersShapeGr
 
 
 class _BuildingParametersShapeGrammarRulesItemRequired(TypedDict):
-    pair: List["Picture"]
+    pair: List["Figure"]
 
 
 class BuildingParametersShapeGrammarRulesItem(_BuildingParametersShapeGrammarRulesItemRequired, total=False):
@@ -103,12 +103,12 @@ class BuildingParametersShapeGrammarRulesItem(_BuildingParametersShapeGrammarRul
 
 class _BuildingParametersShapeGrammarRequired(TypedDict):
     rules: List["BuildingParametersShapeGrammarRulesItem"]
-    initial: List["Picture"]
+    initial: List["Figure"]
 
 
 class BuildingParametersShapeGrammar(_BuildingParametersShapeGrammarRequired, total=False):
     dimensions: int
-    shapes: Dict[str, "Picture"]
+    shapes: Dict[str, "Figure"]
     mirror: bool
     width: float
     height: float

@@ -35,6 +35,7 @@ struct PartOptions {
   friend auto operator<=>(const PartOptions&, const PartOptions&) = default;
 };
 
+/// A built-in part, and the function that makes it.
 struct PartRow {
   std::string_view name;
   std::string_view text;  ///< description in one sentence, for GET /v1/vocabulary

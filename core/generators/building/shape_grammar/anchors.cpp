@@ -17,7 +17,7 @@ bool is_in_line(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, d
 }
 
 /// Where two lines come nearest to each other, if that is within `near` of both.
-bool crossing(const PictureLine& a, const PictureLine& b, double near, glm::dvec3& at) {
+bool crossing(const FigureLine& a, const FigureLine& b, double near, glm::dvec3& at) {
   const glm::dvec3 u = a.to - a.from, v = b.to - b.from, w = a.from - b.from;
   const double uu = glm::dot(u, u), uv = glm::dot(u, v), vv = glm::dot(v, v);
   const double det = uu * vv - uv * uv;
@@ -30,35 +30,35 @@ bool crossing(const PictureLine& a, const PictureLine& b, double near, glm::dvec
   return glm::length(b.from + t * v - at) <= near;
 }
 
-double extent_of(const std::vector<PictureAnchor>& anchors) {
+double extent_of(const std::vector<FigureAnchor>& anchors) {
   double extent = 0;
-  for (const PictureAnchor& each : anchors)
+  for (const FigureAnchor& each : anchors)
     extent = std::max(extent, glm::length(each.at - anchors.front().at));
   return extent;
 }
 
-bool determines_similarity(const std::vector<PictureAnchor>& anchors, bool is_flat) {
+bool determines_similarity(const std::vector<FigureAnchor>& anchors, bool is_flat) {
   const double extent = extent_of(anchors);
   if (!(extent > 0)) return false;
   if (is_flat) return true;
   const glm::dvec3 first = anchors.front().at;
   const auto second = std::ranges::find_if(
-      anchors, [&](const PictureAnchor& each) { return is_apart(each.at, first, extent); });
+      anchors, [&](const FigureAnchor& each) { return is_apart(each.at, first, extent); });
   return std::ranges::any_of(
-      anchors, [&](const PictureAnchor& each) { return !is_in_line(first, second->at, each.at, extent); });
+      anchors, [&](const FigureAnchor& each) { return !is_in_line(first, second->at, each.at, extent); });
 }
 
 }  // namespace
 
-std::vector<PictureAnchor> anchors_of_wholes(const ShapePicture& picture) {
-  std::vector<PictureAnchor> out;
-  for (std::uint32_t i = 0; i < picture.markers.size(); ++i) {
-    const PictureMarker& marker = picture.markers[i];
+std::vector<FigureAnchor> anchors_of_wholes(const Figure& figure) {
+  std::vector<FigureAnchor> out;
+  for (std::uint32_t i = 0; i < figure.markers.size(); ++i) {
+    const FigureMarker& marker = figure.markers[i];
     for (std::uint32_t k = 0; k < marker.count; ++k)
       out.push_back({marker.points[k], first_marker + 12 * marker.label + 4 * (marker.count - 1) + k, i});
   }
-  for (std::uint32_t i = 0; i < picture.solids.size(); ++i) {
-    const PictureSolid& solid = picture.solids[i];
+  for (std::uint32_t i = 0; i < figure.solids.size(); ++i) {
+    const FigureSolid& solid = figure.solids[i];
     double radius = 0;
     std::uint32_t corner = 0;
     for (const KeyPoint& point : key_points(solid, radius)) {
@@ -70,8 +70,8 @@ std::vector<PictureAnchor> anchors_of_wholes(const ShapePicture& picture) {
   return out;
 }
 
-std::vector<PictureAnchor> crossings_of(const std::vector<PictureLine>& lines, double near, const Job* job) {
-  std::vector<PictureAnchor> out;
+std::vector<FigureAnchor> crossings_of(const std::vector<FigureLine>& lines, double near, const Job* job) {
+  std::vector<FigureAnchor> out;
   std::uint64_t looked = 0;
   for (std::size_t i = 0; i < lines.size(); ++i) {
     for (std::size_t k = i + 1; k < lines.size(); ++k) {
@@ -83,34 +83,34 @@ std::vector<PictureAnchor> crossings_of(const std::vector<PictureLine>& lines, d
   return out;
 }
 
-std::vector<PictureAnchor> ends_of(const std::vector<PictureLine>& lines) {
-  std::vector<PictureAnchor> out;
-  for (const PictureLine& line : lines) {
+std::vector<FigureAnchor> ends_of(const std::vector<FigureLine>& lines) {
+  std::vector<FigureAnchor> out;
+  for (const FigureLine& line : lines) {
     out.push_back({line.from, anchor_end, no_owner});
     out.push_back({line.to, anchor_end, no_owner});
   }
   return out;
 }
 
-std::vector<PictureAnchor> anchors_of_left(const ShapePicture& left, bool is_flat, bool& is_determined) {
-  std::vector<PictureAnchor> anchors = anchors_of_wholes(left);
-  const std::vector<PictureAnchor> crossings =
+std::vector<FigureAnchor> anchors_of_left(const Figure& left, bool is_flat, bool& is_determined) {
+  std::vector<FigureAnchor> anchors = anchors_of_wholes(left);
+  const std::vector<FigureAnchor> crossings =
       crossings_of(left.lines, 1e-7 * std::max(reach_of(left), 1e-9), nullptr);
   anchors.insert(anchors.end(), crossings.begin(), crossings.end());
   is_determined = determines_similarity(anchors, is_flat);
   if (!is_determined) {
-    const std::vector<PictureAnchor> ends = ends_of(left.lines);
+    const std::vector<FigureAnchor> ends = ends_of(left.lines);
     anchors.insert(anchors.end(), ends.begin(), ends.end());
     is_determined = determines_similarity(anchors, is_flat);
   }
   return anchors;
 }
 
-std::array<PictureAnchor, 3> chosen_anchors(const std::vector<PictureAnchor>& anchors, bool is_flat,
-                                            const std::map<std::uint32_t, std::size_t>& counts) {
+std::array<FigureAnchor, 3> chosen_anchors(const std::vector<FigureAnchor>& anchors, bool is_flat,
+                                           const std::map<std::uint32_t, std::size_t>& counts) {
   const double extent = extent_of(anchors);
-  std::array<PictureAnchor, 3> chosen{};
-  const auto count_of = [&](const PictureAnchor& each, std::size_t before) {
+  std::array<FigureAnchor, 3> chosen{};
+  const auto count_of = [&](const FigureAnchor& each, std::size_t before) {
     // A further point of a marker or solid that is chosen already costs nothing to find.
     for (std::size_t k = 0; k < before; ++k) {
       if (each.owner != no_owner && chosen[k].owner == each.owner) return std::size_t{1};
@@ -120,8 +120,8 @@ std::array<PictureAnchor, 3> chosen_anchors(const std::vector<PictureAnchor>& an
   };
   const std::size_t wanted = is_flat ? 2 : 3;
   for (std::size_t k = 0; k < wanted; ++k) {
-    const PictureAnchor* best = nullptr;
-    for (const PictureAnchor& each : anchors) {
+    const FigureAnchor* best = nullptr;
+    for (const FigureAnchor& each : anchors) {
       if (k > 0 && !is_apart(each.at, chosen[0].at, extent)) continue;
       if (k > 1 && is_in_line(chosen[0].at, chosen[1].at, each.at, extent)) continue;
       if (best == nullptr || count_of(each, k) < count_of(*best, k)) best = &each;

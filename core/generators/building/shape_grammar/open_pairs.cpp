@@ -1,4 +1,4 @@
-/// Points of a left shape are p(t) = c + sum t_k d_k in its open variables t. If a similarity maps it to points q of the picture,
+/// Points of a left shape are p(t) = c + sum t_k d_k in its open variables t. If a similarity maps it to points q of the figure,
 /// its inverse has p = N q + s. In the plane N has two numbers, and the equations are linear in N, s and t together. In space the
 /// rotation of N follows first, from three points whose directions do not depend on t; its scale is one more unknown.
 #include "core/generators/building/shape_grammar/open_pairs.h"
@@ -18,8 +18,8 @@ constexpr double same_point = 1e-7;  ///< share of the left shape
 constexpr double same_place = 1e-5;  ///< share of the left shape by which matched points may differ
 
 /// Elements of equal kinds in equal order, so that points can be compared by number.
-bool are_alike(const ShapePicture& a, const ShapePicture& b) {
-  const auto same_solid = [](const PictureSolid& s, const PictureSolid& o) {
+bool are_alike(const Figure& a, const Figure& b) {
+  const auto same_solid = [](const FigureSolid& s, const FigureSolid& o) {
     return s.kind == o.kind && s.material == o.material && glm::length(s.axes[0] - o.axes[0]) <= same_point &&
            glm::length(s.axes[1] - o.axes[1]) <= same_point &&
            glm::length(s.axes[2] - o.axes[2]) <= same_point;
@@ -29,9 +29,9 @@ bool are_alike(const ShapePicture& a, const ShapePicture& b) {
 }
 
 /// All points of the elements.
-std::vector<PictureAnchor> all_points(const ShapePicture& picture) {
-  std::vector<PictureAnchor> points = anchors_of_wholes(picture);
-  const std::vector<PictureAnchor> ends = ends_of(picture.lines);
+std::vector<FigureAnchor> all_points(const Figure& figure) {
+  std::vector<FigureAnchor> points = anchors_of_wholes(figure);
+  const std::vector<FigureAnchor> ends = ends_of(figure.lines);
   points.insert(points.end(), ends.begin(), ends.end());
   return points;
 }
@@ -51,14 +51,14 @@ glm::dmat3 frame_of(const glm::dvec3& along, const glm::dvec3& in_plane) {
 
 }  // namespace
 
-std::vector<double> samples_of(const PicturePair& pair, double share) {
+std::vector<double> samples_of(const FigurePair& pair, double share) {
   std::vector<double> values;
   for (const OpenVariable& each : pair.open) values.push_back(each.low + share * (each.high - each.low));
   return values;
 }
 
-PictureValues named(const PicturePair& pair, const std::vector<double>& values) {
-  PictureValues out;
+FigureValues named(const FigurePair& pair, const std::vector<double>& values) {
+  FigureValues out;
   for (std::size_t k = 0; k < pair.open.size(); ++k) out[pair.open[k].name] = values[k];
   return out;
 }
@@ -85,12 +85,12 @@ void check_open_variables(const BuildingPair& given, const std::string& pointer,
   }
 }
 
-ShapePicture left_shape(const PicturePair& pair, const std::vector<double>& values) {
-  ShapePicture out = pair.left;
+Figure left_shape(const FigurePair& pair, const std::vector<double>& values) {
+  Figure out = pair.left;
   const std::vector<double> first = samples_of(pair, first_sample), second = samples_of(pair, second_sample);
   for (std::size_t k = 0; k < pair.open.size(); ++k) {
     const double share = (values[k] - first[k]) / (second[k] - first[k]);
-    const ShapePicture& moved = pair.moved[k];
+    const Figure& moved = pair.moved[k];
     const auto move = [share](glm::dvec3& p, const glm::dvec3& from, const glm::dvec3& to) {
       p += share * (to - from);
     };
@@ -110,13 +110,13 @@ ShapePicture left_shape(const PicturePair& pair, const std::vector<double>& valu
   return out;
 }
 
-void check_open_left(const PicturePair& pair, const ShapePicture& other, const std::vector<double>& values,
+void check_open_left(const FigurePair& pair, const Figure& other, const std::vector<double>& values,
                      bool is_flat, const std::string& pointer, std::vector<Issue>& issues) {
   bool is_linear = are_alike(pair.left, other);
-  for (const ShapePicture& each : pair.moved) is_linear = is_linear && are_alike(pair.left, each);
+  for (const Figure& each : pair.moved) is_linear = is_linear && are_alike(pair.left, each);
   if (is_linear) {
-    const std::vector<PictureAnchor> found = all_points(other),
-                                     expected = all_points(left_shape(pair, values));
+    const std::vector<FigureAnchor> found = all_points(other),
+                                    expected = all_points(left_shape(pair, values));
     const double near = same_point * std::max(reach_of(other), 1e-9);
     for (std::size_t i = 0; i < found.size(); ++i)
       is_linear = is_linear && glm::length(found[i].at - expected[i].at) <= near;
@@ -136,10 +136,10 @@ void check_open_left(const PicturePair& pair, const ShapePicture& other, const s
   }
 }
 
-std::vector<OpenAnchor> open_anchors(const PicturePair& pair) {
-  const std::vector<PictureAnchor> points = all_points(pair.left);
-  std::vector<std::vector<PictureAnchor>> moved;
-  for (const ShapePicture& each : pair.moved) moved.push_back(all_points(each));
+std::vector<OpenAnchor> open_anchors(const FigurePair& pair) {
+  const std::vector<FigureAnchor> points = all_points(pair.left);
+  std::vector<std::vector<FigureAnchor>> moved;
+  for (const Figure& each : pair.moved) moved.push_back(all_points(each));
   const std::vector<double> first = samples_of(pair, first_sample), second = samples_of(pair, second_sample);
   const double near = same_point * std::max(reach_of(pair.left), 1e-9);
   const std::size_t wholes = points.size() - 2 * pair.left.lines.size();
@@ -194,7 +194,7 @@ std::optional<OpenPlacement> solve_placement(const std::vector<OpenAnchor>& anch
   double extent = 0;
   for (const glm::dvec3& p : points) extent = std::max(extent, glm::length(p - centre));
   if (!(extent > 0)) return std::nullopt;
-  glm::dmat3 turn(1);  // of the picture, so that what is left is a scale, or in the plane a rotation
+  glm::dmat3 turn(1);  // of the figure, so that what is left is a scale, or in the plane a rotation
   if (is_flat) {
     turn[2][2] = is_mirrored ? -1 : 1;
   } else {

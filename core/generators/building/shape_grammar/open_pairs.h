@@ -17,34 +17,34 @@ namespace seedmesh::building {
 constexpr double first_sample = 0.38, second_sample = 0.62;
 
 /// Returns a value for each open variable, at this share of its range.
-std::vector<double> samples_of(const PicturePair& pair, double share);
-PictureValues named(const PicturePair& pair, const std::vector<double>& values);
+std::vector<double> samples_of(const FigurePair& pair, double share);
+FigureValues named(const FigurePair& pair, const std::vector<double>& values);
 
 /// Reports empty ranges, and variables that share a name with another variable or with a parameter.
 void check_open_variables(const BuildingPair& given, const std::string& pointer, std::vector<Issue>& issues);
 
 /// Returns the left shape for these values.
-ShapePicture left_shape(const PicturePair& pair, const std::vector<double>& values);
+Figure left_shape(const FigurePair& pair, const std::vector<double>& values);
 
 /// Reports a left shape that is not linear in its variables, or whose points do not determine them and a similarity.
 /// `other` is the left shape read for `values`.
-void check_open_left(const PicturePair& pair, const ShapePicture& other, const std::vector<double>& values,
+void check_open_left(const FigurePair& pair, const Figure& other, const std::vector<double>& values,
                      bool is_flat, const std::string& pointer, std::vector<Issue>& issues);
 
 /// A point of a left shape: `at` plus the sum of the changes times the values.
 struct OpenAnchor {
   glm::dvec3 at{0}, sample{0};  ///< `sample` is the point for first_sample
   std::vector<glm::dvec3> changes;
-  std::uint32_t kind = 0, owner = no_owner, corner = 0;  ///< as in PictureAnchor
+  std::uint32_t kind = 0, owner = no_owner, corner = 0;  ///< as in FigureAnchor
   std::vector<std::uint32_t> beside;  ///< anchors at the other ends of lines that begin here
 };
 
 /// Returns one anchor for each point. An end that lines of several directions share has the kind anchor_crossing.
-std::vector<OpenAnchor> open_anchors(const PicturePair& pair);
+std::vector<OpenAnchor> open_anchors(const FigurePair& pair);
 
 /// Returns the anchors to search for, in this order: as many as determine the similarity and the values, those with few
 /// candidates first. In space, the directions between the first three do not depend on the variables. `per_line` is the
-/// mean number of points on a line of the picture. The result is empty if all anchors together are not enough.
+/// mean number of points on a line of the figure. The result is empty if all anchors together are not enough.
 std::vector<std::uint32_t> search_order(const std::vector<OpenAnchor>& anchors, bool is_flat,
                                         const std::map<std::uint32_t, std::size_t>& counts, double per_line);
 

@@ -10,7 +10,7 @@
 namespace seedmesh::building {
 namespace {
 
-bool lies_on(const glm::dvec3& p, const PictureLine& line, double near) {
+bool lies_on(const glm::dvec3& p, const FigureLine& line, double near) {
   const glm::dvec3 along = line.to - line.from;
   const double length = glm::length(along);
   if (!(length > 0)) return false;
@@ -61,7 +61,7 @@ std::vector<ImpliedAnchor> implied_anchors(const std::vector<OpenAnchor>& anchor
 class PointSearch {
  public:
   PointSearch(const std::vector<OpenAnchor>& anchors, std::span<const std::uint32_t> order,
-              const PicturePoints& points, const std::function<void()>& look,
+              const FigurePoints& points, const std::function<void()>& look,
               const std::function<void(const std::vector<glm::dvec3>&)>& found)
       : anchors_(anchors),
         order_(order),
@@ -81,7 +81,7 @@ class PointSearch {
     if (of_kind == points_.by_kind.end()) return;
     for (const std::uint32_t each : choices(anchor, of_kind->second)) {
       look_();
-      const PictureAnchor& point = of_kind->second[each];
+      const FigureAnchor& point = of_kind->second[each];
       if (!fits(anchor, each, point)) continue;
       chosen_.push_back(each);
       taken_.push_back(point);
@@ -100,7 +100,7 @@ class PointSearch {
   }
 
   /// The points that can be meant: all, or those on lines through a point that is chosen.
-  std::vector<std::uint32_t> choices(const OpenAnchor& anchor, const std::vector<PictureAnchor>& all) const {
+  std::vector<std::uint32_t> choices(const OpenAnchor& anchor, const std::vector<FigureAnchor>& all) const {
     std::vector<std::uint32_t> out;
     for (std::size_t before = 0; before < chosen_.size(); ++before) {
       if (!is_joined(anchor, before)) continue;
@@ -117,7 +117,7 @@ class PointSearch {
     return out;
   }
 
-  bool fits(const OpenAnchor& anchor, std::uint32_t number, const PictureAnchor& point) const {
+  bool fits(const OpenAnchor& anchor, std::uint32_t number, const FigureAnchor& point) const {
     for (std::size_t before = 0; before < chosen_.size(); ++before) {
       const OpenAnchor& other = anchors_[order_[before]];
       if (other.kind == anchor.kind && chosen_[before] == number) return false;
@@ -133,7 +133,7 @@ class PointSearch {
     return true;
   }
 
-  /// False where the picture has no point at the position of this anchor, or no line to it.
+  /// False where the figure has no point at the position of this anchor, or no line to it.
   bool may_be_there(const ImpliedAnchor& implied) const {
     const OpenAnchor& anchor = anchors_[implied.anchor];
     glm::dvec3 p(0);
@@ -141,7 +141,7 @@ class PointSearch {
     if (anchor.owner != no_owner) {
       const auto of_kind = points_.by_kind.find(anchor.kind);
       return of_kind != points_.by_kind.end() &&
-             std::ranges::any_of(of_kind->second, [&](const PictureAnchor& each) {
+             std::ranges::any_of(of_kind->second, [&](const FigureAnchor& each) {
                return glm::length(each.at - p) <= implied.near;
              });
     }
@@ -164,18 +164,18 @@ class PointSearch {
 
   const std::vector<OpenAnchor>& anchors_;
   std::span<const std::uint32_t> order_;
-  const PicturePoints& points_;
+  const FigurePoints& points_;
   const std::function<void()>& look_;
   const std::function<void(const std::vector<glm::dvec3>&)>& found_;
   std::vector<ImpliedAnchor> implied_;
   std::vector<std::uint32_t> chosen_;
-  std::vector<PictureAnchor> taken_;
+  std::vector<FigureAnchor> taken_;
   std::vector<glm::dvec3> at_;
 };
 
 }  // namespace
 
-LinePoints line_points(const std::vector<PictureLine>& lines, const std::vector<PictureAnchor>& crossings,
+LinePoints line_points(const std::vector<FigureLine>& lines, const std::vector<FigureAnchor>& crossings,
                        double near, const Job& job) {
   LinePoints out;
   out.lines_of_point.resize(crossings.size());
@@ -195,7 +195,7 @@ LinePoints line_points(const std::vector<PictureLine>& lines, const std::vector<
 }
 
 void search_points(const std::vector<OpenAnchor>& anchors, std::span<const std::uint32_t> order,
-                   const PicturePoints& points, const std::function<void()>& look,
+                   const FigurePoints& points, const std::function<void()>& look,
                    const std::function<void(const std::vector<glm::dvec3>&)>& found) {
   PointSearch(anchors, order, points, look, found).run();
 }

@@ -149,7 +149,7 @@ void level_tangent(Mesh& mesh, std::size_t vertex) {
   along -= normal * glm::dot(along, normal);
   constexpr float least = 1e-3F;
   const bool is_found = before > 0 && glm::dot(along, along) > least * least * before;
-  tangent = {math::quick_unit(is_found ? along : any_aside(normal), {1, 0, 0}) + 0.0F, tangent.w};
+  tangent = {math::quick_unit(is_found ? along : unit_perpendicular(normal), {1, 0, 0}) + 0.0F, tangent.w};
 }
 
 JoinedBark take_bark(BarkBuffers& bark, std::size_t spare_triangles, const Job& job) {

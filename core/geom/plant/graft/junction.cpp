@@ -41,8 +41,8 @@ Directions directions_of(const glm::vec3& parent, const glm::vec3& child) {
   c.sine = std::sqrt(std::max(0.0F, 1 - c.cosine * c.cosine));
   if (c.sine < 1e-3F) return c;
   const float by = 1 / c.sine;
-  c.out = unit_again((child - parent * c.cosine) * by, [&] { return any_aside(parent); });
-  c.top = unit_again((parent - child * c.cosine) * by, [&] { return any_aside(child); });
+  c.out = unit_again((child - parent * c.cosine) * by, [&] { return unit_perpendicular(parent); });
+  c.top = unit_again((parent - child * c.cosine) * by, [&] { return unit_perpendicular(child); });
   c.aside = glm::cross(parent, c.out);
   return c;
 }

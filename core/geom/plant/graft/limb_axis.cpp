@@ -74,7 +74,7 @@ void LimbAxis::set_v(float turns, float least_repeats) {
     const float length = at[i + 1] - at[i];
     const float mean = std::max(0.5F * (radius[i] + radius[i + 1]), least);
     v.push_back(v.back() +
-                (turns > 0 ? length * turns / paced_radius(mean, radius[0], least_repeats) : length));
+                (turns > 0 ? length * turns / texture_radius(mean, radius[0], least_repeats) : length));
   }
 }
 
@@ -88,7 +88,7 @@ glm::vec3 least_rotation(glm::vec3 u, const glm::vec3& from, const glm::vec3& to
   const float cosine = glm::dot(from, to);
   if (cosine > -0.999F) u -= (from + to) * (glm::dot(u, to) / (1 + cosine));
   u -= to * glm::dot(u, to);
-  return unit_again(u, [&] { return any_aside(to); });
+  return unit_again(u, [&] { return unit_perpendicular(to); });
 }
 
 }  // namespace seedmesh

@@ -50,7 +50,7 @@ struct LimbAxis {
   void read_colors(const Limbs& limbs);
   /// True where the limb changes its colour at an inner point.
   bool is_border(std::size_t inner) const { return !color.empty() && color[inner] != color[inner - 1]; }
-  /// Sets `v`: the length itself where `turns` is 0, else the length times `turns` divided by paced_radius().
+  /// Sets `v`: the length itself where `turns` is 0, else the length times `turns` divided by texture_radius().
   void set_v(float turns, float least_repeats = 1);
   /// Sets `u` of all pieces from that of the first one, by the least rotation from piece to piece.
   void set_frames(const glm::vec3& first);

@@ -67,11 +67,12 @@ glm::vec3 toward_parents_tip(const LimbWriter& w, std::uint32_t head) {
     from = limbs.parent[joint];
   }
   const glm::vec3& along = w.axis.along[0];
-  if (from == none) return any_aside(along);
+  if (from == none) return unit_perpendicular(along);
   const glm::vec3 step = limbs.position[to] - limbs.position[from];
   const glm::vec3 aside = step - along * glm::dot(step, along);
   const float least = 1e-3F * std::sqrt(glm::dot(step, step));
-  return glm::dot(aside, aside) > least * least ? math::unit(aside, any_aside(along)) : any_aside(along);
+  return glm::dot(aside, aside) > least * least ? math::unit(aside, unit_perpendicular(along))
+                                                : unit_perpendicular(along);
 }
 
 /// Reads the axis. Returns false where nothing of the limb can be seen.
@@ -103,7 +104,7 @@ glm::vec3 first_direction(const LimbWriter& w, const LimbBeginning& beginning, c
                           std::uint64_t hash) {
   if (beginning.has_loop) return loop.u;
   if (beginning.is_twig) return toward_parents_tip(w, beginning.head);
-  const glm::vec3 first = any_aside(w.axis.along[0]);
+  const glm::vec3 first = unit_perpendicular(w.axis.along[0]);
   const math::SinCos turn = math::quick_sincos(static_cast<double>(fraction_of(hash)) * 2 * math::pi);
   return first * static_cast<float>(turn.cos) +
          glm::cross(w.axis.along[0], first) * static_cast<float>(turn.sin);

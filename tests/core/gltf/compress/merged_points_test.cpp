@@ -10,7 +10,7 @@
 #include "core/base/job.h"
 #include "core/base/rng.h"
 #include "core/gltf/compress/quantize.h"
-#include "core/gltf/compress/repair_normals.h"
+#include "core/gltf/compress/quantized_normals.h"
 
 namespace seedmesh::gltf {
 namespace {

@@ -16,7 +16,7 @@ LimbAxis axis_through(const std::vector<glm::vec3>& points, float radius) {
   const Limbs limbs = limb_through(job, points, radius);
   LimbAxis axis;
   EXPECT_TRUE(axis.read(limbs, link_chains(limbs, job), 0, 1e-5F));
-  axis.set_frames(any_aside(axis.along[0]));
+  axis.set_frames(unit_perpendicular(axis.along[0]));
   axis.set_v(0);
   return axis;
 }

@@ -66,7 +66,7 @@ TEST(RingShape, FindsAVectorAtRightAnglesToAnyOther) {
   for (int i = 0; i < 1000; ++i) {
     const glm::vec3 along =
         glm::normalize(glm::vec3(rng.uniform(-1, 1), rng.uniform(-1, 1), rng.uniform(-1, 1)));
-    const glm::vec3 aside = any_aside(along);
+    const glm::vec3 aside = unit_perpendicular(along);
     EXPECT_NEAR(glm::length(aside), 1, 1e-6);
     EXPECT_NEAR(glm::dot(aside, along), 0, 1e-6);
   }

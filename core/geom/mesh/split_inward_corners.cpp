@@ -1,4 +1,4 @@
-#include "core/geom/mesh/flipped_normals.h"
+#include "core/geom/mesh/split_inward_corners.h"
 
 #include <algorithm>
 #include <cmath>
@@ -52,7 +52,7 @@ std::vector<Turned> corners_facing_inward(const Mesh& mesh, const Job& job) {
 
 }  // namespace
 
-void repair_inward_normals(Mesh& mesh, const Job& job) {
+void split_inward_corners(Mesh& mesh, const Job& job) {
   const std::vector<Turned> turned = corners_facing_inward(mesh, job);
   if (turned.empty()) return;
   Array<std::uint32_t> uses(job, mesh.position.size());

@@ -7,9 +7,9 @@
 
 namespace seedmesh::building {
 
-/// Returns the value of an expression of a picture, with the names in `values`. Returns 0 and adds errors at
+/// Returns the value of an expression of a figure, with the names in `values`. Returns 0 and adds errors at
 /// `pointer`, at most 100 in all, if the text is wrong or contains a random function.
-double picture_value(const std::string& text, const PictureValues& values, const std::string& pointer,
-                     std::vector<Issue>& issues);
+double figure_value(const std::string& text, const FigureValues& values, const std::string& pointer,
+                    std::vector<Issue>& issues);
 
 }  // namespace seedmesh::building

@@ -1,4 +1,4 @@
-#include "core/gltf/compress/repair_normals.h"
+#include "core/gltf/compress/quantized_normals.h"
 
 #include <algorithm>
 #include <cmath>
@@ -59,7 +59,7 @@ std::vector<std::size_t> inward_corners(const Part& part, Job& job) {
   return inward;
 }
 
-void repair_normals(Part& part, const std::vector<std::size_t>& inward, Job& job) {
+void repair_quantized_normals(Part& part, const std::vector<std::size_t>& inward, Job& job) {
   const Column *position = column_of(part, "POSITION"), *normal = column_of(part, "NORMAL");
   if (!has_faces(part, position, normal) || normal->filter != Filter::octahedral) return;
   struct Repaired {

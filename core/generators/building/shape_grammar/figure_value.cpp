@@ -1,11 +1,11 @@
-#include "core/generators/building/shape_grammar/picture_value.h"
+#include "core/generators/building/shape_grammar/figure_value.h"
 
 #include "core/lang/expression.h"
 
 namespace seedmesh::building {
 
-double picture_value(const std::string& text, const PictureValues& values, const std::string& pointer,
-                     std::vector<Issue>& issues) {
+double figure_value(const std::string& text, const FigureValues& values, const std::string& pointer,
+                    std::vector<Issue>& issues) {
   constexpr std::size_t most_errors = 100;
   lang::Names names;
   for (const auto& [name, value] : values) names.bind_constant(name, value);

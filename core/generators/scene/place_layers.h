@@ -1,6 +1,6 @@
 #pragma once
-/// Places everything in a scene, layer by layer: candidate positions of the pattern, filtered by the rules,
-/// then competition between crowns.
+/// Places the models of a scene, layer by layer. The pattern of a layer gives candidate positions, the rules filter
+/// them, and crowns compete for the rest.
 ///
 /// Each layer has its own random stream, so changing one layer does not change others, except through
 /// footprints, near, shade and competition.
@@ -15,14 +15,15 @@ struct SceneParams;
 
 namespace seedmesh::scene {
 
-struct Planting {
+/// The placements of all layers.
+struct ScenePlacements {
   std::vector<Array<Placement>> layers;  ///< indexed by SceneParams::layers
   std::vector<Warning> warnings;
 };
 
 /// Computes all placements and levels the ground under foundations. Spends one shape for each placement.
 /// Throws Stop (Code::invalid) for an unreadable density image. Cost: below 1 microsecond for each placement.
-Planting plant(const SceneParams& params, Ground& ground, Job& job);
+ScenePlacements place_layers(const SceneParams& params, Ground& ground, Job& job);
 
 /// Returns the largest number of positions that are tried for a layer with the method scatter or clusters.
 std::size_t tries_of_series(const SceneLayer& layer);

@@ -1,5 +1,5 @@
 /// Faces as small as the steps of a grid keep normals that look their way.
-#include "core/gltf/compress/repair_normals.h"
+#include "core/gltf/compress/quantized_normals.h"
 #include "core/gltf/compress/vertex_data.h"
 
 #include <gtest/gtest.h>
@@ -83,7 +83,7 @@ Outcome after_quantizing(std::uint64_t seed) {
   return result;
 }
 
-TEST(RepairNormals, TurnsNormalsThatTheGridHasTurnedAway) {
+TEST(QuantizedNormals, TurnsNormalsThatTheGridHasTurnedAway) {
   std::size_t repaired = 0;
   for (std::uint64_t seed = 1; seed <= 300; ++seed) {
     const Outcome outcome = after_quantizing(seed);

@@ -1,4 +1,4 @@
-#include "core/geom/mesh/flipped_normals.h"
+#include "core/geom/mesh/split_inward_corners.h"
 
 #include <gtest/gtest.h>
 
@@ -23,10 +23,10 @@ Mesh square(const Job& job, float low) {
   return mesh;
 }
 
-TEST(Outward, SeparatesVerticesOfCornersThatFaceInward) {
+TEST(SplitInwardCorners, SeparatesVerticesOfCornersThatFaceInward) {
   const Job job(0, Job::Options{});
   Mesh mesh = square(job, -1);
-  repair_inward_normals(mesh, job);
+  split_inward_corners(mesh, job);
   ASSERT_EQ(mesh.position.size(), 5U) << "the last corner keeps the vertex, so that none is unused";
   EXPECT_EQ(mesh.normal.size(), 5U);
   EXPECT_EQ(mesh.uv[0].size(), 5U);
@@ -38,10 +38,10 @@ TEST(Outward, SeparatesVerticesOfCornersThatFaceInward) {
   }
 }
 
-TEST(Outward, LeavesAllOthers) {
+TEST(SplitInwardCorners, LeavesAllOthers) {
   const Job job(0, Job::Options{});
   Mesh mesh = square(job, 1);
-  repair_inward_normals(mesh, job);
+  split_inward_corners(mesh, job);
   EXPECT_EQ(mesh.position.size(), 4U);
 }
 

@@ -1,7 +1,7 @@
 /// Competition after Deussen et al., "Realistic modeling and rendering of plant ecosystems", 1998: where
 /// crowns overlap, the larger plant dominates. Distances between layers after Lane and Prusinkiewicz,
 /// "Generating spatial distributions for multilevel models of plant communities", 2002.
-#include "core/generators/scene/plant.h"
+#include "core/generators/scene/place_layers.h"
 
 #include <algorithm>
 #include <cmath>
@@ -54,9 +54,9 @@ Base base_of(const SceneLayer& layer) {
 }
 
 /// Processes the layers in order; rules of a layer can use the earlier ones.
-class Planter {
+class LayerPlacer {
  public:
-  Planter(const SceneParams& params, Ground& ground, Job& job)
+  LayerPlacer(const SceneParams& params, Ground& ground, Job& job)
       : params_(params), ground_(ground), job_(job), obstacles_(ground.extent(), job) {
     for (const ScenePath& path : params.paths) {
       std::vector<glm::dvec2> points;
@@ -68,7 +68,7 @@ class Planter {
     planted_.reserve(params.layers.size());
   }
 
-  Planting plant() {
+  ScenePlacements place_layers() {
     for (std::size_t i = 0; i < params_.layers.size(); ++i) {
       const SceneLayer& layer = params_.layers[i];
       if (Rules::reads_neighbours(layer.place)) settle();
@@ -319,7 +319,7 @@ class Planter {
   Ground& ground_;
   Job& job_;
   Obstacles obstacles_;
-  Planting made_;
+  ScenePlacements made_;
   std::vector<PlacedLayer> planted_;
   std::size_t competed_ = 0;  ///< number of layers after competition, searchable by position
 };
@@ -335,8 +335,8 @@ Rng stream_of(const SceneLayer& layer, std::size_t number, const Job& job) {
   return layer.name ? layers.at(*layer.name) : layers.at(number);
 }
 
-Planting plant(const SceneParams& params, Ground& ground, Job& job) {
-  return Planter(params, ground, job).plant();
+ScenePlacements place_layers(const SceneParams& params, Ground& ground, Job& job) {
+  return LayerPlacer(params, ground, job).place_layers();
 }
 
 }  // namespace seedmesh::scene

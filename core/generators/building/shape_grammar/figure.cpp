@@ -1,4 +1,4 @@
-#include "core/generators/building/shape_grammar/picture.h"
+#include "core/generators/building/shape_grammar/figure.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,14 +6,14 @@
 namespace seedmesh::building {
 namespace {
 
-double length_of(const PictureLine& line) { return glm::length(line.to - line.from); }
+double length_of(const FigureLine& line) { return glm::length(line.to - line.from); }
 
 /// Where `line` runs along `other`, as distances from the start of `other`; false where the two have no
 /// carrier in common. Measured along the longer one, whose direction is known better.
-bool run_along(const PictureLine& other, const PictureLine& line, double near, double& low, double& high) {
+bool run_along(const FigureLine& other, const FigureLine& line, double near, double& low, double& high) {
   const bool is_longer = length_of(other) >= length_of(line);
-  const PictureLine& carrier = is_longer ? other : line;
-  const PictureLine& short_one = is_longer ? line : other;
+  const FigureLine& carrier = is_longer ? other : line;
+  const FigureLine& short_one = is_longer ? line : other;
   const double length = length_of(carrier);
   if (!(length > 0)) return false;
   const glm::dvec3 along = (carrier.to - carrier.from) / length;
@@ -28,27 +28,27 @@ bool run_along(const PictureLine& other, const PictureLine& line, double near, d
   return true;
 }
 
-glm::dvec3 in_solid(const PictureSolid& solid, double x, double y, double z) {
+glm::dvec3 in_solid(const FigureSolid& solid, double x, double y, double z) {
   return solid.base + solid.axes * (glm::dvec3(x - 0.5, y, z - 0.5) * solid.size);
 }
 
 }  // namespace
 
-PictureMarker Similarity::of(const PictureMarker& marker) const {
-  PictureMarker out = marker;
+FigureMarker Similarity::of(const FigureMarker& marker) const {
+  FigureMarker out = marker;
   for (std::uint32_t i = 0; i < marker.count; ++i) out.points[i] = of(marker.points[i]);
   return out;
 }
 
-PictureSolid Similarity::of(const PictureSolid& solid) const {
-  PictureSolid out = solid;
+FigureSolid Similarity::of(const FigureSolid& solid) const {
+  FigureSolid out = solid;
   out.base = of(solid.base);
   out.axes = turn * solid.axes;
   out.size = scale * solid.size;
   return out;
 }
 
-std::vector<KeyPoint> key_points(const PictureSolid& solid, double& radius) {
+std::vector<KeyPoint> key_points(const FigureSolid& solid, double& radius) {
   std::vector<KeyPoint> points;
   radius = 0;
   const auto corners = [&](double height, double inset, std::uint32_t role) {
@@ -88,7 +88,7 @@ std::vector<KeyPoint> key_points(const PictureSolid& solid, double& radius) {
   return points;
 }
 
-bool are_equal(const PictureMarker& a, const PictureMarker& b, double near) {
+bool are_equal(const FigureMarker& a, const FigureMarker& b, double near) {
   if (a.label != b.label || a.count != b.count) return false;
   for (std::uint32_t i = 0; i < a.count; ++i) {
     if (glm::length(a.points[i] - b.points[i]) > near) return false;
@@ -96,7 +96,7 @@ bool are_equal(const PictureMarker& a, const PictureMarker& b, double near) {
   return true;
 }
 
-bool are_equal(const PictureSolid& a, const PictureSolid& b, double near) {
+bool are_equal(const FigureSolid& a, const FigureSolid& b, double near) {
   if (a.kind != b.kind || a.material != b.material) return false;
   // A quick look before the points are worked out: the middles of equal solids agree.
   if (glm::length(in_solid(a, 0.5, 0.5, 0.5) - in_solid(b, 0.5, 0.5, 0.5)) > near) return false;
@@ -109,18 +109,18 @@ bool are_equal(const PictureSolid& a, const PictureSolid& b, double near) {
   });
 }
 
-bool contains(const std::vector<PictureLine>& lines, const PictureLine& line, double near) {
-  return std::ranges::any_of(lines, [&](const PictureLine& each) {
+bool contains(const std::vector<FigureLine>& lines, const FigureLine& line, double near) {
+  return std::ranges::any_of(lines, [&](const FigureLine& each) {
     double low = 0, high = 0;
     return run_along(each, line, near, low, high) && low >= -near && high <= length_of(each) + near;
   });
 }
 
-void add_line(std::vector<PictureLine>& lines, PictureLine line, double near) {
+void add_line(std::vector<FigureLine>& lines, FigureLine line, double near) {
   if (length_of(line) <= near) return;
   for (std::size_t i = 0; i < lines.size();) {
     double low = 0, high = 0;
-    const PictureLine each = lines[i];
+    const FigureLine each = lines[i];
     if (!run_along(each, line, near, low, high) || high < -near || low > length_of(each) + near) {
       ++i;
       continue;
@@ -136,9 +136,9 @@ void add_line(std::vector<PictureLine>& lines, PictureLine line, double near) {
   lines.push_back(line);
 }
 
-void remove_line(std::vector<PictureLine>& lines, const PictureLine& line, double near) {
-  std::vector<PictureLine> rests;
-  std::erase_if(lines, [&](const PictureLine& each) {
+void remove_line(std::vector<FigureLine>& lines, const FigureLine& line, double near) {
+  std::vector<FigureLine> rests;
+  std::erase_if(lines, [&](const FigureLine& each) {
     double low = 0, high = 0;
     const double length = length_of(each);
     if (!run_along(each, line, near, low, high) || high <= near || low >= length - near) return false;
@@ -150,33 +150,33 @@ void remove_line(std::vector<PictureLine>& lines, const PictureLine& line, doubl
   lines.insert(lines.end(), rests.begin(), rests.end());
 }
 
-void add(ShapePicture& to, const ShapePicture& what, double near) {
-  for (const PictureLine& line : what.lines) add_line(to.lines, line, near);
-  for (const PictureMarker& marker : what.markers) {
+void add(Figure& to, const Figure& what, double near) {
+  for (const FigureLine& line : what.lines) add_line(to.lines, line, near);
+  for (const FigureMarker& marker : what.markers) {
     if (std::ranges::none_of(to.markers,
-                             [&](const PictureMarker& each) { return are_equal(each, marker, near); }))
+                             [&](const FigureMarker& each) { return are_equal(each, marker, near); }))
       to.markers.push_back(marker);
   }
-  for (const PictureSolid& solid : what.solids) {
+  for (const FigureSolid& solid : what.solids) {
     if (std::ranges::none_of(to.solids,
-                             [&](const PictureSolid& each) { return are_equal(each, solid, near); }))
+                             [&](const FigureSolid& each) { return are_equal(each, solid, near); }))
       to.solids.push_back(solid);
   }
 }
 
-double reach_of(const ShapePicture& picture) {
+double reach_of(const Figure& figure) {
   double reach = 0;
   const auto take = [&](const glm::dvec3& p) {
     reach = std::max({reach, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
   };
-  for (const PictureLine& line : picture.lines) {
+  for (const FigureLine& line : figure.lines) {
     take(line.from);
     take(line.to);
   }
-  for (const PictureMarker& marker : picture.markers) {
+  for (const FigureMarker& marker : figure.markers) {
     for (std::uint32_t i = 0; i < marker.count; ++i) take(marker.points[i]);
   }
-  for (const PictureSolid& solid : picture.solids) {
+  for (const FigureSolid& solid : figure.solids) {
     take(solid.base);
     reach = std::max(reach, glm::length(solid.size));
   }

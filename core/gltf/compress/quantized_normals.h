@@ -1,6 +1,6 @@
 #pragma once
-/// Normals of faces that are hardly larger than a step of the quantization grid. The direction of such a face
-/// changes when its corners move to grid points.
+/// Repair of normals after quantization. The direction of a face that is hardly larger than a step of the
+/// quantization grid changes when its corners move to grid points.
 #include <vector>
 
 #include "core/gltf/columns.h"
@@ -13,6 +13,6 @@ std::vector<std::size_t> inward_corners(const Part& part, Job& job);
 
 /// Finds the corners whose quantized normal faces away from their quantized triangle. Each gets a vertex of
 /// its own with the normal of the triangle. Leaves the corners in `inward` as they are.
-void repair_normals(Part& part, const std::vector<std::size_t>& inward, Job& job);
+void repair_quantized_normals(Part& part, const std::vector<std::size_t>& inward, Job& job);
 
 }  // namespace seedmesh::gltf

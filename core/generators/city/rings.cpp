@@ -1,4 +1,4 @@
-#include "core/generators/city/geometry.h"
+#include "core/generators/city/rings.h"
 
 #include <algorithm>
 

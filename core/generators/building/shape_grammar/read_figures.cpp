@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "core/generators/building/shape_grammar/anchors.h"
+#include "core/generators/building/shape_grammar/figure_value.h"
 #include "core/generators/building/shape_grammar/open_pairs.h"
-#include "core/generators/building/shape_grammar/picture_value.h"
 #include "core/generators/building/shape_grammar/rotation.h"
 #include "core/generators/building/shape_grammar/shape_grammar.h"
 #include "generated/params/building.h"
@@ -26,34 +26,33 @@ std::uint32_t place_in(std::vector<std::string>& names, const std::string& name)
   return static_cast<std::uint32_t>(std::ranges::find(names, name) - names.begin());
 }
 
-class PictureReader {
+class FigureReader {
  public:
-  PictureReader(const BuildingShapeGrammar& given, PictureGrammar& grammar, std::vector<Issue>& issues)
+  FigureReader(const BuildingShapeGrammar& given, FigureGrammar& grammar, std::vector<Issue>& issues)
       : given_(given), grammar_(grammar), issues_(issues), is_flat_(given.dimensions == 2) {}
 
-  using Values = PictureValues;
+  using Values = FigureValues;
 
-  /// Adds the elements of the picture at `pointer`, with maximal lines.
-  void read(const BuildingPicture& picture, const std::string& pointer, ShapePicture& out,
-            const Values& open = {}) {
-    const ShapePicture raw = read_raw(picture, pointer, open);
+  /// Adds the elements of the figure at `pointer`, with maximal lines.
+  void read(const BuildingFigure& figure, const std::string& pointer, Figure& out, const Values& open = {}) {
+    const Figure raw = read_raw(figure, pointer, open);
     const double near = 1e-7 * std::max(reach_of(raw), 1e-9);
     add(out, raw, near);
   }
 
   /// The elements as they are written, with a line for each segment.
-  ShapePicture read_raw(const BuildingPicture& picture, const std::string& pointer, const Values& open) {
+  Figure read_raw(const BuildingFigure& figure, const std::string& pointer, const Values& open) {
     Values values = open;
-    values.insert(picture.parameters.begin(), picture.parameters.end());
-    ShapePicture raw;
-    read(picture, values, pointer, {}, raw);
+    values.insert(figure.parameters.begin(), figure.parameters.end());
+    Figure raw;
+    read(figure, values, pointer, {}, raw);
     return raw;
   }
 
   double number(const Number& given, const Values& values, const std::string& pointer) {
     const auto* text = std::get_if<std::string>(&given);
     const double result =
-        text == nullptr ? std::get<double>(given) : picture_value(*text, values, pointer, issues_);
+        text == nullptr ? std::get<double>(given) : figure_value(*text, values, pointer, issues_);
     if (std::isfinite(result) && std::abs(result) <= farthest) return result;
     add_error(IssueKind::out_of_range, pointer,
               std::isfinite(result) ? "the value is beyond 1,000 km" : "the value is not a finite number");
@@ -119,8 +118,8 @@ class PictureReader {
   }
 
   void read_solid(const BuildingBody& body, const Values& values, const std::string& pointer,
-                  const Similarity& place, ShapePicture& out) {
-    PictureSolid solid;
+                  const Similarity& place, Figure& out) {
+    FigureSolid solid;
     solid.kind = static_cast<SolidKind>(body.solid);
     solid.material = place_in(grammar_.materials, body.material);
     solid.base = point(body.at, values, pointer + "/at");
@@ -143,10 +142,10 @@ class PictureReader {
     out.solids.push_back(place.of(solid));
   }
 
-  void read(const BuildingPicture& picture, const Values& values, const std::string& pointer,
-            const Similarity& place, ShapePicture& out) {
-    for (std::size_t r = 0; r < picture.lines.size(); ++r) {
-      const auto& row = picture.lines[r];
+  void read(const BuildingFigure& figure, const Values& values, const std::string& pointer,
+            const Similarity& place, Figure& out) {
+    for (std::size_t r = 0; r < figure.lines.size(); ++r) {
+      const auto& row = figure.lines[r];
       const std::string at = pointer + "/lines/" + std::to_string(r);
       glm::dvec3 last(0);
       for (std::size_t i = 0; i < row.size() && count(at); ++i) {
@@ -155,31 +154,31 @@ class PictureReader {
         last = next;
       }
     }
-    for (std::size_t i = 0; i < picture.solids.size(); ++i) {
+    for (std::size_t i = 0; i < figure.solids.size(); ++i) {
       const std::string at = pointer + "/solids/" + std::to_string(i);
-      if (count(at)) read_solid(picture.solids[i], values, at, place, out);
+      if (count(at)) read_solid(figure.solids[i], values, at, place, out);
     }
-    for (std::size_t i = 0; i < picture.markers.size(); ++i) {
-      const BuildingMarker& given = picture.markers[i];
+    for (std::size_t i = 0; i < figure.markers.size(); ++i) {
+      const BuildingMarker& given = figure.markers[i];
       const std::string at = pointer + "/markers/" + std::to_string(i);
       if (!count(at)) return;
-      PictureMarker marker;
+      FigureMarker marker;
       marker.label = place_in(grammar_.labels, given.name);
       marker.count = static_cast<std::uint32_t>(given.points.size());
       for (std::uint32_t k = 0; k < marker.count; ++k)
         marker.points[k] = place.of(point(given.points[k], values, at + "/points/" + std::to_string(k)));
       out.markers.push_back(marker);
     }
-    for (std::size_t i = 0; i < picture.shapes.size(); ++i) {
+    for (std::size_t i = 0; i < figure.shapes.size(); ++i) {
       const std::string at = pointer + "/shapes/" + std::to_string(i);
       if (!count(at)) return;
-      read_member(picture.shapes[i], values, at, place, out);
+      read_member(figure.shapes[i], values, at, place, out);
     }
   }
 
   /// Adds a member of a family, with the values of this use or else those of the family.
   void read_member(const BuildingMember& member, const Values& values, const std::string& pointer,
-                   const Similarity& place, ShapePicture& out) {
+                   const Similarity& place, Figure& out) {
     const auto found = given_.shapes.find(member.shape);
     if (found == given_.shapes.end()) {
       return add_error(IssueKind::unknown_name, pointer + "/shape",
@@ -223,7 +222,7 @@ class PictureReader {
   }
 
   const BuildingShapeGrammar& given_;
-  PictureGrammar& grammar_;
+  FigureGrammar& grammar_;
   std::vector<Issue>& issues_;
   bool is_flat_;
   int depth_ = 0;
@@ -243,10 +242,10 @@ std::string text_of(const glm::dvec3& p, bool is_flat) {
 
 /// Checks a restriction (Gips 1974, Kogovšek 2014): terminals of the left shape that the right shape has not,
 /// and too many markers.
-void check_restriction(const PicturePair& pair, const std::string& pointer, bool is_flat,
-                       PictureRestriction restriction, std::vector<Issue>& issues) {
+void check_restriction(const FigurePair& pair, const std::string& pointer, bool is_flat,
+                       FigureRestriction restriction, std::vector<Issue>& issues) {
   const double near = 1e-6 * std::max(reach_of(pair.left), 1e-9);
-  for (const PictureLine& line : pair.left.lines) {
+  for (const FigureLine& line : pair.left.lines) {
     if (!contains(pair.right.lines, line, near)) {
       issues.emplace_back(
           IssueKind::invalid_value, pointer + "/pair/1",
@@ -254,17 +253,17 @@ void check_restriction(const PicturePair& pair, const std::string& pointer, bool
               " of the left shape is not in the right shape, which a non-erasing grammar does not allow");
     }
   }
-  for (const PictureSolid& solid : pair.left.solids) {
+  for (const FigureSolid& solid : pair.left.solids) {
     if (std::ranges::none_of(pair.right.solids,
-                             [&](const PictureSolid& each) { return are_equal(each, solid, near); })) {
+                             [&](const FigureSolid& each) { return are_equal(each, solid, near); })) {
       issues.emplace_back(
           IssueKind::invalid_value, pointer + "/pair/1",
           "the solid at " + text_of(solid.base, is_flat) +
               " of the left shape is not in the right shape, which a non-erasing grammar does not allow");
     }
   }
-  if (restriction != PictureRestriction::unimarker) return;
-  const auto markers = [](const ShapePicture& picture) { return std::to_string(picture.markers.size()); };
+  if (restriction != FigureRestriction::unimarker) return;
+  const auto markers = [](const Figure& figure) { return std::to_string(figure.markers.size()); };
   if (pair.left.markers.size() != 1) {
     issues.emplace_back(
         IssueKind::invalid_value, pointer + "/pair/0",
@@ -282,20 +281,20 @@ void check_restriction(const PicturePair& pair, const std::string& pointer, bool
 namespace {
 
 /// Reads a pair with open variables: its left shape for several values of them, and its right shape once for its errors.
-void read_open_pair(const BuildingShapeGrammar& given, std::size_t rule, PictureGrammar& grammar,
-                    PicturePair& pair, std::vector<Issue>& issues) {
+void read_open_pair(const BuildingShapeGrammar& given, std::size_t rule, FigureGrammar& grammar,
+                    FigurePair& pair, std::vector<Issue>& issues) {
   const BuildingPair& source = given.rules[rule];
   const std::string pointer = "/shape_grammar/rules/" + std::to_string(rule);
   const std::size_t before = issues.size();
   check_open_variables(source, pointer, issues);
   for (const BuildingOpenVariable& each : source.open) pair.open.push_back({each.name, each.low, each.high});
   const auto left_at = [&](const std::vector<double>& values) {
-    return PictureReader(given, grammar, issues)
+    return FigureReader(given, grammar, issues)
         .read_raw(source.pair[0], pointer + "/pair/0", named(pair, values));
   };
   const std::vector<double> first = samples_of(pair, first_sample);
   pair.left = left_at(first);
-  PictureReader reader(given, grammar, issues);
+  FigureReader reader(given, grammar, issues);
   if (!source.condition.empty()) reader.number(source.condition, named(pair, first), pointer + "/condition");
   reader.read(source.pair[1], pointer + "/pair/1", pair.right, named(pair, first));
   if (issues.size() > before) return;
@@ -310,8 +309,8 @@ void read_open_pair(const BuildingShapeGrammar& given, std::size_t rule, Picture
 }
 
 /// Checks that a left shape determines a similarity, and what the restriction forbids.
-void check_pair(const PicturePair& pair, const std::string& pointer, bool is_flat,
-                PictureRestriction restriction, std::vector<Issue>& issues) {
+void check_pair(const FigurePair& pair, const std::string& pointer, bool is_flat,
+                FigureRestriction restriction, std::vector<Issue>& issues) {
   bool is_determined = !pair.open.empty();  // has been checked
   if (!is_determined) anchors_of_left(pair.left, is_flat, is_determined);
   if (!is_determined) {
@@ -321,40 +320,39 @@ void check_pair(const PicturePair& pair, const std::string& pointer, bool is_fla
             (is_flat ? "two points" : "three points that are not on a line") +
             " of markers, corners of solids, or crossings or ends of lines");
   }
-  if (restriction != PictureRestriction::any) check_restriction(pair, pointer, is_flat, restriction, issues);
+  if (restriction != FigureRestriction::any) check_restriction(pair, pointer, is_flat, restriction, issues);
 }
 
 }  // namespace
 
-std::optional<ShapePicture> right_shape(const BuildingShapeGrammar& given, const PictureGrammar& grammar,
-                                        std::size_t rule, const PictureValues& values,
-                                        std::vector<Issue>& issues) {
+std::optional<Figure> right_shape(const BuildingShapeGrammar& given, const FigureGrammar& grammar,
+                                  std::size_t rule, const FigureValues& values, std::vector<Issue>& issues) {
   const std::string pointer = "/shape_grammar/rules/" + std::to_string(rule);
-  PictureGrammar names;
+  FigureGrammar names;
   names.is_flat = grammar.is_flat;
   names.labels = grammar.labels;
   names.materials = grammar.materials;
-  PictureReader reader(given, names, issues);
+  FigureReader reader(given, names, issues);
   const std::string& condition = given.rules[rule].condition;
   if (!condition.empty() && reader.number(condition, values, pointer + "/condition") == 0)
     return std::nullopt;
-  ShapePicture right;
+  Figure right;
   reader.read(given.rules[rule].pair[1], pointer + "/pair/1", right, values);
   return right;
 }
 
-PictureGrammar read_pictures(const BuildingShapeGrammar& given, PictureRestriction restriction,
-                             std::vector<Issue>& issues) {
-  PictureGrammar grammar;
+FigureGrammar read_figures(const BuildingShapeGrammar& given, FigureRestriction restriction,
+                           std::vector<Issue>& issues) {
+  FigureGrammar grammar;
   grammar.is_flat = given.dimensions == 2;
   grammar.mirrors = given.mirror;
   const std::size_t before = issues.size();
-  PictureReader reader(given, grammar, issues);
+  FigureReader reader(given, grammar, issues);
   for (std::size_t i = 0; i < given.initial.size(); ++i)
     reader.read(given.initial[i], "/shape_grammar/initial/" + std::to_string(i), grammar.initial);
   for (std::size_t i = 0; i < given.rules.size(); ++i) {
     const std::string pointer = "/shape_grammar/rules/" + std::to_string(i);
-    PicturePair pair;
+    FigurePair pair;
     pair.name = given.rules[i].name.empty() ? "rule " + std::to_string(i + 1) : given.rules[i].name;
     pair.weight = given.rules[i].weight;
     if (!given.rules[i].open.empty()) {
@@ -374,7 +372,7 @@ PictureGrammar read_pictures(const BuildingShapeGrammar& given, PictureRestricti
     check_pair(grammar.pairs[i], "/shape_grammar/rules/" + std::to_string(i), grammar.is_flat, restriction,
                issues);
   }
-  if (restriction == PictureRestriction::unimarker && grammar.initial.markers.size() != 1) {
+  if (restriction == FigureRestriction::unimarker && grammar.initial.markers.size() != 1) {
     issues.emplace_back(IssueKind::invalid_value, "/shape_grammar/initial",
                         "found " + std::to_string(grammar.initial.markers.size()) +
                             " markers, expected one in a unimarker grammar");

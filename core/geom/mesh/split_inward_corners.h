@@ -1,5 +1,5 @@
 #pragma once
-/// Repair of normals that point to the inner side of their faces.
+/// Separate vertices for corners whose normals point to the inner side of their faces.
 #include "core/base/job.h"
 #include "core/model/mesh.h"
 
@@ -9,6 +9,6 @@ namespace seedmesh {
 /// vertex has the same position, and the normal of the face. Such corners arise at sharp bends of tubes with few
 /// sides. Triangles are counter-clockwise seen from outside; indices have 32 bits (Mesh::index.wide). Cost: a few
 /// nanoseconds for each triangle.
-void repair_inward_normals(Mesh& mesh, const Job& job);
+void split_inward_corners(Mesh& mesh, const Job& job);
 
 }  // namespace seedmesh

@@ -1,4 +1,4 @@
-#include "core/generators/building/picture_shapes.h"
+#include "core/generators/building/figure_shapes.h"
 
 #include <array>
 
@@ -9,26 +9,26 @@ namespace seedmesh::building {
 namespace {
 
 constexpr std::array kind_names{"box", "cylinder", "cone", "sphere", "pyramid", "prism", "triangular_prism"};
-constexpr std::uint32_t symbol_picture = 0, symbol_line = 1, symbol_kind = 2,
+constexpr std::uint32_t symbol_figure = 0, symbol_line = 1, symbol_kind = 2,
                         symbol_label = symbol_kind + kind_names.size();
 
-class PictureWriter {
+class FigureWriter {
  public:
-  PictureWriter(const PictureGrammar& pictures, const BuildingShapeGrammar& given, Job& job)
-      : pictures_(pictures), given_(given), key_(job.rng().at("shape grammar").key()), out_(job) {
+  FigureWriter(const FigureGrammar& figures, const BuildingShapeGrammar& given, Job& job)
+      : figures_(figures), given_(given), key_(job.rng().at("shape grammar").key()), out_(job) {
     Shape root;
-    root.symbol = symbol_picture;
+    root.symbol = symbol_figure;
     root.key = key_;
     root.is_active = false;
     root.size = glm::dvec3(0);
     out_.shapes.push_back(root);
     line_style_ = style_of(given.material);
-    for (const std::string& name : pictures.materials) styles_.push_back(style_of(name));
+    for (const std::string& name : figures.materials) styles_.push_back(style_of(name));
   }
 
   Shapes take() { return std::move(out_); }
 
-  void line(const PictureLine& line) {
+  void line(const FigureLine& line) {
     const glm::dvec3 along = math::unit(line.to - line.from, glm::dvec3(1, 0, 0));
     const double half = 0.5 * given_.width;
     // y of the bar is as near to the vertical as the direction of the line allows.
@@ -37,28 +37,28 @@ class PictureWriter {
     const glm::dvec3 y = glm::cross(z, along);
     Shape& shape = add(symbol_line, {along, y, z});
     shape.size = {glm::length(line.to - line.from) + given_.width, given_.width, given_.width};
-    shape.origin = line.from - along * half - z * half - (pictures_.is_flat ? glm::dvec3(0) : y * half);
+    shape.origin = line.from - along * half - z * half - (figures_.is_flat ? glm::dvec3(0) : y * half);
     shape.style = line_style_;
   }
 
-  void solid(const PictureSolid& solid) {
+  void solid(const FigureSolid& solid) {
     glm::dmat3 axes = solid.axes;
     // All kinds are symmetrical along their x axis.
     if (glm::determinant(axes) < 0) axes[0] = -axes[0];
     Shape& shape = add(symbol_kind + static_cast<std::uint32_t>(solid.kind), axes);
     shape.size = solid.size;
-    if (pictures_.is_flat) shape.size.y = given_.height;
+    if (figures_.is_flat) shape.size.y = given_.height;
     shape.origin = solid.base - axes * (glm::dvec3(0.5, 0, 0.5) * shape.size);
     shape.style = styles_[solid.material];
     shape.geometry = geometry_of(solid.kind);
   }
 
-  void marker(const PictureMarker& marker) {
+  void marker(const FigureMarker& marker) {
     const double size = given_.marker_size;
     Shape& shape = add(symbol_label + marker.label, glm::dmat3(1));
     shape.size = glm::dvec3(size);
     shape.origin = marker.points[0] - 0.5 * shape.size;
-    if (pictures_.is_flat) shape.origin.y = given_.width;
+    if (figures_.is_flat) shape.origin.y = given_.width;
     shape.geometry = geometry_of(SolidKind::sphere);
   }
 
@@ -94,7 +94,7 @@ class PictureWriter {
     return made;
   }
 
-  const PictureGrammar& pictures_;
+  const FigureGrammar& figures_;
   const BuildingShapeGrammar& given_;
   std::uint64_t key_;
   Shapes out_;
@@ -105,23 +105,23 @@ class PictureWriter {
 
 }  // namespace
 
-Grammar grammar_of_names(const PictureGrammar& pictures) {
+Grammar grammar_of_names(const FigureGrammar& figures) {
   Grammar grammar;
   const auto add = [&](const std::string& name) { grammar.symbols.push_back({name, {}, none}); };
   add("picture");
   add("line");
   for (const char* name : kind_names) add(name);
-  for (const std::string& label : pictures.labels) add(label);
+  for (const std::string& label : figures.labels) add(label);
   return grammar;
 }
 
-Shapes shapes_of_picture(const PictureGrammar& pictures, const DerivedPicture& derived,
-                         const BuildingShapeGrammar& given, Job& job) {
-  PictureWriter writer(pictures, given, job);
-  for (const PictureLine& line : derived.picture.lines) writer.line(line);
-  for (const PictureSolid& solid : derived.picture.solids) writer.solid(solid);
+Shapes shapes_of_figure(const FigureGrammar& figures, const DerivedFigure& derived,
+                        const BuildingShapeGrammar& given, Job& job) {
+  FigureWriter writer(figures, given, job);
+  for (const FigureLine& line : derived.figure.lines) writer.line(line);
+  for (const FigureSolid& solid : derived.figure.solids) writer.solid(solid);
   if (given.marker_size > 0) {
-    for (const PictureMarker& marker : derived.picture.markers) writer.marker(marker);
+    for (const FigureMarker& marker : derived.figure.markers) writer.marker(marker);
   }
   Shapes shapes = writer.take();
   for (const auto& [name, count] : derived.uses) {

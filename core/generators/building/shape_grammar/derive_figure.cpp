@@ -13,12 +13,12 @@ namespace {
 
 constexpr std::uint64_t most_steps = 100'000;
 constexpr std::size_t most_matches = 1'000'000;  ///< at a time
-constexpr double smallest = 1e-5;                ///< share of the picture; smaller shapes do not match
+constexpr double smallest = 1e-5;                ///< share of the figure; smaller shapes do not match
 constexpr double farthest = 1e6;                 ///< metres
-constexpr double implied_near = 1e-4;  ///< share of the picture; ten times the deviation that fits() allows
+constexpr double implied_near = 1e-4;  ///< share of the figure; ten times the deviation that fits() allows
 
 /// A match of a rule, with the markers and solids that it replaces.
-struct PictureMatch {
+struct FigureMatch {
   std::size_t pair = 0;
   Similarity place;
   std::vector<std::uint32_t> markers, solids;
@@ -31,24 +31,24 @@ glm::dmat3 frame_of(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& 
   return {x, glm::cross(z, x), z};
 }
 
-class PictureRun {
+class FigureRun {
  public:
-  PictureRun(const BuildingShapeGrammar& given, const PictureGrammar& grammar, Job& job)
+  FigureRun(const BuildingShapeGrammar& given, const FigureGrammar& grammar, Job& job)
       : given_(given), grammar_(grammar), job_(job), meter_(job, Resource::shapes) {
-    out_.picture = grammar.initial;
-    meter_.spend(out_.picture.lines.size() + out_.picture.markers.size() + out_.picture.solids.size());
-    for (const PicturePair& pair : grammar.pairs) {
+    out_.figure = grammar.initial;
+    meter_.spend(out_.figure.lines.size() + out_.figure.markers.size() + out_.figure.solids.size());
+    for (const FigurePair& pair : grammar.pairs) {
       open_anchors_.push_back(pair.open.empty() ? std::vector<OpenAnchor>{} : open_anchors(pair));
       bool is_determined = false;
       anchors_.push_back(anchors_of_left(pair.left, grammar.is_flat, is_determined));
       double extent = 0;
-      for (const PictureAnchor& each : anchors_.back())
+      for (const FigureAnchor& each : anchors_.back())
         extent = std::max(extent, glm::length(each.at - anchors_.back().front().at));
       extents_.push_back(extent);
     }
   }
 
-  DerivedPicture run(std::optional<int> steps, bool is_parallel) {
+  DerivedFigure run(std::optional<int> steps, bool is_parallel) {
     const Rng random = job_.rng().at("shape grammar");
     for (std::uint64_t step = 0; !steps || step < static_cast<std::uint64_t>(*steps); ++step) {
       if (step >= most_steps) {
@@ -71,39 +71,39 @@ class PictureRun {
   // Finding
 
   void find_matches() {
-    reach_ = std::max(reach_of(out_.picture), 1e-9);
+    reach_ = std::max(reach_of(out_.figure), 1e-9);
     near_ = 1e-7 * reach_;
     candidates_.clear();
     counts_.clear();
     has_crossings_ = false;
     on_lines_.reset();
-    for (const PictureAnchor& each : anchors_of_wholes(out_.picture)) enter(each);
-    for (const PictureAnchor& each : ends_of(out_.picture.lines)) enter(each);
+    for (const FigureAnchor& each : anchors_of_wholes(out_.figure)) enter(each);
+    for (const FigureAnchor& each : ends_of(out_.figure.lines)) enter(each);
     // Crossings are computed when a rule needs them. Until then they count as frequent.
-    counts_[anchor_crossing] = out_.picture.lines.size() * 2 + 1;
-    counts_[anchor_end] = out_.picture.lines.size() * 4 + 2;
+    counts_[anchor_crossing] = out_.figure.lines.size() * 2 + 1;
+    counts_[anchor_end] = out_.figure.lines.size() * 4 + 2;
     matches_.clear();
     for (std::size_t i = 0; i < grammar_.pairs.size(); ++i) {
       if (grammar_.pairs[i].weight > 0) grammar_.pairs[i].open.empty() ? match(i) : match_open(i);
     }
   }
 
-  void enter(const PictureAnchor& anchor) {
+  void enter(const FigureAnchor& anchor) {
     candidates_[anchor.kind].push_back(anchor);
     ++counts_[anchor.kind];
   }
 
-  const std::vector<PictureAnchor>& candidates(std::uint32_t kind) {
+  const std::vector<FigureAnchor>& candidates(std::uint32_t kind) {
     if (kind == anchor_crossing && !has_crossings_) {
       has_crossings_ = true;
-      candidates_[kind] = crossings_of(out_.picture.lines, near_, &job_);
+      candidates_[kind] = crossings_of(out_.figure.lines, near_, &job_);
       // Crossings of several pairs at one position count once.
-      std::vector<PictureAnchor>& all = candidates_[kind];
-      std::ranges::stable_sort(all, [](const PictureAnchor& a, const PictureAnchor& b) {
+      std::vector<FigureAnchor>& all = candidates_[kind];
+      std::ranges::stable_sort(all, [](const FigureAnchor& a, const FigureAnchor& b) {
         return a.at.x != b.at.x ? a.at.x < b.at.x : a.at.z != b.at.z ? a.at.z < b.at.z : a.at.y < b.at.y;
       });
       all.erase(std::unique(all.begin(), all.end(),
-                            [&](const PictureAnchor& a, const PictureAnchor& b) {
+                            [&](const FigureAnchor& a, const FigureAnchor& b) {
                               return glm::length(a.at - b.at) <= near_;
                             }),
                 all.end());
@@ -112,25 +112,25 @@ class PictureRun {
   }
 
   void match(std::size_t index) {
-    const std::array<PictureAnchor, 3> left = chosen_anchors(anchors_[index], grammar_.is_flat, counts_);
+    const std::array<FigureAnchor, 3> left = chosen_anchors(anchors_[index], grammar_.is_flat, counts_);
     const double base = glm::length(left[1].at - left[0].at);
     if (!(base > 0)) return;
-    const auto of_same_owner = [&](std::size_t k, const PictureAnchor& found, std::size_t other,
-                                   const PictureAnchor& other_found) {
+    const auto of_same_owner = [&](std::size_t k, const FigureAnchor& found, std::size_t other,
+                                   const FigureAnchor& other_found) {
       return left[k].owner == no_owner || left[other].owner == no_owner ||
              (left[k].owner == left[other].owner) == (found.owner == other_found.owner);
     };
-    const std::vector<PictureAnchor> first = candidates(left[0].kind), second = candidates(left[1].kind);
-    const std::vector<PictureAnchor> third =
-        grammar_.is_flat ? std::vector<PictureAnchor>(1) : candidates(left[2].kind);
-    for (const PictureAnchor& p : first) {
-      for (const PictureAnchor& q : second) {
+    const std::vector<FigureAnchor> first = candidates(left[0].kind), second = candidates(left[1].kind);
+    const std::vector<FigureAnchor> third =
+        grammar_.is_flat ? std::vector<FigureAnchor>(1) : candidates(left[2].kind);
+    for (const FigureAnchor& p : first) {
+      for (const FigureAnchor& q : second) {
         look();
         if (!of_same_owner(1, q, 0, p)) continue;
         const double scale = glm::length(q.at - p.at) / base;
         if (!(scale * extents_[index] > smallest * reach_)) continue;
         const double near = near_of(index, scale);
-        for (const PictureAnchor& r : third) {
+        for (const FigureAnchor& r : third) {
           if (!grammar_.is_flat) {
             look();
             if (!of_same_owner(2, r, 0, p) || !of_same_owner(2, r, 1, q)) continue;
@@ -147,13 +147,13 @@ class PictureRun {
   /// Matches a left shape whose variables are open.
   void match_open(std::size_t index) {
     const std::vector<OpenAnchor>& anchors = open_anchors_[index];
-    const std::vector<PictureAnchor>& crossings = candidates(anchor_crossing);
-    if (!on_lines_) on_lines_ = line_points(out_.picture.lines, crossings, near_, job_);
+    const std::vector<FigureAnchor>& crossings = candidates(anchor_crossing);
+    if (!on_lines_) on_lines_ = line_points(out_.figure.lines, crossings, near_, job_);
     counts_[anchor_crossing] = crossings.size();
     const std::vector<std::uint32_t> order =
         search_order(anchors, grammar_.is_flat, counts_, on_lines_->per_line);
     search_points(
-        anchors, order, {candidates_, *on_lines_, out_.picture.lines, implied_near * reach_},
+        anchors, order, {candidates_, *on_lines_, out_.figure.lines, implied_near * reach_},
         [this] { look(); },
         [&](const std::vector<glm::dvec3>& points) {
           for (const bool is_mirrored : {false, true}) {
@@ -166,8 +166,8 @@ class PictureRun {
   }
 
   void try_open(std::size_t index, const OpenPlacement& found) {
-    const PicturePair& pair = grammar_.pairs[index];
-    PictureMatch match;
+    const FigurePair& pair = grammar_.pairs[index];
+    FigureMatch match;
     match.pair = index;
     match.place = found.place;
     match.values = found.values;
@@ -176,14 +176,14 @@ class PictureRun {
       if (match.values[k] < pair.open[k].low - rounding || match.values[k] > pair.open[k].high + rounding)
         return;
     }
-    const ShapePicture left = left_shape(pair, match.values);
+    const Figure left = left_shape(pair, match.values);
     double extent = 0, shortest = 1e300;
-    for (const PictureLine& line : left.lines) {
+    for (const FigureLine& line : left.lines) {
       extent = std::max(
           {extent, glm::length(line.to - left.lines[0].from), glm::length(line.from - left.lines[0].from)});
       shortest = std::min(shortest, glm::length(line.to - line.from));
     }
-    for (const PictureSolid& solid : left.solids) {
+    for (const FigureSolid& solid : left.solids) {
       if (std::min({solid.size.x, solid.size.z, grammar_.is_flat ? 1.0 : solid.size.y}) <= 0) return;
       extent = std::max(extent, glm::length(solid.size));
     }
@@ -194,11 +194,11 @@ class PictureRun {
   }
 
   /// The right shape for the values of a match; null: its condition is false.
-  std::optional<ShapePicture> right_of(const PictureMatch& match) {
-    const PicturePair& pair = grammar_.pairs[match.pair];
+  std::optional<Figure> right_of(const FigureMatch& match) {
+    const FigurePair& pair = grammar_.pairs[match.pair];
     if (pair.open.empty()) return pair.right;
     std::vector<Issue> issues;
-    std::optional<ShapePicture> right =
+    std::optional<Figure> right =
         right_shape(given_, grammar_, match.pair, named(pair, match.values), issues);
     if (issues.empty()) return right;
     std::string values;
@@ -223,7 +223,7 @@ class PictureRun {
       if (is_mirrored && !grammar_.mirrors) break;
       // In the plane the axis across the line is mirrored, in space the normal of the triangle.
       if (is_mirrored) there[grammar_.is_flat ? 1 : 2] = -there[grammar_.is_flat ? 1 : 2];
-      PictureMatch found;
+      FigureMatch found;
       found.pair = index;
       found.place.turn = there * own;
       found.place.scale = scale;
@@ -232,31 +232,31 @@ class PictureRun {
     }
   }
 
-  /// Whether the whole left shape is part of the picture.
-  bool fits(const ShapePicture& left, double near, PictureMatch& match) {
-    const ShapePicture& picture = out_.picture;
-    for (const PictureMarker& each : left.markers) {
-      const PictureMarker marker = match.place.of(each);
+  /// Whether the whole left shape is part of the figure.
+  bool fits(const Figure& left, double near, FigureMatch& match) {
+    const Figure& figure = out_.figure;
+    for (const FigureMarker& each : left.markers) {
+      const FigureMarker marker = match.place.of(each);
       const auto found = std::ranges::find_if(
-          picture.markers, [&](const PictureMarker& other) { return are_equal(other, marker, near); });
-      if (found == picture.markers.end()) return false;
-      match.markers.push_back(static_cast<std::uint32_t>(found - picture.markers.begin()));
+          figure.markers, [&](const FigureMarker& other) { return are_equal(other, marker, near); });
+      if (found == figure.markers.end()) return false;
+      match.markers.push_back(static_cast<std::uint32_t>(found - figure.markers.begin()));
     }
-    for (const PictureSolid& each : left.solids) {
-      const PictureSolid solid = match.place.of(each);
+    for (const FigureSolid& each : left.solids) {
+      const FigureSolid solid = match.place.of(each);
       const auto found = std::ranges::find_if(
-          picture.solids, [&](const PictureSolid& other) { return are_equal(other, solid, near); });
-      if (found == picture.solids.end()) return false;
-      match.solids.push_back(static_cast<std::uint32_t>(found - picture.solids.begin()));
+          figure.solids, [&](const FigureSolid& other) { return are_equal(other, solid, near); });
+      if (found == figure.solids.end()) return false;
+      match.solids.push_back(static_cast<std::uint32_t>(found - figure.solids.begin()));
     }
-    return std::ranges::all_of(left.lines, [&](const PictureLine& line) {
-      return contains(picture.lines, match.place.of(line), near);
+    return std::ranges::all_of(left.lines, [&](const FigureLine& line) {
+      return contains(figure.lines, match.place.of(line), near);
     });
   }
 
   /// Keeps a match. A symmetrical left shape matches in several ways; those with the same result count once.
-  void keep(PictureMatch match) {
-    const auto is_same = [&](const PictureMatch& other) {
+  void keep(FigureMatch match) {
+    const auto is_same = [&](const FigureMatch& other) {
       for (std::size_t k = 0; k < match.values.size() && other.pair == match.pair; ++k) {
         if (std::abs(other.values[k] - match.values[k]) > 1e-6 * (1 + std::abs(match.values[k])))
           return false;
@@ -282,7 +282,7 @@ class PictureRun {
 
   bool apply_one(Rng random) {
     std::vector<double> weights(grammar_.pairs.size(), 0.0);
-    for (const PictureMatch& match : matches_) weights[match.pair] = grammar_.pairs[match.pair].weight;
+    for (const FigureMatch& match : matches_) weights[match.pair] = grammar_.pairs[match.pair].weight;
     double sum = 0;
     for (const double weight : weights) sum += weight;
     double at = random.unit() * sum;
@@ -294,9 +294,9 @@ class PictureRun {
       pair = i;
       break;
     }
-    const auto count = static_cast<std::uint32_t>(std::ranges::count(matches_, pair, &PictureMatch::pair));
+    const auto count = static_cast<std::uint32_t>(std::ranges::count(matches_, pair, &FigureMatch::pair));
     std::uint32_t skip = random.below(count);
-    for (const PictureMatch& match : matches_) {
+    for (const FigureMatch& match : matches_) {
       if (match.pair != pair || skip-- > 0) continue;
       apply(std::span(&match, 1));
       return true;
@@ -312,10 +312,10 @@ class PictureRun {
       order.emplace_back(-math::log(1 - own.unit()) / grammar_.pairs[matches_[i].pair].weight, i);
     }
     std::ranges::stable_sort(order);
-    std::vector<bool> taken_markers(out_.picture.markers.size()), taken_solids(out_.picture.solids.size());
-    std::vector<PictureMatch> chosen;
+    std::vector<bool> taken_markers(out_.figure.markers.size()), taken_solids(out_.figure.solids.size());
+    std::vector<FigureMatch> chosen;
     for (const auto& [key, i] : order) {
-      PictureMatch& match = matches_[i];
+      FigureMatch& match = matches_[i];
       const bool is_taken =
           std::ranges::any_of(match.markers, [&](std::uint32_t m) { return taken_markers[m]; }) ||
           std::ranges::any_of(match.solids, [&](std::uint32_t s) { return taken_solids[s]; });
@@ -328,53 +328,53 @@ class PictureRun {
     return true;
   }
 
-  void apply(std::span<const PictureMatch> matches) {
-    ShapePicture& picture = out_.picture;
-    std::vector<bool> gone_markers(picture.markers.size()), gone_solids(picture.solids.size());
-    for (const PictureMatch& match : matches) {
+  void apply(std::span<const FigureMatch> matches) {
+    Figure& figure = out_.figure;
+    std::vector<bool> gone_markers(figure.markers.size()), gone_solids(figure.solids.size());
+    for (const FigureMatch& match : matches) {
       for (const std::uint32_t m : match.markers) gone_markers[m] = true;
       for (const std::uint32_t s : match.solids) gone_solids[s] = true;
-      const PicturePair& pair = grammar_.pairs[match.pair];
-      const ShapePicture left = pair.open.empty() ? pair.left : left_shape(pair, match.values);
-      for (const PictureLine& line : left.lines) {
-        remove_line(picture.lines, match.place.of(line), near_);
+      const FigurePair& pair = grammar_.pairs[match.pair];
+      const Figure left = pair.open.empty() ? pair.left : left_shape(pair, match.values);
+      for (const FigureLine& line : left.lines) {
+        remove_line(figure.lines, match.place.of(line), near_);
         look();
       }
     }
     std::size_t at = 0;
-    std::erase_if(picture.markers, [&](const PictureMarker&) { return gone_markers[at++]; });
+    std::erase_if(figure.markers, [&](const FigureMarker&) { return gone_markers[at++]; });
     at = 0;
-    std::erase_if(picture.solids, [&](const PictureSolid&) { return gone_solids[at++]; });
-    for (const PictureMatch& match : matches) {
-      const PicturePair& pair = grammar_.pairs[match.pair];
+    std::erase_if(figure.solids, [&](const FigureSolid&) { return gone_solids[at++]; });
+    for (const FigureMatch& match : matches) {
+      const FigurePair& pair = grammar_.pairs[match.pair];
       ++out_.uses[pair.name];
-      ShapePicture made;
-      const ShapePicture right = *right_of(match);
-      for (const PictureLine& line : right.lines) made.lines.push_back(match.place.of(line));
-      for (const PictureMarker& marker : right.markers) made.markers.push_back(match.place.of(marker));
-      for (const PictureSolid& solid : right.solids) made.solids.push_back(match.place.of(solid));
+      Figure made;
+      const Figure right = *right_of(match);
+      for (const FigureLine& line : right.lines) made.lines.push_back(match.place.of(line));
+      for (const FigureMarker& marker : right.markers) made.markers.push_back(match.place.of(marker));
+      for (const FigureSolid& solid : right.solids) made.solids.push_back(match.place.of(solid));
       meter_.spend(made.lines.size() + made.markers.size() + made.solids.size());
       if (!(reach_of(made) <= farthest)) {
         job_.refuse({IssueKind::evaluation, "/shape_grammar/rules/" + std::to_string(match.pair),
                      "this rule makes the figure larger than 1,000 km"});
       }
-      add(picture, made, near_);
+      add(figure, made, near_);
       if ((++added_ & 15U) == 0) job_.check();
     }
   }
 
   const BuildingShapeGrammar& given_;
-  const PictureGrammar& grammar_;
+  const FigureGrammar& grammar_;
   Job& job_;
   Meter meter_;
-  DerivedPicture out_;
-  std::vector<std::vector<PictureAnchor>> anchors_;  ///< of each left shape
+  DerivedFigure out_;
+  std::vector<std::vector<FigureAnchor>> anchors_;  ///< of each left shape
   std::vector<double> extents_;
   std::vector<std::vector<OpenAnchor>> open_anchors_;  ///< of each left shape with open variables
   std::optional<LinePoints> on_lines_;
-  std::map<std::uint32_t, std::vector<PictureAnchor>> candidates_;
+  std::map<std::uint32_t, std::vector<FigureAnchor>> candidates_;
   std::map<std::uint32_t, std::size_t> counts_;
-  std::vector<PictureMatch> matches_;
+  std::vector<FigureMatch> matches_;
   double reach_ = 1, near_ = 0;
   bool has_crossings_ = false;
   std::uint64_t looked_ = 0, added_ = 0;
@@ -382,9 +382,9 @@ class PictureRun {
 
 }  // namespace
 
-DerivedPicture derive_picture(const BuildingShapeGrammar& given, const PictureGrammar& grammar,
-                              std::optional<int> steps, bool is_parallel, Job& job) {
-  return PictureRun(given, grammar, job).run(steps, is_parallel);
+DerivedFigure derive_figure(const BuildingShapeGrammar& given, const FigureGrammar& grammar,
+                            std::optional<int> steps, bool is_parallel, Job& job) {
+  return FigureRun(given, grammar, job).run(steps, is_parallel);
 }
 
 }  // namespace seedmesh::building

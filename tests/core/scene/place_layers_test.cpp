@@ -36,7 +36,7 @@ double least_distance(const Array<Placement>& placements) {
   return least;
 }
 
-TEST(Plant, KeepsEveryRuleOnRandomScenes) {
+TEST(PlaceLayers, KeepsEveryRuleOnRandomScenes) {
   Rng rng(99);
   for (std::uint64_t round = 0; round < 24; ++round) {
     const double distance = rng.uniform(2, 8), steepest = rng.uniform(8, 40), low = rng.uniform(-10, 5);
@@ -61,7 +61,7 @@ TEST(Plant, KeepsEveryRuleOnRandomScenes) {
   }
 }
 
-TEST(Plant, KeepsOffFootprintsAndPaths) {
+TEST(PlaceLayers, KeepsOffFootprintsAndPaths) {
   Rng rng(5);
   for (std::uint64_t round = 0; round < 12; ++round) {
     Json houses = layer("house", {{"method", "scatter"}, {"count", 6}, {"edge", 10}});
@@ -90,7 +90,7 @@ TEST(Plant, KeepsOffFootprintsAndPaths) {
   }
 }
 
-TEST(Plant, KeepsOtherLayersWhenOneChanges) {
+TEST(PlaceLayers, KeepsOtherLayersWhenOneChanges) {
   for (std::uint64_t seed = 0; seed < 6; ++seed) {
     Json json = {
         {"terrain", hills(3)},
@@ -116,7 +116,7 @@ TEST(Plant, KeepsOtherLayersWhenOneChanges) {
   }
 }
 
-TEST(Plant, KeepsThePositionsThatSatisfyAStricterRule) {
+TEST(PlaceLayers, KeepsThePositionsThatSatisfyAStricterRule) {
   Json json = {{"terrain", hills(3)}, {"layers", {layer("a", poisson(4))}}};
   const Planted all = planted(json);
   json["layers"][0]["place"]["slope"] = {{"to", 20}};
@@ -128,7 +128,7 @@ TEST(Plant, KeepsThePositionsThatSatisfyAStricterRule) {
   }
 }
 
-TEST(Plant, KeepsTheLargerCrowns) {
+TEST(PlaceLayers, KeepsTheLargerCrowns) {
   Json big = layer("big", {{"method", "scatter"}, {"count", 120}});
   big["scale"] = {1, 2};
   big["crown"] = 3;
@@ -159,7 +159,7 @@ TEST(Plant, KeepsTheLargerCrowns) {
                           [&](const Placement& placement) { return placement.at == largest->at; }));
 }
 
-TEST(Plant, FollowsNeighboursAndShade) {
+TEST(PlaceLayers, FollowsNeighboursAndShade) {
   Json trees = layer("tree", poisson(12));
   trees["crown"] = 4;
   Json moss = layer("moss", {{"method", "scatter"}, {"count", 200}, {"shade", {{"from", 0.4}}}});
@@ -180,7 +180,7 @@ TEST(Plant, FollowsNeighboursAndShade) {
   }
 }
 
-TEST(Plant, FollowsADensityImage) {
+TEST(PlaceLayers, FollowsADensityImage) {
   // 2 x 1 pixels: black in the west, white in the east.
   const std::string image =
       "data:image/"
@@ -194,7 +194,7 @@ TEST(Plant, FollowsADensityImage) {
   for (const Placement& placement : made.layer(0)) EXPECT_GT(placement.at.x, -26);
 }
 
-TEST(Plant, ThinsOutToACount) {
+TEST(PlaceLayers, ThinsOutToACount) {
   Json json = {{"ground", {{"size", 100}}}, {"layers", {layer("a", poisson(3))}}};
   const Planted all = planted(json);
   json["layers"][0]["place"]["count"] = 57;
@@ -206,7 +206,7 @@ TEST(Plant, ThinsOutToACount) {
   }
 }
 
-TEST(Plant, LevelsTheGroundUnderFoundations) {
+TEST(PlaceLayers, LevelsTheGroundUnderFoundations) {
   Json houses = layer("house", {{"method", "scatter"}, {"count", 5}, {"edge", 20}});
   houses["footprint"] = {10, 6};
   houses["foundation"] = Json::object();
@@ -226,16 +226,16 @@ TEST(Plant, LevelsTheGroundUnderFoundations) {
   }
 }
 
-TEST(Plant, WarnsWhereTooFewPositionsAreLeft) {
+TEST(PlaceLayers, WarnsWhereTooFewPositionsAreLeft) {
   const Planted made =
       planted({{"ground", {{"size", 10}}},
                {"layers", {layer("a", {{"method", "scatter"}, {"count", 5}, {"altitude", {{"from", 5}}}})}}});
-  ASSERT_EQ(made.planting.warnings.size(), 2U);
-  EXPECT_EQ(made.planting.warnings[0].pointer, "/layers/0/place/count");
-  EXPECT_EQ(made.planting.warnings[0].message, "only 0 of 5 found a position that suits the layer");
+  ASSERT_EQ(made.all_placements.warnings.size(), 2U);
+  EXPECT_EQ(made.all_placements.warnings[0].pointer, "/layers/0/place/count");
+  EXPECT_EQ(made.all_placements.warnings[0].message, "only 0 of 5 found a position that suits the layer");
 }
 
-TEST(Plant, StandsOnTheGroundAndLeansWithIt) {
+TEST(PlaceLayers, StandsOnTheGroundAndLeansWithIt) {
   Json tilted = layer("a", poisson(6));
   tilted["upright"] = 0;
   tilted["sink"] = 0.5;
@@ -252,7 +252,7 @@ TEST(Plant, StandsOnTheGroundAndLeansWithIt) {
   }
 }
 
-TEST(Plant, SeparatesFootprintsOfALayer) {
+TEST(PlaceLayers, SeparatesFootprintsOfALayer) {
   Json houses = layer("house", {{"method", "scatter"}, {"count", 12}, {"edge", 9}});
   houses["footprint"] = {12, 8};
   Json json = {{"ground", {{"size", 120}}}, {"layers", {houses}}};
@@ -269,7 +269,7 @@ TEST(Plant, SeparatesFootprintsOfALayer) {
   EXPECT_EQ(planted(json).layer(0).size(), 2U);
 }
 
-TEST(Plant, AllowsHousesOfARowToShareWalls) {
+TEST(PlaceLayers, AllowsHousesOfARowToShareWalls) {
   Json houses = layer("house", {{"method", "rows"}, {"spacing", {7.3, 30}}, {"angle", 33}});
   houses["footprint"] = {7.3, 9};
   houses["turn"] = 0;
@@ -279,14 +279,14 @@ TEST(Plant, AllowsHousesOfARowToShareWalls) {
   EXPECT_EQ(beside, planted(json).layer(0).size());
 }
 
-TEST(Plant, PointsToTheLayerThatHasTooManyPositions) {
+TEST(PlaceLayers, PointsToTheLayerThatHasTooManyPositions) {
   const auto pointer = [](const Json& place) {
     const Json json = {{"layers", {layer("a", {{"distance", 5}}), layer("b", place)}}};
     const Generator::Params params = read_scene_params(json);
     Job job = job_of(1);
     Result<scene::Ground> ground = scene::Ground::make(own(params), job);
     try {
-      scene::plant(own(params), *ground, job);
+      scene::place_layers(own(params), *ground, job);
     } catch (const Stop& stop) {
       return stop.issue().pointer;
     }
@@ -301,7 +301,7 @@ TEST(Plant, PointsToTheLayerThatHasTooManyPositions) {
             "/layers/1/place/distance");
 }
 
-TEST(Plant, RefusesPatternsThatAreTooDenseBeforeAnythingIsMade) {
+TEST(PlaceLayers, RefusesPatternsThatAreTooDenseBeforeAnythingIsMade) {
   struct Case {
     Json place;
     std::string member;
@@ -343,7 +343,7 @@ TEST(Plant, RefusesPatternsThatAreTooDenseBeforeAnythingIsMade) {
   }
 }
 
-TEST(Plant, EndsSoonAfterTheDeadlineForAnyScene) {
+TEST(PlaceLayers, EndsSoonAfterTheDeadlineForAnyScene) {
   // Each position checks thousands of path segments and all trees around.
   Json points = Json::array();
   for (int i = 0; i < 4096; ++i) points.push_back({i % 2 == 0 ? -500 : 500, -400 + i * 0.2});
@@ -364,7 +364,7 @@ TEST(Plant, EndsSoonAfterTheDeadlineForAnyScene) {
   options.deadline = start + std::chrono::milliseconds(200);
   Job job(1, options);
   Result<scene::Ground> ground = scene::Ground::make(own(params), job);
-  EXPECT_THROW(static_cast<void>(scene::plant(own(params), *ground, job)), Stop);
+  EXPECT_THROW(static_cast<void>(scene::place_layers(own(params), *ground, job)), Stop);
   EXPECT_LT(Job::Clock::now() - start, std::chrono::seconds(2));
 }
 
