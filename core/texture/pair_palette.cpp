@@ -1,7 +1,7 @@
 #include "core/texture/pair_palette.h"
 
 #include <algorithm>
-#include <queue>
+#include <functional>
 #include <tuple>
 
 namespace seedmesh::texture {
@@ -69,24 +69,30 @@ struct Merge {
 
 /// Merges squares until there are few enough colours.
 void merge(std::vector<Layer>& layers) {
-  std::priority_queue<Merge, std::vector<Merge>, std::greater<>> next;
+  if (layers.back().sums[0].colors <= most_colors) return;
+  std::vector<Merge> offers;
   const auto offer = [&](std::uint32_t layer, std::uint32_t x, std::uint32_t y) {
     const Sums& square = layers[layer].at(x, y);
     std::uint32_t most = 0;
     for (std::uint32_t i = 0; i < 4; ++i)
       most = std::max(most, layers[layer - 1].at(2 * x + i % 2, 2 * y + i / 2).colors);
-    if (square.colors > 0 && most == 1) next.push({square.error(), layer, x, y});
+    if (square.colors == 0 || most > 1) return;
+    offers.push_back({square.error(), layer, x, y});
   };
   for (std::uint32_t y = 0; y < layers[1].side; ++y) {
     for (std::uint32_t x = 0; x < layers[1].side; ++x) offer(1, x, y);
   }
+  std::make_heap(offers.begin(), offers.end(), std::greater<>());
   while (layers.back().sums[0].colors > most_colors) {
-    const auto [error, layer, x, y] = next.top();
-    next.pop();
+    std::pop_heap(offers.begin(), offers.end(), std::greater<>());
+    const auto [error, layer, x, y] = offers.back();
+    offers.pop_back();
     const std::uint32_t saved = layers[layer].at(x, y).colors - 1;
     for (std::uint32_t i = layer; i < layers.size(); ++i)
       layers[i].at(x >> (i - layer), y >> (i - layer)).colors -= saved;
+    const std::size_t before = offers.size();
     if (layer + 1 < layers.size()) offer(layer + 1, x / 2, y / 2);
+    if (offers.size() > before) std::push_heap(offers.begin(), offers.end(), std::greater<>());
   }
 }
 
