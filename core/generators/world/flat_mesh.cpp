@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 #include "core/base/math.h"
 #include "core/generators/world/terrain_mesh.h"
@@ -73,7 +74,15 @@ void FlatMesh::add_rectangle(const glm::dvec2& low, const glm::dvec2& high, doub
     color_ = colors[k];
     own[k] = index_of(corners[k]);
   }
-  mesh_.indices.insert(mesh_.indices.end(), {own[0], own[1], own[2], own[0], own[2], own[3]});
+  // the diagonal between more similar colours, along which lines of one colour have no teeth
+  const auto difference = [&](std::size_t a, std::size_t b) {
+    int sum = 0;
+    for (std::size_t k = 0; k < 3; ++k) sum += std::abs(colors[a][k] - colors[b][k]);
+    return sum;
+  };
+  const std::size_t from = difference(0, 2) <= difference(1, 3) ? 0 : 1;
+  const std::uint32_t a = own[from], b = own[from + 1], c = own[from + 2], d = own[(from + 3) % 4];
+  mesh_.indices.insert(mesh_.indices.end(), {a, b, c, a, c, d});
 }
 
 void FlatMesh::add_clipped(std::vector<Point> polygon) {

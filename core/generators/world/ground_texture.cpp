@@ -38,7 +38,7 @@ Look look_of(GroundKind kind) {
     case GroundKind::snow:
       return {&texture::snow_ground, 0.16, 0.1, 0.1, 0.015};
     case GroundKind::land:
-      return {&texture::scree_ground, 0.35, 0.3, 0.62, 0.12};
+      return {&texture::scree_ground, 0.4, 0.35, 0.5, 0.09};
   }
   return {};
 }

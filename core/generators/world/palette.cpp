@@ -185,11 +185,13 @@ std::array<std::uint8_t, 4> sea_color(const World& world, const GroundColors& co
                                       const glm::dvec2& at, double spacing) {
   constexpr double wind = 0.14;  // by which streaks of wind differ
   const double patch = patches_at(world, at.x, at.y, spacing).hue;
+  const double pale = 0.36 - 0.22 * smooth_step(spacing, 128, 1024);  // bays seen from afar are dark
   const Shade shallow =
-      mixed(colors.water, {1.1 * colors.sand.red, 1.25 * colors.sand.green, 1.25 * colors.sand.blue}, 0.5);
+      mixed(colors.water, {colors.sand.red, 1.25 * colors.sand.green, 1.15 * colors.sand.blue}, pale);
   const Shade deep{0.55 * colors.water.red, 0.68 * colors.water.green, 0.8 * colors.water.blue};
-  Shade shade = mixed(shallow, colors.water, smooth_step(depth + 0.6 * patch, -0.3, 5 + 0.02 * spacing));
-  shade = mixed(shade, deep, smooth_step(depth + 6 * patch, 6, 70));
+  Shade shade =
+      mixed(shallow, colors.water, smooth_step(depth + 0.6 * patch, -0.3, 6 + std::min(12.0, 0.1 * spacing)));
+  shade = mixed(shade, deep, smooth_step(depth + 6 * patch, 8, 75));
   // the edge of the swell
   const double foam =
       0.5 * (1 - smooth_step(spacing, 8, 40)) * (1 - smooth_step(std::abs(depth - 0.15), 0.1, 0.6));

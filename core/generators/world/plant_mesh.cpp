@@ -129,7 +129,7 @@ void add_form(PlantBuilder& builder, const WorldClass& plant) {
 /// The outline of a plant in few triangles.
 void add_simple_form(PlantBuilder& builder, const WorldClass& plant) {
   const double h = plant.height;
-  constexpr double light = 1.2;  // crowns without clusters of leaves are darker
+  constexpr double light = 1.08;  // crowns of few clusters of leaves are darker
   const Rgba leaf = leaf_color(plant, light), stem = linear_color(plant.stem);
   switch (plant.form) {
     case WorldForm::conifer:

@@ -38,9 +38,11 @@ struct Corner {
   GroundKind kind = GroundKind::grass;
 };
 
-/// What slopes are multiplied by, for shading alone. Wide samples leave most of the slope out, and land without shades looks
-/// flat from afar.
-double exaggeration(double spacing) { return 1 + 1.6 * smooth_step(spacing, 128, 1024); }
+/// What a slope is multiplied by, for shading alone. Wide samples leave most of the slope out, and land without shades looks flat
+/// from afar. Gentle slopes gain most.
+double exaggeration(double spacing, double slope) {
+  return 1 + 4.5 * smooth_step(spacing, 64, 1024) / (1 + 10 * slope);
+}
 
 Corner corner_of(const World& world, const GroundColors& colors, const TileFrame& frame,
                  const TileGround& ground, int column, int row) {
@@ -57,7 +59,7 @@ Corner corner_of(const World& world, const GroundColors& colors, const TileFrame
     seen.east += share * (fine.east - seen.east);
     seen.north += share * (fine.north - seen.north);
   }
-  const double more = exaggeration(grid.spacing);
+  const double more = exaggeration(grid.spacing, std::sqrt(seen.east * seen.east + seen.north * seen.north));
   seen.east *= more;
   seen.north *= more;
   const double length = std::sqrt(seen.east * seen.east + seen.north * seen.north + 1);

@@ -36,7 +36,7 @@ void add_mesh(Glb& glb, const Surface& surface, const TileMesh& mesh, const Tile
 /// The kinds of ground of the triangles of a terrain: that of two corners, or else of the first. If one is by far the most
 /// frequent, all have it, since indices of their own make a tile larger.
 std::vector<GroundKind> kinds_of(const TerrainMesh& terrain, const std::vector<std::uint16_t>& corners) {
-  constexpr double most_share = 0.76, least_share = 0.02;
+  constexpr double most_share = 0.66, least_share = 0.02;
   std::vector<GroundKind> kinds;
   std::array<std::size_t, ground_kinds> counts{};
   const auto number = [](GroundKind kind) { return static_cast<std::size_t>(kind); };

@@ -1,6 +1,7 @@
 /// The look of the ground: its textures, their coordinates, and small plants and stones.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 
@@ -191,6 +192,19 @@ TEST_F(GroundCoverTest, IsOnLeavesWithPlantsOnly) {
   WorldParams bare = mountains_with_woods();
   bare.layers = {WorldLayersItem::terrain};
   EXPECT_TRUE(feet_of(tile_glb(world_of(bare), key, job)).empty());
+}
+
+/// Tiles with several kinds of ground have indices of their own, and pieces add to their bytes. Clients load twenty and more
+/// leaves at eye level.
+TEST_F(GroundCoverTest, KeepsLeavesSmall) {
+  const World world = world_of(mountains_with_woods());
+  Job job = test_job();
+  std::vector<std::size_t> bytes;
+  for (int k = 0; k < 49; ++k)
+    bytes.push_back(tile_glb(world, {14, key.x + 3 * (k % 7), key.y + 3 * (k / 7)}, job).size());
+  std::sort(bytes.begin(), bytes.end());
+  EXPECT_LE(bytes[24], 40'000U);
+  EXPECT_LE(bytes[48], 60'000U);
 }
 
 /// Shared files of all pieces have the bounds that boxes of tiles include, at the greatest size of 2.
