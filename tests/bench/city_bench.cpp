@@ -90,7 +90,7 @@ void report_grades() {
   const city::CityPlan plan = plan_with(params);
   Job job(1, Job::Options{});
   const double seconds = bench::median_seconds<bench::CpuClock>(
-      5, [&] { city::street_heights(plan, *plan.landform, -1e9, job); });
+      5, [&] { city::street_heights(plan, *plan.landform, -1e9, city::everywhere, job); });
   bench::report("grades of 9 km2", "samples", static_cast<double>(plan.heights.points.size()), seconds);
 }
 

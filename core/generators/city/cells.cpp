@@ -6,8 +6,11 @@
 #include <map>
 
 #include "core/base/math.h"
+#include "core/generators/city/cell_division.h"
+#include "core/generators/city/dead_ends.h"
 #include "core/generators/city/growth.h"
 #include "core/generators/city/tensor.h"
+#include "core/generators/city/tunnel_clearance.h"
 #include "generated/params/city.h"
 
 namespace seedmesh::city {
@@ -30,8 +33,12 @@ std::uint64_t point_key(const CmPoint& p) {
 
 class Cell final : public RoadRules {
  public:
-  Cell(const GrowthInput& input, Rng rng)
-      : input_(input), streets_(input.streets), rng_(rng), network_(limits_of(input.streets)) {
+  Cell(const GrowthInput& input, const TunnelClearance& tunnels, Rng rng)
+      : input_(input),
+        streets_(input.streets),
+        tunnels_(tunnels),
+        rng_(rng),
+        network_(limits_of(input.streets)) {
     is_along_field_ = input.minor_field != nullptr;
     if (streets_.minor_pattern) {
       is_raster_ = *streets_.minor_pattern == CityMinorPattern::raster;
@@ -76,12 +83,13 @@ class Cell final : public RoadRules {
         const std::size_t before = (i + count - 1) % count;
         if (borders_[r][i] != 0 || borders_[r][before] != 0 || !is_least(ring, draw, i)) continue;
         if (network_.is_closed(ring[i])) continue;
-        const dvec2 in = inward(ring[before], ring[i], ring[(i + 1) % count]);
+        const dvec2 in = inward_at(network_, ring[before], ring[i], ring[(i + 1) % count]);
         const std::uint64_t key =
             rng_.at("start").at(point_key(network_.nodes()[ring[i]])).at(side_of(in)).key();
         all.push_back({0, 1, propose(ring[i], in, Rng(key)), key});
       }
     }
+    for (const std::vector<std::uint32_t>& street : across_) add_starts(street, all);
     return all;
   }
 
@@ -114,7 +122,7 @@ class Cell final : public RoadRules {
       const std::vector<std::uint32_t>& ring = rings_[r];
       for (std::size_t i = 0, before = ring.size() - 1; i < ring.size(); before = i++) {
         if (borders_[r][i] != 0 || borders_[r][before] != 0 || network_.is_closed(ring[i])) continue;
-        add(ring[i], inward(ring[before], ring[i], ring[(i + 1) % ring.size()]));
+        add(ring[i], inward_at(network_, ring[before], ring[i], ring[(i + 1) % ring.size()]));
       }
     }
     for (const NetworkEdge& edge : std::vector<NetworkEdge>(network_.edges())) {
@@ -152,18 +160,20 @@ class Cell final : public RoadRules {
     const double length = streets_.length * 100 * (1.3 - 0.5 * density) *
                           (1 + draw.uniform(-streets_.length_spread, streets_.length_spread));
     const bool is_straight = is_raster_ || is_radial_ || is_along_field_;
-    const double freedom = is_along_field_ ? freedom_at(road.start) : is_straight ? 0 : 1;
+    const double freedom = is_along_field_ ? freedom_at(in_cm(network_.nodes()[road.start]))
+                           : is_straight   ? 0
+                                           : 1;
     const double bend = freedom > 0 ? freedom * draw.uniform(-streets_.bend, streets_.bend) : 0;
     const std::int32_t pieces = std::max(1, math::to_int32(length / piece_length + 0.5));
-    dvec2 direction = aligned(road.direction, road.start);
+    dvec2 direction = aligned(road.direction, in_cm(network_.nodes()[road.start]));
     std::uint32_t node = road.start;
     for (std::int32_t n = 0; n < pieces; ++n) {
       if (n > 0 && bend != 0) direction = rotated(direction, bend / pieces);
-      if (n > 0 && is_along_field_) direction = aligned(direction, node);
-      const dvec2 end = in_cm(network_.nodes()[node]) + direction * (length / pieces);
       const dvec2 from = in_cm(network_.nodes()[node]);
+      if (n > 0 && is_along_field_) direction = aligned(direction, from);
+      const dvec2 end = from + direction * (length / pieces);
       if (input_.density.at(end / 100.0) < least_density ||
-          input_.is_blocked(from, end, streets_.classes.minor.grade) || is_above_tunnel(from, end))
+          input_.is_blocked(from, end, streets_.classes.minor.grade) || tunnels_.is_above(from, end))
         return RoadState::failed;
       const PieceResult built = network_.build_piece(node, end, EdgeClass::minor);
       if (built.state != PieceState::free) return RoadState::failed;
@@ -182,16 +192,7 @@ class Cell final : public RoadRules {
     return {math::degrees(math::atan2(along.y, along.x)), length_of(along) / 100};
   }
 
-  /// Ends without a connection stay, are joined to the first road in reach, or are removed, by their keys.
-  void settle_dead_ends() {
-    for (std::uint32_t n = 0; n < network_.nodes().size(); ++n) {
-      if (network_.arms(n).size() != 1 || network_.edges()[network_.arms(n)[0]].kind != EdgeClass::minor)
-        continue;
-      Rng draw = rng_.at("dead end").at(point_key(network_.nodes()[n]));
-      if (draw.unit() < streets_.dead_ends) continue;
-      if (!join(n)) remove_from(n);
-    }
-  }
+  void settle_dead_ends() { city::settle_dead_ends(network_, input_, tunnels_, rng_.at("dead end")); }
 
   /// Whether a road was built at whose end others could branch off.
   bool has_branches() const { return has_branches_; }
@@ -252,26 +253,14 @@ class Cell final : public RoadRules {
     return true;
   }
 
-  /// The direction into the cell that halves the corner.
-  dvec2 inward(std::uint32_t before, std::uint32_t node, std::uint32_t after) const {
-    const dvec2 p = in_cm(network_.nodes()[node]);
-    const dvec2 in = p - in_cm(network_.nodes()[before]), out = in_cm(network_.nodes()[after]) - p;
-    const dvec2 along = in / length_of(in) + out / length_of(out);
-    const double length = length_of(along);
-    if (length < 1e-6) return in / length_of(in);
-    return dvec2(-along.y, along.x) / length;
-  }
   static std::uint64_t side_of(const dvec2& in) { return (in.x >= 0 ? 1U : 0U) + (in.y >= 0 ? 2U : 0U); }
 
   /// How little a street along the field keeps to it: the share of an organic pattern.
-  double freedom_at(std::uint32_t node) const {
-    return input_.minor_field->organic_share_at(in_cm(network_.nodes()[node]));
-  }
+  double freedom_at(const dvec2& p) const { return input_.minor_field->organic_share_at(p); }
 
   /// The direction, or that of the pattern which is nearest to it, or one between them.
-  dvec2 aligned(const dvec2& direction, std::uint32_t node) const {
+  dvec2 aligned(const dvec2& direction, const dvec2& p) const {
     if (!is_raster_ && !is_radial_ && !is_along_field_) return direction;
-    const dvec2 p = in_cm(network_.nodes()[node]);
     const dvec2 frame =
         is_along_field_ ? input_.minor_field->direction_at(p) : frame_at(streets_, is_radial_, p);
     if (frame == dvec2(0)) return direction;
@@ -280,76 +269,67 @@ class Cell final : public RoadRules {
       const dvec2 turned = rotated(frame, 90.0 * quarter);
       if (glm::dot(turned, direction) > glm::dot(best, direction)) best = turned;
     }
-    const double freedom = is_along_field_ ? freedom_at(node) : 0;
+    const double freedom = is_along_field_ ? freedom_at(p) : 0;
     if (freedom == 0) return best;
     const dvec2 mean = best * (1 - freedom) + direction * freedom;  // at most 45 degrees apart
     return mean / length_of(mean);
   }
 
-  bool join(std::uint32_t node) {
-    const NetworkEdge edge = network_.edges()[network_.arms(node)[0]];
-    const CmPoint before = network_.nodes()[edge.from == node ? edge.to : edge.from];
-    const dvec2 back = in_cm(network_.nodes()[node]) - in_cm(before);
-    const dvec2 ahead = back / length_of(back);
-    for (const double turn : {0.0, 20.0, -20.0, 40.0, -40.0, 65.0, -65.0, 90.0, -90.0}) {
-      const dvec2 direction = rotated(ahead, turn);
-      const dvec2 from = in_cm(network_.nodes()[node]);
-      const dvec2 far = from + direction * (streets_.length * 150);
-      if (is_above_tunnel(from, far) || (input_.footprints && input_.is_blocked(from, far, 1e9))) continue;
-      if (network_.build_to_road(node, direction, streets_.length * 150, EdgeClass::minor).state ==
-          PieceState::joined)
-        return true;
-    }
-    return false;
-  }
-
-  /// Removes the street back to its last junction.
-  void remove_from(std::uint32_t node) {
-    while (network_.arms(node).size() == 1) {
-      const std::uint32_t arm = network_.arms(node)[0];
-      const NetworkEdge edge = network_.edges()[arm];
-      if (edge.kind != EdgeClass::minor) return;
-      network_.remove_edge(arm);
-      node = edge.from == node ? edge.to : edge.from;
+  /// Growth starts at nodes of a street across the cell as at those of the outline, to both sides.
+  void add_starts(const std::vector<std::uint32_t>& street, std::vector<StreetGrammar::Start>& all) {
+    for (const bool is_left : {true, false}) {
+      std::vector<double> draw;
+      for (const std::uint32_t node : street) {
+        const Rng at = rng_.at("attach").at(point_key(network_.nodes()[node]));
+        const bool is_alike = at.at("alike").unit() < streets_.crossings;
+        draw.push_back((is_alike ? at.at("both") : at.at(is_left ? 1U : 2U)).unit());
+      }
+      for (std::size_t i = 1; i + 1 < street.size(); ++i) {
+        if (!is_least(street, draw, i)) continue;
+        const dvec2 left = inward_at(network_, street[i - 1], street[i], street[i + 1]);
+        const dvec2 in = is_left ? left : -left;
+        const std::uint64_t key =
+            rng_.at("start").at(point_key(network_.nodes()[street[i]])).at(side_of(in)).key();
+        all.push_back({0, 1, propose(street[i], in, Rng(key)), key});
+      }
     }
   }
 
  public:
-  /// Keeps streets off the mouths of tunnels and off ground that is low above them.
-  void avoid_tunnels(const std::vector<SeparatedStreet>& separated) {
-    if (!input_.landform) return;
-    for (const SeparatedStreet& each : separated) {
-      if (each.level > 0) continue;
-      tunnels_.push_back(&each);
-      for (const CmPoint& end : {each.line.front(), each.line.back()}) {
+  void set_key(std::uint64_t key) { cell_key_ = key; }
+
+  /// Lets no street end at the mouth of a tunnel.
+  void close_tunnels() {
+    for (const SeparatedStreet* each : tunnels_.tunnels()) {
+      for (const CmPoint& end : {each->line.front(), each->line.back()}) {
         const auto known = by_point_.find(end);
         if (known != by_point_.end()) network_.close_node(known->second);
       }
     }
   }
 
-  void set_key(std::uint64_t key) { cell_key_ = key; }
-
- private:
-  /// Whether a street between two positions (cm) would pass a tunnel that is not deep below the ground there.
-  bool is_above_tunnel(const dvec2& from, const dvec2& to) const {
-    constexpr double beside = 1500, least_depth = 14;  // cm, m
-    const auto ground = [&](const dvec2& cm) { return input_.landform->at(cm / 100.0); };
-    for (const SeparatedStreet* tunnel : tunnels_) {
-      const CmRing& line = tunnel->line;
-      const double floor = std::max(ground(in_cm(line.front())), ground(in_cm(line.back())));
-      if (std::min(ground(from), ground(to)) > floor + least_depth) continue;
-      for (std::size_t k = 1; k < line.size(); ++k) {
-        if (segments_meet(rounded_cm(from), rounded_cm(to), line[k - 1], line[k]) ||
-            distance_to_segment(to, in_cm(line[k - 1]), in_cm(line[k])) < beside)
-          return true;
-      }
-    }
-    return false;
+  /// Divides a cell that is much larger than usual by streets that do not depend on the density.
+  void divide() {
+    constexpr double largest = 2.2;  // of the square of the spacing
+    const double spacing = streets_.major_spacing * 100;
+    const bool is_straight = is_raster_ || is_radial_ || is_along_field_;
+    DivisionRules rules;
+    rules.largest = largest * spacing * spacing;
+    rules.bend = is_straight ? 0 : std::min(streets_.bend, 60.0);
+    rules.rng = rng_.at("divide");
+    rules.aligned = [&](const dvec2& direction, const dvec2& at) { return aligned(direction, at); };
+    rules.may_end = [&](std::uint32_t node) { return !network_.is_closed(node); };
+    rules.may_pass = [&](const dvec2& from, const dvec2& to) {
+      return input_.density.at(to / 100.0) >= least_density &&
+             !input_.is_blocked(from, to, streets_.classes.minor.grade) && !tunnels_.is_above(from, to);
+    };
+    across_ = divide_cell(network_, rings_, rules);
   }
 
+ private:
   const GrowthInput& input_;
   const CityStreets& streets_;
+  const TunnelClearance& tunnels_;
   Rng rng_;
   std::uint64_t cell_key_ = 0;
   bool has_branches_ = false;
@@ -360,21 +340,42 @@ class Cell final : public RoadRules {
   std::vector<std::vector<std::uint32_t>> rings_;
   std::vector<std::vector<std::uint8_t>> borders_;
   std::vector<Road> roads_;
-  std::vector<const SeparatedStreet*> tunnels_;
+  std::vector<std::vector<std::uint32_t>> across_;  ///< streets that divide the cell
 };
+
+/// Whether the productions ask for a road.
+class RoadProbe final : public RoadRules {
+ public:
+  bool is_asked = false;
+  GlobalGoals global_goals(double, double, Rng) override { return {}; }
+  RoadState local_constraints(double) override {
+    is_asked = true;
+    return RoadState::failed;
+  }
+  std::array<double, 2> measure(double) const override { return {0, 0}; }
+};
+
+bool builds_roads(const StreetGrammar& grammar, const Job& job) {
+  constexpr std::uint64_t most_steps = 1000;
+  RoadProbe probe;
+  grammar.grow({{0, 1, 0, 1}}, probe, most_steps, job);
+  return probe.is_asked;
+}
 
 }  // namespace
 
 CellStreets grow_cell(const GrowthInput& input, const StreetGraph& majors,
                       const std::vector<std::vector<std::uint32_t>>& loops, Job& job) {
-  Cell cell(input, job.rng().at("cells"));
+  const TunnelClearance tunnels(input.landform, majors.separated);
+  Cell cell(input, tunnels, job.rng().at("cells"));
   // The key of a cell is its lowest point, which edits elsewhere leave alone.
   CmPoint lowest = majors.nodes[start_of(majors.edges, loops[0][0])];
   for (const std::uint32_t half : loops[0])
     lowest = std::min(lowest, majors.nodes[start_of(majors.edges, half)]);
   cell.set_key(point_key(lowest));
   for (const std::vector<std::uint32_t>& loop : loops) cell.add_loop(majors, loop);
-  cell.avoid_tunnels(majors.separated);
+  cell.close_tunnels();
+  if (!input.wards && builds_roads(input.grammar, job)) cell.divide();
   const auto grow = [&](const std::vector<StreetGrammar::Start>& starts) {
     const auto steps = input.grammar.grow(starts, cell, most_steps_of_a_cell, job);
     if (!steps) return;

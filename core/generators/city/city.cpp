@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <glm/common.hpp>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <set>
 #include <utility>
 
@@ -22,6 +23,7 @@
 #include "core/generators/city/surface.h"
 #include "core/generators/city/tensor.h"
 #include "core/generators/city/wards.h"
+#include "core/schema/json.h"
 #include "core/schema/warning_list.h"
 #include "generated/params/city.h"
 
@@ -118,8 +120,25 @@ Region region_of_request(const CityParams& params, const Maps& maps, const CityP
   return region_of(area, water, job);
 }
 
-/// The given streets as pieces, cut at the border and at water. A bridge or tunnel that is given twice is kept once.
-Route given_route_of(const Region& region, const std::vector<GivenLine>& lines) {
+/// The first point at which two bridges meet, unless it is an end of both, or they are equal.
+std::optional<CmPoint> meeting_of(const CmRing& a, const CmRing& b) {
+  if (a == b || std::equal(a.begin(), a.end(), b.rbegin(), b.rend())) return std::nullopt;
+  for (std::size_t i = 1; i < a.size(); ++i) {
+    for (std::size_t k = 1; k < b.size(); ++k) {
+      if (!segments_meet(a[i - 1], a[i], b[k - 1], b[k])) continue;
+      for (const CmPoint& p : {a[i - 1], a[i]}) {
+        const bool is_common_end = (p == a.front() || p == a.back()) && (p == b.front() || p == b.back());
+        if ((p == b[k - 1] || p == b[k]) && !is_common_end) return p;
+      }
+      if (cross_properly(a[i - 1], a[i], b[k - 1], b[k])) return a[i - 1];
+    }
+  }
+  return std::nullopt;
+}
+
+/// The given streets as pieces, cut at the border and at water. A bridge that is given twice is kept once. Adds an issue
+/// for a street that meets another one over water, since bridges have no junctions.
+Route given_route_of(const Region& region, const std::vector<GivenLine>& lines, std::vector<Issue>& issues) {
   Route all;
   std::set<std::pair<int, CmRing>> known;
   const auto add_separated = [&](SeparatedLine separated) {
@@ -127,6 +146,7 @@ Route given_route_of(const Region& region, const std::vector<GivenLine>& lines) 
     if (known.emplace(separated.level, std::min(separated.line, back)).second)
       all.separated.push_back(std::move(separated));
   };
+  std::vector<CmRing> over_water;
   for (const GivenLine& line : lines) {
     if (line.level != 0) {
       add_separated({line.points, line.section, line.level});
@@ -134,7 +154,19 @@ Route given_route_of(const Region& region, const std::vector<GivenLine>& lines) 
     }
     Route route = given_route(region, line.points, line.section);
     all.pieces.insert(all.pieces.end(), route.pieces.begin(), route.pieces.end());
-    for (SeparatedLine& each : route.separated) add_separated(std::move(each));
+    for (SeparatedLine& each : route.separated) {
+      for (const CmRing& other : over_water) {
+        const std::optional<CmPoint> at = meeting_of(each.line, other);
+        if (!at) continue;
+        issues.emplace_back(conflict_with({}), line.geometry,
+                            "meets another street over water near " + number_text(at->x / 100.0) + ", " +
+                                number_text(at->y / 100.0) +
+                                "; expected land there, since bridges have no junctions");
+        break;
+      }
+      over_water.push_back(each.line);
+      add_separated(std::move(each));
+    }
   }
   return all;
 }
@@ -180,15 +212,30 @@ std::optional<Error> refusal(const CityParams& params, const GenerateContext& co
 }  // namespace
 
 /// Lays out the streets and finds their heights. On hills, removes streets with deep cuts or fills, whose removal
-/// changes the heights of others, in up to 24 rounds. Networks that this separates stay until no street is too deep, or
-/// until half of the rounds are over. Then they are linked once.
+/// changes the heights of others, in up to 24 rounds. In the first rounds, heights depend on the streets around alone,
+/// so that a change in one part affects few streets elsewhere. Networks that this separates stay until no street is too
+/// deep, or until half of the rounds are over. Then they are linked once.
 std::vector<BlockOutline> lay_out(CityPlan& plan, const GrowthInput& input, const CornerCut& cut, Job& job) {
-  constexpr int most_rounds = 24;
+  constexpr int most_rounds = 24, most_local_rounds = 8;
+  constexpr double around = 150;  // m
   bool may_link = input.streets.method != CityMethod::given;
+  bool is_local = input.landform != nullptr;
   for (int round = 0;; ++round) {
     plan.parts.clear();
     std::vector<BlockOutline> blocks = lay_out_streets(plan, cut, job);
-    plan.heights = street_heights(plan, *plan.landform, input.least_height, job);
+    const auto set_heights = [&](double reach) {
+      plan.heights = street_heights(plan, *plan.landform, input.least_height, reach, job);
+    };
+    if (is_local && round < most_local_rounds) {
+      set_heights(around);
+      if (drop_deep_streets(input, plan.heights, may_link ? Separate::kept : Separate::removed, plan.graph,
+                            job)) {
+        if (!has_streets(plan.graph)) return blocks;
+        continue;
+      }
+    }
+    is_local = false;
+    set_heights(everywhere);
     if (!input.landform || round == most_rounds) return blocks;
     const bool keeps = may_link && round <= most_rounds / 2;
     const Separate separate = keeps ? Separate::kept : Separate::removed;
@@ -226,7 +273,7 @@ Result<CityPlan> plan_on(const CityParams& params, std::shared_ptr<const Landfor
     plan.landform = std::make_shared<const Landform>(std::move(*ground));
   }
   plan.region = region_of_request(params, maps, plan, job, issues);
-  const Route given = given_route_of(plan.region, lines);
+  const Route given = given_route_of(plan.region, lines, issues);
   job.progress("streets", 0);
   const FieldMap* obstacles = maps.obstacles ? &*maps.obstacles : nullptr;
   const Landform* landform = plan.landform->is_level() ? nullptr : plan.landform.get();
@@ -282,7 +329,7 @@ Result<Model> planned_model(const CityParams& params, const GenerateContext& con
   Result<CityPlan> plan = plan_of(params, job);
   if (!plan) return plan.error();
   const std::string statistics = canonical_text(statistics_of(*plan, job));
-  std::vector<Warning> remarks = plan_warnings(params, *plan);
+  std::vector<Warning> remarks = plan_warnings(params, *plan, job);
   parts = plan->parts.size();
   if (parts >= parts_of_large_plans) {
     return_unused_heap();
@@ -315,7 +362,7 @@ Result<Json> derive(const CityParams& params, const GenerateContext& context) {
   Json answer;
   answer["statistics"] = statistics_of(*plan, job);
   answer["plan"] = plan_json(*plan, params, job);
-  answer["warnings"] = warning_list(plan_warnings(params, *plan));
+  answer["warnings"] = warning_list(plan_warnings(params, *plan, job));
   return answer;
 }
 
@@ -325,7 +372,7 @@ Result<Appraisal> appraise(const CityParams& params, const GenerateContext& cont
   const Result<CityPlan> plan = plan_of(params, job);
   if (!plan) return plan.error();
   Appraisal appraisal;
-  appraisal.warnings = plan_warnings(params, *plan);
+  appraisal.warnings = plan_warnings(params, *plan, job);
   Estimate estimate;
   const Surface surface(*plan, params.streets.wards.wall_height, job);
   estimate.triangles = ground_triangles(*plan, surface, context.demand.textures > 0, job) +

@@ -50,11 +50,11 @@ class GradeGraph {
     }
   }
 
-  /// The mean of the highest and the lowest heights that keep all links.
-  std::vector<double> limited(const std::vector<double>& heights, const Job& job) const {
-    std::vector<double> low(heights.size()), high = spread(heights, job);
+  /// The mean of the highest and the lowest heights that keep all links on ways of at most `reach` metres.
+  std::vector<double> limited(const std::vector<double>& heights, double reach, const Job& job) const {
+    std::vector<double> low(heights.size()), high = spread(heights, reach, job);
     for (std::size_t i = 0; i < heights.size(); ++i) low[i] = 0 - heights[i];
-    low = spread(low, job);
+    low = spread(low, reach, job);
     for (std::size_t i = 0; i < heights.size(); ++i) high[i] = (high[i] - low[i]) / 2;
     return high;
   }
@@ -78,9 +78,11 @@ class GradeGraph {
   }
 
  private:
-  /// The least of the heights plus distances: Dijkstra's algorithm from all vertices at once.
-  std::vector<double> spread(const std::vector<double>& heights, const Job& job) const {
+  /// The least of the heights plus distances: Dijkstra's algorithm from all vertices at once. Ways end at `reach`.
+  std::vector<double> spread(const std::vector<double>& heights, double reach, const Job& job) const {
     std::vector<double> least = heights;
+    std::vector<double> way(reach < everywhere ? least.size() : 0,
+                            0.0);  // length of the way to each vertex, m
     using Entry = std::pair<double, std::uint32_t>;
     std::vector<Entry> entries;
     entries.reserve(least.size());
@@ -97,6 +99,10 @@ class GradeGraph {
         const Link& link = links[arms_[k]];
         const std::uint32_t other = link.a == at ? link.b : link.a;
         if (height + link.rise >= least[other]) continue;
+        if (!way.empty()) {
+          if (way[at] + link.length > reach) continue;
+          way[other] = way[at] + link.length;
+        }
         least[other] = height + link.rise;
         queue.emplace(least[other], other);
       }
@@ -173,7 +179,8 @@ GradeGraph grade_graph(const CityPlan& plan, const Landform& landform, double le
 
 }  // namespace
 
-StreetHeights street_heights(const CityPlan& plan, const Landform& landform, double least, Job& job) {
+StreetHeights street_heights(const CityPlan& plan, const Landform& landform, double least, double reach,
+                             Job& job) {
   StreetHeights heights;
   if (landform.is_level()) return heights;
   const StreetGraph& graph = plan.graph;
@@ -183,9 +190,9 @@ StreetHeights street_heights(const CityPlan& plan, const Landform& landform, dou
     heights.first.push_back(static_cast<std::uint32_t>(heights.points.size()));
   }
   const GradeGraph grades = grade_graph(plan, landform, least, heights);
-  std::vector<double> limited = grades.limited(grades.ground, job);
+  std::vector<double> limited = grades.limited(grades.ground, reach, job);
   grades.smooth(limited);
-  limited = grades.limited(limited, job);
+  limited = grades.limited(limited, reach, job);
   for (double& height : limited) height = rounded(height);
   heights.node.assign(limited.begin(), limited.begin() + static_cast<std::ptrdiff_t>(graph.nodes.size()));
   std::size_t at = graph.nodes.size();

@@ -18,6 +18,9 @@ struct ProfilePoint {
   double height = 0;
 };
 
+/// A reach that is longer than all ways.
+constexpr double everywhere = 1e30;
+
 /// The heights of all streets. Empty on level ground.
 struct StreetHeights {
   std::vector<double> node;          ///< heights, indexed by node, metres
@@ -34,7 +37,10 @@ struct StreetHeights {
 /// lower heights, with the grade limit of each class as cost. These heights differ from the ground only where a limit
 /// requires it. Their mean keeps all limits with the least possible greatest cut or fill. Heights are then smoothed
 /// along the streets and limited again. `least` is a lower bound of all heights. Cost: n log n in the samples.
-StreetHeights street_heights(const CityPlan& plan, const Landform& landform, double least, Job& job);
+/// With a `reach`, in metres, a height depends only on the ground of streets on ways of at most this length, and limits
+/// may be exceeded.
+StreetHeights street_heights(const CityPlan& plan, const Landform& landform, double least, double reach,
+                             Job& job);
 
 /// Returns the height of an edge at a station, both in metres. Beyond an end, the height is that of the end.
 double height_on_street(const StreetHeights& heights, std::uint32_t edge, double station);

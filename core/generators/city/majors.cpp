@@ -222,14 +222,15 @@ class NetRules final : public RoadRules {
 
   std::vector<StreetGrammar::Start> starts() { return starts_at(first_site()); }
 
-  /// Starts on a part of the land, between waters, that no street has reached. None if there is no such part.
-  std::vector<StreetGrammar::Start> starts_beyond_water() {
+  /// Starts at a site that is not beside a reached one, or on a part of the land, between waters, that no street has
+  /// reached. None if there is no such site.
+  std::vector<StreetGrammar::Start> starts_elsewhere() {
     for (const dvec2& p : lattice_of(input_.region)) {
       const Site site = net_.site_near(p);
       const dvec2 at = net_.position(site);
       if (reached_.count(site) != 0 || !may_start(at)) continue;
       const auto part = part_of_land(input_.region, at);
-      if (part && parts_.count(*part) == 0) return starts_at(site);
+      if (part && (parts_.count(*part) == 0 || !is_beside_reached(site))) return starts_at(site);
     }
     return {};
   }
@@ -308,6 +309,18 @@ class NetRules final : public RoadRules {
            !(input_.given && meets_separated(built, input_.given->separated));
   }
 
+  /// Whether a site around another one of the net has been reached. The sites of a radial net all have a way to its
+  /// centre, so that growth there starts once.
+  bool is_beside_reached(const Site& site) const {
+    if (net_.is_radial()) return true;
+    for (std::int32_t i = -1; i <= 1; ++i) {
+      for (std::int32_t k = -1; k <= 1; ++k) {
+        if (reached_.count({site[0] + i, site[1] + k}) != 0) return true;
+      }
+    }
+    return false;
+  }
+
   bool may_start(const dvec2& cm) const {
     return is_on_land(input_.region, cm) && input_.density.at(cm / 100.0) >= least_density;
   }
@@ -352,7 +365,7 @@ dvec2 frame_at(const CityStreets& streets, bool is_radial, const dvec2& cm) {
 Route grow_majors(const GrowthInput& input, Job& job) {
   const Net net(input.streets, job.rng().at("majors"));
   NetRules rules(input, net);
-  for (auto starts = rules.starts(); !starts.empty(); starts = rules.starts_beyond_water()) {
+  for (auto starts = rules.starts(); !starts.empty(); starts = rules.starts_elsewhere()) {
     if (const auto steps = input.grammar.grow(starts, rules, job.limits().shapes, job)) {
       job.refuse(limit_issue({Resource::steps, *steps, *steps + 1}, "the major streets do not stop growing",
                              "/streets/productions"));

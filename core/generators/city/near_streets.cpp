@@ -71,6 +71,30 @@ std::vector<NearPair> near_pairs(const std::vector<CmPoint>& nodes, const std::v
   return pairs;
 }
 
+bool are_linked(const StreetNet& net, const NearPair& pair) {
+  constexpr double way_between_arms = 5.13;  // over their distance, of arms at 22.5 degrees
+  const double most = way_between_arms * pair.distance;
+  const PlanarEdge &from = net.edges[pair.first], &to = net.edges[pair.second];
+  struct Visit {
+    std::uint32_t node;
+    double way;
+  };
+  std::vector<Visit> visits = {{from.from, 0}, {from.to, 0}};
+  for (std::size_t i = 0; i < visits.size(); ++i) {
+    const Visit at = visits[i];
+    if (at.node == to.from || at.node == to.to) return true;
+    for (const std::uint32_t half : net.arms.of(at.node)) {
+      const PlanarEdge& edge = net.edges[half / 2];
+      if (edge.is_removed() || !is_street_tag(edge.tag)) continue;
+      const std::uint32_t next = edge.from == at.node ? edge.to : edge.from;
+      const double way = at.way + distance(net.nodes[at.node], net.nodes[next]);
+      const auto is_known = [&](const Visit& visit) { return visit.node == next && visit.way <= way; };
+      if (way <= most && std::none_of(visits.begin(), visits.end(), is_known)) visits.push_back({next, way});
+    }
+  }
+  return false;
+}
+
 void join_near_bends(const GrowthInput& input, std::vector<StreetPiece>& pieces, const Job& job) {
   const std::vector<double> widths = widths_of(input.sections);
   Corners all(pieces);

@@ -20,6 +20,17 @@ struct NearPair {
 std::vector<NearPair> near_pairs(const std::vector<CmPoint>& nodes, const std::vector<PlanarEdge>& edges,
                                  const std::vector<double>& widths, const Job& job);
 
+/// A planar graph of streets.
+struct StreetNet {
+  const std::vector<CmPoint>& nodes;
+  const std::vector<PlanarEdge>& edges;
+  const PlanarArms& arms;
+};
+
+/// Whether a way along streets between the two streets of a pair is so short that they may be as near to each other as
+/// they are: that of arms of one junction at 22.5 degrees.
+bool are_linked(const StreetNet& net, const NearPair& pair);
+
 /// Moves bends of streets onto a corner of another street that is nearer than a quarter of both widths, so that the
 /// streets have a common node. Streets that would leave the free ground stay.
 void join_near_bends(const GrowthInput& input, std::vector<StreetPiece>& pieces, const Job& job);

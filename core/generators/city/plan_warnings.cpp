@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <glm/common.hpp>
+#include <set>
 #include <string>
+#include <type_traits>
 
+#include "core/generators/city/crowded_streets.h"
 #include "core/generators/city/geojson.h"
 #include "core/generators/city/house_placement.h"
 #include "core/generators/city/landmarks.h"
@@ -73,6 +76,45 @@ void add_unused(const CityParams& params, const CityPlan& plan, std::vector<Warn
     warnings.push_back({"/buildings/detail", "`detail` has no effect: no rule of buildings has a blueprint"});
 }
 
+/// Whether the width of a class has an effect without a street of the class: the space that growth keeps free depends
+/// on the widest one.
+bool keeps_space_for(EdgeClass kind, const CityParams& params) {
+  const CityStreets& streets = params.streets;
+  if (streets.method == CityMethod::given) return false;
+  if (kind == EdgeClass::major || kind == EdgeClass::minor || params.given.given_footprints) return true;
+  return kind == EdgeClass::highway && streets.highway_spacing > 0 && streets.method != CityMethod::wards;
+}
+
+/// Warns of classes that no street has, and of limits of grades on level ground.
+void add_unused_classes(const CityParams& params, const CityPlan& plan, std::vector<Warning>& warnings) {
+  std::set<std::string> names;  // of classes with streets
+  bool has_ramps = false;
+  for (const PlanarEdge& each : plan.graph.edges) names.insert(plan.classes[each.tag].name);
+  for (const SeparatedStreet& each : plan.graph.separated) {
+    names.insert(plan.classes[each.tag].name);
+    has_ramps |= each.level != 0;
+  }
+  const auto check = [&](const char* name, EdgeClass kind, const auto& section) {
+    const std::remove_cvref_t<decltype(section)> plain;
+    const std::string pointer = std::string("/streets/classes/") + name;
+    if (section == plain) return;
+    if (!names.contains(name) && !keeps_space_for(kind, params)) {
+      const auto is_known = [&](const Warning& each) { return each.pointer.starts_with(pointer); };
+      if (std::none_of(warnings.begin(), warnings.end(), is_known))
+        warnings.push_back({pointer, std::string("`") + name + "` has no effect: no street has this class"});
+    } else if (section.grade != plain.grade && plan.heights.is_level() && !has_ramps) {
+      warnings.push_back(
+          {pointer + "/grade",
+           "`grade` has no effect on level ground without bridges; expected a terrain or maps.height"});
+    }
+  };
+  const CityClasses& classes = params.streets.classes;
+  check("highway", EdgeClass::highway, classes.highway);
+  check("major", EdgeClass::major, classes.major);
+  check("minor", EdgeClass::minor, classes.minor);
+  check("lane", EdgeClass::lane, classes.lane);
+}
+
 /// Whether all lines and rings are beside the box around the area.
 bool is_beside_area(const std::vector<GeoFeature>& features, const std::vector<CmRing>& area) {
   glm::dvec2 low = in_cm(area[0][0]), high = low;
@@ -123,14 +165,16 @@ void add_unused_geometries(const CityParams& params, const CityPlan& plan, std::
 
 }  // namespace
 
-std::vector<Warning> plan_warnings(const CityParams& params, const CityPlan& plan) {
+std::vector<Warning> plan_warnings(const CityParams& params, const CityPlan& plan, const Job& job) {
   std::vector<Warning> warnings = warnings_of(unused_parameters(params));
   add_unused(params, plan, warnings);
+  add_unused_classes(params, plan, warnings);
   add_unused_geometries(params, plan, warnings);
   std::vector<CrossSection> sections = classes_of(params);
   std::vector<Issue> issues;  // the plan was made, so that there are none
   const std::vector<GivenLine> lines = given_lines(params, sections, issues);
   for (Warning& each : missing_streets(lines, plan)) warnings.push_back(std::move(each));
+  for (Warning& each : crowded_streets(lines, plan, job)) warnings.push_back(std::move(each));
   if (!is_covered(plan)) {
     warnings.push_back(
         {"/terrain",

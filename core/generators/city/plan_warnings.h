@@ -12,9 +12,9 @@ struct CityParams;
 
 namespace seedmesh::city {
 
-/// Returns warnings: parameters without an effect; given streets that were left out; a terrain that is smaller than
+/// Returns warnings: parameters without an effect; given streets that were left out, or that run too near to each other; a terrain that is smaller than
 /// the area; landmarks that do not fit; tunnels below level ground.
-std::vector<Warning> plan_warnings(const CityParams& params, const CityPlan& plan);
+std::vector<Warning> plan_warnings(const CityParams& params, const CityPlan& plan, const Job& job);
 
 /// Adds warnings about surfaces that the model does not have. Call it before materials get unique names.
 void warn_of_unused_surfaces(const CityParams& params, Model& model);

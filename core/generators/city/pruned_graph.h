@@ -126,13 +126,12 @@ class PrunedGraph {
   /// they are as far apart as arms of a junction at the same way from it. `widths` are those of the carriageways in
   /// centimetres, by tag. Cost: n log n.
   void drop_near(const std::vector<double>& widths, const Job& job) {
-    constexpr double way_between_arms = 5.13;  // over their distance, of arms at 22.5 degrees
     PlanarArms arms;
     for (const NearPair& pair : near_pairs(nodes_, edges_, widths, job)) {
       PlanarEdge &first = edges_[pair.first], &second = edges_[pair.second];
       if (first.is_removed() || second.is_removed() || (is_given(first) && is_given(second))) continue;
       if (arms.first.empty()) arms = arms_of(nodes_, edges_);
-      if (are_linked(first, second, arms, way_between_arms * pair.distance)) continue;
+      if (are_linked({nodes_, edges_, arms}, pair)) continue;
       const auto order = [&](const PlanarEdge& edge) {
         const bool is_dead_end = is_loose(edge.from) || is_loose(edge.to);
         return 2 * rank_of(edge) + (is_dead_end ? 1 : 0);
@@ -142,11 +141,11 @@ class PrunedGraph {
     compact();
   }
 
-  /// Keeps the network of streets with the greatest length, and those with given streets.
+  /// Keeps the main network of streets, and those with given streets.
   void keep_largest() { keep_large(2); }
 
-  /// Keeps the network of streets with the greatest length, those of at least this share of its length, and those with
-  /// given streets.
+  /// Keeps the main network of streets, those of at least this share of its length, and those with given streets. The
+  /// main network has the greatest length of highways and major streets, which the density affects little.
   void keep_large(double least_share) {
     drop_loose_separated();
     std::vector<std::uint32_t> root(nodes_.size());
@@ -162,21 +161,27 @@ class PrunedGraph {
     for (const PlanarEdge& edge : edges_) {
       if (is_street(edge)) join(edge.from, edge.to);
     }
-    for (const SeparatedStreet& each : separated_) join(each.from, each.to);
-    std::vector<double> length(nodes_.size(), 0);
+    for (const SeparatedStreet& bridge : separated_) join(bridge.from, bridge.to);
+    std::vector<double> length(nodes_.size(), 0), major_length(nodes_.size(), 0);
     std::vector<std::uint8_t> has_given(nodes_.size(), 0);
     for (const PlanarEdge& edge : edges_) {
       if (!is_street(edge)) continue;
-      length[find(edge.from)] += distance(nodes_[edge.from], nodes_[edge.to]);
+      const double own = distance(nodes_[edge.from], nodes_[edge.to]);
+      length[find(edge.from)] += own;
+      if (edge.tag <= static_cast<std::uint32_t>(EdgeClass::major)) major_length[find(edge.from)] += own;
       if (is_given(edge)) has_given[find(edge.from)] = 1;
     }
-    const auto longest =
-        static_cast<std::uint32_t>(std::max_element(length.begin(), length.end()) - length.begin());
-    const double least = longest < length.size() ? least_share * length[longest] : 0;
+    std::uint32_t main = 0;
+    for (std::uint32_t i = 1; i < root.size(); ++i) {
+      const bool is_greater = major_length[i] != major_length[main] ? major_length[i] > major_length[main]
+                                                                    : length[i] > length[main];
+      if (is_greater) main = i;
+    }
+    const double least = main < length.size() ? least_share * length[main] : 0;
     for (PlanarEdge& edge : edges_) {
       if (!is_street(edge)) continue;
       const std::uint32_t network = find(edge.from);
-      if (network != longest && length[network] < least && has_given[network] == 0) remove(edge);
+      if (network != main && length[network] < least && has_given[network] == 0) remove(edge);
     }
     compact();
     drop_loose_separated();
@@ -222,29 +227,7 @@ class PrunedGraph {
   }
 
  private:
-  /// Whether a way of at most `most` centimetres leads from an end of one street to an end of another.
-  bool are_linked(const PlanarEdge& from, const PlanarEdge& to, const PlanarArms& arms, double most) const {
-    struct Visit {
-      std::uint32_t node;
-      double way;
-    };
-    std::vector<Visit> visits = {{from.from, 0}, {from.to, 0}};
-    for (std::size_t i = 0; i < visits.size(); ++i) {
-      const Visit at = visits[i];
-      if (at.node == to.from || at.node == to.to) return true;
-      for (const std::uint32_t half : arms.of(at.node)) {
-        const PlanarEdge& edge = edges_[half / 2];
-        if (edge.is_removed() || !is_street(edge)) continue;
-        const std::uint32_t next = edge.from == at.node ? edge.to : edge.from;
-        const double way = at.way + distance(nodes_[at.node], nodes_[next]);
-        const auto is_known = [&](const Visit& visit) { return visit.node == next && visit.way <= way; };
-        if (way <= most && std::none_of(visits.begin(), visits.end(), is_known))
-          visits.push_back({next, way});
-      }
-    }
-    return false;
-  }
-  /// Removes bridges and tunnels without a street at one of their ends.
+  /// Removes bridges without a street at one of their ends.
   void drop_loose_separated() {
     std::erase_if(separated_, [&](const SeparatedStreet& each) {
       return degree_[each.from] == 0 || degree_[each.to] == 0 || each.from == each.to;

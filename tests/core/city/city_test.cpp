@@ -333,8 +333,8 @@ TEST(City, CrossesARiverOnBridges) {
   CityParams params = small_town(1200, 900);
   params.maps.water = "abs(y) < 25";
   const CityPlan plan = made(params, 6);
-  EXPECT_FALSE(plan.graph.bridges.empty());
-  for (const Bridge& bridge : plan.graph.bridges) {
+  EXPECT_FALSE(plan.graph.separated.empty());
+  for (const SeparatedStreet& bridge : plan.graph.separated) {
     EXPECT_NEAR(std::abs(bridge.line.front().y - bridge.line.back().y), 5000, 60);
     EXPECT_GT(plan.graph.degree(bridge.from), 0U);
     EXPECT_GT(plan.graph.degree(bridge.to), 0U);
@@ -343,7 +343,7 @@ TEST(City, CrossesARiverOnBridges) {
   for (const Part& part : plan.parts) water += part.kind == PartKind::water ? area_of(part.rings) : 0;
   EXPECT_NEAR(water / (1200.0 * 50), 1, 0.01);
   params.streets.bridge_length = 40;
-  EXPECT_TRUE(made(params, 6).graph.bridges.empty());
+  EXPECT_TRUE(made(params, 6).graph.separated.empty());
 }
 
 /// The streets that have all of their length on the given side of x = 0.
@@ -363,7 +363,7 @@ TEST(City, HasStreetsOnBothBanksOfAWindingRiver) {
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
     const CityPlan plan = made(params, seed);
     const std::size_t west = streets_beside(plan, -1), east = streets_beside(plan, 1);
-    EXPECT_GE(plan.graph.bridges.size(), 1U) << seed;
+    EXPECT_GE(plan.graph.separated.size(), 1U) << seed;
     EXPECT_GT(std::min(west, east) * 4, std::max(west, east)) << seed << ": " << west << " and " << east;
   }
 }
@@ -397,7 +397,7 @@ TEST(City, StreetsLeaveTheEndsOfAGivenBridgeAtClearAngles) {
   std::size_t streets = 0;
   for (std::uint64_t seed = 1; seed <= 30; ++seed) {
     const CityPlan plan = made(params, seed);
-    for (const Bridge& bridge : plan.graph.bridges) {
+    for (const SeparatedStreet& bridge : plan.graph.separated) {
       const glm::dvec2 from = in_cm(bridge.line.front()), to = in_cm(bridge.line.back());
       for (const auto& [node, along] : {std::pair(bridge.from, to - from), std::pair(bridge.to, from - to)}) {
         for (const std::uint32_t half : plan.graph.arms.of(node)) {
@@ -466,7 +466,7 @@ std::size_t networks(const StreetGraph& graph) {
   for (std::uint32_t e = 0; e < graph.edges.size(); ++e) {
     if (graph.is_street(e)) join(graph.edges[e].from, graph.edges[e].to);
   }
-  for (const Bridge& bridge : graph.bridges) join(bridge.from, bridge.to);
+  for (const SeparatedStreet& bridge : graph.separated) join(bridge.from, bridge.to);
   std::set<std::uint32_t> all;
   for (std::uint32_t n = 0; n < network.size(); ++n) {
     if (graph.street_ends(n) > 0) all.insert(network[n]);

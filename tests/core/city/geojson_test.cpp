@@ -219,7 +219,7 @@ TEST(GeoJsonOfCities, WarnsOfStreetsOutsideOfTheArea) {
   Job job(1, Job::Options{});
   const Result<CityPlan> plan = plan_of(params, job);
   ASSERT_TRUE(plan);
-  const std::vector<Warning> warnings = plan_warnings(params, *plan);
+  const std::vector<Warning> warnings = plan_warnings(params, *plan, job);
   ASSERT_EQ(warnings.size(), 1U);
   EXPECT_EQ(warnings[0].pointer, "/given/streets");
 }
@@ -233,7 +233,7 @@ std::vector<Warning> warnings_for(const Json& streets, const char* method) {
   Job job(1, Job::Options{});
   const Result<CityPlan> plan = plan_of(params, job);
   EXPECT_TRUE(plan);
-  return plan_warnings(params, *plan);
+  return plan_warnings(params, *plan, job);
 }
 
 // The line x + y = 198 is 2.8 m long within the corner of the area at 100, 100.
@@ -283,8 +283,48 @@ TEST(GeoJsonOfCities, BuildsABridgeOnceThatIsGivenTwice) {
   Job job(1, Job::Options{});
   const Result<CityPlan> plan = plan_of(params, job);
   ASSERT_TRUE(plan);
-  EXPECT_EQ(plan->graph.bridges.size(), 2U) << "one over the street at 0, 60, one over the water";
-  EXPECT_TRUE(plan_warnings(params, *plan).empty());
+  EXPECT_EQ(plan->graph.separated.size(), 2U) << "one over the street at 0, 60, one over the water";
+  EXPECT_TRUE(plan_warnings(params, *plan, job).empty());
+}
+
+// Minor streets are 7 m wide. The first two are 5 m apart from x = 0 on, and the third is 7 m away from the first. The
+// fourth and the fifth leave one junction at 20 degrees, so that they are near to each other there.
+TEST(GeoJsonOfCities, WarnsOfStreetsThatRunTooNearToEachOther) {
+  const Json streets = Json::parse(R"({"type":"FeatureCollection","features":[
+    {"type":"Feature","properties":{},"geometry":{"type":"LineString","coordinates":[[-90,0],[90,0]]}},
+    {"type":"Feature","properties":{},"geometry":{"type":"LineString","coordinates":[[0,5],[80,5]]}},
+    {"type":"Feature","properties":{},"geometry":{"type":"LineString","coordinates":[[-80,-7],[80,-7]]}},
+    {"type":"Feature","properties":{},"geometry":{"type":"LineString","coordinates":[[-80,40],[80,40]]}},
+    {"type":"Feature","properties":{},"geometry":{"type":"LineString","coordinates":[[-80,40],[60,91]]}}]})");
+  const std::vector<Warning> warnings = warnings_for(streets, "given");
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_EQ(warnings[0].pointer, "/given/streets/features/1");
+  EXPECT_EQ(
+      warnings[0].message,
+      "runs 5 m beside the street `given/streets/features/0` at 0, 0, so that their carriageways overlap; "
+      "expected at least 7 m, or a common corner");
+}
+
+// The streets share the corner 0, 0, which is in the water.
+TEST(GeoJsonOfCities, RefusesStreetsThatMeetOverWater) {
+  const Json streets = Json::parse(R"({"type":"FeatureCollection","features":[
+    {"type":"Feature","properties":{},"geometry":{"type":"LineString","coordinates":[[-90,0],[0,0],[90,0]]}},
+    {"type":"Feature","properties":{},"geometry":{"type":"LineString","coordinates":[[0,-90],[0,0],[0,90]]}}]})");
+  const Json water =
+      Json::parse(R"({"type":"Polygon","coordinates":[[[-9,-9],[9,-9],[9,9],[-9,9],[-9,-9]]]})");
+  IssueList errors;
+  const CityParams params = read_city({{"area", {{"size", {200, 200}}}},
+                                       {"streets", {{"method", "given"}}},
+                                       {"given", {{"streets", streets}, {"water", water}}}},
+                                      "", errors);
+  Job job(1, Job::Options{});
+  const Result<CityPlan> plan = plan_of(params, job);
+  ASSERT_FALSE(plan);
+  ASSERT_EQ(plan.error().issues.size(), 1U);
+  EXPECT_EQ(plan.error().issues[0].pointer, "/given/streets/features/1/geometry");
+  EXPECT_EQ(
+      plan.error().issues[0].message,
+      "meets another street over water near 0, 0; expected land there, since bridges have no junctions");
 }
 
 }  // namespace

@@ -82,20 +82,20 @@ CityParams town_with_ridge(double tunnel_length) {
 TEST(GrownTunnels, PassARidgeThatIsTooSteepForStreets) {
   std::size_t found = 0, shown = 0;
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {
-    EXPECT_TRUE(plan_by(town_with_ridge(0), seed).graph.bridges.empty());
+    EXPECT_TRUE(plan_by(town_with_ridge(0), seed).graph.separated.empty());
     const CityPlan plan = plan_by(town_with_ridge(300), seed);
     Job job(seed, Job::Options{});
     const Surface surface(plan, 0, job);
     shown += surface.tunnels().all().size();
-    found += plan.graph.bridges.size();
-    for (const Bridge& tunnel : plan.graph.bridges) {
+    found += plan.graph.separated.size();
+    for (const SeparatedStreet& tunnel : plan.graph.separated) {
       EXPECT_EQ(tunnel.level, -1);
       ASSERT_EQ(tunnel.line.size(), 2U);
       EXPECT_LE(distance(tunnel.line[0], tunnel.line[1]), 30'000.01);
       // It passes the crest, which is at x = 150, and begins and ends at streets.
       EXPECT_LT((tunnel.line[0].x - 15'000.0) * (tunnel.line[1].x - 15'000.0), 0);
       for (const std::uint32_t node : {tunnel.from, tunnel.to}) EXPECT_GE(plan.graph.degree(node), 1U);
-      const std::vector<ProfilePoint> floor = bridge_profile(plan, tunnel);
+      const std::vector<ProfilePoint> floor = separated_profile(plan, tunnel);
       for (std::size_t k = 1; k < floor.size(); ++k) {
         const double run = distance(floor[k - 1].at, floor[k].at) / 100;
         EXPECT_LE(std::abs(floor[k].height - floor[k - 1].height) / run,
@@ -111,7 +111,7 @@ TEST(GrownTunnels, PassARidgeThatIsTooSteepForStreets) {
 TEST(GrownTunnels, DoNotPassValleys) {
   CityParams params = town_with_ridge(300);
   params.maps.height = "0 - 30 * exp(0 - ((x - 150) / 45) ^ 2)";
-  for (std::uint64_t seed = 1; seed <= 4; ++seed) EXPECT_TRUE(plan_by(params, seed).graph.bridges.empty());
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) EXPECT_TRUE(plan_by(params, seed).graph.separated.empty());
 }
 
 }  // namespace

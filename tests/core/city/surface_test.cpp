@@ -79,8 +79,8 @@ TEST(CityGrades, KeepTheLimitOfEachClassAndLevelJunctions) {
       ASSERT_EQ(height_on_street(plan->heights, edge, -1), plan->heights.node[each.from]);
       ASSERT_EQ(height_on_street(plan->heights, edge, 1e6), plan->heights.node[each.to]);
     }
-    for (const Bridge& bridge : plan->graph.bridges) {
-      const std::vector<ProfilePoint> line = bridge_profile(*plan, bridge);
+    for (const SeparatedStreet& bridge : plan->graph.separated) {
+      const std::vector<ProfilePoint> line = separated_profile(*plan, bridge);
       for (std::size_t k = 1; k < line.size(); ++k) {
         const double run = distance(line[k - 1].at, line[k].at) / 100;
         ASSERT_LE(std::abs(line[k].height - line[k - 1].height),

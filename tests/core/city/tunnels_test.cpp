@@ -107,9 +107,9 @@ TEST(Tunnels, AreCoveredByTheGroundAlongTheirWholeLength) {
 TEST(Tunnels, KeepTheGradeLimitOfTheirClass) {
   for (const double ridge : {4.0, 12.0, 30.0}) {
     const CityPlan plan = plan_by(city_with_tunnel(ridge));
-    ASSERT_EQ(plan.graph.bridges.size(), 1U);
-    const Bridge& bridge = plan.graph.bridges[0];
-    const std::vector<ProfilePoint> line = bridge_profile(plan, bridge);
+    ASSERT_EQ(plan.graph.separated.size(), 1U);
+    const SeparatedStreet& bridge = plan.graph.separated[0];
+    const std::vector<ProfilePoint> line = separated_profile(plan, bridge);
     for (std::size_t k = 1; k < line.size(); ++k) {
       const double run = distance(line[k - 1].at, line[k].at) / 100;
       EXPECT_LE(std::abs(line[k].height - line[k - 1].height) / run,

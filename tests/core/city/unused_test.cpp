@@ -123,6 +123,24 @@ const std::vector<Option>& street_options() {
   return all;
 }
 
+TEST(UnusedOptions, OfClassesThatNoStreetHasGiveWarnings) {
+  Json base = {{"area", {{"size", {600, 600}}}}, {"streets", {{"method", "given"}}}};
+  base["given"]["streets"] = given_streets();
+  base["given"]["streets"]["features"].erase(0);  // the highway
+  using Pointers = std::set<std::string>;
+  const auto warned = [&](const Json& classes) {
+    Json json = base;
+    json["streets"]["classes"] = classes;
+    return answer_of(json).warned;
+  };
+  EXPECT_EQ(warned({{"highway", {{"width", 30}}}}), Pointers{"/streets/classes/highway"});
+  EXPECT_EQ(warned({{"major", {{"lanes", 3}}}}), Pointers{"/streets/classes/major"});
+  EXPECT_EQ(warned({{"minor", {{"width", 9}}}, {"lane", {{"sidewalk", 1.5}}}}), Pointers{});
+  EXPECT_EQ(warned({{"lane", {{"width", 5}, {"grade", 0.2}}}}), Pointers{"/streets/classes/lane/grade"});
+  base["maps"]["height"] = "2 * sin(x)";
+  EXPECT_EQ(warned({{"lane", {{"width", 5}, {"grade", 0.2}}}}), Pointers{});
+}
+
 TEST(UnusedOptions, OfStreetsThatGrowGiveWarnings) {
   for (const char* pattern : {"organic", "raster", "radial", "slope"}) {
     Json base = ground();
