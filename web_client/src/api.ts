@@ -253,7 +253,7 @@ export async function generate(request: Request, signal?: AbortSignal, most = In
 const sum_of = (timing: Record<string, number> | undefined): number | null =>
   (timing ? Object.values(timing).reduce((sum, each) => sum + each, 0) : null);
 
-export function total_duration(server_timing: string): number {
+function total_duration(server_timing: string): number {
   return Number(/\btotal;\s*dur=([\d.]+)/.exec(server_timing)?.[1] ?? 0);
 }
 

@@ -30,7 +30,7 @@ export interface Growth {
 }
 
 /** Returns a copy of the value with one number replaced. */
-export function with_number(value: unknown, pointer: string, number: number): unknown {
+function with_number(value: unknown, pointer: string, number: number): unknown {
   if (pointer === '') return number;
   const [, key = '', rest = ''] = /^\/([^/]*)(.*)$/.exec(pointer) ?? [];
   const name = key.replaceAll('~1', '/').replaceAll('~0', '~');

@@ -9,7 +9,7 @@ export interface Roving {
 }
 
 /** Moves in document order. */
-export const in_a_row: Leads = ({ length }, at, key) => {
+const in_a_row: Leads = ({ length }, at, key) => {
   if (key === 'Home') return 0;
   if (key === 'End') return length - 1;
   if (key === 'ArrowRight' || key === 'ArrowDown') return Math.min(at + 1, length - 1);

@@ -10,7 +10,7 @@ const most_kept = 12;
 export type Seed = number | string;
 
 /** Returns null if the text is not a valid seed. */
-export function seed_of(text: string): Seed | null {
+function seed_of(text: string): Seed | null {
   if (!/^\d{1,20}$/.test(text.trim())) return null;
   const seed = BigInt(text.trim());
   if (seed > largest) return null;

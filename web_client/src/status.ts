@@ -183,7 +183,7 @@ function show_statistics(statistics: Statistics, pieces: Pieces): void {
   part('milliseconds').title = statistics.is_kept ? `The server took it from its cache and responded in ${time}` : '';
 }
 
-export function size_of(bytes: number): string {
+function size_of(bytes: number): string {
   if (bytes < 1000) return `${bytes} B`;
   return bytes < 1e6 ? `${rounded(bytes / 1e3)} KB` : `${rounded(bytes / 1e6)} MB`;
 }

@@ -71,7 +71,7 @@ function schema_of({ value, notes }: Declared): Schema {
 }
 
 /** The attributes of rules that a form shows, in the order of their groups. */
-export function rule_attributes(text: string): RuleAttribute[] {
+function rule_attributes(text: string): RuleAttribute[] {
   const found = declared_in(text).filter(({ notes }) => !notes.some((note) => note.name === 'hidden' || note.name === 'private'));
   const places = new Map<string, number>();
   let group = '';

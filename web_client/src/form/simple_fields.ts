@@ -30,7 +30,7 @@ export function redrawable(make: (redraw: Redraw) => HTMLElement): HTMLElement {
  * The range of a slider. It ends at `full`, the upper bound that another member sets. A range too wide for a slider
  * is reduced to the neighbourhood of the value.
  */
-export function slider_span(schema: Schema, value: number, full?: number): { low: number; high: number; step: number } {
+function slider_span(schema: Schema, value: number, full?: number): { low: number; high: number; step: number } {
   const { minimum = -Infinity, maximum = Infinity } = schema;
   const whole = schema.type === 'integer';
   const usual = typeof schema.default === 'number' ? schema.default : 0;

@@ -14,11 +14,11 @@ import { code_face, plain_face, type Face } from './text_faces';
 interface Spot { line: number; column: number }
 
 /** The line number of each list entry. Empty lines are not entries. */
-export const entry_lines = (text: string): number[] =>
+const entry_lines = (text: string): number[] =>
   text.split('\n').flatMap((line, index) => (line.trim() === '' ? [] : [index]));
 
 /** The UTF-16 offset of a position. A position past the end of a line is moved to the end. */
-export function offset_of(text: string, spot: Spot): number {
+function offset_of(text: string, spot: Spot): number {
   const lines = text.split('\n');
   const before = lines.slice(0, spot.line).reduce((sum, line) => sum + line.length + 1, 0);
   return before + [...(lines[spot.line] ?? '')].slice(0, spot.column).join('').length;

@@ -18,7 +18,7 @@ function corners(box: ScopeBox): Vector3[] {
 }
 
 /** The edges of all boxes, in one colour per group of `color_of`. */
-export function draw_boxes(boxes: ScopeBox[], color_of: (index: number) => number): Group {
+function draw_boxes(boxes: ScopeBox[], color_of: (index: number) => number): Group {
   const by_color = new Map<number, number[]>();
   boxes.forEach((box, index) => {
     const color = color_of(index) % tellable.length;
@@ -97,7 +97,7 @@ export class Scopes {
 }
 
 /** The index of the smallest box that a ray hits, or -1. A flat scope gets a small thickness. */
-export function box_at(boxes: ScopeBox[], ray: Ray): number {
+function box_at(boxes: ScopeBox[], ray: Ray): number {
   let found = -1, least = Infinity;
   boxes.forEach((box, index) => {
     const [x, y, z] = [vector(box.axes[0]), vector(box.axes[1]), vector(box.axes[2])];

@@ -4,7 +4,7 @@ import { Model } from './model';
 interface Uri { uri?: string }
 
 /** The entries by name. Throws if the bytes are not a zip or an entry is compressed. */
-export function entries_of(bytes: ArrayBuffer): Map<string, Uint8Array<ArrayBuffer>> {
+function entries_of(bytes: ArrayBuffer): Map<string, Uint8Array<ArrayBuffer>> {
   const view = new DataView(bytes);
   let end = bytes.byteLength - 22;
   while (end >= 0 && view.getUint32(end, true) !== 0x06054b50) end -= 1;
