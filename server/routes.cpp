@@ -83,8 +83,20 @@ std::optional<http::Response> refuse_query(const Route& row, const RequestContex
   return refuse(call, problem_of({Code::invalid, std::move(issues)}));
 }
 
+/// Refuses a body that would have no effect.
+std::optional<http::Response> refuse_body(const Route& row, const RequestContext& call) {
+  const std::size_t length = call.request.body.size();
+  if (row.method != "GET" || length == 0) return std::nullopt;
+  return refuse(call, problem_of({Code::malformed,
+                                  {{IssueKind::not_available, "",
+                                    "found a body of " + std::to_string(length) +
+                                        " bytes, expected none for " + call.request.method +
+                                        "; values belong in the query, or in a POST to /v1/generate"}}}));
+}
+
 http::Response answer(const Route& row, RequestContext& call) {
   if (auto refusal = refuse_query(row, call)) return std::move(*refusal);
+  if (auto refusal = refuse_body(row, call)) return std::move(*refusal);
   return row.answer(call);
 }
 
@@ -163,7 +175,24 @@ std::string no_resource(std::string_view path) {
   return message + " /openapi.json lists all.";
 }
 
+http::Response no_route(const RequestContext& call) {
+  http::Response response = refuse(call, problem(404, no_resource(call.request.path)));
+  response.route = "none";
+  return response;
+}
+
 }  // namespace
+
+std::optional<http::Response> refuse_target(Service& service, const http::Request& request) {
+  RequestContext call{service, request, {}, {}};
+  for (const Route& row : table) {
+    if (!match(row.pattern, request.path)) continue;
+    if (allows(row, request.method)) return std::nullopt;
+    return other_method(row, call);
+  }
+  if (service.pages.find(request.path)) return other_method(asset_route, call);
+  return no_route(call);
+}
 
 http::Response route(Service& service, const http::Request& request) {
   if (request.path == "*") return options_of_server();
@@ -180,9 +209,7 @@ http::Response route(Service& service, const http::Request& request) {
   if (service.pages.find(request.path)) {
     return allows(asset_route, request.method) ? run(asset_route, call) : other_method(asset_route, call);
   }
-  http::Response response = refuse(call, problem(404, no_resource(request.path)));
-  response.route = "none";
-  return response;
+  return no_route(call);
 }
 
 std::optional<Overrides> read_query(std::string_view query) {

@@ -1,5 +1,7 @@
 #pragma once
 /// Routing: one table of patterns, methods and functions.
+#include <optional>
+
 #include "server/caching.h"
 #include "server/service.h"
 
@@ -7,6 +9,10 @@ namespace seedmesh {
 
 /// Answers any request. A client cannot cause an exception.
 http::Response route(Service& service, const http::Request& request);
+
+/// Returns the response to a request whose body is not read, if no body would help: 404 without such a resource, 405
+/// if the resource does not have the method.
+std::optional<http::Response> refuse_target(Service& service, const http::Request& request);
 
 // The functions of the table, by file.
 http::Response post_generate(RequestContext& call);  // routes_models.cpp

@@ -4,6 +4,7 @@
 
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <thread>
 
 #include "server/cors.h"
@@ -68,9 +69,13 @@ http::Response handle(Service& service, const http::Request& request) {
 http::Response refuse_unread(Service& service, const http::Request& request, const http::Refusal& refusal) {
   if (refusal.status == 503) service.metrics.rejected(refusal.reason);
   if (refusal.status == 413) service.metrics.limited("body");
-  http::Response response = to_response(problem(refusal.status, refusal.detail), request.id);
-  response.route = "unread";
-  return finish(service, request, std::move(response));
+  std::optional<http::Response> response;
+  if (refusal.status == 411) response = refuse_target(service, request);
+  if (!response) {
+    response = to_response(problem(refusal.status, refusal.detail), request.id);
+    response->route = "unread";
+  }
+  return finish(service, request, *std::move(response));
 }
 
 http::Response fail(const Service& service, const http::Request& request, const std::string& what) {

@@ -202,6 +202,10 @@ class ArbaroReader {
       source_.warn(value.from, "limbs are distributed over at most one segment here");
       number = 1;
     }
+    if (constexpr double most_lobes = 16; name == "Lobes" && number > most_lobes) {
+      source_.warn(value.from, "a trunk has at most 16 ribs here");
+      number = most_lobes;
+    }
     species_.set(name, number, value.from);
   }
 

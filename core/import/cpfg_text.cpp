@@ -74,16 +74,27 @@ bool has_cpfg_arrow(std::string_view line) {
   return line.find("-->") != std::string_view::npos || line.find("-o>") != std::string_view::npos;
 }
 
+/// Whether a line can only be one of Python or of L-Py: a statement, or a keyword that cpfg lacks.
+static bool is_of_lpy(std::string_view words) {
+  for (const std::string_view key : {"production:", "interpretation:", "produce ", "nproduce ", "def ",
+                                     "import ", "from openalea", "from math import", "context()."}) {
+    if (words.starts_with(key)) return true;
+  }
+  // A predecessor, `:` and a statement; in cpfg a condition and an arrow follow the colon.
+  const std::size_t colon = words.find(':');
+  if (colon == std::string_view::npos || has_cpfg_arrow(words)) return false;
+  const Line behind = trimmed(words, {colon + 1, words.size()});
+  const std::string_view statement = words.substr(behind.from, behind.to - behind.from);
+  return statement.starts_with("produce ") || statement.starts_with("nproduce ");
+}
+
 std::optional<OtherLanguage> other_language_of(std::string_view text) {
   const bool is_of_lpfg = text.find("lpfgall.h") != std::string_view::npos;
   for (const Line& each : lines_of(text)) {
     const Line line = trimmed(text, each);
     const std::string_view words = text.substr(line.from, line.to - line.from);
     const bool is_module = words.starts_with("module ") && words.find("--") == std::string_view::npos;
-    if (!is_module && !words.starts_with("production:") && !words.starts_with("produce ") &&
-        !words.starts_with("nproduce ") && words.find("lpfgall.h") == std::string_view::npos) {
-      continue;
-    }
+    if (!is_module && !is_of_lpy(words) && words.find("lpfgall.h") == std::string_view::npos) continue;
     const bool is_lpfg = is_of_lpfg || (is_module && words.ends_with(';'));
     return OtherLanguage{line.from, is_lpfg ? "L+C, the language of lpfg" : "L-Py"};
   }

@@ -57,14 +57,19 @@ std::string fractint_without_comments(std::string_view text) {
   return out;
 }
 
+/// A name and `{` begin an entry. Rules of Houdini can contain `{`, too, but behind `=` or `:`.
 int marks_of_fractint(std::string_view text) {
   int marks = 0;
   bool inside = false;
   for (Line line : lines_of(text)) {
     line.to = std::min(text.substr(0, line.to).find(';', line.from), line.to);
     line = trimmed(text, line);
-    const std::string words = lower(text.substr(line.from, std::min<std::size_t>(line.to - line.from, 200)));
-    inside = inside || (words.size() > 1 && words.back() == '{');
+    std::string words = lower(text.substr(line.from, std::min<std::size_t>(line.to - line.from, 200)));
+    const std::size_t open = words.find('{');
+    if (open != std::string::npos && open > 0 && words.find_first_of("=:") > open) {
+      inside = true;
+      words.erase(0, words.find_first_not_of(" \t", open + 1));
+    }
     const auto begins = [&](std::string_view key) {
       return words.size() > key.size() && words.substr(0, key.size()) == key &&
              (is_blank(words[key.size()]) || words[key.size()] == '=');

@@ -38,22 +38,29 @@ std::string houdini_name(std::string_view text) {
   return out;
 }
 
+/// The names `axiom`, `angle` and those of one letter occur in other formats, too.
 int marks_of_houdini(std::string_view text) {
   int marks = 0;
   bool has_rule = false;
   for (const Line& each : lines_of(text)) {
     const Line line = trimmed(text, each);
     const std::string_view words = text.substr(line.from, std::min<std::size_t>(line.to - line.from, 200));
-    const std::string key = houdini_name(words.substr(0, words.find(':')));
-    const bool has_colon = words.find(':') != std::string_view::npos;
-    const auto is_key = [&](const HoudiniSetting& setting) { return setting.name == key; };
-    if (key.substr(0, 7) == "premise") marks += 4;
-    if (has_colon && key.size() > 1 && std::any_of(std::begin(settings), std::end(settings), is_key))
+    const std::size_t sign = words.find_first_of(":=");
+    const bool has_sign = sign != std::string_view::npos;
+    const std::string key = houdini_name(words.substr(0, sign));
+    const bool is_setting =
+        std::ranges::any_of(settings, [&](const HoudiniSetting& setting) { return setting.name == key; });
+    if (key.starts_with("premise")) {
+      marks += 4;
+    } else if (has_sign && (key == "axiom" || key == "angle")) {
       marks += 2;
-    if (has_colon && (key.substr(0, 4) == "rule" || key == "contextignore")) marks += 2;
+    } else if (has_sign && key.size() > 1 &&
+               (is_setting || key.starts_with("rule") || key == "contextignore")) {
+      marks += 4;
+    }
     has_rule = has_rule || (words.size() > 2 && words[1] == '=' && is_letter(words[0]));
   }
-  return marks + (has_rule ? 1 : 0);
+  return marks + (has_rule ? 2 : 0);
 }
 
 }  // namespace seedmesh

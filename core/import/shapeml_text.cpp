@@ -29,13 +29,38 @@ std::string without_comments_of(std::string_view text) {
   return out;
 }
 
+/// Reports each `#` that is not `#include "name"` at the beginning of a line, and puts blanks in place of its line. ShapeML
+/// has no other directive, and its comments begin with `//`.
+std::string without_other_directives(std::string text, ForeignText& source) {
+  constexpr std::string_view key = "include";
+  for (std::size_t i = 0, line = 0; i < text.size(); ++i) {
+    if (text[i] == '\n') line = i + 1;
+    if (text[i] == '"') {
+      for (++i; i < text.size() && text[i] != '"' && text[i] != '\n'; ++i) i += text[i] == '\\' ? 1 : 0;
+    }
+    if (i >= text.size() || text[i] != '#') continue;
+    const Line word = trimmed(text, {i + 1, std::min(text.find('\n', i), text.size())});
+    const std::string_view words = std::string_view(text).substr(word.from, word.to - word.from);
+    const bool is_include = words.starts_with(key) && words.find('"') < words.rfind('"');
+    if (is_include && trimmed(text, {line, i}).from == i) continue;
+    source.report(
+        i,
+        "found `#`, which begins no comment in ShapeML; expected `//`, or `#include` with the name of a "
+        "file in quotes on a line of its own");
+    for (; i < text.size() && text[i] != '\n'; ++i) text[i] = ' ';
+    --i;
+  }
+  return text;
+}
+
 std::string_view closing_of(std::string_view opening) {
   return opening == "(" ? ")" : opening == "{" ? "}" : "]";
 }
 
 }  // namespace
 
-ShapemlText::ShapemlText(ForeignText& source) : source_(source), text_(without_comments_of(source.text())) {
+ShapemlText::ShapemlText(ForeignText& source)
+    : source_(source), text_(without_other_directives(without_comments_of(source.text()), source)) {
   std::vector<lang::TextError> errors;
   tokens_ = lang::tokenize(text_, 0, text_.size(), errors);
   for (const lang::TextError& error : errors) source_.report(error.offset, error.message);

@@ -5,8 +5,10 @@
 #include <algorithm>
 
 #include "core/import/lparser.h"
+#include "core/import/other_files.h"
 #include "core/pipeline/body.h"
 #include "core/pipeline/guarded.h"
+#include "core/schema/json_syntax.h"
 #include "core/schema/nearest.h"
 #include "core/schema/warning_list.h"
 
@@ -147,11 +149,34 @@ void unpack(ImportInput& input, std::string& main, const Job& job) {
   input.text = main;
 }
 
-/// Whether the text is UTF-16, by its byte order mark or by the zero bytes of its first two characters.
-bool is_utf16(std::string_view text) {
-  if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF")) return true;
-  return text.size() >= 4 && (text[0] == '\0') != (text[1] == '\0') &&
-         (text[0] == '\0') == (text[2] == '\0') && (text[1] == '\0') == (text[3] == '\0');
+/// Whether a text is a request that needs no import.
+bool is_request(std::string_view text, const Job& job) {
+  const std::size_t first = text.find_first_not_of(" \t\r\n");
+  if (first == std::string_view::npos || text[first] != '{') return false;
+  const Result<Json> body = parse_json(text, {.job = &job});
+  return body && body->is_object() && (body->contains("generator") || body->contains("preset"));
+}
+
+/// The error of a file that is no text in UTF-8, or whose format has no reader.
+std::optional<Error> not_readable(const ImportInput& input) {
+  if (const std::string_view name = foreign_encoding(input.text); !name.empty()) {
+    const std::string found(name);
+    std::string message = name.starts_with("UTF")
+                              ? "found text in " + found + ", expected UTF-8; save the file as UTF-8"
+                              : "found data in the format " + found + ", expected text in UTF-8";
+    return Error{Code::malformed, {{IssueKind::syntax, "", std::move(message), 1, 1}}};
+  }
+  if (!input.format.empty()) return std::nullopt;
+  const auto refuse = [&](std::size_t at, std::string message) {
+    return Error{Code::invalid, {issue_at(IssueKind::not_available, "", input.text, at, std::move(message))}};
+  };
+  if (const std::optional<OtherFile> other = other_file(input.text)) {
+    return refuse(other->at, "found " + std::string(other->name) + ", which has no reader; " +
+                                 std::string(other->advice));
+  }
+  if (const auto start = start_of_lparser(input.text))
+    return refuse(*start, "this file is written in the language of Lparser, which is not supported");
+  return std::nullopt;
 }
 
 }  // namespace
@@ -163,11 +188,7 @@ static Result<ImportedRequest> import_within(const ImportInput& asked, const Job
   unpack(input, main, job);
   constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
   if (input.text.starts_with(byte_order_mark)) input.text.remove_prefix(byte_order_mark.size());
-  if (is_utf16(input.text)) {
-    return Error{
-        Code::malformed,
-        {{IssueKind::syntax, "", "found text in UTF-16, expected UTF-8; save the file as UTF-8", 1, 1}}};
-  }
+  if (std::optional<Error> error = not_readable(input)) return *std::move(error);
   std::string lines;
   if (input.text.find('\n') == std::string_view::npos && input.text.find('\r') != std::string_view::npos) {
     lines = input.text;  // of the old Mac OS
@@ -187,10 +208,11 @@ static Result<ImportedRequest> import_within(const ImportInput& asked, const Job
     return Error{Code::malformed,
                  {issue_at(IssueKind::syntax, "", input.text, bad, "found a byte that is not UTF-8")}};
   }
-  if (const auto start = start_of_lparser(input.text); start && input.format.empty()) {
+  if (!format && input.format.empty() && is_request(input.text, job)) {
     return Error{Code::invalid,
-                 {issue_at(IssueKind::not_available, "", input.text, *start,
-                           "this file is written in the language of Lparser, which is not supported")}};
+                 {issue_at(IssueKind::not_available, "", input.text, 0,
+                           "found a request of Seedmesh, which needs no import; send it to "
+                           "/v1/generate, or use the command generate")}};
   }
   if (!format) return unknown_format(input.format);
   Result<Imported> imported = format->read(input.text, {std::string(input.entry), input.files, &job});

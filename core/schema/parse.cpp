@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "core/base/job.h"
+#include "core/schema/json_syntax.h"
 
 namespace seedmesh {
 namespace {
@@ -96,8 +97,11 @@ class Builder {
     if (open_.back()->contains(name)) {
       key_ = name;
       return refuse(Code::malformed,
-                    {IssueKind::duplicate_key, pointer(), "\"" + shortened(name, 40) + "\" is given twice"});
+                    issue_at(IssueKind::duplicate_key, pointer(), text_, offset_of_member(text_, keys_read_),
+                             "\"" + shortened(name, 40) + "\" is given twice"));
     }
+    ++keys_read_;
+    has_key_ = true;
     key_ = std::move(name);
     return true;
   }
@@ -116,8 +120,12 @@ class Builder {
                                  "\", half of a surrogate pair; expected an escape from \\ud800 to \\udbff "
                                  "and directly after it one from \\udc00 to \\udfff"));
     }
-    return refuse(Code::malformed,
-                  issue_at(IssueKind::syntax, "", text_, offset, "this is not JSON: " + unexpected(offset)));
+    JsonFault fault = json_fault(text_, offset,
+                                 {.in_object = !open_.empty() && open_.back()->is_object(),
+                                  .has_key = has_key_,
+                                  .is_complete = open_.empty() && values_ > 0});
+    return refuse(Code::malformed, issue_at(IssueKind::syntax, "", text_, fault.offset,
+                                            "this is not JSON: " + std::move(fault.message)));
   }
 
  private:
@@ -125,9 +133,12 @@ class Builder {
 
   bool open(Json container) {
     if (open_.size() == limits_.depth) {
-      return refuse(Code::malformed,
-                    limit_issue({Resource::depth, limits_.depth, limits_.depth + 1},
-                                "nested deeper than " + std::to_string(limits_.depth) + " levels"));
+      Issue issue = limit_issue({Resource::depth, limits_.depth, limits_.depth + 1},
+                                "nested deeper than " + std::to_string(limits_.depth) + " levels");
+      const TextPosition place = text_position(text_, offset_of_depth(text_, limits_.depth));
+      issue.line = place.line;
+      issue.column = place.column;
+      return refuse(Code::malformed, std::move(issue));
     }
     Json* const place = put(std::move(container));
     if (place) {
@@ -148,6 +159,7 @@ class Builder {
   Json* put(Json value) {
     constexpr std::size_t values_a_check = 4096;
     if (limits_.job && values_ % values_a_check == 0) limits_.job->check();
+    has_key_ = false;
     if (++values_ > limits_.values) {
       refuse(Code::limit, limit_issue({Resource::json_values, limits_.values, values_},
                                       "more than " + std::to_string(limits_.values) + " JSON values"));
@@ -207,18 +219,13 @@ class Builder {
            escape.find_first_not_of("0123456789abcdefABCDEF", 4) == std::string_view::npos;
   }
 
-  std::string unexpected(std::size_t offset) const {
-    if (offset == text_.size()) return "the text ends too early";
-    std::size_t end = offset + 1;
-    while (end < text_.size() && (static_cast<unsigned char>(text_[end]) & 0xC0U) == 0x80U) ++end;
-    return "unexpected \"" + std::string(text_.substr(offset, end - offset)) + "\"";
-  }
-
   std::string_view text_;
   JsonLimits limits_;
   std::vector<Json*> open_;        ///< the open lists and objects, outermost first
   std::vector<std::string> keys_;  ///< for each open container its key in its parent, if that is an object
   std::string key_;                ///< key of the value that comes next
+  bool has_key_ = false;           ///< the value of key_ was not read yet
+  std::size_t keys_read_ = 0;
   std::size_t values_ = 0;
   std::size_t nulls_ = 0;
   std::span<const TooLarge> numbers_;
@@ -265,8 +272,15 @@ Result<Json> parse_with(Builder& builder, std::string_view text) {
   if (text.find_first_not_of(blank) == std::string_view::npos) {
     return Error{Code::malformed, {{IssueKind::syntax, "", "the body is empty, expected a JSON object"}}};
   }
+  if (const std::string_view found = foreign_encoding(text); !found.empty()) {
+    return Error{Code::malformed,
+                 {issue_at(IssueKind::syntax, "", text, 0,
+                           "found " + std::string(found) + ", expected JSON in UTF-8")}};
+  }
   if (const std::size_t bad = find_bad_utf8(text); bad != std::string_view::npos) {
-    return Error{Code::malformed, {issue_at(IssueKind::syntax, "", text, bad, "this is not UTF-8")}};
+    return Error{Code::malformed,
+                 {issue_at(IssueKind::syntax, "", text, bad,
+                           "found a byte that is not UTF-8, expected JSON in UTF-8")}};
   }
   if (!Json::sax_parse(text.begin(), text.end(), &builder)) return *std::move(builder.error);
   return std::move(builder.root);

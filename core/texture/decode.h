@@ -4,6 +4,7 @@
 /// decode.cpp lists the formats. Each has one file, the only one that reads with its library (libpng,
 /// libjpeg-turbo, libwebp, libtiff).
 #include <optional>
+#include <string_view>
 
 #include "core/texture/png.h"
 
@@ -23,6 +24,9 @@ struct Decoded {
   bool is_lossy = false;          ///< whether the format changes values (JPEG, most WebP)
   std::optional<double> no_data;  ///< the value that marks a missing one (GDAL_NODATA of a TIFF)
 };
+
+/// Returns the format of a file by its first bytes: PNG, JPEG, WebP or TIFF; empty for other bytes.
+std::string_view picture_format(std::span<const std::byte> file);
 
 /// Reads a file of any of the formats. A file that is truncated, damaged, too large or of another format is an Issue
 /// with an empty pointer. Gamma, colour profiles and the orientation of cameras (EXIF) are ignored.

@@ -145,10 +145,14 @@ Check parse_length(const Request& request, const HeadLimits& limits, std::uint64
   const std::size_t lengths = field_count(request.headers, "Content-Length");
   if (request.has_header("Transfer-Encoding")) {
     if (lengths > 0) return bad("Content-Length and Transfer-Encoding exclude each other.");
-    return Refusal{411, "Send the body with Content-Length; Transfer-Encoding is not supported."};
+    return Refusal{411,
+                   "found Transfer-Encoding, expected Content-Length with the number of bytes of the body"};
   }
   const bool has_body = request.method == "POST" || request.method == "PUT" || request.method == "PATCH";
-  if (lengths == 0) return has_body ? Check(Refusal{411, "Content-Length is missing."}) : std::nullopt;
+  if (lengths == 0)
+    return has_body ? Check(Refusal{
+                          411, "found no Content-Length, expected one with the number of bytes of the body"})
+                    : std::nullopt;
   const std::string text = request.header("Content-Length");
   if (lengths > 1 || text.empty() || !std::all_of(text.begin(), text.end(), is_digit))
     return bad("Content-Length is not one number.");
@@ -179,7 +183,10 @@ Request legible_part(std::string_view text, const HeadLimits& limits) {
     return line;
   };
   const std::string_view first = next_line(), method = first.substr(0, first.find(' '));
-  if (is_token(method) && method.size() <= longest_method) request.method = method;
+  if (parse_request_line(first, limits, request)) {
+    request = {};
+    if (is_token(method) && method.size() <= longest_method) request.method = method;
+  }
   while (text.find('\n') != std::string_view::npos && request.headers.size() < limits.fields) {
     const std::string_view line = next_line();
     if (line.empty()) break;

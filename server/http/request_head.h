@@ -44,9 +44,9 @@ struct RequestHead {
 /// - 415: an encoded body; 417: an unknown expectation; 505: another version.
 std::variant<RequestHead, Refusal> parse_head(std::string_view text, const HeadLimits& limits);
 
-/// Returns what a refused head states well enough to respond to it: the method and the valid fields, in order. `text`
-/// may be a part of the head. Nothing else of the request is set, and no field is trusted for more than the form of
-/// the response: its origin, its identifier and its trace.
+/// Returns what a refused head states well enough to respond to it: the method, the target if the first line is valid,
+/// and the valid fields, in order. `text` may be a part of the head. Nothing else of the request is set, and no field
+/// is trusted for more than the form of the response: its origin, its identifier and its trace.
 Request legible_part(std::string_view text, const HeadLimits& limits);
 
 /// Returns 414 or 431 as soon as a head that is not complete yet exceeds its limits, else nothing.

@@ -30,6 +30,11 @@ test('two lengths are refused, and the rest is not read as a request', () =>
 test('a length and chunks together are refused', () => refused(post('Content-Length: 5\r\nTransfer-Encoding: chunked\r\n', '0\r\n\r\n'), 400));
 test('a chunked body is answered 411', () => refused(post('Transfer-Encoding: chunked\r\n', '2\r\n{}\r\n0\r\n\r\n'), 411));
 test('a POST without a length is answered 411', () => refused(post(''), 411));
+test('a method that the resource lacks is answered 405, with or without a length', async () => {
+  for (const [method, path] of [['PUT', '/v1/presets'], ['PATCH', '/v1/generate'], ['PUT', '/docs'], ['POST', '/healthz']])
+    await refused(`${method} ${path} HTTP/1.1\r\n${host}\r\n`, 405);
+});
+test('a path without a resource is answered 404, with or without a length', () => refused(`POST /v1/nothing HTTP/1.1\r\n${host}\r\n`, 404));
 test('a negative length is refused at once', () => refused(post('Content-Length: -5\r\n'), 400));
 test('a length in words is refused', () => refused(post('Content-Length: five\r\n'), 400));
 test('a body over the limit is answered 413 before it is sent', () => refused(post('Content-Length: 200000\r\n'), 413));

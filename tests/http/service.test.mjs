@@ -124,6 +124,17 @@ test('unknown paths return 404, and known ones with another method return 405 wi
   }
 });
 
+test('a body of GET or HEAD, which would have no effect, is refused', async () => {
+  for (const target of ['/v1/presets/oak.glb', '/v1/presets', '/v1/schemas/tree', '/v1/models/AAAA.glb', '/version', '/docs']) {
+    const answer = await ask(server, 'GET', target, { body: { seed: 3 } });
+    is_problem(answer, 400, 'malformed-request');
+    assert.match(answer.json.errors[0].message, /^found a body of 10 bytes, expected none for GET/);
+    assert.equal((await ask(server, 'HEAD', target, { body: { seed: 3 } })).status, 400);
+    const plain = await ask(server, 'GET', target, { body: '' });
+    assert.ok(plain.status === 200 || target === '/v1/models/AAAA.glb', target);
+  }
+});
+
 test('an event stream ends with a permalink to the cached model', async () => {
   const answer = await server.generate(random(4242), { accept: 'text/event-stream' });
   assert.equal(answer.status, 200);

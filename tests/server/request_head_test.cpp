@@ -126,6 +126,8 @@ TEST(Head, IsLegibleAsFarAsItsFieldsAreValid) {
   const Request whole = legible_part("HEAD / HTTP/9\r\nno field\r\nOrigin: a\r\nB : c\r\n\r\nD: e\r\n", {});
   EXPECT_EQ(whole.method, "HEAD");
   EXPECT_EQ(whole.headers, (Headers{{"Origin", "a"}}));
+  EXPECT_EQ(whole.path, "") << "the first line is not valid";
+  EXPECT_EQ(legible_part("PUT /v1/presets?a=b HTTP/1.1\r\nOrigin: a\r\n\r\n", {}).path, "/v1/presets");
   const Request cut = legible_part("G(T / HTTP/1.1\nA: 1\nOrigin: https://exam", {});
   EXPECT_EQ(cut.method, "");
   EXPECT_EQ(cut.headers, (Headers{{"A", "1"}})) << "the last line is not complete";

@@ -1,10 +1,37 @@
 /// Moves the border of a face.
 
+#include <algorithm>
+
 #include "core/generators/building/evaluate.h"
 #include "core/generators/building/face_plans.h"
 #include "core/generators/building/operators.h"
 
 namespace seedmesh::building::operators {
+namespace {
+
+PlanRing reversed(const PlanRing& ring) { return {ring.rbegin(), ring.rend()}; }
+
+/// Adds the region between a plan and a larger one: a face around the plan, and one along each courtyard. They face
+/// down, so that their signed areas and that of the larger plan sum up to that of the plan.
+void add_outer_border(Solid& solid, const Plan& plan, const Plan& larger, const FacePlane& plane) {
+  std::vector<Plan> borders(plan.rings.size());
+  borders[0].rings = {larger.rings[0], reversed(plan.rings[0])};
+  for (std::size_t i = 1; i < plan.rings.size(); ++i) borders[i].rings = {reversed(plan.rings[i])};
+  std::vector<std::size_t> owners;  // of the courtyards that are left; 0: one that the outline has closed
+  for (std::size_t k = 1; k < larger.rings.size(); ++k) {
+    std::size_t owner = plan.rings.size() - 1;
+    while (owner > 0 && !contains(borders[owner], larger.rings[k][0])) --owner;
+    owners.push_back(owner);
+  }
+  for (std::size_t k = 0; k < owners.size(); ++k) borders[owners[k]].rings.push_back(larger.rings[k + 1]);
+  for (Plan& border : borders) {
+    for (PlanRing& ring : border.rings) std::reverse(ring.begin(), ring.end());
+    add_plan(solid, border, plane, face_is_border);
+  }
+}
+
+}  // namespace
+
 /// offset(d), offset(d, inside), offset(d, border): faces with moved borders, the region between, or both.
 void offset(Derivation& d, const Step& step, ShapeState& state, const StepContext&) {
   const Argument* a = &d.grammar.arguments[step.first_argument];
@@ -28,11 +55,7 @@ void offset(Derivation& d, const Step& step, ShapeState& state, const StepContex
       }
     } else {
       moved = seedmesh::offset(plan, distance, d.job);
-      if (word == "border") {
-        Plan ring = moved.empty() ? plan : moved[0].plan;
-        ring.rings.emplace_back(plan.rings[0].rbegin(), plan.rings[0].rend());
-        if (!moved.empty()) add_plan(solid, ring, plane, face_is_border);
-      }
+      if (word != "inside" && !moved.empty()) add_outer_border(solid, plan, moved[0].plan, plane);
     }
     if (word == "border") continue;
     for (const DerivedPlan& each : moved) add_plan(solid, each.plan, plane, face_is_inside);

@@ -54,6 +54,7 @@ void check_building(const SceneBuilding& building, const std::string& pointer, c
     conflict(roof.height.has_value(), "height", "shape", message);
     conflict(roof.angle.has_value(), "angle", "shape", message);
     conflict(roof.direction.has_value(), "direction", "shape", message);
+    conflict(roof.orientation == SceneOrientation::across, "orientation", "shape", message);
     return;
   }
   conflict(roof.height && roof.angle, "angle", "height",

@@ -174,6 +174,15 @@ bool is_used_elsewhere(const VariantTable& variant_table, const Warning& warning
   return std::ranges::find(variant_table.used_with_age, warning.pointer) != variant_table.used_with_age.end();
 }
 
+bool any_generator(const SceneParams& params, const std::function<bool(const std::string& name)>& predicate) {
+  return std::ranges::any_of(params.layers, [&](const SceneLayer& layer) {
+    return predicate(layer.model.generator) ||
+           std::ranges::any_of(layer.place.positions, [&](const ScenePosition& position) {
+             return position.model && predicate(position.model->generator);
+           });
+  });
+}
+
 std::size_t count_variants(const SceneParams& params) {
   std::size_t count = 0;
   for (const SceneLayer& layer : params.layers) {

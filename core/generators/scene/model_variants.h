@@ -47,6 +47,9 @@ constexpr std::size_t most_variants = 4096;
 /// Returns true for a "no effect" warning about a parameter that has an effect elsewhere in the scene.
 bool is_used_elsewhere(const VariantTable& variant_table, const Warning& warning);
 
+/// Returns true if a predicate holds for the name of the generator of any model of the layers.
+bool any_generator(const SceneParams& params, const std::function<bool(const std::string& name)>& predicate);
+
 /// Returns the number of variants of a scene.
 std::size_t count_variants(const SceneParams& params);
 

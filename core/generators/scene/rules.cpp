@@ -14,22 +14,6 @@ constexpr int octaves = 3;
 // Standard deviation of the three octaves, so that patches cover about the requested share of the ground.
 constexpr double noise_deviation = 0.27;
 
-/// Returns 1 well inside the limits, falling to 0 at soft limits, and 0 outside. The template accepts any
-/// limits type of the schema.
-template <class Limits>
-double share_of_limits(const Limits& limits, double value) {
-  double share = 1;
-  if (limits.from) {
-    if (value < *limits.from) return 0;
-    if (limits.soft > 0) share = std::min(share, (value - *limits.from) / limits.soft);
-  }
-  if (limits.to) {
-    if (value > *limits.to) return 0;
-    if (limits.soft > 0) share = std::min(share, (*limits.to - value) / limits.soft);
-  }
-  return share;
-}
-
 double fade(double t) { return t * t * t * (t * (t * 6 - 15) + 10); }
 
 /// Gradient noise with one of eight directions at each corner of a square.

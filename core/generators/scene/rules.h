@@ -1,6 +1,7 @@
 #pragma once
 /// Rules of a layer. Each rule gives a share from 0 to 1; their product is the probability that a position is
 /// kept.
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -14,6 +15,22 @@ struct ScenePlace;
 }
 
 namespace seedmesh::scene {
+
+/// Returns 1 well inside the limits, falling to 0 at soft limits, and 0 outside. The template accepts any
+/// limits type of the schema.
+template <class Limits>
+double share_of_limits(const Limits& limits, double value) {
+  double share = 1;
+  if (limits.from) {
+    if (value < *limits.from) return 0;
+    if (limits.soft > 0) share = std::min(share, (value - *limits.from) / limits.soft);
+  }
+  if (limits.to) {
+    if (value > *limits.to) return 0;
+    if (limits.soft > 0) share = std::min(share, (*limits.to - value) / limits.soft);
+  }
+  return share;
+}
 
 /// The placements of an earlier layer, searchable by position.
 struct PlacedLayer {

@@ -15,6 +15,7 @@
 #include "core/generators/scene/list.h"
 #include "core/generators/scene/model_variants.h"
 #include "core/generators/scene/patterns.h"
+#include "core/generators/scene/unused.h"
 #include "core/generators/scene/words.h"
 #include "core/geom/mesh/finish.h"
 #include "core/gltf/compress/pack.h"
@@ -29,17 +30,6 @@ std::optional<Error> refusal(const SceneParams& params, const GenerateContext& c
   return Error{Code::invalid, std::move(issues)};
 }
 
-template <class Holds>
-bool any_model(const SceneParams& params, const Holds& holds) {
-  return std::any_of(params.layers.begin(), params.layers.end(), [&](const SceneLayer& layer) {
-    const std::vector<ScenePosition>& positions = layer.place.positions;
-    return holds(layer.model.generator) ||
-           std::any_of(positions.begin(), positions.end(), [&](const ScenePosition& position) {
-             return position.model && holds(position.model->generator);
-           });
-  });
-}
-
 /// Returns whether the generator with this name has a trait.
 struct HasTrait {
   GeneratorList generators;
@@ -50,28 +40,10 @@ struct HasTrait {
   }
 };
 
-/// Warns of settings for all plants that no model uses.
-std::vector<Warning> without_effect(const SceneParams& params) {
-  std::vector<Warning> warnings;
-  const auto warn = [&](bool is_given, const char* name) {
-    const auto has_it = [name](const std::string& generator) { return has_parameter(generator, name); };
-    if (is_given && !any_model(params, has_it))
-      warnings.push_back({"/" + std::string(name), "no model has the parameter " + std::string(name)});
-  };
-  warn(params.age.has_value(), "age");
-  warn(params.season.has_value(), "season");
-  return warnings;
-}
-
-/// Warns of `words` where the answer has no words: in a model, or without a model that is an L-system.
-void warn_of_words(const SceneParams& params, bool is_derivation, std::vector<Warning>& warnings) {
-  if (!params.words) return;
-  const auto is_lsystem = [](const std::string& generator) { return generator == "lsystem"; };
-  if (!is_derivation) {
-    warnings.push_back({"/words", "has an effect on the response of derive only"});
-  } else if (!any_model(params, is_lsystem)) {
-    warnings.push_back({"/words", "has no effect: no model is an L-system"});
-  }
+/// Adds the warnings of unused_settings().
+void warn_of_unused(const SceneParams& params, Purpose purpose, const Demand* demand,
+                    std::vector<Warning>& warnings) {
+  for (Warning& each : unused_settings(params, purpose, demand)) warnings.push_back(std::move(each));
 }
 
 /// Finds conflicts between the requested output and the parameters.
@@ -90,10 +62,10 @@ std::vector<Issue> conflicts(const SceneParams& params, const GenerateContext& c
   }
   if (demand.copies == CopyForm::merge && wants_impostors(params, demand))
     add("/output/instancing", "output/impostor", "found merge; a merged mesh cannot use impostors");
-  if (demand.impostor && !any_model(params, HasTrait{context.generators, &Generator::has_impostor}))
+  if (demand.impostor && !any_generator(params, HasTrait{context.generators, &Generator::has_impostor}))
     add("/output/impostor", "parameters/layers", "found an impostor; no model supports impostors");
   if (!demand.growth) return issues;
-  if (!any_model(params, HasTrait{context.generators, &Generator::grows}))
+  if (!any_generator(params, HasTrait{context.generators, &Generator::grows}))
     add("/output/animation", "parameters/layers", "found growth, but no model grows");
   if (demand.lods > 1)
     add("/output/lods", "output/animation", levels + "; growing plants of a scene have one level");
@@ -162,8 +134,7 @@ Result<Model> generate(const SceneParams& params, const GenerateContext& context
   if (context.demand.packs && !has_foundations(params)) made.emplace(packed_ground(params, *ground, context));
   if (made && !*made) return std::move(*made);
   ScenePlacements all_placements = place_layers(params, *ground, job);
-  for (Warning& each : without_effect(params)) all_placements.warnings.push_back(std::move(each));
-  warn_of_words(params, false, all_placements.warnings);
+  warn_of_unused(params, Purpose::model, &context.demand, all_placements.warnings);
   job.progress("mesh", 0);
   Pieces pieces;
   Demand demand;
@@ -201,7 +172,7 @@ Result<Json> derive(const SceneParams& params, const GenerateContext& context) {
   if (!ground) return std::move(ground).error();
   ScenePlacements all_placements = place_layers(params, *ground, job);
   warn_of_outlines(params, all_placements);
-  warn_of_words(params, true, all_placements.warnings);
+  warn_of_unused(params, Purpose::derivation, nullptr, all_placements.warnings);
   const VariantTable variant_table = variant_table_of(params, job);
   Json answer = placements_json(params, *ground, all_placements, variant_table, job);
   if (!params.words) return answer;
@@ -218,8 +189,7 @@ Result<Appraisal> appraise(const SceneParams& params, const GenerateContext& con
   if (!issues.empty()) return Error{Code::invalid, std::move(issues)};
   refuse_patterns(params, job);
   Appraisal appraisal;
-  appraisal.warnings = without_effect(params);
-  warn_of_words(params, true, appraisal.warnings);
+  warn_of_unused(params, Purpose::derivation, &context.demand, appraisal.warnings);
   const VariantTable variant_table = variant_table_of(params, job);
   const Forecast forecast(params, variant_table, context);
   forecast.refuse(job);
@@ -256,7 +226,7 @@ Result<Payload> encode(const SceneParams& params, const WantedFormat&, const Gen
   if (!ground) return std::move(ground).error();
   ScenePlacements all_placements = place_layers(params, *ground, job);
   warn_of_outlines(params, all_placements);
-  warn_of_words(params, false, all_placements.warnings);
+  warn_of_unused(params, Purpose::list, nullptr, all_placements.warnings);
   job.progress("encode", 0);
   return placement_list(params, *ground, all_placements, forecast, context);
 }

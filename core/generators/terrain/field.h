@@ -5,8 +5,10 @@
 /// the north-west corner. Heights are in metres. A margin of samples of the neighbours surrounds the field,
 /// so that normals and filters at a border agree with those of the neighbour.
 #include <cstdint>
+#include <vector>
 
 #include "core/base/array.h"
+#include "core/base/result.h"
 
 namespace seedmesh::terrain {
 
@@ -15,7 +17,8 @@ struct Field {
   std::int32_t margin = 0;
   double cell = 1;  ///< metres between samples
   Array<float> heights;
-  std::uint64_t voids = 0;  ///< number of samples without a height in the source; they were filled
+  std::uint64_t voids = 0;     ///< number of samples without a height in the source; they were filled
+  std::vector<Warning> notes;  ///< warnings about the source, with pointers into the parameters
 
   Field() = default;
   Field(const Job& job, std::int32_t wide, std::int32_t deep, std::int32_t around)

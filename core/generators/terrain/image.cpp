@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <string_view>
 
 #include "core/generators/terrain/voids.h"
 #include "core/texture/data_uri.h"
@@ -44,6 +45,10 @@ bool is_raw(TerrainEncoding encoding) {
 /// Reads raw samples of 16 bits: shares of the greatest value, or signed metres.
 Result<Field> of_raw(const TerrainImage& image, std::span<const std::uint8_t> bytes, const Scale& scale,
                      const Job& job) {
+  if (const std::string_view format = texture::picture_format(std::as_bytes(bytes)); !format.empty()) {
+    return invalid_input("/image/encoding",
+                         "found a " + std::string(format) + " file, expected raw samples for this encoding");
+  }
   if (bytes.size() % 2 != 0 || bytes.size() < 8) {
     return invalid_input("/image/data", "found " + std::to_string(bytes.size()) +
                                             " bytes; expected at least 4 samples of 2 bytes each");
@@ -138,6 +143,17 @@ float height_of(const Channel& channel, TerrainEncoding encoding, int bits, cons
   }
 }
 
+/// The number of pixels that are not opaque; 0 for pictures without alpha.
+std::uint64_t transparent_pixels(const texture::Picture& picture) {
+  if (picture.channels != 2 && picture.channels != 4) return 0;
+  const auto channels = static_cast<std::size_t>(picture.channels);
+  const std::uint32_t opaque = picture.bits == 8 ? 255 : 65535;
+  std::uint64_t count = 0;
+  for (std::size_t i = 1; i <= std::size_t{picture.width} * picture.height; ++i)
+    count += picture.channel(i * channels - 1) == opaque ? 0 : 1;
+  return count;
+}
+
 Result<Field> of_picture(const TerrainImage& image, const texture::Decoded& decoded, const Scale& scale,
                          const Job& job) {
   const texture::Picture& picture = *decoded.picture;
@@ -167,7 +183,29 @@ Result<Field> of_picture(const TerrainImage& image, const texture::Decoded& deco
     const bool is_void = has_voids && static_cast<double>(channel(0)) == *decoded.no_data;
     field.heights[i] = is_void ? no_height : height_of(channel, image.encoding, picture.bits, scale);
   }
+  const std::uint64_t transparent =
+      image.encoding == TerrainEncoding::rgba32 ? 0 : transparent_pixels(picture);
+  if (transparent > 0) {
+    field.notes.push_back({"/image/data",
+                           "the transparency of " + std::to_string(transparent) + " of " +
+                               std::to_string(field.heights.size()) +
+                               " pixels has no effect; their heights are used",
+                           0, 0});
+  }
   return field;
+}
+
+/// Adds the warning of heights that the Earth does not have to a field whose encoding is made for the Earth.
+void warn_of_heights(const TerrainImage& image, Field& field) {
+  constexpr float deepest = -11'500, highest = 9'000;
+  if (image.encoding != TerrainEncoding::terrain_rgb && image.encoding != TerrainEncoding::terrarium) return;
+  const auto [low, high] = std::ranges::minmax(field.heights.span());
+  if (low >= deepest && high <= highest) return;
+  field.notes.push_back({"/image/encoding",
+                         "found heights from " + std::to_string(std::lround(low)) + " to " +
+                             std::to_string(std::lround(high)) +
+                             " metres, which the Earth does not have; the image may have another encoding",
+                         0, 0});
 }
 
 Result<Field> of_samples(const TerrainImage& image, const texture::Decoded& decoded, const Job& job) {
@@ -217,6 +255,7 @@ Result<Field> field_of_image(const TerrainImage& image, const Job& job) {
                                                : of_file(image, bytes->span(), scale, job);
   if (!field) return field;
   if (!fill_voids(*field, job)) return invalid_input("/image/data", "no sample has a height");
+  warn_of_heights(image, *field);
   if (image.flip) flip(*field);
   return field;
 }

@@ -334,6 +334,7 @@ Result<Field> field_of(const TerrainParams& params, Job& job) {
     if (!params.resample) return field;
     Field finer = resampled(*field, *params.resample, job);
     finer.voids = field->voids;
+    finer.notes = std::move(field->notes);
     return finer;
   }
   if (params.tile && params.hydraulic) return eroded_tile(params, rng, job);

@@ -11,6 +11,7 @@
 #include "core/generators/terrain/displacement.h"
 #include "core/generators/terrain/game_engines.h"
 #include "core/generators/terrain/grid_size.h"
+#include "core/generators/terrain/image.h"
 #include "core/generators/terrain/maps.h"
 #include "core/generators/terrain/model_parts.h"
 #include "core/generators/terrain/plan.h"
@@ -32,9 +33,17 @@ namespace {
 // derive() lists heights of fields with at most this number of samples along a side.
 constexpr int longest_listed = 257;
 
-/// Adds the warning of filled voids to a model.
-Result<Model> with_voids(Result<Model> model, const Field& field) {
-  if (model && field.voids > 0) model->warnings.push_back(void_warning(field));
+/// The warnings about the source of a field.
+std::vector<Warning> source_warnings(const Field& field) {
+  std::vector<Warning> warnings = field.notes;
+  if (field.voids > 0) warnings.push_back(void_warning(field));
+  return warnings;
+}
+
+/// Adds the warnings about the source of a field to a model.
+Result<Model> with_source_warnings(Result<Model> model, const Field& field) {
+  if (!model) return model;
+  for (Warning& each : source_warnings(field)) model->warnings.push_back(std::move(each));
   return model;
 }
 
@@ -147,12 +156,12 @@ static Result<Model> generate_by_shape(const TerrainParams& params, const Genera
   if (params.shape == TerrainShape::profile) return profile_model(params, job);
   const Result<Field> field = field_of(params, job);
   if (!field) return field.error();
-  if (params.onto) return with_voids(covered_model(params, *field, context), *field);
+  if (params.onto) return with_source_warnings(covered_model(params, *field, context), *field);
   if (params.mesh == TerrainMesh::rtin && !fits_rtin(field->width, field->depth)) {
     return no_rtin_of(*field);
   }
   job.progress("mesh", 0);
-  return with_voids(build_field_model(params, *field, context), *field);
+  return with_source_warnings(build_field_model(params, *field, context), *field);
 }
 
 Result<Model> generate(const TerrainParams& params, const GenerateContext& context) {
@@ -167,7 +176,7 @@ Result<Model> generate(const TerrainParams& params, const GenerateContext& conte
 
 Result<Model> dressed(const TerrainParams& params, const Field& field, const GenerateContext& context) {
   if (params.mesh == TerrainMesh::rtin && !fits_rtin(field.width, field.depth)) return no_rtin_of(field);
-  return with_voids(build_field_model(params, field, context), field);
+  return with_source_warnings(build_field_model(params, field, context), field);
 }
 
 Result<Json> derive(const TerrainParams& params, const GenerateContext& context) {
@@ -203,10 +212,9 @@ Result<Json> derive(const TerrainParams& params, const GenerateContext& context)
   }
   Result<Field> made = field_of(params, job);
   if (!made) return made.error();
-  if (made->voids > 0) {
-    answer["voids"] = made->voids;
-    answer["warnings"] = warning_list(std::array{void_warning(*made)});
-  }
+  if (made->voids > 0) answer["voids"] = made->voids;
+  if (const std::vector<Warning> warnings = source_warnings(*made); !warnings.empty())
+    answer["warnings"] = warning_list(warnings);
   const Field field = cropped(std::move(*made), 0, job);
   const Range range = range_of(field, job);
   answer.update({{"width", field.width},
@@ -299,8 +307,13 @@ Result<Appraisal> appraise(const TerrainParams& params, const GenerateContext& c
   }
   appraisal.warnings = warnings_of(unused_parameters(params));
   const bool sphere = params.shape == TerrainShape::sphere;
-  if (params.algorithm == TerrainAlgorithm::image || (!sphere && params.mesh != TerrainMesh::grid))
+  if (params.algorithm == TerrainAlgorithm::image) {
+    const Result<Field> field = field_of_image(*params.image, job);
+    if (!field) return field.error();
+    for (Warning& each : source_warnings(*field)) appraisal.warnings.push_back(std::move(each));
     return appraisal;
+  }
+  if (!sphere && params.mesh != TerrainMesh::grid) return appraisal;
   const auto squares = static_cast<std::uint64_t>(finished_side(params) - 1);
   if (params.shape == TerrainShape::profile) {
     appraisal.estimate = Estimate{0, 1200 + (squares + 1) * 20, true};

@@ -56,6 +56,21 @@ TEST(Cpfg, RefusesProgramsOfLpfgAndLPy) {
               ElementsAre(AllOf(StartsWith("3:1 "), HasSubstr("L-Py"))));
 }
 
+/// L-Py takes whole files of Python. Each of these has one line that cpfg cannot have.
+TEST(Cpfg, NamesLPyInShortFiles) {
+  for (const auto& [text, place] : std::initializer_list<std::pair<const char*, const char*>>{
+           {"Axiom: F\nproduction:\nF --> FF\n", "2:1 "},
+           {"Axiom: F\nF : produce FF\n", "2:1 "},
+           {"from math import *\nAxiom: F(1)\nF(x) --> F(x+1)\n", "1:1 "},
+           {"Axiom: F\nderivation length: 1\nF --> FF\ninterpretation:\nF --> G\n", "4:1 "},
+           {"def StartEach():\n  pass\nAxiom: F\nF --> FF\n", "1:1 "}}) {
+    EXPECT_THAT(reports(imported("", text)), ElementsAre(AllOf(StartsWith(place), HasSubstr("L-Py"))))
+        << text;
+  }
+  EXPECT_TRUE(
+      imported("", "Lsystem: 1\nderivation length: 1\nAxiom: A(1)\nA(n) : n > 0 --> F\nendlsystem\n"));
+}
+
 TEST(Cpfg, ReadsMacrosProductionsDecompositionAndHomomorphism) {
   const auto result = imported("cpfg", monopodial);
   ASSERT_TRUE(result) << reports(result)[0];

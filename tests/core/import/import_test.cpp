@@ -1,5 +1,7 @@
 #include <gmock/gmock.h>
 
+#include <initializer_list>
+
 #include "tests/core/import/support.h"
 
 namespace seedmesh {
@@ -44,6 +46,45 @@ TEST(Import, NamesLparserWhoseRulesResembleThoseOfOtherFormats) {
   EXPECT_THAT(reports(imported("", newer)), ElementsAre(AllOf(StartsWith("3:2 "), HasSubstr("Lparser"))));
   EXPECT_EQ(read_as("# a twig\nPremise: A\nA=FA\n"), "houdini");
   EXPECT_EQ(read_as("Recursion {\n angle 6\n axiom F\n}\n"), "fractint");
+}
+
+/// Forms in which the two kinds of files resemble each other.
+TEST(Import, TellsEntriesOfFractintFromNodesOfHoudini) {
+  EXPECT_EQ(read_as("; curves\nDragon { angle 8\naxiom FX\nF=\ny=+FX--FY+\nx=-FX++FY-\n}\n"), "fractint");
+  EXPECT_EQ(read_as("Koch { axiom=F--F--F\nF=F-F++F-F\nangle=6 }\n"), "fractint");
+  EXPECT_EQ(read_as("axiom = FFFA\nrule1 = A=[&FA]////[&FA]\ngenerations = 5\nangle = 28\n"), "houdini");
+  EXPECT_EQ(read_as("Axiom: A\nA=FA\n"), "houdini");
+  EXPECT_EQ(read_as("Premise: A\nRule 1: A=F[+{F-F}.]\nRule 2: B={\nAngle = 30\nAxiom = A\n"),
+            "read as houdini: found a second premise");
+  EXPECT_THAT(read_as("lsystem1 {\n Axiom = A\n Angle = 30\n Generations = 4\n Rule1 = A=FA\n}\n"),
+              StartsWith("read as houdini: "));
+}
+
+TEST(Import, NamesFilesThatHaveNoReader) {
+  using testing::AllOf, testing::ElementsAre, testing::HasSubstr;
+  using namespace std::string_view_literals;
+  struct Other {
+    std::string_view text;
+    const char *place, *name;
+  };
+  for (const auto& [text, place, name] : std::initializer_list<Other>{
+           {"<?xml version=\"1.0\"?>\n<kml xmlns=\"http://www.opengis.net/kml/2.2\"/>", "2:1 ", "a KML file"},
+           {"<?xml version=\"1.0\"?><gpx version=\"1.1\"/>", "1:22 ", "a GPX file"},
+           {"{\"type\": \"Topology\", \"objects\": {}, \"arcs\": []}", "1:10 ", "TopoJSON"},
+           {"{\"type\": \"CityJSON\", \"version\": \"1.1\"}", "1:10 ", "CityJSON"},
+           {"/* a house */\nversion \"2023.1\"\n@StartRule\nLot --> extrude(3) A\n", "2:1 ",
+            "a rule file of CityEngine"},
+           {"ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 1\n1 2\n3 4\n", "1:1 ", "an ASCII grid"},
+           {"opadd -n lsystem l1\nopparm l1 premise ( A )\n", "1:1 ", "a script of Houdini"},
+           {"{\"preset\": \"oak\"}", "1:1 ", "a request of Seedmesh"},
+           {"{\"generator\": \"tree\"}", "1:1 ", "a request of Seedmesh"},
+           {"\x1F\x8B\x08"sv, "1:1 ", "gzip"},
+           {"\0\0\0\x0D\x0A\x09OSMHeader\x18"sv, "1:1 ", "OpenStreetMap PBF"}}) {
+    EXPECT_THAT(reports(imported("", text)), ElementsAre(AllOf(StartsWith(place), HasSubstr(name)))) << text;
+  }
+  const char* overpass_turbo = R"({"type": "FeatureCollection", "generator": "overpass-ide", "features": [
+    {"type": "Feature", "properties": {"natural": "tree"}, "geometry": {"type": "Point", "coordinates": [13, 52]}}]})";
+  EXPECT_EQ(read_as(overpass_turbo), "geojson");
 }
 
 TEST(Import, AcceptsAnyEncodingOfComments) {

@@ -188,6 +188,18 @@ TEST(Shapeml, ReadsIncludedFiles) {
               Contains(HasSubstr("the direction 0, 1, 0 only")));
 }
 
+/// The lexer of ShapeML knows `#include` alone, at the beginning of a line.
+TEST(Shapeml, SaysThatANumberSignBeginsNoComment) {
+  const std::string text =
+      "# the author's {house}\nparam w = 3;\nrule Axiom = { size(w, 2, 4) cube # wall\n B_ };\n";
+  EXPECT_THAT(
+      reports(imported("", text)),
+      testing::ElementsAre(testing::StartsWith("1:1 read as shapeml: found `#`, which begins no comment"),
+                           testing::StartsWith("3:35 found `#`")));
+  EXPECT_TRUE(
+      imported("", "// note\nparam w = 3;\nrule Axiom = { size(w, 2, 4) color(\"#ff0000\") cube B_ };\n"));
+}
+
 /// The faces in each direction that a plan of 10 by 8 m has as a prism, if its area is the given one.
 std::map<std::string, int> faces_of_plan(const std::string& plan, int area) {
   const std::string condition = "abs(area - " + std::to_string(area) + ") < 0.001";

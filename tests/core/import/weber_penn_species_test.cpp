@@ -63,6 +63,15 @@ TEST(Arbaro, HasTheDefaultsOfArbaroWhereTheFileHasNone) {
     EXPECT_EQ(parameters.value(name, -1.0), value.get<double>()) << name;
 }
 
+TEST(Arbaro, HasAtMostSixteenRibs) {
+  const auto result = imported("arbaro",
+                               "<arbaro><species name='x'>\n<param name='Lobes' value='20'/>\n"
+                               "<param name='LobeDepth' value='0.2'/></species></arbaro>");
+  ASSERT_TRUE(result) << reports(result)[0];
+  EXPECT_EQ(parameters_of(result)["Lobes"], 16);
+  EXPECT_THAT(reports(result), Contains(AllOf(HasSubstr("2:28"), HasSubstr("at most 16 ribs"))));
+}
+
 TEST(Arbaro, ReportsWhatItDoesNotKnowAtItsLine) {
   EXPECT_THAT(reports(imported("arbaro",
                                "<arbaro><species name='x'>\n<param name='Shapes' value='3'/>\n"

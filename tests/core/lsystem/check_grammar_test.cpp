@@ -184,6 +184,19 @@ TEST(UnusedSettings, AreReportedWithTheirReason) {
   EXPECT_THAT(warnings_of(params), testing::Not(testing::Contains(HasSubstr("has no effect"))));
 }
 
+TEST(UnusedSettings, AreTheAgeThatNoRuleUses) {
+  LsystemParams params = grammar_of("A(1)", {"A(x) -> F(x)A(x+1)"});
+  params.timed = true;
+  EXPECT_THAT(warnings_of(params), ElementsAre("/timed 0:0 has no effect: no rule uses the name `age`"));
+  params.age = 3;
+  EXPECT_THAT(warnings_of(params), ElementsAre("/age 0:0 has no effect: no rule uses the name `age`"));
+  params.productions = {"A(x) -> F(min(1, age - x))A(x+1)"};
+  EXPECT_THAT(warnings_of(params), IsEmpty());
+  params.productions = {"A(x) -> F(x)A(x+1)"};
+  params.constants["half"] = std::string("age / 2");
+  EXPECT_THAT(warnings_of(params), IsEmpty());
+}
+
 TEST(Weather, ReportsADirectionWithoutWind) {
   LsystemParams params = grammar_of("F", {"F->FF"});
   params.weather.emplace();

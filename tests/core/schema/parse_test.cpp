@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 #include <tuple>
+#include <utility>
 
 #include "core/schema/json.h"
 
@@ -53,7 +54,89 @@ TEST(ParseJson, ReportsTheLineAndColumnOfASyntaxError) {
   EXPECT_EQ(issue.pointer, "");
   EXPECT_EQ(issue.line, 2);
   EXPECT_EQ(issue.column, 8);
-  EXPECT_THAT(issue.message, testing::HasSubstr("unexpected \"x\""));
+  EXPECT_THAT(issue.message, testing::HasSubstr("found x, expected a value"));
+}
+
+struct Mistake {
+  const char* text;
+  int line, column;
+  const char* found;
+  const char* expected;
+};
+
+/// Mistakes of people who write JSON by hand, and of programs that write JavaScript, Python or JSON5.
+TEST(ParseJson, SaysWhatWasFoundAndExpected) {
+  for (const auto& [text, line, column, found, expected] : std::initializer_list<Mistake>{
+           {"{\n  // note\n \"a\": 1}", 2, 3, "found \"/\"", "no comments"},
+           {"{\"a\": 1} # note", 1, 10, "found \"#\"", "the end of the text; JSON has no comments"},
+           {"{\"a\": 1,}", 1, 8, "found a comma before `}`", "none behind the last member"},
+           {"[1, 2,\n]", 1, 6, "found a comma before `]`", "none behind the last value"},
+           {"{'a': 1}", 1, 2, "found \"'\"", "only \" encloses names and texts"},
+           {"{\"a\": 'b'}", 1, 7, "found \"'\"", "a value; only \" encloses"},
+           {"{\u201Ca\u201D: 1}", 1, 2, "found \"\u201C\"", "only \" encloses"},
+           {"{a: 1}", 1, 2, "found a,", "a name in double quotes"},
+           {"{\"a\": 1, b: 2}", 1, 10, "found b,", "a name in double quotes"},
+           {"{\"a\": oak}", 1, 7, "found oak,", "texts are in double quotes"},
+           {"oak", 1, 1, "found oak,", "texts are in double quotes"},
+           {"{\"a\": NaN}", 1, 7, "found NaN,", "a finite number"},
+           {"[-Infinity]", 1, 2, "found -Infinity,", "a finite number"},
+           {"{\"a\": True}", 1, 7, "found True,", "expected true"},
+           {"{\"a\": None}", 1, 7, "found None,", "expected null"},
+           {"[tru]", 1, 2, "found tru,", "expected a value"},
+           {"{\"a\": 0x10}", 1, 7, "found 0x10,", "a number such as"},
+           {"{\"a\": 01}", 1, 7, "found 01,", "a number such as"},
+           {"{\"a\": +1}", 1, 7, "found +1,", "a number such as"},
+           {"{\"a\": .5}", 1, 7, "found .5,", "a number such as"},
+           {"{\"a\": 1.}", 1, 7, "found 1.,", "a number such as"},
+           {"{\"a\": 1_000}", 1, 7, "found 1_000,", "a number such as"},
+           {"{\"a\" 1}", 1, 6, "found 1,", "`:` and a value"},
+           {"{\"a\": 1 \"b\": 2}", 1, 9, "found the text \"b\",", "`,` or `}`"},
+           {"[1 2]", 1, 4, "found 2,", "`,` or `]`"},
+           {"[1, 2", 1, 6, "found the end of the text", "`,` or `]`"},
+           {"{\"a\"", 1, 5, "found the end of the text", "`:` and a value"},
+           {"{", 1, 2, "found the end of the text", "a name in double quotes, or `}`"},
+           {"{\"a\": \"b", 1, 7, "found a text in quotes without its end", "a closing \""},
+           {"{\"a\": 1}{\"b\": 2}", 1, 9, "found \"{\"", "the end of the text"},
+           {"{\u00A0\"a\": 1}", 1, 2, "no-break space", "a name in double quotes, or `}`"},
+           {"{\"a\": \"b\nc\"}", 1, 9, "found a line break in a text", "expected \\n"},
+           {"{\"a\": \"b\tc\"}", 1, 9, "found a tab in a text", "expected \\t"},
+           {"{\"a\": \"b\\qc\"}", 1, 9, "found the escape \\q,", "\\n, \\r, \\t or \\u"},
+           {"{\"a\": \"\\u12x4\"}", 1, 8, "found the escape \\u12x,", "four hexadecimal digits"}}) {
+    const Refusal refusal = refusal_of(text);
+    EXPECT_EQ(refusal.code, Code::malformed) << text;
+    EXPECT_EQ(std::pair(refusal.issue.line, refusal.issue.column), std::pair(line, column)) << text;
+    EXPECT_THAT(refusal.issue.message,
+                testing::AllOf(testing::HasSubstr(found), testing::HasSubstr(expected)))
+        << text;
+  }
+}
+
+TEST(ParseJson, NamesEncodingsAndFilesThatAreNotJson) {
+  using namespace std::string_view_literals;
+  for (const auto& [bytes, name] :
+       std::initializer_list<std::pair<std::string_view, const char*>>{{"\xFF\xFE{\0}\0"sv, "UTF-16"},
+                                                                       {"\xFE\xFF\0{\0}"sv, "UTF-16"},
+                                                                       {"{\0\"\0"sv, "UTF-16"},
+                                                                       {"\0{\0}"sv, "UTF-16"},
+                                                                       {"{\0\0\0}\0\0\0"sv, "UTF-32"},
+                                                                       {"\x1F\x8B\x08\0"sv, "gzip"},
+                                                                       {"glTF\x02\0\0\0"sv, "GLB"}}) {
+    const Refusal refusal = refusal_of(bytes);
+    EXPECT_EQ(refusal.code, Code::malformed);
+    EXPECT_THAT(refusal.issue.message,
+                testing::HasSubstr(std::string("found ") + name + ", expected JSON in UTF-8"));
+  }
+}
+
+TEST(ParseJson, ReportsWhereAKeyIsGivenAgainAndWhereItNestsTooDeep) {
+  const Issue twice = refusal_of("{\"b\": \"a\",\n \"a\": {\"a\": 1},\n  \"a\": 2}").issue;
+  EXPECT_EQ(twice.kind, IssueKind::duplicate_key);
+  EXPECT_EQ(std::pair(twice.line, twice.column), std::pair(3, 3));
+  JsonLimits shallow;
+  shallow.depth = 2;
+  const Issue deep = refusal_of("{\"[\": [],\n \"b\": [[1]]}", shallow).issue;
+  EXPECT_EQ(deep.kind, IssueKind::limit);
+  EXPECT_EQ(std::pair(deep.line, deep.column), std::pair(2, 8));
 }
 
 TEST(ParseJson, NamesTheLoneHalfOfASurrogatePair) {
@@ -72,7 +155,8 @@ TEST(ParseJson, NamesTheLoneHalfOfASurrogatePair) {
 }
 
 TEST(ParseJson, ReportsATextThatEndsTooEarly) {
-  EXPECT_THAT(refusal_of("{\"a\":").issue.message, testing::HasSubstr("ends too early"));
+  EXPECT_THAT(refusal_of("{\"a\":").issue.message,
+              testing::HasSubstr("found the end of the text, expected a value"));
 }
 
 TEST(ParseJson, RefusesAnEmptyBody) {

@@ -217,6 +217,59 @@ TEST(TerrainImage, HasItsFirstRowInTheNorth) {
   }
 }
 
+std::vector<std::string> notes(const TerrainImage& image) {
+  const Job job = any_job();
+  const Result<Field> field = field_of_image(image, job);
+  EXPECT_TRUE(field) << (field ? "" : field.error().issues.front().message);
+  std::vector<std::string> out;
+  if (!field) return out;
+  for (const Warning& each : field->notes) out.push_back(each.pointer + ": " + each.message);
+  return out;
+}
+
+TEST(TerrainImage, WarnsOfTransparencyThatHasNoEffect) {
+  const FileBytes masked{0, 0, 51, 255, 102, 128, 255, 255};
+  EXPECT_THAT(notes(image_of(png_file(masked, 2, 2), TerrainEncoding::grey)),
+              ElementsAre(HasSubstr("/image/data: the transparency of 2 of 4 pixels has no effect")));
+  const FileBytes opaque{0, 255, 51, 255, 102, 255, 255, 255};
+  EXPECT_THAT(notes(image_of(png_file(opaque, 2, 2), TerrainEncoding::grey)), testing::IsEmpty());
+  const FileBytes digits{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
+  EXPECT_THAT(notes(image_of(png_file(digits, 2, 4), TerrainEncoding::rgba32)), testing::IsEmpty());
+}
+
+/// The Challenger Deep is at about -10,900 m, and Mount Everest at 8,849 m.
+TEST(TerrainImage, WarnsOfHeightsThatTheEarthDoesNotHave) {
+  const FileBytes earth{1, 134, 160, 1, 226, 62, 1, 134, 160, 1, 226, 62};
+  EXPECT_THAT(notes(image_of(png_file(earth, 2, 3), TerrainEncoding::terrain_rgb)), testing::IsEmpty());
+  const FileBytes colours{10, 20, 30, 200, 190, 180, 90, 80, 70, 0, 0, 0};
+  EXPECT_THAT(notes(image_of(png_file(colours, 2, 3), TerrainEncoding::terrain_rgb)),
+              ElementsAre(HasSubstr("/image/encoding: found heights from -10000 to 1305602 metres")));
+}
+
+TEST(TerrainImage, RefusesPicturesAsRawSamples) {
+  const FileBytes file = png_file({0, 51, 102, 255}, 2, 1);
+  for (const TerrainEncoding raw : {TerrainEncoding::r16, TerrainEncoding::s16_big, TerrainEncoding::hgt})
+    EXPECT_EQ(refusal(image_of(file, raw)),
+              "/image/encoding: found a PNG file, expected raw samples for this encoding");
+}
+
+/// `validate` reads the image, so that it reports what `generate` would.
+TEST(TerrainImage, IsReadByTheCheckOfARequest) {
+  TerrainParams params;
+  params.algorithm = TerrainAlgorithm::image;
+  params.image = image_of(png_file({0, 51, 102, 255, 9, 8, 7, 6, 5}, 3, 1), TerrainEncoding::grey);
+  Job job(0, Job::Options{});
+  EXPECT_TRUE(appraise(params, context_of(job)));
+  params.image->data.resize(40);
+  const Result<Appraisal> damaged = appraise(params, context_of(job));
+  ASSERT_FALSE(damaged);
+  EXPECT_EQ(damaged.error().issues.front().pointer, "/image/data");
+  params.image = image_of(big_endian({5, 7, -32768, 9}), TerrainEncoding::hgt);
+  const Result<Appraisal> with_void = appraise(params, context_of(job));
+  ASSERT_TRUE(with_void);
+  EXPECT_THAT(with_void->warnings.at(0).message, HasSubstr("filled 1 of 4 samples"));
+}
+
 TEST(TerrainImage, RefusesOptionsWithoutEffect) {
   TerrainParams params;
   params.algorithm = TerrainAlgorithm::image;
