@@ -43,7 +43,7 @@ TEST(SizeEstimate, OfTerrainsFollowsTheirClassesOfGround) {
 
 TEST(SizeEstimate, OfTerrainsContainsTheirLevels) {
   expect_within_a_quarter("levels_of_detail", R"({"lods":4,"profile":"unity"})");
-  expect_within_a_quarter("dunes", R"({"lods":3})");
+  expect_within_a_quarter("dunes", R"({"lods":3,"profile":"unity"})");
 }
 
 TEST(SizeEstimate, OfCurvesAndCopiesCountsSharedPointsOnce) {
