@@ -145,7 +145,8 @@ class PrunedGraph {
   void keep_largest() { keep_large(2); }
 
   /// Keeps the main network of streets, those of at least this share of its length, and those with given streets. The
-  /// main network has the greatest length of highways and major streets, which the density affects little.
+  /// main network has the greatest length of highways and major streets, which the density affects little, of those
+  /// with more than half of the greatest length.
   void keep_large(double least_share) {
     drop_loose_separated();
     std::vector<std::uint32_t> root(nodes_.size());
@@ -171,10 +172,14 @@ class PrunedGraph {
       if (edge.tag <= static_cast<std::uint32_t>(EdgeClass::major)) major_length[find(edge.from)] += own;
       if (is_given(edge)) has_given[find(edge.from)] = 1;
     }
-    std::uint32_t main = 0;
-    for (std::uint32_t i = 1; i < root.size(); ++i) {
-      const bool is_greater = major_length[i] != major_length[main] ? major_length[i] > major_length[main]
-                                                                    : length[i] > length[main];
+    // A network with less than half of the greatest length is not the main one.
+    const double longest = length.empty() ? 0 : *std::max_element(length.begin(), length.end());
+    std::uint32_t main = no_index;
+    for (std::uint32_t i = 0; i < root.size(); ++i) {
+      if (length[i] <= longest / 2) continue;
+      const bool is_greater =
+          main == no_index || (major_length[i] != major_length[main] ? major_length[i] > major_length[main]
+                                                                     : length[i] > length[main]);
       if (is_greater) main = i;
     }
     const double least = main < length.size() ? least_share * length[main] : 0;

@@ -89,6 +89,22 @@ TEST(CityStability, KeepsNearlyAllStreetsFarFromAQuarterThatBecomesDenser) {
   }
 }
 
+// A third of the major streets is missing, which leaves large areas between the others. With seed 4, none of them
+// reaches the centre.
+TEST(CityStability, KeepsNearlyAllStreetsInLargeAreasWithoutMajorStreets) {
+  const Json sparse = Json::parse(R"({"area": {"size": [1700, 1700]}, "maps": {"density": "0.7"},
+    "streets": {"pattern": "organic", "major_spacing": 245, "length": 64, "bend": 115, "noise": 25, "snap": 13.2,
+      "branch_probability": 0.3, "clearance": 27, "dead_ends": 0.58, "crossings": 0, "fill": 0.62},
+    "lots": {"method": "none"}, "buildings": {"rules": []}})");
+  for (const std::uint64_t seed : {4U, 9U, 37U}) {
+    Json denser = sparse;
+    denser["maps"]["density"] = "0.7 + 0.3 * (x > 170 && y > 170)";
+    const auto far = lines_of(plan_of(sparse, seed), 170, 170);
+    ASSERT_GT(far.size(), 500U) << seed;
+    EXPECT_GE(kept_share(far, lines_of(plan_of(denser, seed))), 0.95) << seed;
+  }
+}
+
 TEST(CityStability, KeepsMostStreetsAtASlightlyGreaterBranchProbability) {
   for (const std::uint64_t seed : {3U, 11U}) {
     Json more = grown;

@@ -117,7 +117,7 @@ TEST(BlueprintsOverAnyFootprint, HaveSoundMeshes) {
 TEST(BlueprintsOverAnyFootprint, HaveADoorOnTheGroundFloor) {
   constexpr double highest = 1.6;
   for (const Kind& kind : kinds()) {
-    for (std::uint64_t number = 0; number < 40; ++number) {
+    for (std::uint64_t number = 0; number < 20; ++number) {
       const Json shapes = shapes_of(
           {{"blueprint", kind.blueprint}, {"footprint", footprint(kind, number)}, {"attributes", kind.low}},
           number);
