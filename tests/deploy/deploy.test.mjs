@@ -122,11 +122,11 @@ test('both pages give one formula of memory, its example is right, and every dep
   assert.ok(await memory_of(literals, Number(limits.cpu)) <= mebibytes(limits.memory));
 });
 
-test('every variable that is set somewhere is a setting', async () => {
+test('every variable that is set somewhere is a setting, or one of a build or bench', async () => {
   const files = ['README.md', 'compose.yaml', 'compose.replicas.yaml', 'kubernetes/service/kustomization.yaml', 'kubernetes/service/deployment.yaml', '../Dockerfile', '../docs/operating.md'];
   const { out } = await run(rehearsal, ['serve', '--print-config']);
   const settings = Object.keys(JSON.parse(out)).map((name) => `SEEDMESH_${name.toUpperCase().replaceAll('-', '_')}`);
-  const known = new Set([...settings, 'SEEDMESH_CONFIG', 'SEEDMESH_TESTS', 'SEEDMESH_ENGINE', 'SEEDMESH_BASE']);
+  const known = new Set([...settings, 'SEEDMESH_CONFIG', 'SEEDMESH_TESTS', 'SEEDMESH_ENGINE', 'SEEDMESH_BASE', 'SEEDMESH_STORE_COLD']);
   for (const file of files) for (const [name] of read(file).matchAll(/SEEDMESH_[A-Z_]+[A-Z]/g)) assert.ok(known.has(name), `${file}: ${name}`);
 });
 

@@ -14,6 +14,7 @@
 
 #include "core/geom/mesh/finish.h"
 #include "core/pipeline/body.h"
+#include "core/pipeline/make_model.h"
 #include "tests/generators/edge_exceptions.h"
 #include "tests/support/context.h"
 #include "tests/support/mesh_faults.h"
@@ -49,7 +50,9 @@ class Presets : public testing::TestWithParam<PresetInfo> {
 
   static std::optional<Model> model_of(const Request& request) {
     Job job(request.seed(), Job::Options{});
-    Result<Model> model = request.body().generator->generate(request.body().params, context_of(job));
+    Demand demand;
+    demand.growth = demand_of(request.body().output, *request.body().generator).growth;
+    Result<Model> model = request.body().generator->generate(request.body().params, context_of(job, demand));
     if (!model) {
       ADD_FAILURE() << model.error().issues.front().message;
       return std::nullopt;

@@ -143,7 +143,7 @@ void dim(Mesh& mesh, float factor) {
 /// Far leaves have fewer shadows of each other than gain_of() assumes. Measured with the presets.
 float of_shadows(const TreeLevels::Plan& plan) {
   if (plan.leaves == LeafDetail::one_card) return 0.83F;
-  return plan.level >= 3 ? 0.98F : 1.0F;
+  return plan.level >= 3 ? 0.966F : 1.0F;
 }
 
 struct CoarserLeaves {

@@ -231,6 +231,8 @@ void Glb::add_mesh(std::string_view name, const std::vector<TileVertex>& vertice
   add_node({{"name", name}, {"mesh", made}, {"translation", {0, height, 0}}, {"scale", {step, step, step}}});
 }
 
+std::size_t Glb::size() const { return 28 + canonical_text(json_).size() + bytes_.size(); }
+
 std::string Glb::text() && {
   for (const char* name : {"bufferViews", "accessors", "meshes", "materials"}) {
     if (json_[name].empty()) json_.erase(name);

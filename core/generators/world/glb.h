@@ -83,6 +83,8 @@ class Glb {
   int add_gltf_mesh(Json mesh);
   void use_extension(std::string_view name);
 
+  /// The bytes of the file as it is now.
+  std::size_t size() const;
   std::string text() &&;
 
  private:

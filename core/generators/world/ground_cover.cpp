@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <vector>
 
 #include "core/base/math.h"
 #include "core/generators/world/instances.h"
@@ -19,6 +20,10 @@ constexpr double patch_wavelength = 17, flower_wavelength = 41;  ///< metres
 constexpr double margin = 1.5;  ///< metres from the corners of cells with pieces to water and roads
 constexpr std::array<const char*, cover_shapes> names{"terrain_tufts", "terrain_straw", "terrain_flowers",
                                                       "terrain_stones"};
+
+constexpr std::size_t most_leaf_bytes =
+    37 << 10;                            ///< without the JSON of the pieces, so that a leaf has at most 40 KB
+constexpr std::size_t piece_bytes = 24;  ///< position and scale
 
 /// The share of cells that have a piece, by shape.
 using Densities = std::array<double, cover_shapes>;
@@ -114,8 +119,14 @@ struct Cell {
   GroundKind kind = GroundKind::grass;
 };
 
+struct Piece {
+  std::size_t shape = 0;
+  std::array<double, 3> at{};  ///< from the middle of the tile
+  std::array<float, 3> scale{};
+};
+
 /// Adds at most one piece, chosen by the noise of patches and a random number of the cell.
-void add_piece(std::array<Instances, cover_shapes>& pieces, const World& world, const TileFrame& frame,
+void add_piece(std::vector<Piece>& pieces, const World& world, const TileFrame& frame,
                const TerrainGrid& grid, const Cell& cell) {
   Rng rng(cell_key(world.key ^ key, math::to_int64(cell.west / grid.spacing),
                    math::to_int64(cell.south / grid.spacing)));
@@ -132,10 +143,11 @@ void add_piece(std::array<Instances, cover_shapes>& pieces, const World& world, 
     if (chosen >= 0) continue;
     const double size = 0.5 + 1.5 * t * t;
     const auto wide = static_cast<float>(size), high = static_cast<float>(size * flat);
-    pieces[shape].add({cell.west + east * grid.spacing - frame.middle_east,
+    pieces.push_back({shape,
+                      {cell.west + east * grid.spacing - frame.middle_east,
                        height_in(grid, cell.column, cell.row, east, north),
                        frame.middle_north - cell.south - north * grid.spacing},
-                      {wide, high, wide});
+                      {wide, high, wide}});
     return;
   }
 }
@@ -144,7 +156,7 @@ void add_piece(std::array<Instances, cover_shapes>& pieces, const World& world, 
 
 void add_ground_cover(Glb& glb, const World& world, const TileFrame& frame, const TerrainGrid& grid,
                       const TerrainMesh& terrain, Job& job) {
-  std::array<Instances, cover_shapes> pieces;
+  std::vector<Piece> pieces;
   for (int row = 0; row + 1 < grid.count; ++row) {
     job.check();
     for (int column = 0; column + 1 < grid.count; ++column) {
@@ -154,16 +166,23 @@ void add_ground_cover(Glb& glb, const World& world, const TileFrame& frame, cons
                  terrain.kinds[static_cast<std::size_t>(row * grid.count + column)]});
     }
   }
-  if (std::all_of(pieces.begin(), pieces.end(), [](const Instances& each) { return each.count() == 0; }))
-    return;
+  const std::size_t size = glb.size();
+  const std::size_t most = size < most_leaf_bytes ? (most_leaf_bytes - size) / piece_bytes : 0;
+  const std::size_t kept = std::min(most, pieces.size());
+  if (kept == 0) return;
+  std::array<Instances, cover_shapes> copies;
+  for (std::size_t k = 0; k < pieces.size(); ++k) {
+    if ((k + 1) * kept / pieces.size() == k * kept / pieces.size()) continue;
+    copies[pieces[k].shape].add(pieces[k].at, pieces[k].scale);
+  }
   const CoverFile made = cover_file(world);
   const std::string image = shared_files + leaf_texture(world, job)->hash + ".png";
   const SharedPlants shared = add_shared_plants(glb, made.file, "ground_cover", image);
   for (std::size_t shape = 0; shape < cover_shapes; ++shape) {
-    if (pieces[shape].count() == 0) continue;
+    if (copies[shape].count() == 0) continue;
     const std::size_t first = made.starts[shape], count = made.starts[shape + 1] - first;
-    job.spend(Resource::triangles, pieces[shape].count() * count / 3);
-    pieces[shape].add_to(glb, names[shape], {add_plant_mesh(glb, shared, names[shape], first, count)});
+    job.spend(Resource::triangles, copies[shape].count() * count / 3);
+    copies[shape].add_to(glb, names[shape], {add_plant_mesh(glb, shared, names[shape], first, count)});
   }
 }
 

@@ -143,13 +143,8 @@ void add_simple_form(PlantBuilder& builder, const WorldClass& plant) {
       return;
     case WorldForm::broadleaf:
       builder.revolve({{0.03 * h, -0.02 * h}, {0.02 * h, 0.4 * h}}, 3, stem, plain_surface);
-      // two parts, since wide tiles widen one ellipsoid to a disc
-      add_crown(builder,
-                {{{{-0.02 * h, 0.5 * h, 0}, {0.34 * h, 0.26 * h, 0.34 * h}},
-                  {{0.07 * h, 0.73 * h, 0.04 * h}, {0.25 * h, 0.24 * h, 0.25 * h}}},
-                 0.45 * h,
-                 0.17 * h},
-                {8, 5}, leaf);
+      add_crown(builder, {{{{0, 0.63 * h, 0}, {0.34 * h, 0.33 * h, 0.34 * h}}}, 0.45 * h, 0.17 * h}, {13},
+                leaf);
       return;
     case WorldForm::palm:
       builder.revolve({{0.03 * h, -0.02 * h}, {0.016 * h, 0.88 * h}}, 3, stem, plain_surface);

@@ -35,7 +35,8 @@ void add_mesh(Glb& glb, const Surface& surface, const TileMesh& mesh, const Tile
 
 /// The kinds of ground of the triangles of a terrain: that of two corners, or else of the first. If one is by far the most
 /// frequent, all have it, since indices of their own make a tile larger.
-std::vector<GroundKind> kinds_of(const TerrainMesh& terrain, const std::vector<std::uint16_t>& corners) {
+std::vector<GroundKind> kinds_of(const TerrainMesh& terrain, const std::vector<std::uint16_t>& corners,
+                                 bool has_one_kind) {
   constexpr double most_share = 0.66, least_share = 0.02;
   std::vector<GroundKind> kinds;
   std::array<std::size_t, ground_kinds> counts{};
@@ -48,7 +49,8 @@ std::vector<GroundKind> kinds_of(const TerrainMesh& terrain, const std::vector<s
   }
   const auto first = std::max_element(counts.begin(), counts.end());
   const double all = static_cast<double>(kinds.size());
-  const double least = static_cast<double>(*first) > most_share * all ? all : least_share * all;
+  const double least =
+      has_one_kind || static_cast<double>(*first) > most_share * all ? all : least_share * all;
   for (GroundKind& kind : kinds) {
     if (static_cast<double>(counts[number(kind)]) < least)
       kind = static_cast<GroundKind>(first - counts.begin());
@@ -61,7 +63,15 @@ int add_ground_material(Glb& glb, const World& world, GroundKind kind, Job& job)
   return glb.add_material(name, roughness, shared_files + ground_texture(world, kind, job)->hash + ".png");
 }
 
-void add_terrain(Glb& glb, const World& world, const TileFrame& frame, const TerrainMesh& terrain, Job& job) {
+/// Whether a leaf tile has houses. Its ground then has one kind, because houses and the triangles of two kinds take more
+/// than 40 KB.
+bool has_houses(const World& world, const TileFrame& frame, Job& job) {
+  const Rectangle box{frame.west, frame.south, frame.west + frame.side, frame.south + frame.side};
+  return world.has(Layer::buildings) && !houses_near(world, box, 0, job).empty();
+}
+
+void add_terrain(Glb& glb, const World& world, const TileFrame& frame, const TerrainMesh& terrain,
+                 bool is_leaf, Job& job) {
   const auto shared = terrain_file(world, job);
   const int buffer = glb.add_shared_buffer(shared->hash + ".bin", shared->file.size());
   const bool is_dense = frame.cells == dense_cells;
@@ -81,7 +91,8 @@ void add_terrain(Glb& glb, const World& world, const TileFrame& frame, const Ter
     add_all(add_ground_material(glb, world, GroundKind::land, job));
   } else {
     const std::vector<std::uint16_t> corners = terrain_indices(frame.cells + 1);
-    const std::vector<GroundKind> kinds = kinds_of(terrain, corners);
+    const std::vector<GroundKind> kinds =
+        kinds_of(terrain, corners, is_leaf && has_houses(world, frame, job));
     for (std::size_t k = 0; k < ground_kinds; ++k) {
       const auto kind = static_cast<GroundKind>(k);
       const auto count = static_cast<std::size_t>(std::count(kinds.begin(), kinds.end(), kind));
@@ -170,15 +181,15 @@ std::string tile_glb(const World& world, const TileKey& key, Job& job) {
            0.0 - (frame.middle_north - static_cast<double>(world.north))});
   const TerrainGrid grid = sample_grid(world, frame, frame.cells, 1, job);
   const TerrainMesh terrain = terrain_mesh(world, frame, grid, skirt_depth(world, key.level, grid));
-  if (world.has(Layer::terrain)) add_terrain(glb, world, frame, terrain, job);
-  if (key.level == world.levels - 1 && has_ground_cover(world))
-    add_ground_cover(glb, world, frame, grid, terrain, job);
+  const bool is_leaf = key.level == world.levels - 1;
+  if (world.has(Layer::terrain)) add_terrain(glb, world, frame, terrain, is_leaf, job);
   if (world.has(Layer::water)) {
     const WaterMesh water = water_of(world, frame, {grid, terrain.height}, job);
     add_mesh(glb, water_surface, water.mesh, frame, terrain.height, job);
   }
   add_works(glb, world, frame, {grid, terrain.height}, job);
   if (world.has(Layer::plants)) add_plants(glb, world, key, {grid, terrain.height}, job);
+  if (is_leaf && has_ground_cover(world)) add_ground_cover(glb, world, frame, grid, terrain, job);
   return std::move(glb).text();
 }
 

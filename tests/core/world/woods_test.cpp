@@ -48,8 +48,9 @@ TEST(WorldWoods, HaveImagesThatAllWorldsOfAStoreShare) {
                       eight = read_world(mountains_with_woods(), 8, store);
   ASSERT_TRUE(seven && eight);
   Job job = test_job();
-  for (const auto image : {canopy_texture, +[](const World&w, Job&j) { return leaf_texture(w, j); },
-                           +[](const World&w, Job&j) { return ground_texture(w, j); }}) {
+  for (const auto image : {+[](const World&w, Job&j) { return canopy_texture(w, j); },
+                           +[](const World&w, Job&j) { return leaf_texture(w, j); },
+                           +[](const World&w, Job&j) { return ground_texture(w, GroundKind::grass, j); }}) {
     const auto first = image(*seven, job);
     const std::uint64_t bytes = store->bytes();
     EXPECT_EQ(image(*eight, job), first);
