@@ -16,12 +16,19 @@ interface Pose { east: number; north: number; height: number; heading: number; p
 const canvas = document.querySelector('canvas')!, form = document.querySelector('form')!, status = document.querySelector('p')!;
 const presets = form.elements.namedItem('preset') as HTMLSelectElement, seed = form.elements.namedItem('seed') as HTMLInputElement;
 const renderer = new WebGLRenderer({ canvas, antialias: true });
+
+/** Whether the processor draws, because the browser uses no graphics card. */
+function draws_on_processor(): boolean {
+  const gl = renderer.getContext(), names = gl.getExtension('WEBGL_debug_renderer_info');
+  return names !== null && /swiftshader|llvmpipe|software/i.test(String(gl.getParameter(names.UNMASKED_RENDERER_WEBGL)));
+}
+// Samples of a texture along the view, and metres from the camera to the middle of a tile whose tufts are shown.
+const [sharpness, cover_reach] = draws_on_processor() ? [1, 70] : [8, 160];
 const scene = new Scene(), camera = new PerspectiveCamera(60, 1, 2, 400_000), light = new Daylight(scene, renderer);
 const held = new Set<string>();
 /** The first view of a world: above its middle, towards the north. */
 const start: Pose = { east: 0, north: 0, height: 2500, heading: 0, pitch: -25 };
 const eyes = 1.7, pace = 6; // metres above the ground, and metres a second
-const sharpness = 8; // samples of a texture along the view
 const above_all = 100_000; // metres; no ground is as high
 const walk_button = form.elements.namedItem('walk') as HTMLButtonElement, panel = document.querySelector<HTMLElement>('.sliders')!;
 const ray = new Raycaster(), down = new Vector3(0, -1, 0);
@@ -54,6 +61,14 @@ function matte(shader: { fragmentShader: string }): void {
   shader.fragmentShader = shader.fragmentShader.replace(lights, `${lights}\nmaterial.specularColor = vec3(0.0);\nmaterial.specularColorBlended = vec3(0.0);\nmaterial.specularF90 = 0.0;`);
 }
 
+const cover = new Set<Mesh>(); // tufts, flowers and stones of the tiles that are loaded
+
+/** Shows tufts, flowers and stones near the camera only: farther away they are smaller than a pixel or two, and cost most of a frame. */
+function show_cover(): void {
+  const at = new Vector3();
+  for (const part of cover) part.visible = camera.position.distanceTo(at.setFromMatrixPosition(part.matrixWorld)) < cover_reach;
+}
+
 /** Feet stand on the ground, on roads and on water, and not on plants and roofs, which cast shadows. */
 function prepare(model: Object3D): void {
   model.traverse((part) => {
@@ -62,7 +77,7 @@ function prepare(model: Object3D): void {
     make_matte(part);
     for (const { map } of [part.material].flat() as MeshStandardMaterial[]) if (map) map.anisotropy = sharpness; // grounds are seen at low angles
     for (let above: Object3D | null = part; above; above = above.parent)
-      if (/^terrain_(tufts|straw|flowers|stones)/.test(above.name)) { part.raycast = () => undefined; return; } // tufts and stones
+      if (/^terrain_(tufts|straw|flowers|stones)/.test(above.name)) { part.raycast = () => undefined; cover.add(part); return; }
       else if (/^(plants|buildings)/.test(above.name)) { part.raycast = () => undefined; part.castShadow = true; return; }
   });
 }
@@ -113,6 +128,7 @@ function show(world: string): void {
   tiles.group.rotation.x = -Math.PI / 2; // z up becomes y up
   tiles.addEventListener('load-error', ({ error }: { error: Error }) => state(`A file of the world cannot be loaded: ${error.message}`, 'failed'));
   tiles.addEventListener('load-model', ({ scene: model }) => { prepare(model); ground_age = Infinity; });
+  tiles.addEventListener('dispose-model', ({ scene: model }) => model.traverse((part) => { if (part instanceof Mesh) cover.delete(part); }));
   scene.add(tiles.group);
   const [preset = '', number = ''] = world.split('.');
   presets.value = number ? preset : '';
@@ -176,6 +192,7 @@ function draw(now: number): void {
   camera.rotation.set(MathUtils.degToRad(pose.pitch), MathUtils.degToRad(-pose.heading), 0, 'YXZ');
   camera.updateMatrixWorld();
   tiles?.update();
+  show_cover();
   light.follow(camera, below);
   renderer.render(scene, camera);
   const share = tiles?.root ? tiles.loadProgress : 0;
