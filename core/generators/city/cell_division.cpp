@@ -140,6 +140,7 @@ class Divider {
     std::size_t hole = 0;      ///< 0: the outer ring
     std::size_t position = 0;  ///< of the node, or of the first node of the edge of the border
     dvec2 at{0};
+    double share = 1e300;  ///< of the line on which it is, from its start
   };
 
   EdgeClass kind_between(std::uint32_t a, std::uint32_t b) const {
@@ -152,16 +153,14 @@ class Divider {
 
   End end_of_piece(const Ring& part, const dvec2& from, const dvec2& to, std::size_t start) const {
     End end;
-    double least = 1e300;
-    meet_ring(part, 0, part[start], from, to, least, end);
-    for (std::size_t r = 1; r < rings_.size(); ++r)
-      meet_ring(rings_[r], r, part[start], from, to, least, end);
+    meet_ring(part, 0, part[start], from, to, end);
+    for (std::size_t r = 1; r < rings_.size(); ++r) meet_ring(rings_[r], r, part[start], from, to, end);
     return end;
   }
 
   /// Sets the end of a piece from the node `start` or later to the nearest edge of a ring that it meets.
   void meet_ring(const Ring& ring, std::size_t hole, std::uint32_t start, const dvec2& from, const dvec2& to,
-                 double& least, End& end) const {
+                 End& end) const {
     const CmPoint p = rounded_cm(from), q = rounded_cm(to);
     for (std::size_t i = 0, count = ring.size(); i < count; ++i) {
       const std::size_t next = (i + 1) % count;
@@ -171,8 +170,7 @@ class Divider {
       if (scale == 0 || !segments_meet(p, q, network_.nodes()[ring[i]], network_.nodes()[ring[next]]))
         continue;
       const double share = ((a.x - from.x) * across.y - (a.y - from.y) * across.x) / scale;
-      if (share >= least) continue;
-      least = share;
+      if (share >= end.share) continue;
       const EdgeClass kind = kind_between(ring[i], ring[next]);
       const dvec2 hit = from + along * share;
       const bool is_near_first = length_of(hit - a) < length_of(hit - at(ring[next]));
@@ -181,7 +179,8 @@ class Divider {
              kind == EdgeClass::shore || (hole > 0 && !is_street_class(kind)),
              hole,
              i,
-             hit};
+             hit,
+             share};
       if (is_street_class(kind)) {
         end.position = is_near_first ? i : next;
         end.at = at(ring[end.position]);
@@ -200,7 +199,9 @@ class Divider {
       points.push_back(network_.nodes()[part[i]]);
       if (i == way.last) break;
     }
-    for (auto p = way.points.rbegin(); p != way.points.rend(); ++p) points.push_back(rounded_cm(*p));
+    CmRing street;
+    for (const dvec2& p : way.points) street.push_back(rounded_cm(p));
+    points.insert(points.end(), street.rbegin(), street.rend());
     const double share = static_cast<double>(doubled_area(points)) / 2 / area_of(part);
     way.share = std::min(share, 1 - share);
     return way.share >= least_share ? std::optional(std::move(way)) : std::nullopt;
