@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "core/base/math.h"
+#include "core/generators/city/vectors.h"
 #include "core/geom/polygon/cm_point.h"
 
 namespace seedmesh::city {
@@ -20,11 +21,6 @@ constexpr std::size_t most_pieces = 60;    // of one street
 constexpr double least_share = 0.2;        // of a part, for each side of a street
 constexpr double least_last_piece = 1500;  // cm
 
-double length_of(const dvec2& v) { return std::sqrt(v.x * v.x + v.y * v.y); }
-dvec2 rotated(const dvec2& v, double degrees) {
-  const math::SinCos turn = math::sincos_degrees(degrees);
-  return {v.x * turn.cos - v.y * turn.sin, v.x * turn.sin + v.y * turn.cos};
-}
 std::uint64_t point_key(const CmPoint& p) {
   return key_at(key_at(0xD171, static_cast<std::uint32_t>(p.x)), static_cast<std::uint32_t>(p.y));
 }

@@ -11,6 +11,7 @@
 #include "core/generators/city/growth.h"
 #include "core/generators/city/tensor.h"
 #include "core/generators/city/tunnel_clearance.h"
+#include "core/generators/city/vectors.h"
 #include "generated/params/city.h"
 
 namespace seedmesh::city {
@@ -22,11 +23,6 @@ constexpr double piece_length = 3000;  // of a bent street, cm
 constexpr double least_density = 0.1;
 constexpr std::uint64_t most_steps_of_a_cell = 100'000;
 
-double length_of(const dvec2& v) { return std::sqrt(v.x * v.x + v.y * v.y); }
-dvec2 rotated(const dvec2& v, double degrees) {
-  const math::SinCos turn = math::sincos_degrees(degrees);
-  return {v.x * turn.cos - v.y * turn.sin, v.x * turn.sin + v.y * turn.cos};
-}
 std::uint64_t point_key(const CmPoint& p) {
   return key_at(key_at(0xCE11, static_cast<std::uint32_t>(p.x)), static_cast<std::uint32_t>(p.y));
 }

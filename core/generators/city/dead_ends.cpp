@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "core/base/math.h"
+#include "core/generators/city/vectors.h"
 #include "generated/params/city.h"
 
 namespace seedmesh::city {
@@ -12,10 +13,6 @@ namespace {
 
 using glm::dvec2;
 
-dvec2 rotated(const dvec2& v, double degrees) {
-  const math::SinCos turn = math::sincos_degrees(degrees);
-  return {v.x * turn.cos - v.y * turn.sin, v.x * turn.sin + v.y * turn.cos};
-}
 std::uint64_t point_key(const CmPoint& p) {
   return key_at(key_at(0xCE11, static_cast<std::uint32_t>(p.x)), static_cast<std::uint32_t>(p.y));
 }

@@ -9,6 +9,7 @@
 
 #include "core/base/math.h"
 #include "core/generators/city/growth.h"
+#include "core/generators/city/vectors.h"
 #include "generated/params/city.h"
 
 namespace seedmesh::city {
@@ -21,10 +22,6 @@ constexpr double least_density = 0.1;
 
 /// A crossing of the net: column and row, or ring and ray.
 using Site = std::array<std::int32_t, 2>;
-
-dvec2 rotated(const dvec2& v, const math::SinCos& turn) {
-  return {v.x * turn.cos - v.y * turn.sin, v.x * turn.sin + v.y * turn.cos};
-}
 
 std::uint64_t site_key(const Site& site) {
   return key_at(key_at(0x517E, static_cast<std::uint32_t>(site[0])), static_cast<std::uint32_t>(site[1]));

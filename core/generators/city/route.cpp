@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/base/math.h"
+#include "core/generators/city/vectors.h"
 
 namespace seedmesh::city {
 namespace {
@@ -15,8 +16,6 @@ constexpr double least_border_sine = 0.72;  // of the angle between a street and
 constexpr double least_bridge = 500;        // cm
 constexpr double least_rest = 310;          // of a given street at the outline, cm
 constexpr double at_start = 3;              // hits nearer than this are those of the start, cm
-
-double length_of(const dvec2& v) { return std::sqrt(v.x * v.x + v.y * v.y); }
 
 /// Whether a position on edge `i` of a ring is so near to a corner that the kerbs of a street there would pass it.
 bool is_near_bend(const CmRing& ring, std::size_t i, const dvec2& p) {
